@@ -1,0 +1,1 @@
+"""Tribo-dynamics of mechanisms with dry, rough, worn clearance joints."""

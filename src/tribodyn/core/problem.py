@@ -1,0 +1,162 @@
+"""The protocol between a mechanism and an integrator.
+
+A mechanism hands an integrator a :class:`Problem`: compiled functions on plain
+arrays, the constant data they read and the memory they change. Everything an
+integrator may call is listed here, so that a compiled integrator can run a whole
+segment without returning to Python.
+
+The rules
+---------
+1. ``rhs`` and ``jac`` read ``memory`` and never change it: calling them twice gives
+   the same numbers twice.
+2. ``enter`` is called once at the start of every segment (the initial time and each
+   breakpoint), before any other call in that segment. What is constant over a
+   segment, such as the direction of motion, is set there.
+3. After a step is accepted, the step is walked once from its beginning to its end.
+   For each part of it (parts end at output times and at the end of the step)
+   ``advance`` adds the path integrals of that part: works, heats, sliding loads.
+4. ``observe`` and ``picture`` are called at output times, after ``advance`` has
+   reached them and while the memory that the step was computed with is in force.
+5. ``accept`` is called once at the end of each accepted step, after rules 3 and 4.
+   It is the only place where the state of contact (such as entry velocities) changes.
+6. An integrator never steps across a breakpoint. Stage evaluations may lie beyond it;
+   the regime set by ``enter`` then still holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class CompiledFunctions:
+    """Compiled functions of a problem; ``n`` states, all arrays float64 and contiguous.
+
+    Attributes
+    ----------
+    rhs
+        ``rhs(t, y, data, memory, f)`` fills ``f`` (n,) with dy/dt.
+    jac
+        ``jac(t, y, data, memory, f, jacobian)`` fills ``f`` and ``jacobian`` (n, n).
+    enter
+        ``enter(t, y, data, memory)`` begins a segment at ``t``.
+    advance
+        ``advance(t_a, t_b, y_middle, y_b, data, memory)`` adds path integrals over
+        ``[t_a, t_b]``; ``y_middle`` is the solution at the middle of that interval. The values at
+        ``t_a`` were left in ``memory`` by the previous ``advance`` or by ``enter``.
+    accept
+        ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step.
+    observe
+        ``observe(t, y, data, memory, row)`` fills ``row`` (n_observed,).
+    picture
+        ``picture(t, y, data, memory, fields)`` fills ``fields`` (n_fields, n_z, n_theta).
+    """
+
+    rhs: Callable[..., None]
+    jac: Callable[..., None]
+    enter: Callable[..., None]
+    advance: Callable[..., None]
+    accept: Callable[..., None]
+    observe: Callable[..., None]
+    picture: Callable[..., None]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An initial value problem with memory, ready to be integrated.
+
+    Attributes
+    ----------
+    functions
+        Compiled functions, see :class:`CompiledFunctions`.
+    data
+        Constant arguments of the functions: a (nested) named tuple of arrays and numbers.
+    memory
+        What accepted steps change: a named tuple of arrays, changed in place.
+    y0
+        Initial state, shape (n,).
+    t_span
+        Start and end time [s].
+    breakpoints
+        Times strictly inside ``t_span`` [s], increasing, where the integrator restarts.
+    atol
+        Absolute tolerance of each state, shape (n,).
+    state_names
+        Names of the states, for messages.
+    n_observed
+        Length of a row of ``observe``.
+    field_shape
+        Shape of the array of ``picture``.
+    """
+
+    functions: CompiledFunctions
+    data: Any
+    memory: Any
+    y0: FloatArray
+    t_span: tuple[float, float]
+    breakpoints: tuple[float, ...]
+    atol: FloatArray
+    state_names: tuple[str, ...]
+    n_observed: int
+    field_shape: tuple[int, ...]
+
+
+@dataclass
+class Statistics:
+    """What the integration cost."""
+
+    steps: int = 0
+    rejected: int = 0
+    rhs_evaluations: int = 0
+    jacobian_evaluations: int = 0
+    lu_decompositions: int = 0
+    restarts: int = 0
+    wall_time: float = 0.0
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What an integration leaves: rows at output times, pictures, cost, and how it ended.
+
+    Attributes
+    ----------
+    t
+        Output times reached [s], shape (n_t,); shorter than asked for after a failure.
+    rows
+        Observed quantities, shape (n_t, n_observed).
+    picture_times
+        Times of the pictures reached [s], shape (n_p,).
+    pictures
+        Fields, shape (n_p, *field_shape).
+    t_end, y_end
+        Time and state at the end of the last accepted step.
+    statistics
+        Cost.
+    failure
+        ``None``, or the reason why the end was not reached.
+    """
+
+    t: FloatArray
+    rows: FloatArray
+    picture_times: FloatArray
+    pictures: FloatArray
+    t_end: float
+    y_end: FloatArray
+    statistics: Statistics = field(default_factory=Statistics)
+    failure: str | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether the end of the time span was reached."""
+        return self.failure is None
+
+
+def empty_times() -> FloatArray:
+    """Return a time array with no entries."""
+    return np.empty(0, dtype=np.float64)
