@@ -1,0 +1,82 @@
+"""Tabulation of a contact law for the kernels."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from tribodyn.contact.base import ContactLaw
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.tables import ContactTable
+
+H_FIRST: Final = -4.0
+H_LAST: Final = 8.0
+INTERVALS: Final = 1536
+"""128 to the unit: a cubic Hermite error below 1e-7 of a Gaussian tail's pressure at h* = 8."""
+
+_CENTRAL_DIFFERENCE: Final = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+"""Sixth-order first difference, in units of the step."""
+
+
+def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.0) -> ContactTable:
+    """Tabulate a contact law over -4 ≤ h* ≤ 8.
+
+    Parameters
+    ----------
+    law
+        Any contact law.
+    onset
+        Separation h* at which a point enters contact and its damping begins [1].
+    smoothing_width
+        Distance below the onset at which the damping is fully there [1].
+
+    Returns
+    -------
+    ContactTable
+        P_k and C times the smoothstep of the onset. Slopes are sixth-order differences of the law, so that a
+        law needs to supply no derivative.
+    """
+    _check_onset(onset, smoothing_width)
+    step = (H_LAST - H_FIRST) / INTERVALS
+    beyond = _CENTRAL_DIFFERENCE.size // 2
+    h_star = H_FIRST + step * np.arange(-beyond, INTERVALS + 1 + beyond)
+    pressure, pressure_rise = _values_and_rises(law.stiffness_pressure(h_star))
+    damping, damping_rise = _values_and_rises(law.damping_pressure(h_star))
+    share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
+    smoothed_rise = share * damping_rise + step * share_slope * damping
+    nodes = np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise])
+    energy = _energy_from_above(pressure, pressure_rise, step)
+    return ContactTable(H_FIRST, H_LAST, 1.0 / step, np.ascontiguousarray(nodes), energy)
+
+
+def onset_share(h_star: FloatArray, onset: float, width: float) -> tuple[FloatArray, FloatArray]:
+    """Return the smoothstep 3u² − 2u³, u = (onset − h*)/width in [0, 1], and its slope in h*.
+
+    Both have the shape of ``h_star`` [1].
+    """
+    u = np.clip((onset - h_star) / width, 0.0, 1.0)
+    return u**2 * (3.0 - 2.0 * u), -6.0 * u * (1.0 - u) / width
+
+
+def _check_onset(onset: float, smoothing_width: float) -> None:
+    if not smoothing_width > 0.0:
+        raise InputError(f"must be positive, not {smoothing_width}", key="contact.smoothing_width")
+    if not H_FIRST <= onset - smoothing_width < onset <= H_LAST:
+        allowed = f"onset and onset minus smoothing width must lie in [{H_FIRST:g}, {H_LAST:g}]"
+        raise InputError(
+            f"{allowed}, not {onset:g} and {onset - smoothing_width:g}", key="contact.onset_separation"
+        )
+
+
+def _values_and_rises(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return values at the nodes and step·slope, shapes (n + 1,), from values on a grid wider by three nodes."""
+    beyond = _CENTRAL_DIFFERENCE.size // 2
+    return values[beyond:-beyond], np.correlate(values, _CENTRAL_DIFFERENCE, mode="valid")
+
+
+def _energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> FloatArray:
+    """Return the integral of the Hermite interpolant from each node to the last, shape (n + 1,) [Pa]."""
+    interval = step * (0.5 * (pressure[:-1] + pressure[1:]) + (rise[:-1] - rise[1:]) / 12.0)
+    return np.append(np.cumsum(interval[::-1])[::-1], 0.0)
