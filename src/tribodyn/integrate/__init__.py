@@ -1,1 +1,70 @@
-"""TODO."""
+"""Integrators: every one of them runs a :class:`~tribodyn.core.problem.Problem` by the same rules."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tribodyn.core.errors import InputError
+from tribodyn.core.problem import Problem, Solution
+from tribodyn.integrate.cvode import Cvode
+from tribodyn.integrate.driver import INTERRUPTED, Integrator, Stepwise
+from tribodyn.integrate.schedule import make_schedule
+from tribodyn.integrate.scipy_steps import ScipyMethod
+
+__all__ = ["INTERRUPTED", "SOLVERS", "integrate"]
+
+SOLVERS: Final[dict[str, Integrator]] = {
+    "bdf": Stepwise(ScipyMethod("BDF")),
+    "radau": Stepwise(ScipyMethod("Radau")),
+    "lsoda": Stepwise(ScipyMethod("LSODA")),
+    "cvode": Stepwise(Cvode()),
+}
+"""All integrators by name."""
+
+
+def integrate(
+    problem: Problem,
+    *,
+    solver: str = "bdf",
+    rtol: float = 1e-4,
+    output_times: ArrayLike = (),
+    picture_times: ArrayLike = (),
+    progress: Callable[[float], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> Solution:
+    """Integrate a problem with memory over its time span.
+
+    Parameters
+    ----------
+    problem
+        What to integrate. Its memory is changed in place.
+    solver
+        A key of ``SOLVERS``.
+    rtol
+        Relative tolerance; the absolute ones belong to the problem.
+    output_times, picture_times
+        When to call ``observe`` and ``picture`` [s]: increasing, inside the time span.
+    progress
+        Called with the simulated time [s] after every accepted step.
+    stop
+        Asked after every accepted step; when true, the run ends with the failure
+        ``"interrupted"``.
+
+    Returns
+    -------
+    Solution
+        What was reached. A run that fails midway is no exception but a ``Solution``
+        whose ``failure`` holds the reason.
+    """
+    if solver not in SOLVERS:
+        raise InputError(f"unknown solver {solver!r}; choose one of {', '.join(SOLVERS)}", key="solver.name")
+    if not 0.0 < rtol < 1.0:
+        raise InputError(f"rtol must lie between 0 and 1, not {rtol}", key="solver.rtol")
+    if problem.atol.shape != problem.y0.shape or not np.all(problem.atol > 0.0):
+        raise InputError("every state needs an absolute tolerance above zero", key="solver.atol")
+    schedule = make_schedule(problem.t_span, problem.breakpoints, output_times, picture_times)
+    return SOLVERS[solver](problem, schedule, rtol, progress, stop)

@@ -1,0 +1,85 @@
+"""CVODE of SUNDIALS: variable-order BDF in compiled code, through the package scikit-sundae.
+
+Source: A. C. Hindmarsh et al., SUNDIALS: Suite of nonlinear and differential/algebraic
+equation solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+from typing import Any
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError, IntegrationFailure
+from tribodyn.core.problem import Statistics
+from tribodyn.integrate.base import Step, VectorFunction
+
+
+class Cvode:
+    """CVODE with its BDF formulae, Newton's iteration and a dense matrix."""
+
+    def steps(
+        self,
+        rhs: VectorFunction,
+        jac: VectorFunction,
+        t_start: float,
+        y_start: FloatArray,
+        t_end: float,
+        rtol: float,
+        atol: FloatArray,
+        statistics: Statistics,
+    ) -> Iterator[Step]:
+        """Yield the accepted steps, see :class:`tribodyn.integrate.base.Method`.
+
+        LU decompositions and rejected steps are not told by scikit-sundae.
+        """
+        solver = _cvode_class()(_filling(rhs), jacfn=_filling_matrix(jac), rtol=rtol, atol=atol)
+        solver.init_step(t_start, y_start)
+
+        def interpolate(t: float) -> FloatArray:
+            y: FloatArray = solver.step(t, "normal", None).y
+            return y
+
+        t_old = t_start
+        while t_old < t_end:
+            result = solver.step(t_end, "onestep", t_end)
+            if result.success and result.t == t_old:
+                # After an interpolation CVODE returns to the end of the step before it goes on.
+                result = solver.step(t_end, "onestep", t_end)
+            if not result.success:
+                raise IntegrationFailure(t_old, result.message)
+            if not result.t > t_old:
+                raise IntegrationFailure(t_old, "the step is shorter than the spacing between numbers")
+            yield Step(t_old, result.t, result.y, interpolate)
+            t_old = result.t
+
+
+def _cvode_class() -> Any:
+    """Return the class of scikit-sundae, or say how to install it."""
+    try:
+        return importlib.import_module("sksundae.cvode").CVODE
+    except ImportError as error:
+        raise InputError(
+            "the solver 'cvode' needs the package scikit-sundae: install tribodyn[sundials], "
+            "or choose another solver",
+            key="solver.name",
+        ) from error
+
+
+def _filling(rhs: VectorFunction) -> Any:
+    """Return ``rhs`` in the form CVODE calls; its read-only state is copied for compiled functions."""
+
+    def rhsfn(t: float, y: FloatArray, yp: FloatArray) -> None:
+        yp[:] = rhs(t, y.copy())
+
+    return rhsfn
+
+
+def _filling_matrix(jac: VectorFunction) -> Any:
+    """Return ``jac`` in the form CVODE calls."""
+
+    def jacfn(t: float, y: FloatArray, yp: FloatArray, jacobian: FloatArray) -> None:
+        jacobian[:] = jac(t, y.copy())
+
+    return jacfn

@@ -1,0 +1,197 @@
+"""The walk of a step-by-step method over a problem: the rules of the protocol in Python.
+
+This file and :mod:`tribodyn.core.problem` say in which order the functions of a problem
+are called; a compiled driver keeps the same order.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import IntegrationFailure
+from tribodyn.core.problem import Problem, Solution, Statistics
+from tribodyn.integrate.base import Method, Step
+from tribodyn.integrate.binding import Binding
+from tribodyn.integrate.schedule import Schedule
+
+INTERRUPTED = "interrupted"
+"""Reason of a failure when the caller asked to stop."""
+
+
+class Integrator(Protocol):
+    """What ``SOLVERS`` lists: runs a whole problem and never raises for a run that fails midway."""
+
+    def __call__(
+        self,
+        problem: Problem,
+        schedule: Schedule,
+        rtol: float,
+        progress: Callable[[float], None] | None,
+        stop: Callable[[], bool] | None,
+    ) -> Solution:
+        """Integrate ``problem`` and return what was reached."""
+        ...
+
+
+@dataclass(frozen=True)
+class Stepwise:
+    """An integrator made of a method that yields one step at a time.
+
+    Attributes
+    ----------
+    method
+        The method.
+    """
+
+    method: Method
+
+    def __call__(
+        self,
+        problem: Problem,
+        schedule: Schedule,
+        rtol: float,
+        progress: Callable[[float], None] | None,
+        stop: Callable[[], bool] | None,
+    ) -> Solution:
+        """Integrate ``problem``, see :class:`Integrator`."""
+        begin = time.perf_counter()
+        walk = _Walk(problem, schedule, progress, stop)
+        failure: str | None = None
+        try:
+            walk.run(self.method, rtol)
+        except IntegrationFailure as error:
+            failure = walk.describe(error)
+        walk.statistics.wall_time = time.perf_counter() - begin
+        return walk.solution(failure)
+
+
+class _Walk:
+    """One integration under way."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        schedule: Schedule,
+        progress: Callable[[float], None] | None,
+        stop: Callable[[], bool] | None,
+    ) -> None:
+        self.problem = problem
+        self.schedule = schedule
+        self.progress = progress
+        self.stop = stop
+        self.statistics = Statistics()
+        self.binding = Binding(problem, self.statistics)
+        self.zeros = np.zeros(problem.y0.size)
+        self.t = float(schedule.edges[0])
+        self.step_size = 0.0
+        self.y = np.array(problem.y0, dtype=np.float64)
+        self.marks = [*schedule.marks.tolist(), np.inf]  # plain floats compare faster
+        self.next_mark = 0
+        self.rows = np.empty((schedule.output_times.size, problem.n_observed))
+        self.pictures = np.empty((schedule.picture_times.size, *problem.field_shape))
+        self.n_rows = 0
+        self.n_pictures = 0
+
+    def run(self, method: Method, rtol: float) -> None:
+        """Integrate segment after segment."""
+        edges = self.schedule.edges
+        for number, t_end in enumerate(edges[1:].tolist()):
+            self.enter()
+            if number == 0 and self.marks[0] <= self.t:
+                self.take()
+            else:
+                self.statistics.restarts += number > 0
+            self.segment(method, rtol, t_end)
+
+    def enter(self) -> None:
+        """Begin a segment; refuse one whose first rate is not finite, which SciPy would try for ever."""
+        problem = self.problem
+        problem.functions.enter(self.t, self.y, problem.data, problem.memory)
+        f = np.empty_like(self.y)
+        problem.functions.rhs(self.t, self.y, problem.data, problem.memory, f)
+        for what, values in (("value", self.y), ("rate", f)):
+            if name := self.binding.first_not_finite(values):
+                raise IntegrationFailure(self.t, f"the {what} of {name} is not finite where a segment starts")
+
+    def segment(self, method: Method, rtol: float, t_end: float) -> None:
+        """Integrate to the next breakpoint or to the end."""
+        binding, atol = self.binding, self.problem.atol
+        for step in method.steps(
+            binding.rhs, binding.jac, self.t, self.y, t_end, rtol, atol, self.statistics
+        ):
+            self.check(step)
+            self.walk(step)
+            if self.stop is not None and self.stop() and self.t < self.schedule.edges[-1]:
+                raise IntegrationFailure(self.t, INTERRUPTED)
+
+    def check(self, step: Step) -> None:
+        """Refuse a step whose end is not finite."""
+        if step.y.dot(self.zeros) != 0.0:
+            name = self.binding.first_not_finite(step.y)
+            raise IntegrationFailure(self.t, f"the value of {name} became not finite")
+
+    def walk(self, step: Step) -> None:
+        """Walk an accepted step from its beginning to its end: rules 3 to 5 of the protocol."""
+        t, y = step.t, step.y
+        inside = t - self.schedule.tolerance
+        t_part = self.t
+        while (mark := self.marks[self.next_mark]) < inside:
+            self.advance(step, t_part, mark, step.interpolate(mark))
+            t_part = mark
+            self.take()
+        self.advance(step, t_part, t, y)
+        if mark <= t + self.schedule.tolerance:
+            self.take()
+        functions = self.problem.functions
+        functions.accept(t, y, self.problem.data, self.problem.memory)
+        self.step_size = t - step.t_old
+        self.statistics.steps += 1
+        self.binding.note = ""
+        if self.progress is not None:
+            self.progress(t)
+
+    def advance(self, step: Step, t_a: float, t_b: float, y_b: FloatArray) -> None:
+        """Add the path integrals from ``t_a`` to ``t_b`` inside ``step``."""
+        problem = self.problem
+        y_middle = step.interpolate(0.5 * (t_a + t_b))
+        problem.functions.advance(t_a, t_b, y_middle, y_b, problem.data, problem.memory)
+        self.t, self.y = t_b, y_b
+
+    def take(self) -> None:
+        """Take what is due at the next mark: an output row, a picture or both."""
+        problem, mark = self.problem, self.next_mark
+        if self.schedule.is_output[mark]:
+            row = self.rows[self.n_rows]
+            problem.functions.observe(self.t, self.y, problem.data, problem.memory, row)
+            self.n_rows += 1
+        if self.schedule.is_picture[mark]:
+            fields = self.pictures[self.n_pictures]
+            problem.functions.picture(self.t, self.y, problem.data, problem.memory, fields)
+            self.n_pictures += 1
+        self.next_mark += 1
+
+    def describe(self, error: IntegrationFailure) -> str:
+        """Return the failure in words: time, last step and what was not finite."""
+        if error.reason == INTERRUPTED:
+            return INTERRUPTED
+        reason = self.binding.reason(error.reason)
+        return f"stopped at t = {self.t:.9g} s, after a step of {self.step_size:.3g} s: {reason}"
+
+    def solution(self, failure: str | None) -> Solution:
+        """Return what was reached."""
+        return Solution(
+            t=self.schedule.output_times[: self.n_rows],
+            rows=self.rows[: self.n_rows],
+            picture_times=self.schedule.picture_times[: self.n_pictures],
+            pictures=self.pictures[: self.n_pictures],
+            t_end=self.t,
+            y_end=self.y,
+            statistics=self.statistics,
+            failure=failure,
+        )
