@@ -1,0 +1,63 @@
+# Needs Python 3.11 or newer, git and make; everything else goes into .venv.
+# Another interpreter: make PYTHON=python3.12 demo. Another place for the demo's results: make DEMO=out/mine demo.
+
+VENV := .venv
+BIN := $(VENV)/bin
+DEMO := out/demo
+DOCS := docs/_build/html
+PYTEST := $(BIN)/python -m pytest -n 2
+
+.DELETE_ON_ERROR:
+.PHONY: help demo test test-long lint format docs clean
+
+help:
+	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
+	@echo "make test        the whole suite but its longest tests"
+	@echo "make test-long   those too"
+	@echo "make lint        style, types and layers"
+	@echo "make format      apply the style"
+	@echo "make docs        build the manual into $(DOCS)"
+	@echo "make clean       remove .venv and everything built"
+
+demo: $(VENV)/.run
+	$(BIN)/tribodyn run vsv -o $(DEMO)
+
+test: $(VENV)/.dev
+	$(PYTEST) -m "not long and not browser"
+
+test-long: $(VENV)/.dev
+	$(PYTEST) -m "not browser"
+
+lint: $(VENV)/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(VENV)/.dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+docs: $(VENV)/.docs
+	$(BIN)/sphinx-build -W --keep-going -b html docs $(DOCS)
+	@echo "Open $(DOCS)/index.html"
+
+clean:
+	rm -rf $(VENV) docs/_build docs/reference/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
+
+# Stamps: an environment is made once, and again when pyproject.toml changes.
+
+$(BIN)/python:
+	@python="$$(tools/find-python)" && echo "Making $(VENV) with $$python" && "$$python" -m venv --clear $(VENV)
+
+$(VENV)/.run: pyproject.toml $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+$(VENV)/.dev: pyproject.toml $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,dev]"
+	@touch $@ $(VENV)/.run
+
+$(VENV)/.docs: pyproject.toml $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
+	@touch $@ $(VENV)/.run

@@ -1,0 +1,54 @@
+"""The house itself: layers, size of files, style and types.
+
+Each check is one test and runs the tool a developer runs, so that ``make test`` and ``make lint`` agree.
+Leave them out with ``pytest -m "not house"``.
+"""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.house
+
+ROOT = Path(__file__).parents[2]
+SOURCES = sorted((ROOT / "src").rglob("*.py"))
+LONG_FILE = 400
+TOOLS = {
+    "layers": ("lint-imports",),
+    "lint": ("ruff", "check", "."),
+    "format": ("ruff", "format", "--check", "."),
+    "types": ("mypy",),
+}
+
+
+@pytest.mark.parametrize("command", TOOLS.values(), ids=TOOLS.keys())
+def test_tool_finds_nothing(command: tuple[str, ...]) -> None:
+    tool, *arguments = command
+    found = subprocess.run(
+        [Path(sys.executable).with_name(tool), *arguments], cwd=ROOT, capture_output=True, text=True
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+def test_long_files_say_why() -> None:
+    silent = [
+        str(path.relative_to(ROOT))
+        for path in SOURCES
+        if _is_long(path) and "One file because" not in _doc(path)
+    ]
+    assert not silent, (
+        f"over {LONG_FILE} lines, and no 'One file because ...' in the module docstring: {silent}"
+    )
+
+
+def _is_long(path: Path) -> bool:
+    return len(path.read_text(encoding="utf-8").splitlines()) > LONG_FILE
+
+
+def _doc(path: Path) -> str:
+    return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
