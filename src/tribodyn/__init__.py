@@ -1,1 +1,39 @@
-"""Tribo-dynamics of mechanisms with dry, rough, worn clearance joints."""
+"""Tribo-dynamics of mechanisms with dry, rough, worn clearance joints.
+
+>>> import tribodyn as td
+>>> case = td.load_case("vsv").replace({"joint.clearance": "30 um"})
+>>> result = td.simulate(case)  # doctest: +SKIP
+
+Names are imported when first used, so that ``import tribodyn`` costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tribodyn import contact, integrate
+    from tribodyn.cases import load_case
+    from tribodyn.simulate import simulate
+
+__all__ = ["__version__", "contact", "integrate", "load_case", "simulate"]
+
+_HOME = {"load_case": "tribodyn.cases", "simulate": "tribodyn.simulate"}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name at its first use."""
+    if name == "__version__":
+        return importlib.import_module("importlib.metadata").version("tribodyn")
+    if name in _HOME:
+        value = getattr(importlib.import_module(_HOME[name]), name)
+        globals()[name] = value
+        return value
+    if name in __all__:
+        return importlib.import_module(f"tribodyn.{name}")
+    raise AttributeError(f"module 'tribodyn' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

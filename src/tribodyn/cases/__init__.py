@@ -1,1 +1,11 @@
-"""TODO."""
+"""Cases: from TOML text with units to frozen, validated objects in SI units, and back."""
+
+from __future__ import annotations
+
+from tribodyn.cases.base import Case
+from tribodyn.cases.catalogue import CASES, KINDS, BuiltIn
+from tribodyn.cases.keys import Key, keys_of
+from tribodyn.cases.load import load_case, parse_case
+from tribodyn.cases.vsv import Vsv
+
+__all__ = ["CASES", "KINDS", "BuiltIn", "Case", "Key", "Vsv", "keys_of", "load_case", "parse_case"]

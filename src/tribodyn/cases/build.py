@@ -1,0 +1,157 @@
+"""From what a user wrote, key by key, to a validated case."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from tribodyn.cases.base import Case
+from tribodyn.cases.keys import Key, Value, ValueProblem, keys_of, shown
+from tribodyn.core.errors import InputError
+
+AnyCase = TypeVar("AnyCase", bound=Case)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value as the user wrote it.
+
+    Attributes
+    ----------
+    value
+        As parsed from TOML or given in Python.
+    source
+        File or option that holds it.
+    text
+        Whether numbers and switches may be spelled as text.
+    """
+
+    value: object
+    source: str
+    text: bool = False
+
+
+def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> AnyCase:
+    """Return the validated case that `entries` describe.
+
+    Parameters
+    ----------
+    model
+        The kind of case.
+    entries
+        What was given, by dotted path.
+    source
+        Named in messages about values that were not given.
+    """
+    keys = keys_of(model)
+    for path, entry in entries.items():
+        if path not in keys:
+            raise InputError(_unknown(path, keys), key=path, source=entry.source)
+    _one_of_each(model, entries)
+    values = {path: _read(keys[path], entry) for path, entry in entries.items()}
+    try:
+        case = model.model_validate(_nested(model.resolve(values) | values))
+    except ValidationError as error:
+        raise _first_problem(error, keys, entries, source) from None
+    except InputError as error:
+        raise _located(error, entries, source) from None
+    case._given.update(entries)
+    return case
+
+
+def changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCase:
+    """Return a copy of `case` with `changes` made; see :meth:`Case.replace`."""
+    new = {path: Entry(value, source, text=True) for path, value in changes.items()}
+    kept = dict(case._given)
+    for pair in case.ALTERNATIVES:
+        if any(path in new for path in pair):
+            for path in pair:
+                kept.pop(path, None)
+    return build(type(case), kept | new, source)
+
+
+def closest(word: str, words: Iterable[str]) -> str | None:
+    """Return the one of `words` that is spelled most like `word`, if any is near."""
+    found = difflib.get_close_matches(word[:80], list(words), n=1, cutoff=0.5)
+    return found[0] if found else None
+
+
+def _read(key: Key, entry: Entry) -> Value:
+    try:
+        return key.read(entry.value, text=entry.text)
+    except ValueProblem as problem:
+        raise InputError(_refused(key, entry, str(problem)), key=key.path, source=entry.source) from None
+
+
+def _refused(key: Key, entry: Entry, why: str = "") -> str:
+    """Say what was given, why it cannot be, and what can."""
+    near = closest(entry.value, key.choices) if isinstance(entry.value, str) and key.choices else None
+    reason = f": {why}" if why else ""
+    hint = f'; did you mean "{near}"?' if near else ""
+    return f"given {shown(entry.value)}{reason}; allowed: {key.allowed}{hint}"
+
+
+def _unknown(path: str, keys: Mapping[str, Key]) -> str:
+    """Say that there is no such key, and which one may have been meant."""
+    tables = {key.table for key in keys.values()} - {""}
+    inside = [key.name for key in keys.values() if key.table == path]
+    if inside:
+        return f"this is a table, not a value; its keys: {', '.join(inside)}"
+    if path in tables:
+        below = sorted(table for table in tables if table.startswith(f"{path}."))
+        return f"this holds only tables: {', '.join(below)}"
+    near = _nearest_key(path, keys)
+    return "unknown key" + (
+        f"; the nearest valid one is {near}" if near else "; `tribodyn show` lists all keys"
+    )
+
+
+def _nearest_key(path: str, keys: Mapping[str, Key]) -> str | None:
+    """Return the key that was probably meant: one of the same table first, then the same name."""
+    table, _, name = path.rpartition(".")
+    siblings = {key.name: key.path for key in keys.values() if key.table == table}
+    near = difflib.get_close_matches(name[:80], list(siblings), n=1, cutoff=0.6)
+    if near:
+        return siblings[near[0]]
+    elsewhere = [key.path for key in keys.values() if key.name == name]
+    return closest(path, elsewhere or keys) or (elsewhere[0] if elsewhere else None)
+
+
+def _one_of_each(model: type[Case], entries: Mapping[str, Entry]) -> None:
+    for first, second in model.ALTERNATIVES:
+        if first in entries and second in entries:
+            raise InputError(
+                f"give either {first} or {second}, not both", key=second, source=entries[second].source
+            )
+
+
+def _nested(values: Mapping[str, Value]) -> dict[str, Any]:
+    """Turn dotted paths into nested tables."""
+    tree: dict[str, Any] = {}
+    for path, value in values.items():
+        *tables, name = path.split(".")
+        branch = tree
+        for table in tables:
+            branch = branch.setdefault(table, {})
+        branch[name] = value
+    return tree
+
+
+def _first_problem(
+    error: ValidationError, keys: Mapping[str, Key], entries: Mapping[str, Entry], source: str
+) -> InputError:
+    """Turn pydantic's first finding into the message a user sees."""
+    path = ".".join(str(part) for part in error.errors()[0]["loc"])
+    entry = entries.get(path) or Entry(keys[path].default, source)
+    return InputError(_refused(keys[path], entry), key=path, source=entry.source)
+
+
+def _located(error: InputError, entries: Mapping[str, Entry], source: str) -> InputError:
+    """Add to the message of a cross-check what was given, and where."""
+    entry = entries.get(error.key or "")
+    given = f"given {shown(entry.value)}; " if entry else ""
+    return InputError(given + error.reason, key=error.key, source=entry.source if entry else source)

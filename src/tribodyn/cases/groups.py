@@ -1,0 +1,133 @@
+"""Tables of keys that several kinds of cases share."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from tribodyn.cases.base import Group, demand
+from tribodyn.cases.keys import ASSUMED, choice, count, number, quantity, switch
+
+TABLE_1 = "paper, Table 1"
+
+
+class Trunnion(Group):
+    """Surface of the trunnion (element 1)."""
+
+    young_modulus: float = quantity("203 GPa", "Young's modulus E_1", TABLE_1, gt=0)
+    poisson_ratio: float = number(0.27, "Poisson's ratio nu_1", TABLE_1, gt=0, le=0.5)
+    roughness: float = quantity("0.392 um", "root mean square roughness sigma_1", TABLE_1, ge=0)
+
+
+class Bushing(Group):
+    """Surface of the bushing (element 2), the softer one."""
+
+    young_modulus: float = quantity("7.17 GPa", "Young's modulus E_2", TABLE_1, gt=0)
+    poisson_ratio: float = number(0.34, "Poisson's ratio nu_2", TABLE_1, gt=0, le=0.5)
+    roughness: float = quantity("1.586 um", "root mean square roughness sigma_2", TABLE_1, ge=0)
+    hardness: float = quantity("492 MPa", "hardness H", TABLE_1, gt=0)
+
+
+class Surfaces(Group):
+    """The two rough surfaces."""
+
+    trunnion: Trunnion = Trunnion()
+    bushing: Bushing = Bushing()
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that at least one surface is rough."""
+        demand(
+            self.trunnion.roughness + self.bushing.roughness > 0,
+            "surfaces.bushing.roughness",
+            "one of the two surfaces must be rough: a roughness above 0 is needed here or for the trunnion",
+        )
+
+
+class Asperities(Group):
+    """The asperities of the equivalent rough surface."""
+
+    density: float = quantity("0.038 1/um^2", "asperities per area xi", TABLE_1, gt=0)
+    radius: float = quantity("8.17 um", "radius of the asperity tips beta", TABLE_1, gt=0)
+
+
+class Contact(Group):
+    """The law of rough contact and its damping."""
+
+    law: str = choice("rsdc", "contact law", "paper, section 2", family="tribodyn.contact:LAWS")
+    onset_separation: float = number(
+        4.0,
+        "separation over sigma at which contact begins and the entry velocity is taken",
+        ASSUMED,
+        gt=0,
+        le=8,
+    )
+    smoothing_width: float = number(
+        1.0,
+        "width over sigma, below the onset, in which damping grows to its full value",
+        ASSUMED,
+        gt=0,
+        le=8,
+    )
+    minimum_entry_velocity: float = quantity(
+        "1 mm/s", "least entry velocity, also that of points in contact at the start", ASSUMED, gt=0
+    )
+    tensile_clip: bool = switch(True, "whether the total pressure is kept from becoming tensile", ASSUMED)
+
+
+class Joint(Group):
+    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
+
+    clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
+    radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
+    length: float = quantity("20 mm", "length of the bushing l_z", TABLE_1, gt=0)
+    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
+    friction_coefficient: float = number(0.1, "coefficient of friction mu_f", ASSUMED, ge=0, le=2)
+    friction: Literal["traction", "moment"] = choice(
+        "traction",
+        "traction along the actual slip, or the paper's moment alone",
+        "depends on mechanism.formulation",
+    )
+    slip_velocity: float = quantity("10 um/s", "slip at which traction is fully developed u_s", ASSUMED, gt=0)
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that the clearance is small against the radius."""
+        demand(
+            self.clearance <= 0.1 * self.radius,
+            "joint.clearance",
+            "the clearance must not exceed a tenth of joint.radius",
+        )
+
+
+class Wear(Group):
+    """Wear of the bushing."""
+
+    specific_wear_rate: float = quantity(
+        "1.1e-15 m^2/N", "specific wear rate C_w", "paper, section 5.4", ge=0
+    )
+    paper_hardness_divisor: float = number(
+        0.0, "the paper's figures come out when the rate is divided by 65; 0 is off", "paper, Eq. 47", ge=0
+    )
+
+
+class Tolerances(Group):
+    """Absolute tolerance of each kind of state."""
+
+    position: float = quantity("1e-10 m", "for e_x and e_y", ASSUMED, gt=0)
+    tilt: float = quantity("1e-8 rad", "for phi_x and phi_y", ASSUMED, gt=0)
+    velocity: float = quantity("1e-6 m/s", "for the rates of e_x and e_y", ASSUMED, gt=0)
+    tilt_rate: float = quantity("1e-4 rad/s", "for the rates of phi_x and phi_y", ASSUMED, gt=0)
+
+
+class Grid(Group):
+    """Quadrature points over the bushing."""
+
+    theta: int = count(96, "points around the bushing", ASSUMED, ge=12, le=4096)
+    z: int = count(16, "Gauss points along the bushing", ASSUMED, ge=2, le=256)
+
+
+class Solver(Group):
+    """The time integration."""
+
+    name: str = choice("bdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
+    rtol: float = number(1e-4, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
+    atol: Tolerances = Tolerances()
+    grid: Grid = Grid()

@@ -1,0 +1,124 @@
+"""Reading cases: by built-in name, from a TOML file, from TOML text."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from tribodyn.cases.base import Case
+from tribodyn.cases.build import Entry, build, closest
+from tribodyn.cases.catalogue import CASES, KINDS
+from tribodyn.cases.keys import shown
+from tribodyn.core.errors import InputError
+
+_LARGEST_FILE: Final = 1_000_000
+
+
+def load_case(case: str | os.PathLike[str]) -> Case:
+    """Return a case by built-in name or from a TOML file.
+
+    Parameters
+    ----------
+    case
+        One of :data:`CASES`, or the path of a file.
+
+    Raises
+    ------
+    InputError
+        There is no such case or file, or something in the file is wrong.
+    """
+    if isinstance(case, str) and case in CASES:
+        entry = CASES[case]
+        source = f"built-in case {case}"
+        given = {path: Entry(value, source) for path, value in entry.given.items()}
+        return build(entry.model, given, source)
+    path = Path(case)
+    return parse_case(_text(path), source=os.fspath(case))
+
+
+def parse_case(text: str, source: str) -> Case:
+    """Return the case that a TOML text describes.
+
+    Parameters
+    ----------
+    text
+        Content of a case file.
+    source
+        Where it comes from, for messages.
+    """
+    entries = {path: Entry(value, source) for path, value in _flat(_tables(text, source))}
+    if not entries:
+        raise InputError("the file is empty; `tribodyn show vsv` prints a complete one", source=source)
+    return build(_kind(entries, source), entries, source)
+
+
+def _kind(entries: Mapping[str, Entry], source: str) -> type[Case]:
+    """Return the kind of case that the key ``case`` names."""
+    allowed = ", ".join(KINDS)
+    if "case" not in entries:
+        raise InputError(
+            f'this key is missing; write case = "vsv" at the top; known: {allowed}', key="case", source=source
+        )
+    name = entries["case"].value
+    if not isinstance(name, str) or name not in KINDS:
+        near = closest(str(name), KINDS)
+        hint = f'; did you mean "{near}"?' if near else ""
+        raise InputError(f"given {shown(name)}; allowed: {allowed}{hint}", key="case", source=source)
+    return KINDS[name]
+
+
+def _text(path: Path) -> str:
+    """Read a file as UTF-8 text."""
+    source = os.fspath(path)
+    if path.is_dir():
+        raise InputError("this is a directory; a TOML file or a built-in case is needed", source=source)
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_FILE + 1)
+    except FileNotFoundError:
+        raise InputError(_no_such_file(source), source=source) from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InputError(f"the file cannot be read: {reason}", source=source) from None
+    if b"\0" in content:
+        raise InputError("this is a binary file, not TOML text", source=source)
+    if len(content) > _LARGEST_FILE:
+        raise InputError("the file is larger than 1 MB; this is not a case", source=source)
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"the file is not UTF-8 text (byte {error.start})", source=source) from None
+
+
+def _no_such_file(name: str) -> str:
+    near = closest(name, CASES)
+    hint = f"; did you mean {near}?" if near else ""
+    return f"there is no such file, and no built-in case of this name (built in: {', '.join(CASES)}){hint}"
+
+
+def _tables(text: str, source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise InputError("not valid TOML: nested too deeply", source=source) from None
+    except ValueError as error:
+        raise InputError(f"not valid TOML: {error}", source=source) from None
+
+
+def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, object]]:
+    """Walk nested tables as (dotted path, value)."""
+    for name, value in tables.items():
+        path = prefix + _key_text(name)
+        if isinstance(value, dict) and value:
+            yield from _flat(value, f"{path}.")
+        elif not isinstance(value, dict):
+            yield path, value
+
+
+def _key_text(name: str) -> str:
+    """Return a key as it stands in a file; quoted unless plain, so that dots inside do not mislead."""
+    plain = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
+    return name if plain else shown(name)

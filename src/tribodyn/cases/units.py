@@ -1,0 +1,170 @@
+"""The only place where units are converted: text with a unit to SI floats and back.
+
+A quantity is written ``"20 um"``: one number, then a unit. The number is read as a decimal and
+multiplied by the exact decimal factor of the unit before it becomes a float, so ``"20 um"`` is the
+same float as ``2e-05`` and a value in SI units reads back to the bit. The text is matched against a
+small grammar before pint sees the unit: nothing is ever evaluated as an expression.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Context, Decimal
+from functools import lru_cache
+from typing import Final
+
+import pint
+
+_ARITHMETIC: Final = Context(prec=34)
+_REGISTRY: Final = pint.UnitRegistry(
+    non_int_type=Decimal, on_redefinition="ignore", cache_folder=None, autoconvert_offset_to_baseunit=True
+)
+# pint reads Nm as the number metric of yarns; an engineer means the moment.
+_REGISTRY.define("newton_meter = newton * meter = Nm")
+
+_LONGEST: Final = 100
+_NUMBER: Final = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
+_FACTOR: Final = r"(?:1|[A-Za-z][A-Za-z_]*(?:(?:\^|\*\*)-?[1-9](?![0-9]))?)"
+_UNIT: Final = rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*"
+_QUANTITY_PATTERN: Final = re.compile(rf"({_NUMBER})\s*(.*)", re.ASCII | re.DOTALL)
+_UNIT_PATTERN: Final = re.compile(_UNIT, re.ASCII)
+_NOT_FINITE: Final = re.compile(r"[+-]?(nan|inf|infinity)\b.*", re.IGNORECASE | re.DOTALL)
+_SPELLINGS: Final = str.maketrans(
+    {"µ": "u", "μ": "u", "°": "deg", "·": "*", "⋅": "*", "−": "-", "²": "^2", "³": "^3", "\u00a0": " "}
+)
+
+_DIMENSIONS: Final = {
+    "m": "length",
+    "rad": "angle",
+    "s": "time",
+    "kg": "mass",
+    "N": "force",
+    "Pa": "pressure",
+    "N m": "moment",
+    "m/s": "speed",
+    "m/s^2": "acceleration",
+    "rad/s": "angular speed",
+    "kg m^2": "moment of inertia",
+    "1/m^2": "number per area",
+    "m^2/N": "wear volume per work",
+    "Pa s": "viscosity",
+}
+"""The SI units that tribodyn works in, and what each of them measures."""
+
+
+class UnitProblem(ValueError):
+    """A text is not a quantity of the wanted kind; the message says why."""
+
+
+def si_unit(unit: str) -> str:
+    """Return the SI unit that measures the same kind of quantity as `unit`.
+
+    Examples
+    --------
+    >>> si_unit("GPa")
+    'Pa'
+    """
+    base = _factor_and_base(unit)[1]
+    return next(si for si in _DIMENSIONS if _factor_and_base(si)[1] == base)
+
+
+def dimension(unit: str) -> str:
+    """Return the name of what `unit` measures, such as ``length``."""
+    return _DIMENSIONS[si_unit(unit)]
+
+
+def unit_of(text: str) -> str:
+    """Return the unit part of a quantity that is known to be well written."""
+    return _split(text)[1]
+
+
+def to_si(text: str, like: str) -> float:
+    """Convert a quantity to its SI value.
+
+    Parameters
+    ----------
+    text
+        Number and unit, such as ``"20 um"``.
+    like
+        A unit of the wanted dimension; angles and plain ratios are told apart.
+
+    Raises
+    ------
+    UnitProblem
+        The text is no quantity, has no unit, or has one of another dimension.
+    """
+    number, unit = _split(text)
+    factor, base = _known(unit)
+    if base != _factor_and_base(like)[1]:
+        raise UnitProblem(f"{unit!r} is not a unit of {dimension(like)}")
+    value = float(_ARITHMETIC.multiply(number, factor))
+    if not math.isfinite(value):
+        raise UnitProblem("the number is too large")
+    return value
+
+
+def from_si(value: float, unit: str) -> str:
+    """Write an SI value as text that :func:`to_si` reads back to the same float.
+
+    Parameters
+    ----------
+    value
+        Finite SI value.
+    unit
+        Preferred unit. It is used when some number of at most 17 digits in it reads back exactly,
+        otherwise the value stands in SI units.
+    """
+    in_unit = _ARITHMETIC.divide(Decimal(value), _factor_and_base(unit)[0])
+    for digits in range(1, 18):
+        text = f"{_plain(float(f'{in_unit:.{digits - 1}e}'))} {unit}"
+        if to_si(text, unit) == value:
+            return text
+    return f"{value!r} {si_unit(unit)}"
+
+
+def _plain(number: float) -> str:
+    """Write a float as a person would: no trailing ``.0``."""
+    return repr(number).removesuffix(".0")
+
+
+def _split(text: str) -> tuple[Decimal, str]:
+    """Split a quantity into its number and its unit."""
+    if len(text) > _LONGEST:
+        raise UnitProblem("the text is too long for a number and a unit")
+    plain = text.translate(_SPELLINGS).strip()
+    if _NOT_FINITE.fullmatch(plain):
+        raise UnitProblem("the number must be finite")
+    match = _QUANTITY_PATTERN.fullmatch(plain)
+    if match is None:
+        raise UnitProblem("this is not a number followed by a unit")
+    number, unit = match.group(1), match.group(2).strip()
+    if not unit:
+        raise UnitProblem("the unit is missing")
+    return Decimal(number), f"1{unit}" if unit.startswith("/") else unit
+
+
+def _known(unit: str) -> tuple[Decimal, str]:
+    """Return factor and base units of a unit that a user wrote."""
+    if not _UNIT_PATTERN.fullmatch(unit):
+        raise UnitProblem(f"{unit!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)")
+    try:
+        return _factor_and_base(unit)
+    except pint.UndefinedUnitError:
+        raise UnitProblem(f"unknown unit {unit!r}") from None
+    except (pint.PintError, ArithmeticError, ValueError, TypeError):
+        raise UnitProblem(f"{unit!r} cannot be used as a unit here") from None
+
+
+@lru_cache(maxsize=1024)
+def _factor_and_base(unit: str) -> tuple[Decimal, str]:
+    """Return the exact factor to SI base units and a text that names them.
+
+    Plain numbers, angles and frequencies have the same dimension but different base units (none,
+    radian, 1/s against rad/s), which is why base units are compared and not dimensions.
+    """
+    one = _REGISTRY.Quantity(Decimal(1), unit).to_base_units()
+    nothing = _REGISTRY.Quantity(Decimal(0), unit).to_base_units()
+    if nothing.magnitude != 0:
+        raise UnitProblem(f"{unit!r} has an offset; use kelvin")
+    return Decimal(one.magnitude), str(one.units)
