@@ -10,18 +10,20 @@ from numpy.typing import ArrayLike
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.integrate.cvode import Cvode
+from tribodyn.integrate.bdf import BDF
+from tribodyn.integrate.cvode import CVODE
 from tribodyn.integrate.driver import INTERRUPTED, Integrator, Stepwise
+from tribodyn.integrate.lsoda import LSODA
+from tribodyn.integrate.radau import RADAU
 from tribodyn.integrate.schedule import make_schedule
-from tribodyn.integrate.scipy_steps import ScipyMethod
 
 __all__ = ["INTERRUPTED", "SOLVERS", "integrate"]
 
 SOLVERS: Final[dict[str, Integrator]] = {
-    "bdf": Stepwise(ScipyMethod("BDF")),
-    "radau": Stepwise(ScipyMethod("Radau")),
-    "lsoda": Stepwise(ScipyMethod("LSODA")),
-    "cvode": Stepwise(Cvode()),
+    "bdf": Stepwise(BDF),
+    "radau": Stepwise(RADAU),
+    "lsoda": Stepwise(LSODA),
+    "cvode": Stepwise(CVODE),
 }
 """All integrators by name."""
 

@@ -2,11 +2,54 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import isfinite
+from typing import Any
+
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
-from tribodyn.core.problem import Problem, Statistics
+from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
+
+
+def machine_code(problem: Problem) -> CompiledFunctions:
+    """Return the functions of a problem compiled for the types of its data and memory.
+
+    A call of a numba function first finds out the types of its arguments, which takes 10 µs
+    for the nested data of a mechanism, more than many right-hand sides. These types never
+    change during an integration, so the compiled code is asked for once. Functions that are
+    not compiled are returned as they are.
+    """
+    data, memory, state = problem.data, problem.memory, np.empty(problem.y0.size)
+    square, row = np.empty((state.size, state.size)), np.empty(problem.n_observed)
+    fields = np.empty(problem.field_shape)
+    functions = problem.functions
+    return CompiledFunctions(
+        rhs=_compiled(functions.rhs, 0.0, state, data, memory, state),
+        jac=_compiled(functions.jac, 0.0, state, data, memory, state, square),
+        enter=_compiled(functions.enter, 0.0, state, data, memory),
+        advance=_compiled(functions.advance, 0.0, 0.0, state, state, data, memory),
+        accept=_compiled(functions.accept, 0.0, state, data, memory),
+        observe=_compiled(functions.observe, 0.0, state, data, memory, row),
+        picture=_compiled(functions.picture, 0.0, state, data, memory, fields),
+    )
+
+
+def _compiled(function: Callable[..., None], *example: Any) -> Callable[..., None]:
+    """Return the code of a numba function for arguments of the types of ``example``."""
+    if not hasattr(function, "compile"):
+        return function
+    import numba
+
+    types: tuple[Any, ...] = tuple(map(numba.typeof, example))
+    code: Callable[..., None] = function.compile(types)
+    return code
+
+
+def all_finite(values: FloatArray) -> bool:
+    """Tell whether no number is infinite or nan; for few numbers faster than NumPy, and without warnings."""
+    return isfinite(sum(values.tolist()))
 
 
 class Binding:
@@ -21,18 +64,19 @@ class Binding:
     ----------
     problem
         The problem; its memory is read at each call.
+    functions
+        Its functions, see :func:`machine_code`.
     statistics
         Where evaluations are counted.
     """
 
-    def __init__(self, problem: Problem, statistics: Statistics) -> None:
-        self._rhs = problem.functions.rhs
-        self._jac = problem.functions.jac
+    def __init__(self, problem: Problem, functions: CompiledFunctions, statistics: Statistics) -> None:
+        self._rhs = functions.rhs
+        self._jac = functions.jac
         self._data = problem.data
         self._memory = problem.memory
         self._names = problem.state_names
         self._n = problem.y0.size
-        self._zeros = np.zeros(self._n)
         self._last_jacobian: FloatArray | None = None
         self._statistics = statistics
         self.note = ""
@@ -42,8 +86,7 @@ class Binding:
         self._statistics.rhs_evaluations += 1
         f = np.empty(self._n)
         self._rhs(t, y, self._data, self._memory, f)
-        # inf * 0 and nan * 0 are nan: one product tells what isfinite().all() tells, faster.
-        if f.dot(self._zeros) != 0.0:
+        if not all_finite(f):
             self.note = f"rate of {self.first_not_finite(f)} was not finite at t = {t:.9g} s"
         return f
 
@@ -57,7 +100,7 @@ class Binding:
             self._last_jacobian = jacobian
         elif self._last_jacobian is None:
             row, column = np.argwhere(~np.isfinite(jacobian))[0]
-            entry = f"d({self._names[row]} rate)/d({self._names[column]})"
+            entry = f"d(rate of {self._names[row]})/d({self._names[column]})"
             raise IntegrationFailure(t, f"the Jacobian entry {entry} is not finite")
         return self._last_jacobian.copy()
 

@@ -10,6 +10,8 @@ import importlib
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Statistics
@@ -18,6 +20,10 @@ from tribodyn.integrate.base import Step, VectorFunction
 
 class Cvode:
     """CVODE with its BDF formulae, Newton's iteration and a dense matrix."""
+
+    def prepare(self) -> None:
+        """Import scikit-sundae."""
+        _cvode_class()
 
     def steps(
         self,
@@ -34,7 +40,11 @@ class Cvode:
 
         LU decompositions and rejected steps are not told by scikit-sundae.
         """
-        solver = _cvode_class()(_filling(rhs), jacfn=_filling_matrix(jac), rtol=rtol, atol=atol)
+        # Without a least step CVODE goes on, printing warnings, when its steps no longer change t.
+        least = 4.0 * float(np.spacing(max(abs(t_start), abs(t_end))))
+        functions = {"rhsfn": _filling(rhs), "jacfn": _filling_matrix(jac)}
+        bounds = {"min_step": least, "max_step": t_end - t_start}
+        solver = _cvode_class()(**functions, **bounds, rtol=rtol, atol=atol)
         solver.init_step(t_start, y_start)
 
         def interpolate(t: float) -> FloatArray:
@@ -47,10 +57,8 @@ class Cvode:
             if result.success and result.t == t_old:
                 # After an interpolation CVODE returns to the end of the step before it goes on.
                 result = solver.step(t_end, "onestep", t_end)
-            if not result.success:
+            if not result.success or not result.t > t_old:
                 raise IntegrationFailure(t_old, result.message)
-            if not result.t > t_old:
-                raise IntegrationFailure(t_old, "the step is shorter than the spacing between numbers")
             yield Step(t_old, result.t, result.y, interpolate)
             t_old = result.t
 
@@ -68,10 +76,10 @@ def _cvode_class() -> Any:
 
 
 def _filling(rhs: VectorFunction) -> Any:
-    """Return ``rhs`` in the form CVODE calls; its read-only state is copied for compiled functions."""
+    """Return ``rhs`` in the form CVODE calls."""
 
     def rhsfn(t: float, y: FloatArray, yp: FloatArray) -> None:
-        yp[:] = rhs(t, y.copy())
+        yp[:] = rhs(t, y)
 
     return rhsfn
 
@@ -80,6 +88,9 @@ def _filling_matrix(jac: VectorFunction) -> Any:
     """Return ``jac`` in the form CVODE calls."""
 
     def jacfn(t: float, y: FloatArray, yp: FloatArray, jacobian: FloatArray) -> None:
-        jacobian[:] = jac(t, y.copy())
+        jacobian[:] = jac(t, y)
 
     return jacfn
+
+
+CVODE = Cvode()

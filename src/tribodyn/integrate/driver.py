@@ -17,7 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate.base import Method, Step
-from tribodyn.integrate.binding import Binding
+from tribodyn.integrate.binding import Binding, all_finite, machine_code
 from tribodyn.integrate.schedule import Schedule
 
 INTERRUPTED = "interrupted"
@@ -60,8 +60,9 @@ class Stepwise:
         stop: Callable[[], bool] | None,
     ) -> Solution:
         """Integrate ``problem``, see :class:`Integrator`."""
-        begin = time.perf_counter()
+        self.method.prepare()
         walk = _Walk(problem, schedule, progress, stop)
+        begin = time.perf_counter()
         failure: str | None = None
         try:
             walk.run(self.method, rtol)
@@ -86,8 +87,8 @@ class _Walk:
         self.progress = progress
         self.stop = stop
         self.statistics = Statistics()
-        self.binding = Binding(problem, self.statistics)
-        self.zeros = np.zeros(problem.y0.size)
+        self.functions = machine_code(problem)
+        self.binding = Binding(problem, self.functions, self.statistics)
         self.t = float(schedule.edges[0])
         self.step_size = 0.0
         self.y = np.array(problem.y0, dtype=np.float64)
@@ -111,12 +112,10 @@ class _Walk:
 
     def enter(self) -> None:
         """Begin a segment; refuse one whose first rate is not finite, which SciPy would try for ever."""
-        problem = self.problem
-        problem.functions.enter(self.t, self.y, problem.data, problem.memory)
-        f = np.empty_like(self.y)
-        problem.functions.rhs(self.t, self.y, problem.data, problem.memory, f)
-        for what, values in (("value", self.y), ("rate", f)):
+        self.functions.enter(self.t, self.y, self.problem.data, self.problem.memory)
+        for what, values in (("value", self.y), ("rate", self.binding.rhs(self.t, self.y))):
             if name := self.binding.first_not_finite(values):
+                self.binding.note = ""
                 raise IntegrationFailure(self.t, f"the {what} of {name} is not finite where a segment starts")
 
     def segment(self, method: Method, rtol: float, t_end: float) -> None:
@@ -132,7 +131,7 @@ class _Walk:
 
     def check(self, step: Step) -> None:
         """Refuse a step whose end is not finite."""
-        if step.y.dot(self.zeros) != 0.0:
+        if not all_finite(step.y):
             name = self.binding.first_not_finite(step.y)
             raise IntegrationFailure(self.t, f"the value of {name} became not finite")
 
@@ -148,8 +147,7 @@ class _Walk:
         self.advance(step, t_part, t, y)
         if mark <= t + self.schedule.tolerance:
             self.take()
-        functions = self.problem.functions
-        functions.accept(t, y, self.problem.data, self.problem.memory)
+        self.functions.accept(t, y, self.problem.data, self.problem.memory)
         self.step_size = t - step.t_old
         self.statistics.steps += 1
         self.binding.note = ""
@@ -160,7 +158,7 @@ class _Walk:
         """Add the path integrals from ``t_a`` to ``t_b`` inside ``step``."""
         problem = self.problem
         y_middle = step.interpolate(0.5 * (t_a + t_b))
-        problem.functions.advance(t_a, t_b, y_middle, y_b, problem.data, problem.memory)
+        self.functions.advance(t_a, t_b, y_middle, y_b, problem.data, problem.memory)
         self.t, self.y = t_b, y_b
 
     def take(self) -> None:
@@ -168,11 +166,11 @@ class _Walk:
         problem, mark = self.problem, self.next_mark
         if self.schedule.is_output[mark]:
             row = self.rows[self.n_rows]
-            problem.functions.observe(self.t, self.y, problem.data, problem.memory, row)
+            self.functions.observe(self.t, self.y, problem.data, problem.memory, row)
             self.n_rows += 1
         if self.schedule.is_picture[mark]:
             fields = self.pictures[self.n_pictures]
-            problem.functions.picture(self.t, self.y, problem.data, problem.memory, fields)
+            self.functions.picture(self.t, self.y, problem.data, problem.memory, fields)
             self.n_pictures += 1
         self.next_mark += 1
 

@@ -4,30 +4,38 @@ from __future__ import annotations
 
 import importlib
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Statistics
-from tribodyn.integrate.base import Step, VectorFunction
+from tribodyn.integrate.base import Interpolant, Step, VectorFunction
 
 
 @dataclass(frozen=True)
 class ScipyMethod:
-    """A solver class of ``scipy.integrate``, for instance ``"BDF"``.
-
-    SciPy is imported when the first step is asked for: reading a case needs no solver.
+    """A solver class of ``scipy.integrate``.
 
     Attributes
     ----------
     class_name
         Name of a subclass of ``scipy.integrate.OdeSolver`` that accepts ``jac``.
+    interpolant
+        Makes of a solver the function that gives the state inside its last step. What
+        ``solver.dense_output()`` returns does the same; its checks take as long as two to
+        four right-hand sides of a mechanism, and the middle of every step is needed.
     """
 
     class_name: str
+    interpolant: Callable[[Any], Interpolant]
+
+    def prepare(self) -> None:
+        """Import SciPy, which reading a case does not need."""
+        self._solver_class()
 
     def steps(
         self,
@@ -41,16 +49,26 @@ class ScipyMethod:
         statistics: Statistics,
     ) -> Iterator[Step]:
         """Yield the accepted steps, see :class:`tribodyn.integrate.base.Method`."""
-        solver_class = getattr(importlib.import_module("scipy.integrate"), self.class_name)
-        solver = solver_class(rhs, t_start, y_start.copy(), t_end, rtol=rtol, atol=atol, jac=jac)
+        solver = self._solver_class()(rhs, t_start, y_start.copy(), t_end, rtol=rtol, atol=atol, jac=jac)
+        interpolate = self.interpolant(solver)
         decompositions = 0
         while solver.status == "running":
             t_old = float(solver.t)
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # what LSODA warns of is told in the failure
-                message = solver.step()
+            message = _step_quietly(solver)
             statistics.lu_decompositions += int(solver.nlu) - decompositions
             decompositions = int(solver.nlu)
-            if message is not None:
-                raise IntegrationFailure(t_old, message)
-            yield Step(t_old, float(solver.t), np.ascontiguousarray(solver.y), solver.dense_output())
+            if message is not None or not solver.t > t_old:  # LSODA goes on at a time of NaN
+                raise IntegrationFailure(t_old, message or "the method made no progress")
+            yield Step(t_old, float(solver.t), np.ascontiguousarray(solver.y), interpolate)
+
+    def _solver_class(self) -> Any:
+        """Return the class of SciPy."""
+        return getattr(importlib.import_module("scipy.integrate"), self.class_name)
+
+
+def _step_quietly(solver: Any) -> str | None:
+    """Step; what SciPy would warn of is told by the failure it leads to."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        message: str | None = solver.step()
+    return message and "the step became shorter than the spacing between numbers"
