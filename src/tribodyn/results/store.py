@@ -1,0 +1,111 @@
+"""A run on disk: ``result.nc``, ``summary.json`` and ``case.toml`` in one folder."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.errors import InputError
+from tribodyn.results.atomic import replacing
+from tribodyn.results.summary import summarise
+
+RESULT: Final = "result.nc"
+SUMMARY: Final = "summary.json"
+CASE: Final = "case.toml"
+
+
+def prepare_directory(directory: str | Path) -> Path:
+    """Make sure that results can be written to a folder, before anything is computed.
+
+    Parameters
+    ----------
+    directory
+        Folder for the results; made if missing.
+
+    Returns
+    -------
+    pathlib.Path
+        The folder.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be made or written to.
+    """
+    folder = Path(directory)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise InputError(f"cannot write results to {folder} ({reason}); choose another folder") from error
+
+
+def write_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
+    """Write a run; the three files are replaced together, after all of them have been written.
+
+    Parameters
+    ----------
+    dataset
+        A result; ``attrs["case"]`` is the text of the case file.
+    directory
+        Folder to write to; made if missing.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The files written.
+    """
+    folder = Path(directory)
+    folder.mkdir(parents=True, exist_ok=True)
+    summary = json.dumps(summarise(dataset), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    texts = {SUMMARY: summary, CASE: str(dataset.attrs.get("case", ""))}
+    paths = [folder / name for name in (RESULT, *texts)]
+    with ExitStack() as stack:
+        parts = [stack.enter_context(replacing(path)) for path in paths]
+        dataset.to_netcdf(parts[0], engine="h5netcdf")
+        for part, text in zip(parts[1:], texts.values(), strict=True):
+            part.write_text(text, encoding="utf-8", newline="\n")
+    return paths
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """Read a result into memory.
+
+    Parameters
+    ----------
+    path
+        Folder of a run, or a NetCDF file.
+
+    Returns
+    -------
+    xarray.Dataset
+        As it was written: times stay numbers of seconds.
+
+    Raises
+    ------
+    InputError
+        If there is no result or it cannot be read.
+    """
+    file = Path(path)
+    file = file / RESULT if file.is_dir() else file
+    try:
+        dataset = xr.load_dataset(file, engine="h5netcdf", decode_times=False, decode_timedelta=False)
+    except FileNotFoundError as error:
+        raise InputError(f"there is no result at {file}; run a case with `-o {file.parent}` first") from error
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"cannot read the result in {file}: {error}") from error
+    dataset.attrs = {name: _python(value) for name, value in dataset.attrs.items()}
+    return dataset
+
+
+def _python(value: object) -> object:
+    """Return a number as Python holds it."""
+    return value.item() if isinstance(value, np.generic) else value

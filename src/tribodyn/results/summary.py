@@ -1,0 +1,236 @@
+"""Headline numbers of a run: few, flat, with the unit in the name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.results.dataset import json_attribute
+
+
+@dataclass(frozen=True)
+class Headline:
+    """One headline number.
+
+    Attributes
+    ----------
+    label
+        What it is, for a table.
+    unit
+        Unit as printed.
+    meaning
+        Why an engineer cares, in a sentence.
+    compute
+        Returns the number, NaN or an error of lookup where the result does not hold it.
+    """
+
+    label: str
+    unit: str
+    meaning: str
+    compute: Callable[[xr.Dataset], float]
+
+
+def _values(dataset: xr.Dataset, name: str) -> FloatArray:
+    """Return a variable as an array."""
+    return np.asarray(dataset[name].values, dtype=np.float64)
+
+
+def _norm(dataset: xr.Dataset, *names: str) -> FloatArray:
+    """Return the length of a vector given by its components, over time."""
+    return np.sqrt(sum(_values(dataset, name) ** 2 for name in names))
+
+
+def _peak(values: FloatArray) -> float:
+    """Return the largest finite size, NaN when there is none."""
+    finite = np.abs(values[np.isfinite(values)])
+    return float(finite.max()) if finite.size else math.nan
+
+
+def _time_mean(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the mean over time (trapezoidal: output times need not be uniform), of the finite part."""
+    good = np.isfinite(values)
+    time, values = _values(dataset, "time")[good], values[good]
+    span = float(time[-1] - time[0]) if time.size else 0.0
+    area = 0.5 * float(np.sum((values[1:] + values[:-1]) * np.diff(time)))
+    return area / span if span > 0.0 else math.nan
+
+
+def _angle_error(dataset: xr.Dataset) -> FloatArray:
+    """Return the vane-angle error [deg] over time."""
+    return np.rad2deg(_values(dataset, "theta_v") - _values(dataset, "theta_v_ideal"))
+
+
+def _speed_error(dataset: xr.Dataset) -> FloatArray:
+    """Return the vane-speed error [deg/s] over time."""
+    return np.rad2deg(_values(dataset, "omega_v") - _values(dataset, "omega_v_ideal"))
+
+
+def _rms(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the root mean square over time."""
+    return math.sqrt(_time_mean(dataset, values**2))
+
+
+def _cycles(dataset: xr.Dataset) -> float:
+    """Return how many cycles of the drive the run holds."""
+    time = _values(dataset, "time")
+    return float(time[-1] - time[0]) / float(dataset.attrs["cycle_period"]) if time.size else math.nan
+
+
+def _wear_rate(dataset: xr.Dataset) -> float:
+    """Return the greatest wear depth [nm] a thousand cycles would make; NaN before one cycle is complete."""
+    cycles = _cycles(dataset)
+    whole = cycles >= 1.0 - 1e-9
+    return _peak(_values(dataset, "wear_depth")) * 1e9 * 1000.0 / cycles if whole else math.nan
+
+
+def _statistic(name: str) -> Callable[[xr.Dataset], float]:
+    """Return a reader of one entry of the solver statistics."""
+    return lambda dataset: float(json_attribute(dataset, "solver", {})[name])
+
+
+def _real_time_factor(dataset: xr.Dataset) -> float:
+    """Return wall time over simulated time."""
+    time = _values(dataset, "time")
+    return _statistic("wall_time")(dataset) / float(time[-1] - time[0])
+
+
+HEADLINES: Final[dict[str, Headline]] = {
+    "vane_angle_error_max_deg": Headline(
+        "Vane-angle error, largest",
+        "°",
+        "How far clearance lets the vane stray from where the drive puts it.",
+        lambda d: _peak(_angle_error(d)),
+    ),
+    "vane_angle_error_rms_deg": Headline(
+        "Vane-angle error, rms",
+        "°",
+        "The same error as an average over the run.",
+        lambda d: _rms(d, _angle_error(d)),
+    ),
+    "vane_speed_error_rms_deg_per_s": Headline(
+        "Vane-speed error, rms",
+        "°/s",
+        "How unsteadily the vane turns compared with a tight joint.",
+        lambda d: _rms(d, _speed_error(d)),
+    ),
+    "contact_force_max_N": Headline(
+        "Contact force, largest",
+        "N",
+        "Peak load on the bushing, usually an impact after a reversal.",
+        lambda d: _peak(_norm(d, "F_cx", "F_cy")),
+    ),
+    "contact_force_mean_N": Headline(
+        "Contact force, mean",
+        "N",
+        "Average load on the bushing: what wears it.",
+        lambda d: _time_mean(d, _norm(d, "F_cx", "F_cy")),
+    ),
+    "peak_pressure_MPa": Headline(
+        "Peak pressure",
+        "MPa",
+        "Highest pressure anywhere in the bushing; compare it with the hardness.",
+        lambda d: _peak(_values(d, "p_max")) * 1e-6,
+    ),
+    "tilt_max_mrad": Headline(
+        "Tilt, largest",
+        "mrad",
+        "How far the trunnion leans in the bushing: tilt loads the edges.",
+        lambda d: _peak(_norm(d, "phi_x", "phi_y")) * 1e3,
+    ),
+    "eccentricity_max_um": Headline(
+        "Eccentricity, largest",
+        "µm",
+        "How far the trunnion centre moves off the bushing axis.",
+        lambda d: _peak(_norm(d, "e_x", "e_y")) * 1e6,
+    ),
+    "drive_moment_max_Nm": Headline(
+        "Drive moment, largest",
+        "N m",
+        "What the actuator must deliver at the crank.",
+        lambda d: _peak(_values(d, "M_d")),
+    ),
+    "wear_depth_max_nm": Headline(
+        "Wear depth after this run",
+        "nm",
+        "Deepest point of the worn bushing, linear estimate.",
+        lambda d: _peak(_values(d, "wear_depth")) * 1e9,
+    ),
+    "wear_depth_rate_nm_per_1000_cycles": Headline(
+        "Wear rate",
+        "nm per 1000 cycles",
+        "Deepest wear if this motion repeats and the pressure stays as it is.",
+        _wear_rate,
+    ),
+    "energy_residual_percent": Headline(
+        "Energy residual, whole mechanism",
+        "%",
+        "What the energy ledger of all bodies misses; below 1 % is sound.",
+        lambda d: float(d.attrs["energy_residual"]) * 100.0,
+    ),
+    "clearance_energy_residual_percent": Headline(
+        "Energy residual, clearance motion",
+        "%",
+        "The stricter ledger of the motion in the clearance alone.",
+        lambda d: float(d.attrs["clearance_energy_residual"]) * 100.0,
+    ),
+    "simulated_time_s": Headline(
+        "Simulated time",
+        "s",
+        "How much of the motion this result holds.",
+        lambda d: float(np.ptp(_values(d, "time"))),
+    ),
+    "steps": Headline("Steps", "", "Accepted steps of the integrator.", _statistic("steps")),
+    "rhs_evaluations": Headline(
+        "Evaluations", "", "Calls of the equations of motion.", _statistic("rhs_evaluations")
+    ),
+    "wall_time_s": Headline("Wall time", "s", "How long the integration took.", _statistic("wall_time")),
+    "real_time_factor": Headline(
+        "Real-time factor", "", "Wall time for each second simulated.", _real_time_factor
+    ),
+}
+"""Every headline number, by its name in ``summary.json``."""
+
+_COUNTS: Final = frozenset({"steps", "rhs_evaluations"})
+
+
+def summarise(dataset: xr.Dataset) -> dict[str, float | int | str]:
+    """Return the headline numbers of a result.
+
+    A number that the result cannot give (a partial run, another mechanism) is left out.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+
+    Returns
+    -------
+    dict
+        Title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` and ``warnings`` (texts, empty when
+        there is none), then numbers by name.
+    """
+    failure = str(dataset.attrs.get("failure", ""))
+    texts: dict[str, float | int | str] = {
+        "title": str(dataset.attrs.get("title", "")),
+        "status": "failed" if failure else "complete",
+        "failure": failure,
+        "warnings": "; ".join(json_attribute(dataset, "warnings", [])),
+    }
+    numbers = ((name, _number(headline, dataset)) for name, headline in HEADLINES.items())
+    return texts | {
+        name: int(value) if name in _COUNTS else value for name, value in numbers if math.isfinite(value)
+    }
+
+
+def _number(headline: Headline, dataset: xr.Dataset) -> float:
+    """Return a headline number, NaN where the result does not hold what it needs."""
+    try:
+        return headline.compute(dataset)
+    except (KeyError, ValueError, ZeroDivisionError, IndexError):
+        return math.nan

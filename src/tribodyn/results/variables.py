@@ -1,0 +1,156 @@
+"""The variable table: name, unit, meaning and dimensions of everything a result may hold.
+
+One line a variable, listed once. A mechanism that produces a new quantity adds its line here; the
+builder, the NetCDF file and the documentation follow. All values are SI with angles in radians.
+Signs are those of the theory manual: moments about X and Z are right-handed, about Y left-handed in the
+joint; forces ``F_ab`` act on body ``b`` from body ``a``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+TIME: Final = ("time",)
+SNAPSHOT: Final = ("snapshot",)
+
+
+@dataclass(frozen=True)
+class Variable:
+    """What a reader needs to know about one variable.
+
+    Attributes
+    ----------
+    units
+        SI unit as a UDUNITS string, ``"1"`` for a ratio.
+    long_name
+        Plain words, used as axis label and in the documentation.
+    dims
+        Dimensions of the array.
+    """
+
+    units: str
+    long_name: str
+    dims: tuple[str, ...] = TIME
+
+
+COORDINATES: Final[dict[str, Variable]] = {
+    "time": Variable("s", "simulated time"),
+    "snapshot": Variable("1", "number of the field snapshot", SNAPSHOT),
+    "snapshot_time": Variable("s", "simulated time of the snapshot", SNAPSHOT),
+    "snapshot_theta_v": Variable("rad", "vane angle of the snapshot", SNAPSHOT),
+    "snapshot_direction": Variable("1", "direction of vane rotation at the snapshot, +1 or -1", SNAPSHOT),
+    "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),
+    "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
+}
+
+_ATTITUDE: Final[dict[str, Variable]] = {
+    "e_x": Variable("m", "offset of the trunnion centre along X"),
+    "e_y": Variable("m", "offset of the trunnion centre along Y"),
+    "phi_x": Variable("rad", "tilt of the trunnion about X (right-handed)"),
+    "phi_y": Variable("rad", "tilt of the trunnion about Y (left-handed)"),
+    "e_x_dot": Variable("m s-1", "velocity of the trunnion centre along X"),
+    "e_y_dot": Variable("m s-1", "velocity of the trunnion centre along Y"),
+    "phi_x_dot": Variable("rad s-1", "tilt rate of the trunnion about X"),
+    "phi_y_dot": Variable("rad s-1", "tilt rate of the trunnion about Y"),
+}
+
+_MOTION: Final[dict[str, Variable]] = {
+    "theta_a": Variable("rad", "crank angle"),
+    "theta_b": Variable("rad", "unison ring angle"),
+    "theta_v": Variable("rad", "vane angle"),
+    "theta_v_ideal": Variable("rad", "vane angle without clearance"),
+    "omega_a": Variable("rad s-1", "crank speed"),
+    "omega_v": Variable("rad s-1", "vane speed"),
+    "omega_v_ideal": Variable("rad s-1", "vane speed without clearance"),
+    "h_1": Variable("m", "axial travel of the unison ring"),
+}
+
+_JOINT: Final[dict[str, Variable]] = {
+    "F_cx": Variable("N", "normal contact force on the trunnion along X"),
+    "F_cy": Variable("N", "normal contact force on the trunnion along Y"),
+    "F_kx": Variable("N", "rigid (asperity stiffness) part of the contact force along X"),
+    "F_ky": Variable("N", "rigid (asperity stiffness) part of the contact force along Y"),
+    "F_dx": Variable("N", "damping part of the contact force along X"),
+    "F_dy": Variable("N", "damping part of the contact force along Y"),
+    "F_fx": Variable("N", "friction force on the trunnion along X"),
+    "F_fy": Variable("N", "friction force on the trunnion along Y"),
+    "F_cz": Variable("N", "force of the thrust collar on the trunnion along Z"),
+    "M_jcx": Variable("N m", "moment of the contact pressure about X"),
+    "M_jcy": Variable("N m", "moment of the contact pressure about Y (left-handed)"),
+    "M_fx": Variable("N m", "moment of the bushing friction about X"),
+    "M_fy": Variable("N m", "moment of the bushing friction about Y (left-handed)"),
+    "M_tcx": Variable("N m", "moment of the thrust collar about X"),
+    "M_tcy": Variable("N m", "moment of the thrust collar about Y (left-handed)"),
+    "M_jf": Variable("N m", "friction moment of the bushing about Z"),
+    "M_tf": Variable("N m", "friction moment of the thrust collar about Z"),
+    "p_max": Variable("Pa", "peak contact pressure in the bushing, edges included"),
+    "separation_min": Variable("m", "smallest gap in the bushing, negative where mean surfaces overlap"),
+    "tensile_clip_share": Variable(
+        "1", "share of the contact force held back by the clip of tensile pressure"
+    ),
+    "damping_power": Variable("W", "power of the damping pressure, turned into heat"),
+    "friction_power": Variable("W", "power of the bushing friction, turned into heat"),
+    "contact_fraction": Variable("1", "share of the bushing surface in contact"),
+}
+
+_REACTIONS: Final[dict[str, Variable]] = {
+    "F_ax": Variable("N", "force of the casing on the crank pivot along X"),
+    "F_ay": Variable("N", "force of the casing on the crank pivot along Y"),
+    "F_az": Variable("N", "force of the casing on the crank pivot along Z"),
+    "M_ax": Variable("N m", "moment of the casing on the crank pivot about X"),
+    "M_az": Variable("N m", "moment of the casing on the crank pivot about Z"),
+    "M_d": Variable("N m", "drive moment on the crank"),
+    "F_21x": Variable("N", "force of the drag link on the crank along X"),
+    "F_21y": Variable("N", "force of the drag link on the crank along Y"),
+    "F_21z": Variable("N", "force of the drag link on the crank along Z"),
+    "F_32x": Variable("N", "force of the unison ring on the drag link along X"),
+    "F_32y": Variable("N", "force of the unison ring on the drag link along Y"),
+    "F_32z": Variable("N", "force of the unison ring on the drag link along Z"),
+    "F_43x": Variable("N", "force of the lever arm on the unison ring along X"),
+    "F_43y": Variable("N", "force of the lever arm on the unison ring along Y"),
+    "F_43z": Variable("N", "force of the lever arm on the unison ring along Z"),
+    "F_bx": Variable("N", "force of the casing on the unison ring along X"),
+    "F_bz": Variable("N", "force of the casing on the unison ring along Z"),
+    "M_bx": Variable("N m", "moment of the casing on the unison ring about X"),
+    "M_bz": Variable("N m", "moment of the casing on the unison ring about Z"),
+    "F_airx": Variable("N", "aerodynamic force on the vane along X"),
+    "F_airy": Variable("N", "aerodynamic force on the vane along Y"),
+    "M_air": Variable("N m", "aerodynamic moment on the vane about Z"),
+}
+
+_ENERGY: Final[dict[str, Variable]] = {
+    "energy_kinetic": Variable("J", "kinetic energy of all bodies"),
+    "energy_gravity": Variable("J", "gravity energy of all bodies, from the start"),
+    "energy_contact": Variable("J", "energy stored in the contact"),
+    "energy_drive": Variable("J", "work of the drive"),
+    "energy_loads": Variable("J", "work of the aerodynamic loads"),
+    "energy_friction": Variable("J", "friction heat of the bushing"),
+    "energy_collar_friction": Variable("J", "friction heat of the thrust collar"),
+    "energy_collar_tilt": Variable("J", "work done against the thrust collar by tilting"),
+    "energy_damping": Variable("J", "damping heat of the contact"),
+    "energy_residual": Variable("J", "what the whole-mechanism ledger misses"),
+    "energy_clearance_inertia": Variable("J", "clearance motion: work of inertia"),
+    "energy_clearance_loads": Variable("J", "clearance motion: work of loads and reactions"),
+    "energy_clearance_contact": Variable("J", "clearance motion: energy stored in the contact"),
+    "energy_clearance_friction": Variable("J", "clearance motion: friction heat"),
+    "energy_clearance_collar": Variable("J", "clearance motion: work done against the thrust collar"),
+    "energy_clearance_damping": Variable("J", "clearance motion: damping heat"),
+    "energy_clearance_residual": Variable("J", "what the clearance ledger misses"),
+}
+
+_FIELDS: Final[dict[str, Variable]] = {
+    "pressure": Variable("Pa", "contact pressure", ("snapshot", "theta", "z")),
+    "wear_depth": Variable("m", "wear depth of the bushing after this run", ("theta", "z")),
+}
+
+VARIABLES: Final[dict[str, Variable]] = {
+    **COORDINATES,
+    **_ATTITUDE,
+    **_MOTION,
+    **_JOINT,
+    **_REACTIONS,
+    **_ENERGY,
+    **_FIELDS,
+}
+"""Every variable a result may hold, by name."""

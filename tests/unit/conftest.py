@@ -1,0 +1,170 @@
+"""A made-up result with the shape of a real one, for tests of what reads results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.results import VARIABLES, build
+
+ResultFactory = Callable[..., xr.Dataset]
+
+PERIOD = 2.0 * np.pi
+CLEARANCE = 20e-6
+LENGTH = 20e-3
+SURFACE_ROUGHNESS = 1.634e-6
+
+
+def _ringing(t: FloatArray, scale: float) -> FloatArray:
+    """Return what the impacts after each reversal add, shape (n_t,)."""
+    since = np.mod(t, np.pi)
+    return scale * np.exp(-since / 0.03) * np.sin(since / 0.004)
+
+
+def _motion(t: FloatArray) -> dict[str, FloatArray]:
+    theta_a = np.deg2rad(-16.0 + 20.0 * (1.0 - np.cos(t)))
+    omega_a = np.deg2rad(20.0 * np.sin(t))
+    ideal = np.deg2rad(61.0) + 1.48 * (theta_a + np.deg2rad(16.0))
+    direction = np.where(np.sin(t) >= 0.0, 1.0, -1.0)
+    error = direction * np.deg2rad(0.02) * (1.0 + 0.2 * np.cos(t)) + _ringing(t, 1e-4)
+    return {
+        "theta_a": theta_a,
+        "theta_b": 0.12 * np.sin(ideal - np.pi / 2),
+        "theta_v": ideal + error,
+        "theta_v_ideal": ideal,
+        "omega_a": omega_a,
+        "omega_v": 1.48 * omega_a + _ringing(t, 2e-3),
+        "omega_v_ideal": 1.48 * omega_a,
+        "h_1": 0.05 * (np.sin(ideal) - 1.0),
+    }
+
+
+def _attitude(t: FloatArray) -> dict[str, FloatArray]:
+    direction = np.tanh(np.sin(t) / 0.02)
+    return {
+        "e_x": 3e-6 * -direction + _ringing(t, 4e-6),
+        "e_y": 6e-6 + 1e-6 * np.cos(2 * t) + _ringing(t, 2e-6),
+        "phi_x": 9e-4 + 1e-4 * np.cos(t),
+        "phi_y": 4e-4 * direction + 5e-5 * np.cos(t),
+        "e_x_dot": _ringing(t, 1e-3),
+        "e_y_dot": _ringing(t, 5e-4),
+        "phi_x_dot": _ringing(t, 0.1),
+        "phi_y_dot": _ringing(t, 0.1),
+    }
+
+
+def _forces(t: FloatArray) -> dict[str, FloatArray]:
+    direction = np.tanh(np.sin(t) / 0.02)
+    rigid = {"F_kx": 18.0 * direction + 2.0 * np.cos(t), "F_ky": -4.0 - np.cos(2 * t)}
+    damping = {"F_dx": _ringing(t, 120.0), "F_dy": _ringing(t, 30.0)}
+    return {
+        **rigid,
+        **damping,
+        "F_cx": rigid["F_kx"] + damping["F_dx"],
+        "F_cy": rigid["F_ky"] + damping["F_dy"],
+        "M_d": 0.9 * direction + _ringing(t, 1.0),
+        "p_max": 1e6 * (12.0 + 2.0 * np.cos(t) + np.abs(_ringing(t, 40.0))),
+    }
+
+
+def _ledgers(t: FloatArray) -> dict[str, FloatArray]:
+    heat = 0.02 * t + 1e-3 * np.sin(2 * t)
+    values = {
+        "energy_kinetic": 3e-3 * np.sin(t) ** 2,
+        "energy_gravity": -0.05 * (1.0 - np.cos(t)),
+        "energy_contact": 2e-4 + 1e-5 * np.cos(t),
+        "energy_loads": -0.28 * t + 0.02 * np.sin(t),
+        "energy_friction": heat,
+        "energy_collar_friction": 0.3 * heat,
+        "energy_collar_tilt": 1e-5 * t,
+        "energy_damping": 6e-5 * t,
+        "energy_residual": 1e-4 * t / PERIOD,
+        "energy_clearance_inertia": 1e-5 * np.sin(t),
+        "energy_clearance_loads": 1e-3 * (1.0 - np.cos(t)) + 3e-4 * t,
+        "energy_clearance_contact": 2e-4 * (1.0 - np.cos(t)),
+        "energy_clearance_friction": 2e-4 * t,
+        "energy_clearance_collar": 1e-5 * t,
+        "energy_clearance_damping": 6e-5 * t,
+        "energy_clearance_residual": 1e-6 * t / PERIOD,
+    }
+    return {**values, "energy_drive": 0.3 * t + 0.03 * (1 - np.cos(t))}
+
+
+def _pressure(theta: FloatArray, z: FloatArray, direction: float, share: float) -> FloatArray:
+    """Return an edge-loaded pressure, shape (n_theta, n_z)."""
+    tilt_x, tilt_y = 9e-4, 4e-4 * direction
+    e_x, e_y = -12e-6 * direction, 8e-6
+    gap = CLEARANCE + np.outer(np.cos(theta), e_x - z * tilt_y) + np.outer(np.sin(theta), e_y - z * tilt_x)
+    return share * 90e6 * np.exp(-1.4 * np.clip(gap / SURFACE_ROUGHNESS, -1.0, None) ** 1.1 * 1.0)
+
+
+def _fields(t: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
+    """Return coordinates and fields of the six snapshots that were reached."""
+    theta = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
+    nodes = np.polynomial.legendre.leggauss(16)[0]
+    z = 0.5 * LENGTH * np.concatenate([[-1.0], nodes, [1.0]])
+    times = np.array([0.3, 1.55, 2.9, 3.4, 4.7, 6.0])
+    times = times[times <= t[-1]] if t.size else times[:0]
+    motion = _motion(times)
+    direction = np.where(np.sin(times) >= 0.0, 1.0, -1.0)
+    pictures = [
+        _pressure(theta, z, s, share)
+        for s, share in zip(direction, (1.0, 0.8, 1.2, 1.1, 0.7, 0.9), strict=False)
+    ]
+    pressure = np.array(pictures).reshape(times.size, theta.size, z.size)
+    coordinates = {
+        "snapshot": np.arange(times.size),
+        "snapshot_time": times,
+        "snapshot_theta_v": motion["theta_v"],
+        "snapshot_direction": direction,
+        "theta": theta,
+        "z": z,
+    }
+    worn = 1e-12 * (_pressure(theta, z, 1.0, 1.0) + _pressure(theta, z, -1.0, 0.7)) / 90e6
+    return coordinates, {"pressure": pressure, "wear_depth": worn}
+
+
+@pytest.fixture(scope="session")
+def make_result() -> ResultFactory:
+    """Return a maker of results with plausible signals (not the output of any simulation)."""
+
+    def make(end: float = 2 * PERIOD, *, failure: str = "", **attributes: object) -> xr.Dataset:
+        t = np.arange(0.0, end, 5e-3)
+        coordinates, fields = _fields(t)
+        columns = {**_motion(t), **_attitude(t), **_forces(t), **_ledgers(t)}
+        others = [n for n, v in VARIABLES.items() if v.dims == ("time",) and n not in columns and n != "time"]
+        facts: dict[str, object] = {
+            "title": "Vane mechanism with a dry, rough trunnion joint",
+            "case": 'case = "vsv"\ntitle = "Vane mechanism with a dry, rough trunnion joint"\n',
+            "tribodyn_version": "0.0",
+            "python_version": "3.11.0",
+            "solver": {
+                "name": "bdf",
+                "steps": 4321,
+                "rejected": 12,
+                "rhs_evaluations": 9876,
+                "wall_time": 8.2,
+            },
+            "energy_residual": 3.1e-4,
+            "clearance_energy_residual": 5.2e-3,
+            "warnings": ["the friction coefficient 0.1 is assumed: the paper does not give it"],
+            "failure": failure,
+            "clearance": CLEARANCE,
+            "joint_length": LENGTH,
+            "cycle_period": PERIOD,
+            "friction_coefficient": 0.1,
+            "contact_law": "rsdc",
+            "formulation": "exact",
+        }
+        return build(
+            coordinates={"time": t, **coordinates},
+            columns={**columns, **{name: np.zeros_like(t) for name in others}},
+            fields=fields,
+            attributes={**facts, **attributes},
+        )
+
+    return make

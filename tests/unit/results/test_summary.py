@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tribodyn.results import HEADLINES, build, summarise
+
+
+def test_every_headline_of_a_whole_run_is_a_number(make_result):
+    summary = summarise(make_result())
+    assert set(HEADLINES) <= set(summary)
+    assert all(math.isfinite(summary[name]) for name in HEADLINES)
+    assert summary["status"] == "complete"
+    assert summary["steps"] == 4321
+    assert "assumed" in summary["warnings"]
+
+
+def test_known_numbers():
+    time = np.array([0.0, 1.0, 4.0])  # not uniform: a plain mean would weigh the ends wrongly
+    result = build(
+        coordinates={"time": time},
+        columns={
+            "theta_v": np.deg2rad([60.0, 60.03, 60.0]),
+            "theta_v_ideal": np.deg2rad([60.0, 60.0, 60.01]),
+            "F_cx": [0.0, 3.0, 3.0],
+            "F_cy": [0.0, 4.0, 4.0],
+            "p_max": [1e6, 2e6, np.nan],
+        },
+        attributes={"solver": {"wall_time": 2.0}, "energy_residual": 0.002},
+    )
+    summary = summarise(result)
+    assert summary["vane_angle_error_max_deg"] == pytest.approx(0.03)
+    assert summary["contact_force_max_N"] == pytest.approx(5.0)
+    assert summary["contact_force_mean_N"] == pytest.approx((2.5 * 1 + 5 * 3) / 4)
+    assert summary["peak_pressure_MPa"] == pytest.approx(2.0)
+    assert summary["energy_residual_percent"] == pytest.approx(0.2)
+    assert summary["real_time_factor"] == pytest.approx(0.5)
+
+
+def test_what_is_missing_is_left_out_and_nothing_is_nan(make_result):
+    for end in (0.0, 0.005, 0.5):
+        summary = summarise(make_result(end, failure="stopped", energy_residual=math.nan))
+        numbers = [value for value in summary.values() if not isinstance(value, str)]
+        assert all(math.isfinite(value) for value in numbers)
+        assert "energy_residual_percent" not in summary
+        assert summary["failure"] == "stopped"
+
+
+def test_no_wear_rate_before_a_cycle_is_complete(make_result):
+    assert "wear_depth_rate_nm_per_1000_cycles" not in summarise(make_result(3.0))
+
+
+def test_another_mechanism_gives_what_it_has():
+    result = build(coordinates={"time": [0.0, 1.0]}, columns={"e_x": [0.0, 3e-6], "e_y": [0.0, 4e-6]})
+    assert summarise(result)["eccentricity_max_um"] == pytest.approx(5.0)
