@@ -56,11 +56,14 @@ def stored_energy(table: ContactTable, h_star: float) -> float:
     step = 1.0 / table.inverse_step
     x = (h_star - table.h_first) * table.inverse_step
     if not x >= 0.0:
-        return table.energy[0] - step * x * (nodes[0, 0] + 0.5 * x * nodes[0, 1])
+        below: float = table.energy[0] - step * x * (nodes[0, 0] + 0.5 * x * nodes[0, 1])
+        return below
     i = min(int(x), nodes.shape[0] - 2)
     x -= i
     rise = nodes[i + 1, 0] - nodes[i, 0]
     p_1 = nodes[i, 1]
     p_3 = p_1 + nodes[i + 1, 1] - 2.0 * rise
     p_2 = rise - p_1 - p_3
-    return table.energy[i] - step * x * (nodes[i, 0] + x * (p_1 / 2.0 + x * (p_2 / 3.0 + x * p_3 / 4.0)))
+    mean = nodes[i, 0] + x * (p_1 / 2.0 + x * (p_2 / 3.0 + x * p_3 / 4.0))
+    energy: float = table.energy[i] - step * x * mean
+    return energy

@@ -1,0 +1,219 @@
+"""A trunnion in a bushing with clearance, Eqs. 44, 45 and 48."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.tables import ContactTable
+from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+
+FRICTION_MODELS: Final = ("traction", "moment")
+"""Friction as traction along the actual slip, or as the paper's moment without a force."""
+
+
+@dataclass(frozen=True)
+class BushingGeometry:
+    """Dimensions of the joint [m].
+
+    Attributes
+    ----------
+    clearance
+        Radial clearance c = r_b − r_j.
+    radius
+        Radius r_j of the trunnion.
+    length
+        Length l_z of the bushing.
+    """
+
+    clearance: float
+    radius: float
+    length: float
+
+    @property
+    def bore_radius(self) -> float:
+        """Radius r_b of the bushing [m]."""
+        return self.radius + self.clearance
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Dry friction of the joint.
+
+    Attributes
+    ----------
+    coefficient
+        μ_f [1].
+    model
+        One of :data:`FRICTION_MODELS`.
+    slip_velocity
+        Regularisation velocity u_s of the traction [m/s].
+    """
+
+    coefficient: float
+    model: str
+    slip_velocity: float
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown friction model."""
+        if self.model not in FRICTION_MODELS:
+            raise InputError(
+                f"given {self.model!r}; allowed: {', '.join(FRICTION_MODELS)}", key="joint.friction"
+            )
+
+
+@dataclass(frozen=True)
+class EntryMemory:
+    """How a point of the bushing remembers the speed at which contact began.
+
+    Attributes
+    ----------
+    onset
+        Separation over σ below which a point is in contact [1].
+    minimum_velocity
+        Least entry velocity v_min [m/s].
+    tensile_clip
+        Whether the total pressure is kept from becoming tensile.
+    """
+
+    onset: float
+    minimum_velocity: float
+    tensile_clip: bool
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Quadrature nodes: ``theta`` around the circumference, ``z`` Gauss-Legendre along the axis."""
+
+    theta: int
+    z: int
+
+
+@dataclass(frozen=True)
+class BushingJoint:
+    """A bushing joint with its tabulated contact law.
+
+    Attributes
+    ----------
+    geometry, friction, entry, grid
+        See their classes.
+    roughness
+        Combined rms roughness σ [m].
+    table
+        Tabulated contact law.
+    """
+
+    geometry: BushingGeometry
+    friction: Friction
+    entry: EntryMemory
+    grid: Grid
+    roughness: float
+    table: ContactTable
+
+    @property
+    def theta(self) -> FloatArray:
+        """Angles of the nodes [rad], shape (n_theta,)."""
+        return 2.0 * np.pi * np.arange(self.grid.theta) / self.grid.theta
+
+    @property
+    def z(self) -> FloatArray:
+        """Axial positions of the rows of nodes, both edges included [m], shape (n_z + 2,)."""
+        points, _ = np.polynomial.legendre.leggauss(self.grid.z)
+        half = 0.5 * self.geometry.length
+        return np.concatenate([[-half], half * points, [half]])
+
+    @property
+    def node_area(self) -> FloatArray:
+        """Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges."""
+        _, weights = np.polynomial.legendre.leggauss(self.grid.z)
+        arc = 2.0 * np.pi / self.grid.theta * self.geometry.bore_radius
+        return np.concatenate([[0.0], 0.5 * self.geometry.length * weights * arc, [0.0]])
+
+    @property
+    def field_shape(self) -> tuple[int, int]:
+        """Shape (n_z + 2, n_theta) of a field over the nodes."""
+        return self.grid.z + 2, self.grid.theta
+
+    def data(self, wear: FloatArray | None = None) -> BushingData:
+        """Return what the kernels read.
+
+        Parameters
+        ----------
+        wear
+            Wear depth at the nodes [m], shape :attr:`field_shape`; none by default.
+        """
+        depth = np.zeros(self.field_shape) if wear is None else np.ascontiguousarray(wear, dtype=np.float64)
+        if depth.shape != self.field_shape:
+            raise InputError(f"wear depth has shape {depth.shape}, the grid {self.field_shape}")
+        return BushingData(
+            clearance=float(self.geometry.clearance),
+            journal_radius=float(self.geometry.radius),
+            bore_radius=float(self.geometry.bore_radius),
+            roughness=float(self.roughness),
+            friction_coefficient=float(self.friction.coefficient),
+            slip_velocity=float(self.friction.slip_velocity),
+            tangential=1.0 if self.friction.model == "traction" else 0.0,
+            onset=float(self.entry.onset),
+            minimum_entry_velocity=float(self.entry.minimum_velocity),
+            clip=1.0 if self.entry.tensile_clip else 0.0,
+            table=self.table,
+            cos_theta=np.cos(self.theta),
+            sin_theta=np.sin(self.theta),
+            z=self.z,
+            area=self.node_area,
+            wear=depth,
+        )
+
+    def no_memory(self) -> FloatArray:
+        """Return a field of entry velocities in which no point is in contact [m/s]."""
+        return np.zeros(self.field_shape)
+
+
+def joint_wrench(
+    data: BushingData,
+    y: FloatArray,
+    *,
+    omega: float = 0.0,
+    sign: float = 1.0,
+    entry_velocity: FloatArray | None = None,
+) -> FloatArray:
+    """Return the wrench (F_x, F_y, M_x, M_y, M_z) on the trunnion [N, N m], shape (5,).
+
+    Parameters
+    ----------
+    data
+        From :meth:`BushingJoint.data`.
+    y
+        Attitude and its rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), shape (8,), SI units.
+    omega
+        Vane speed ω_v [rad/s].
+    sign
+        s' of Eq. 45; used by the friction moment only.
+    entry_velocity
+        Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
+    """
+    memory = np.zeros(data.wear.shape) if entry_velocity is None else entry_velocity
+    out = np.empty(5)
+    wrench(data, memory, np.asarray(y, dtype=np.float64), float(omega), float(sign), out)
+    return out
+
+
+def joint_jacobian(
+    data: BushingData,
+    y: FloatArray,
+    *,
+    omega: float = 0.0,
+    sign: float = 1.0,
+    entry_velocity: FloatArray | None = None,
+) -> FloatArray:
+    """Return the derivative of :func:`joint_wrench` with respect to the eight states and ω_v, shape (5, 9)."""
+    memory = np.zeros(data.wear.shape) if entry_velocity is None else entry_velocity
+    out, jacobian, gradient = np.empty(5), np.empty((5, 9)), np.empty((3, 5))
+    state = np.asarray(y, dtype=np.float64)
+    wrench_and_jacobian(data, memory, state, float(omega), float(sign), out, jacobian, gradient)
+    return jacobian

@@ -1,0 +1,47 @@
+"""Dense linear solve for the small systems of a mechanism."""
+
+from __future__ import annotations
+
+import numba as nb
+
+from tribodyn.core.arrays import FloatArray
+
+
+@nb.njit(cache=True)
+def solve_in_place(matrix: FloatArray, rhs: FloatArray) -> None:
+    """Solve ``matrix x = rhs`` by Gaussian elimination with partial pivoting.
+
+    Parameters
+    ----------
+    matrix
+        Square matrix, shape (n, n); destroyed.
+    rhs
+        Right-hand sides as columns, shape (n, m); replaced by the solution.
+    """
+    n = matrix.shape[0]
+    m = rhs.shape[1]
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
+                pivot = i
+        if pivot != k:
+            for j in range(k, n):
+                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+            for j in range(m):
+                rhs[k, j], rhs[pivot, j] = rhs[pivot, j], rhs[k, j]
+        inverse = 1.0 / matrix[k, k]
+        for i in range(k + 1, n):
+            factor = matrix[i, k] * inverse
+            if factor != 0.0:
+                for j in range(k + 1, n):
+                    matrix[i, j] -= factor * matrix[k, j]
+                for j in range(m):
+                    rhs[i, j] -= factor * rhs[k, j]
+    for k in range(n - 1, -1, -1):
+        inverse = 1.0 / matrix[k, k]
+        for j in range(m):
+            total = rhs[k, j]
+            for i in range(k + 1, n):
+                total -= matrix[k, i] * rhs[i, j]
+            rhs[k, j] = total * inverse

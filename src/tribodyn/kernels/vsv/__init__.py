@@ -1,0 +1,1 @@
+"""Kernels of the variable stator vane mechanism."""

@@ -1,0 +1,145 @@
+"""What the kernels of the variable stator vane mechanism read and change."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.bushing.data import BushingData
+
+
+class VsvData(NamedTuple):
+    """Constants of the mechanism, SI units, symbols of the paper.
+
+    Attributes
+    ----------
+    exact
+        1 for the formulation ``exact``, 0 for ``paper``.
+    l_1, l_2, l_3, l_4
+        Crank, drag link, ring radius and lever arm [m].
+    pivot_x, pivot_z
+        Crank pivot A = (l_m cos γ, l_4, l_m sin γ) [m].
+    ring_angle
+        Angle φ between the two arms of the ring [rad].
+    half_length
+        l_z/2, height of the lever plane above the trunnion centre O_j [m].
+    vane_arm
+        Distance from O_j down to the vane centre: (l_v − l_z)/2, or l_v/2 in ``paper`` [m].
+    m_1, m_2, m_3, m_v
+        Masses [kg].
+    ring_inertia, link_inertia, crank_inertia
+        About the mass centres [kg m²].
+    inertia
+        Mass or moment of inertia of each row of the motion table, shape (N_ROWS,) [kg, kg m²].
+    weight
+        Gravity load of each row, shape (N_ROWS,) [N].
+    vane_weight
+        G_v = m_v g [N].
+    start_angle, speed_amplitude, angular_frequency
+        Drive: ω_a = Ω sin ν t from θ_a0 [rad, rad/s, rad/s].
+    air_force_x, air_force_y, air_moment
+        Loads of Table 3 [N, N, N m].
+    switch_angle, switch_width
+        Vane angle where F_airx changes sign and width of the change [rad].
+    collar_radius
+        r_t [m].
+    ideal_first, ideal_inverse_step, ideal
+        Table of the vane angle of the ideal mechanism over the crank angle: first angle [rad],
+        nodes per radian, and (θ_v, step dθ_v/dθ_a) at the nodes, shape (n, 2) [rad].
+    joint
+        The bushing.
+    """
+
+    exact: float
+    l_1: float
+    l_2: float
+    l_3: float
+    l_4: float
+    pivot_x: float
+    pivot_z: float
+    ring_angle: float
+    half_length: float
+    vane_arm: float
+    m_1: float
+    m_2: float
+    m_3: float
+    m_v: float
+    crank_inertia: float
+    link_inertia: float
+    ring_inertia: float
+    inertia: FloatArray
+    weight: FloatArray
+    vane_weight: float
+    start_angle: float
+    speed_amplitude: float
+    angular_frequency: float
+    air_force_x: float
+    air_force_y: float
+    air_moment: float
+    switch_angle: float
+    switch_width: float
+    collar_radius: float
+    ideal_first: float
+    ideal_inverse_step: float
+    ideal: FloatArray
+    joint: BushingData
+
+
+class Scratch(NamedTuple):
+    """Work arrays of one evaluation; they carry nothing from one evaluation to the next."""
+
+    motion: FloatArray
+    test: FloatArray
+    force: FloatArray
+    collar: FloatArray
+    mass: FloatArray
+    load: FloatArray
+    solved: FloatArray
+    acceleration: FloatArray
+    wrench: FloatArray
+    wrench_jacobian: FloatArray
+    gradient: FloatArray
+    report: FloatArray
+    rates: FloatArray
+    momentum: FloatArray
+    state: FloatArray
+    system: FloatArray
+    reactions: FloatArray
+
+
+class VsvMemory(NamedTuple):
+    """What accepted steps change.
+
+    Attributes
+    ----------
+    entry_velocity
+        δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta); 0 where there is no contact.
+    sliding_load, sliding_rate
+        ∫P_c |u| dt [N/m] and P_c |u| at the last accepted step [N/(m s)], same shape.
+    last_time
+        Time of the last mark and of the last accepted step [s], shape (2,).
+    regime
+        Direction of the ideal vane motion, ±1, and the vane speed that traction is told instead of
+        the actual one (0: none), shape (2,).
+    integrals
+        Path integrals of the energy ledgers [J], shape (N_INTEGRALS,).
+    rates
+        Their integrands at the last mark [W], shape (N_INTEGRALS,).
+    last_state
+        State at the last mark, shape (8,).
+    last_momentum
+        Clearance momentum N q̇ at the last mark, shape (4,) [kg m/s, kg m²/s].
+    scratch
+        Work arrays.
+    """
+
+    entry_velocity: FloatArray
+    sliding_load: FloatArray
+    sliding_rate: FloatArray
+    last_time: FloatArray
+    regime: FloatArray
+    integrals: FloatArray
+    rates: FloatArray
+    last_state: FloatArray
+    last_momentum: FloatArray
+    scratch: Scratch

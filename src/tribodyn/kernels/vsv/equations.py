@@ -1,0 +1,329 @@
+"""Projected equations of motion, M(q, t) q̈ = Q, section 6 of the model.
+
+Every body contributes Σ_rows (F_r − m_r a_r) δr = 0 along a test motion δr. In ``exact`` the test
+motions are the true ones, the columns of the motion table. In ``paper`` they are those with which
+the printed equations eliminate the reactions (rows of Eq. 46): ring and drag link with the vane
+following in translation, rotation of the vane about the pin, and the two tilts without the moment
+of the lever force.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba as nb
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.linalg import solve_in_place
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.layout import (
+    BIAS,
+    E_X,
+    E_Y,
+    N_ROWS,
+    N_X,
+    O2_X,
+    O3_X,
+    OV_X,
+    OV_Y,
+    PHI_X,
+    PHI_Y,
+    S1_X,
+    S1_Z,
+    S2_X,
+    S2_Z,
+    S3_Z,
+    THETA_B,
+    THETA_V,
+    VALUE,
+    VELOCITY,
+)
+from tribodyn.kernels.vsv.motion import fill_motion
+
+TILT_FLOOR = 1.0e-6
+"""Regularisation of the unit tilt vector [rad]."""
+
+
+@nb.njit(cache=True)
+def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> None:
+    """Fill the test motions (N_ROWS, 5): along the crank, then four for the clearance motion."""
+    if data.exact > 0.0:
+        for row in range(N_ROWS):
+            for k in range(5):
+                test[row, k] = motion[row, k]
+        return
+    test[:, :] = 0.0
+    for row in range(N_ROWS):
+        test[row, 0] = motion[row, 0]
+    s2_x, s2_z = motion[S2_X, VALUE], motion[S2_Z, VALUE]
+    d_x = s2_x - motion[S1_X, VALUE]
+    d_y = motion[S2_X + 1, VALUE] - data.l_4
+    d_z = s2_z - motion[S1_Z, VALUE]
+    kappa = -d_y / (d_z * s2_x - d_x * s2_z)
+    o3_x, o3_z = ring_centre(data, motion[THETA_B, VALUE])
+    test[THETA_B, 1] = kappa
+    d_s2 = (-s2_z * kappa, 1.0, s2_x * kappa)
+    d_o3 = (-o3_z * kappa, 1.0, o3_x * kappa)
+    for axis in range(3):
+        test[O2_X + axis, 1] = 0.5 * d_s2[axis]
+        test[N_X + axis, 1] = d_s2[axis] / data.l_2
+        test[O3_X + axis, 1] = d_o3[axis]
+    for row in (E_X, OV_X):
+        test[row, 1] = -motion[S3_Z, VALUE] * kappa
+        test[row + 1, 1] = 1.0
+    theta_v = motion[THETA_V, VALUE]
+    test[THETA_V, 2] = 1.0
+    for row in (E_X, OV_X):
+        test[row, 2] = data.l_4 * math.sin(theta_v)
+        test[row + 1, 2] = -data.l_4 * math.cos(theta_v)
+    test[PHI_X, 3] = 1.0
+    test[OV_Y, 3] = motion[OV_Y, 3]
+    test[PHI_Y, 4] = 1.0
+    test[OV_X, 4] = motion[OV_X, 4]
+
+
+@nb.njit(cache=True)
+def ring_centre(data: VsvData, theta_b: float) -> tuple[float, float]:
+    """Return x and z of the ring's mass centre relative to its axis [m]."""
+    radius = 0.5 * data.l_3 * math.cos(0.5 * data.ring_angle)
+    angle = theta_b - 0.5 * data.ring_angle
+    return -radius * math.sin(angle), radius * math.cos(angle)
+
+
+@nb.njit(cache=True)
+def air_loads(data: VsvData, theta_v: float, direction: float) -> tuple[float, float, float]:
+    """Return F_airx, F_airy [N] and M_air [N m], Table 3."""
+    f_x = data.air_force_x * math.tanh((theta_v - data.switch_angle) / data.switch_width)
+    return f_x, data.air_force_y, -data.air_moment * direction
+
+
+@nb.njit(cache=True)
+def slip_speed(memory: VsvMemory, motion: FloatArray) -> float:
+    """Return the vane speed that traction sees [rad/s]: the actual one, or fully sliding if asked."""
+    if memory.regime[1] != 0.0:
+        return memory.regime[1]
+    return motion[THETA_V, VELOCITY]
+
+
+@nb.njit(cache=True)
+def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
+    """Fill the force of each row and the collar's share per unit of F_cz from the joint wrench."""
+    scratch = memory.scratch
+    motion, force, collar = scratch.motion, scratch.force, scratch.collar
+    direction = memory.regime[0]
+    for row in range(N_ROWS):
+        force[row] = data.weight[row]
+    tan_x = math.tan(y[2])
+    tan_y = math.tan(y[3])
+    f_x, f_y, m_z = air_loads(data, motion[THETA_V, VALUE], direction)
+    force[E_X] = scratch.wrench[0]
+    force[E_Y] = scratch.wrench[1]
+    force[PHI_X] = (1.0 + tan_x * tan_x) * scratch.wrench[2]
+    force[PHI_Y] = (1.0 + tan_y * tan_y) * scratch.wrench[3]
+    force[THETA_V] = m_z + scratch.wrench[4]
+    force[OV_X] = f_x
+    force[OV_Y] = f_y
+    tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
+    collar[PHI_X] = -data.collar_radius * y[2] / tilt
+    collar[PHI_Y] = -data.collar_radius * y[3] / tilt
+    collar[THETA_V] = -direction * data.joint.friction_coefficient * data.collar_radius
+
+
+@nb.njit(cache=True)
+def assemble(data: VsvData, memory: VsvMemory) -> None:
+    """Fill the mass matrix (5, 4) and the load (5,); row 0 belongs to the crank and gives M_d."""
+    scratch = memory.scratch
+    motion, test, force = scratch.motion, scratch.test, scratch.force
+    mass, load = scratch.mass, scratch.load
+    mass[:, :] = 0.0
+    load[:] = 0.0
+    for row in range(N_ROWS):
+        inertia = data.inertia[row]
+        applied = force[row] - inertia * motion[row, BIAS]
+        for i in range(5):
+            share = test[row, i]
+            if share == 0.0:
+                continue
+            load[i] += share * applied
+            if inertia != 0.0:
+                for j in range(4):
+                    mass[i, j] += inertia * share * motion[row, 1 + j]
+
+
+@nb.njit(cache=True)
+def collar_share(memory: VsvMemory, i: int) -> float:
+    """Return the generalised force of a unit F_cz along test motion ``i``."""
+    test, collar = memory.scratch.test, memory.scratch.collar
+    return (
+        test[PHI_X, i] * collar[PHI_X] + test[PHI_Y, i] * collar[PHI_Y] + test[THETA_V, i] * collar[THETA_V]
+    )
+
+
+@nb.njit(cache=True)
+def lever_lift(data: VsvData, memory: VsvMemory) -> float:
+    """Return tan θ_b, the vertical per horizontal force of the frictionless pin; 0 in ``paper``."""
+    return math.tan(memory.scratch.motion[THETA_B, VALUE]) if data.exact > 0.0 else 0.0
+
+
+@nb.njit(cache=True)
+def add_collar(data: VsvData, memory: VsvMemory, factor: float) -> None:
+    """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
+    scratch = memory.scratch
+    lift = lever_lift(data, memory)
+    at_rest = data.vane_weight + lift * (
+        scratch.wrench[0] + scratch.force[OV_X] - data.m_v * scratch.motion[OV_X, BIAS]
+    )
+    for i in range(5):
+        share = factor * collar_share(memory, i)
+        scratch.load[i] += share * at_rest
+        for j in range(4):
+            scratch.mass[i, j] += share * lift * data.m_v * scratch.motion[OV_X, 1 + j]
+
+
+@nb.njit(cache=True)
+def collar_force(data: VsvData, memory: VsvMemory, acceleration: FloatArray) -> float:
+    """Return m_v g + F_43z [N] for given clearance accelerations; negative means lift-off."""
+    scratch = memory.scratch
+    x_ov = scratch.motion[OV_X, BIAS]
+    for j in range(4):
+        x_ov += scratch.motion[OV_X, 1 + j] * acceleration[j]
+    f_43x = scratch.wrench[0] + scratch.force[OV_X] - data.m_v * x_ov
+    return data.vane_weight + lever_lift(data, memory) * f_43x
+
+
+@nb.njit(cache=True)
+def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+    """Fill motion table and test motions; return the vane speed that traction sees [rad/s]."""
+    scratch = memory.scratch
+    fill_motion(data, t, y, scratch.motion)
+    fill_test_motions(data, scratch.motion, scratch.test)
+    return slip_speed(memory, scratch.motion)
+
+
+@nb.njit(cache=True)
+def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns: int) -> float:
+    """Solve for the clearance accelerations with the joint wrench in ``memory.scratch``.
+
+    Column 0 of ``solved`` becomes q̈; columns 1 to ``columns`` − 1, which the caller fills, are solved
+    with the same matrix. Where the collar would have to pull, it lets go (F_cz = 0).
+
+    Returns
+    -------
+    float
+        F_cz [N].
+    """
+    scratch = memory.scratch
+    fill_forces(data, y, memory)
+    assemble(data, memory)
+    add_collar(data, memory, 1.0)
+    f_cz = _solve(memory, data, columns)
+    if f_cz < 0.0:
+        add_collar(data, memory, -1.0)
+        _solve(memory, data, columns)
+        return 0.0
+    return f_cz
+
+
+@nb.njit(cache=True)
+def _solve(memory: VsvMemory, data: VsvData, columns: int) -> float:
+    """Solve the four clearance equations and return the collar force that follows."""
+    scratch = memory.scratch
+    for i in range(4):
+        scratch.solved[i, 0] = scratch.load[1 + i]
+        for j in range(4):
+            scratch.system[i, j] = scratch.mass[1 + i, j]
+    solve_in_place(scratch.system[:4, :4], scratch.solved[:, :columns])
+    for i in range(4):
+        scratch.acceleration[i] = scratch.solved[i, 0]
+    return collar_force(data, memory, scratch.acceleration)
+
+
+@nb.njit(cache=True)
+def drive_moment(memory: VsvMemory) -> float:
+    """Return M_d [N m] from the crank row of the projected equations."""
+    scratch = memory.scratch
+    moment = -scratch.load[0]
+    for j in range(4):
+        moment += scratch.mass[0, j] * scratch.acceleration[j]
+    return moment
+
+
+@nb.njit(cache=True)
+def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+    """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
+    omega = set_up(data, t, y, memory)
+    wrench(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], memory.scratch.wrench)
+    return solve_accelerations(data, y, memory, 1)
+
+
+@nb.njit(cache=True)
+def fill_load_gradient(
+    data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
+) -> None:
+    """Fill ∂(generalised joint and collar forces)/∂y (4, 8) with the motion table held fixed."""
+    scratch = memory.scratch
+    motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
+    sec2_x = 1.0 + math.tan(y[2]) ** 2
+    sec2_y = 1.0 + math.tan(y[3]) ** 2
+    lift = lever_lift(data, memory) if f_cz > 0.0 else 0.0
+    free_slip = 1.0 if memory.regime[1] == 0.0 else 0.0
+    tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
+    collar_xx = -data.collar_radius * f_cz * (tilt * tilt - y[2] * y[2]) / tilt**3
+    collar_yy = -data.collar_radius * f_cz * (tilt * tilt - y[3] * y[3]) / tilt**3
+    collar_xy = data.collar_radius * f_cz * y[2] * y[3] / tilt**3
+    for i in range(4):
+        c_i = collar_share(memory, 1 + i)
+        t_x = test[E_X, 1 + i] + c_i * lift
+        t_y = test[E_Y, 1 + i]
+        t_px = test[PHI_X, 1 + i]
+        t_py = test[PHI_Y, 1 + i]
+        t_v = test[THETA_V, 1 + i]
+        d_omega = (
+            t_x * dw[0, 8]
+            + t_y * dw[1, 8]
+            + t_px * sec2_x * dw[2, 8]
+            + t_py * sec2_y * dw[3, 8]
+            + t_v * dw[4, 8]
+        )
+        for k in range(8):
+            total = (
+                t_x * dw[0, k]
+                + t_y * dw[1, k]
+                + t_px * sec2_x * dw[2, k]
+                + t_py * sec2_y * dw[3, k]
+                + t_v * dw[4, k]
+            )
+            if k >= 4:
+                total += free_slip * d_omega * motion[THETA_V, k - 3]
+            gradient[i, k] = total
+        gradient[i, 2] += t_px * collar_xx + t_py * collar_xy
+        gradient[i, 3] += t_px * collar_xy + t_py * collar_yy
+
+
+@nb.njit(cache=True)
+def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+    """As :func:`accelerations`, and leave ∂q̈/∂y in columns 1 to 8 of ``memory.scratch.solved``.
+
+    Exact in the joint and the collar; the slow dependence of geometry and mass matrix on the
+    clearance coordinates, smaller by five orders than the contact stiffness, is left out.
+    """
+    scratch = memory.scratch
+    omega = set_up(data, t, y, memory)
+    wrench_and_jacobian(
+        data.joint,
+        memory.entry_velocity,
+        y,
+        omega,
+        -memory.regime[0],
+        scratch.wrench,
+        scratch.wrench_jacobian,
+        scratch.gradient,
+    )
+    f_cz = solve_accelerations(data, y, memory, 1)
+    fill_load_gradient(data, y, memory, f_cz, scratch.solved[:, 1:])
+    for i in range(4):
+        for j in range(4):
+            scratch.system[i, j] = scratch.mass[1 + i, j]
+    solve_in_place(scratch.system[:4, :4], scratch.solved[:, 1:])
+    return f_cz

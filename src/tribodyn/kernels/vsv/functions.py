@@ -1,0 +1,121 @@
+"""The compiled functions of the VSV problem, as the protocol in ``core/problem.py`` asks for them."""
+
+from __future__ import annotations
+
+import numba as nb
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
+from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv.closure import drive
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.equations import (
+    accelerations,
+    accelerations_and_gradient,
+    set_up,
+)
+from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
+
+
+@nb.njit(cache=True)
+def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray) -> None:
+    """Fill ``f`` (8,) with the time derivative of the state."""
+    accelerations(data, t, y, memory)
+    for i in range(4):
+        f[i] = y[4 + i]
+        f[4 + i] = memory.scratch.acceleration[i]
+
+
+@nb.njit(cache=True)
+def jac(
+    t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray, jacobian: FloatArray
+) -> None:
+    """Fill ``f`` (8,) and its derivative ``jacobian`` (8, 8)."""
+    accelerations_and_gradient(data, t, y, memory)
+    jacobian[:, :] = 0.0
+    for i in range(4):
+        f[i] = y[4 + i]
+        f[4 + i] = memory.scratch.acceleration[i]
+        jacobian[i, 4 + i] = 1.0
+        for k in range(8):
+            jacobian[4 + i, k] = memory.scratch.solved[i, 1 + k]
+
+
+@nb.njit(cache=True)
+def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
+    """Begin a segment: set the direction of the ideal vane motion.
+
+    The direction is that of the crank just after ``t``, since θ_v grows with θ_a.
+    """
+    _, omega_a, alpha_a = drive(data, t)
+    at_reversal = abs(omega_a) < 1.0e-9 * abs(data.speed_amplitude)
+    speed = alpha_a if at_reversal else omega_a
+    memory.regime[0] = 1.0 if speed >= 0.0 else -1.0
+    ledger.begin(data, t, y, memory)
+    memory.last_time[1] = t
+
+
+@nb.njit(cache=True)
+def advance(
+    t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: VsvData, memory: VsvMemory
+) -> None:
+    """Add the path integrals of the energy ledgers over ``[t_a, t_b]``."""
+    ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
+
+
+@nb.njit(cache=True)
+def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
+    """Update entry velocities and sliding load at the end of an accepted step."""
+    add_sliding_load(t, y, data, memory)
+    update_entry_velocity(data.joint, y, memory.entry_velocity, 0.0)
+
+
+@nb.njit(cache=True)
+def add_sliding_load(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
+    """Add P_c |u|, u = ω_v r_j, over the step by the trapezoidal rule (Eq. 47 and the text below it)."""
+    half_step = 0.5 * (t - memory.last_time[1])
+    memory.sliding_load[:, :] += half_step * memory.sliding_rate
+    set_up(data, t, y, memory)
+    slip = abs(memory.scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
+    pressure_field(data.joint, memory.entry_velocity, y, memory.sliding_rate)
+    memory.sliding_rate[:, :] *= slip
+    memory.sliding_load[:, :] += half_step * memory.sliding_rate
+    memory.last_time[1] = t
+
+
+@nb.njit(cache=True)
+def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatArray) -> None:
+    """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
+    pressure_field(data.joint, memory.entry_velocity, y, fields[0])
+
+
+@nb.njit(cache=True)
+def kinetostatic_residual(
+    t: float, q: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatArray
+) -> None:
+    """Fill the generalised load that remains with q̇ = q̈ = 0, and its derivative.
+
+    Parameters
+    ----------
+    t
+        Time [s]; the ideal motion at that time is included.
+    q
+        Attitude (e_x, e_y, φ_x, φ_y), shape (4,).
+    data, memory
+        As for ``rhs``.
+    residual
+        Generalised loads [N, N m], shape (4,).
+    jacobian
+        Derivative with the geometry of the rods held fixed, shape (4, 4).
+    """
+    y = memory.scratch.state
+    y[:4] = q
+    y[4:] = 0.0
+    accelerations_and_gradient(data, t, y, memory)
+    for i in range(4):
+        residual[i] = memory.scratch.load[1 + i]
+        for k in range(4):
+            total = 0.0
+            for j in range(4):
+                total += memory.scratch.mass[1 + i, j] * memory.scratch.solved[j, 1 + k]
+            jacobian[i, k] = total

@@ -1,0 +1,256 @@
+"""Positions, velocities and accelerations of every body as a motion table, section 2.2 of the paper.
+
+``exact``: everything follows from the closure with the trunnion where it is; derivatives by
+implicit differentiation. ``paper``: the rods follow the ideal closure and the clearance motion
+shifts O2 by (e_x/2, e_y/2) and O3 by (e_x/2, e_y), Appendix 2.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba as nb
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.vsv.closure import drive, vane_angle
+from tribodyn.kernels.vsv.data import VsvData
+from tribodyn.kernels.vsv.layout import (
+    BIAS,
+    E_X,
+    E_Y,
+    N_X,
+    O1_X,
+    O2_X,
+    O2_Y,
+    O3_X,
+    O3_Y,
+    O3_Z,
+    OV_X,
+    OV_Y,
+    PHI_X,
+    PHI_Y,
+    S1_X,
+    S1_Z,
+    S2_X,
+    S2_Y,
+    S2_Z,
+    S3_X,
+    S3_Y,
+    S3_Z,
+    THETA_A,
+    THETA_B,
+    THETA_V,
+    VALUE,
+    VELOCITY,
+)
+
+
+@nb.njit(cache=True)
+def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> None:
+    """Fill the motion table (N_ROWS, N_COLUMNS) at time ``t`` [s] and state ``y`` (8,)."""
+    motion[:, :] = 0.0
+    if data.exact > 0.0:
+        _fill_trunnion(data, y, motion)
+        fill_rods(data, t, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)
+    else:
+        fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+        for row in range(E_X):
+            for column in range(1, 5):
+                motion[row, column] = 0.0
+        for row in range(S1_X, S3_Z + 1):
+            for column in range(1, 5):
+                motion[row, column] = 0.0
+        _fill_trunnion(data, y, motion)
+        _shift(motion, O2_X, 1, 0.5, y[0], y[4])
+        _shift(motion, O2_Y, 2, 0.5, y[1], y[5])
+        _shift(motion, O3_X, 1, 0.5, y[0], y[4])
+        _shift(motion, O3_Y, 2, 1.0, y[1], y[5])
+
+
+@nb.njit(cache=True)
+def _shift(motion: FloatArray, row: int, column: int, share: float, value: float, rate: float) -> None:
+    """Shift a row by ``share`` of one clearance coordinate."""
+    motion[row, column] = share
+    motion[row, VALUE] += share * value
+    motion[row, VELOCITY] += share * rate
+
+
+@nb.njit(cache=True)
+def _fill_trunnion(data: VsvData, y: FloatArray, motion: FloatArray) -> None:
+    """Fill the rows of the trunnion and of the vane centre O_v."""
+    for k in range(4):
+        motion[E_X + k, 1 + k] = 1.0
+        motion[E_X + k, VELOCITY] = y[4 + k]
+        motion[E_X + k, VALUE] = y[k]
+    arm = data.vane_arm
+    tan_x = math.tan(y[2])
+    tan_y = math.tan(y[3])
+    sec2_x = 1.0 + tan_x * tan_x
+    sec2_y = 1.0 + tan_y * tan_y
+    motion[OV_X, 1] = 1.0
+    motion[OV_X, 4] = arm * sec2_y
+    motion[OV_X, VELOCITY] = y[4] + arm * sec2_y * y[7]
+    motion[OV_X, BIAS] = 2.0 * arm * sec2_y * tan_y * y[7] * y[7]
+    motion[OV_X, VALUE] = y[0] + arm * tan_y
+    motion[OV_Y, 2] = 1.0
+    motion[OV_Y, 3] = arm * sec2_x
+    motion[OV_Y, VELOCITY] = y[5] + arm * sec2_x * y[6]
+    motion[OV_Y, BIAS] = 2.0 * arm * sec2_x * tan_x * y[6] * y[6]
+    motion[OV_Y, VALUE] = y[1] + arm * tan_x
+
+
+@nb.njit(cache=True)
+def fill_rods(
+    data: VsvData,
+    t: float,
+    e_x: float,
+    e_y: float,
+    phi_x: float,
+    phi_y: float,
+    e_x_dot: float,
+    e_y_dot: float,
+    phi_x_dot: float,
+    phi_y_dot: float,
+    motion: FloatArray,
+) -> None:
+    """Fill the rows of crank, drag link, ring and vane rotation from the closure."""
+    theta_a, omega_a, alpha_a = drive(data, t)
+    tan_x = math.tan(phi_x)
+    tan_y = math.tan(phi_y)
+    sec2_x = 1.0 + tan_x * tan_x
+    sec2_y = 1.0 + tan_y * tan_y
+    theta_v = vane_angle(data, theta_a, e_x, e_y, tan_x, tan_y)
+    sin_v = math.sin(theta_v)
+    cos_v = math.cos(theta_v)
+    l_4 = data.l_4
+    half = data.half_length
+
+    sin_a = math.sin(theta_a)
+    cos_a = math.cos(theta_a)
+    s1_x = data.pivot_x - data.l_1 * sin_a
+    s1_z = data.pivot_z + data.l_1 * cos_a
+    s1_x_a = -data.l_1 * cos_a
+    s1_z_a = -data.l_1 * sin_a
+
+    x3 = e_x + l_4 * cos_v - half * tan_y
+    y3 = e_y + l_4 * sin_v - half * tan_x
+    z3 = data.l_3 + l_4 * (sin_v * tan_x + cos_v * tan_y)
+    r2 = x3 * x3 + z3 * z3
+    theta_b = math.atan2(-x3, z3)
+    beta = data.ring_angle - theta_b
+    s2_x = data.l_3 * math.sin(beta)
+    s2_z = data.l_3 * math.cos(beta)
+    d_x = s2_x - s1_x
+    d_y = y3 - l_4
+    d_z = s2_z - s1_z
+
+    # Partial derivatives along θ_v alone.
+    x3_v = -l_4 * sin_v
+    y3_v = l_4 * cos_v
+    z3_v = l_4 * (cos_v * tan_x - sin_v * tan_y)
+    b_v = (-z3 * x3_v + x3 * z3_v) / r2
+    g_v = (d_z * s2_x - d_x * s2_z) * b_v + d_y * y3_v
+
+    rates = (omega_a, e_x_dot, e_y_dot, phi_x_dot, phi_y_dot)
+    for k in range(5):
+        x3_k = 1.0 if k == 1 else (-half * sec2_y if k == 4 else 0.0)
+        y3_k = 1.0 if k == 2 else (-half * sec2_x if k == 3 else 0.0)
+        z3_k = l_4 * sin_v * sec2_x if k == 3 else (l_4 * cos_v * sec2_y if k == 4 else 0.0)
+        b_k = (-z3 * x3_k + x3 * z3_k) / r2
+        g_k = (d_z * s2_x - d_x * s2_z) * b_k + d_y * y3_k
+        if k == 0:
+            g_k -= d_x * s1_x_a + d_z * s1_z_a
+        v_k = -g_k / g_v
+        motion[THETA_V, k] = v_k
+        motion[THETA_B, k] = b_k + b_v * v_k
+        motion[S3_X, k] = x3_k + x3_v * v_k
+        motion[S3_Y, k] = y3_k + y3_v * v_k
+        motion[S3_Z, k] = z3_k + z3_v * v_k
+    motion[THETA_A, 0] = 1.0
+    motion[S1_X, 0] = s1_x_a
+    motion[S1_Z, 0] = s1_z_a
+    for row in (THETA_A, THETA_V, THETA_B, S1_X, S1_Z, S3_X, S3_Y, S3_Z):
+        for k in range(5):
+            motion[row, VELOCITY] += motion[row, k] * rates[k]
+
+    motion[THETA_A, VALUE] = theta_a
+    motion[THETA_A, BIAS] = alpha_a
+    motion[THETA_V, VALUE] = theta_v
+    motion[THETA_B, VALUE] = theta_b
+    motion[S1_X, VALUE] = s1_x
+    motion[S1_Z, VALUE] = s1_z
+    motion[S1_X, BIAS] = s1_x_a * alpha_a + data.l_1 * sin_a * omega_a * omega_a
+    motion[S1_Z, BIAS] = s1_z_a * alpha_a - data.l_1 * cos_a * omega_a * omega_a
+    motion[S3_X, VALUE] = x3
+    motion[S3_Y, VALUE] = y3
+    motion[S3_Z, VALUE] = z3
+
+    # Accelerations with the clearance accelerations zero: first with θ̈_v = 0, then θ̈_v from the closure.
+    omega_v = motion[THETA_V, VELOCITY]
+    omega_b = motion[THETA_B, VELOCITY]
+    tan_x_1 = sec2_x * phi_x_dot
+    tan_y_1 = sec2_y * phi_y_dot
+    tan_x_2 = 2.0 * tan_x * tan_x_1 * phi_x_dot
+    tan_y_2 = 2.0 * tan_y * tan_y_1 * phi_y_dot
+    x3_2 = -l_4 * cos_v * omega_v * omega_v - half * tan_y_2
+    y3_2 = -l_4 * sin_v * omega_v * omega_v - half * tan_x_2
+    z3_2 = l_4 * (
+        -(sin_v * tan_x + cos_v * tan_y) * omega_v * omega_v
+        + 2.0 * omega_v * (cos_v * tan_x_1 - sin_v * tan_y_1)
+        + sin_v * tan_x_2
+        + cos_v * tan_y_2
+    )
+    x3_1 = motion[S3_X, VELOCITY]
+    y3_1 = motion[S3_Y, VELOCITY]
+    z3_1 = motion[S3_Z, VELOCITY]
+    b_2 = (-z3 * x3_2 + x3 * z3_2 - 2.0 * omega_b * (x3 * x3_1 + z3 * z3_1)) / r2
+    dot_x = -s2_z * omega_b - motion[S1_X, VELOCITY]
+    dot_z = s2_x * omega_b - motion[S1_Z, VELOCITY]
+    speed2 = dot_x * dot_x + y3_1 * y3_1 + dot_z * dot_z
+    ddot_x = -s2_z * b_2 - s2_x * omega_b * omega_b - motion[S1_X, BIAS]
+    ddot_z = s2_x * b_2 - s2_z * omega_b * omega_b - motion[S1_Z, BIAS]
+    v_2 = -(d_x * ddot_x + d_y * y3_2 + d_z * ddot_z + speed2) / g_v
+    motion[THETA_V, BIAS] = v_2
+    motion[THETA_B, BIAS] = b_2 + b_v * v_2
+    motion[S3_X, BIAS] = x3_2 + x3_v * v_2
+    motion[S3_Y, BIAS] = y3_2 + y3_v * v_2
+    motion[S3_Z, BIAS] = z3_2 + z3_v * v_2
+    _fill_bodies(data, motion, s2_x, s2_z, omega_b, theta_b)
+
+
+@nb.njit(cache=True)
+def _fill_bodies(
+    data: VsvData, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
+) -> None:
+    """Fill S2, the mass centres O1, O2, O3 and the direction n of the drag link."""
+    radius = 0.5 * data.l_3 * math.cos(0.5 * data.ring_angle)
+    o3_x = -radius * math.sin(theta_b - 0.5 * data.ring_angle)
+    o3_z = radius * math.cos(theta_b - 0.5 * data.ring_angle)
+    for k in range(7):
+        b_k = motion[THETA_B, k]
+        motion[S2_X, k] = -s2_z * b_k
+        motion[S2_Y, k] = motion[S3_Y, k]
+        motion[S2_Z, k] = s2_x * b_k
+        motion[O3_X, k] = -o3_z * b_k
+        motion[O3_Y, k] = motion[S3_Y, k]
+        motion[O3_Z, k] = o3_x * b_k
+    centripetal = omega_b * omega_b
+    motion[S2_X, BIAS] -= s2_x * centripetal
+    motion[S2_Z, BIAS] -= s2_z * centripetal
+    motion[O3_X, BIAS] -= o3_x * centripetal
+    motion[O3_Z, BIAS] -= o3_z * centripetal
+    motion[S2_X, VALUE] = s2_x
+    motion[S2_Y, VALUE] = motion[S3_Y, VALUE]
+    motion[S2_Z, VALUE] = s2_z
+    motion[O3_X, VALUE] = o3_x
+    motion[O3_Y, VALUE] = motion[S3_Y, VALUE]
+    motion[O3_Z, VALUE] = o3_z
+    for k in range(8):
+        at_value = 1.0 if k == VALUE else 0.0
+        s1 = (motion[S1_X, k], at_value * data.l_4, motion[S1_Z, k])
+        pivot = (at_value * data.pivot_x, 0.0, at_value * data.pivot_z)
+        motion[O1_X, k] = 0.5 * (pivot[0] + s1[0])
+        motion[O1_X + 1, k] = 0.5 * (pivot[2] + s1[2])
+        for axis in range(3):
+            motion[O2_X + axis, k] = 0.5 * (s1[axis] + motion[S2_X + axis, k])
+            motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) / data.l_2

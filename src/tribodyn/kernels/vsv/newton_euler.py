@@ -1,0 +1,226 @@
+"""The full Newton-Euler system, Eqs. 20-43: four accelerations and twenty reactions at once.
+
+Twenty-four equations for (ë_x, ë_y, φ̈_x, φ̈_y), the eighteen reactions of the paper, and F_43z and
+F_cz, which follow from the pin and the vertical balance of the vane. It is assembled body by body,
+independently of the projected equations, and gives the reactions.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba as nb
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.linalg import solve_in_place
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.equations import air_loads, ring_centre
+from tribodyn.kernels.vsv.layout import (
+    BIAS,
+    N_X,
+    O1_X,
+    O1_Z,
+    O2_X,
+    O3_X,
+    O3_Y,
+    O3_Z,
+    OV_X,
+    OV_Y,
+    PHI_X,
+    PHI_Y,
+    S2_X,
+    S2_Z,
+    S3_X,
+    S3_Z,
+    THETA_A,
+    THETA_B,
+    THETA_V,
+    VALUE,
+)
+
+F_AX, F_AY, F_AZ, M_AX, M_AZ, M_D = 4, 5, 6, 7, 8, 9
+F_21, F_32, F_43 = 10, 13, 16
+F_BX, F_BZ, M_BX, M_BZ, F_CZ = 19, 20, 21, 22, 23
+N_UNKNOWNS = 24
+
+
+@nb.njit(cache=True)
+def _inertia(
+    data: VsvData, motion: FloatArray, row: int, eq: int, matrix: FloatArray, rhs: FloatArray
+) -> None:
+    """Subtract the inertia force of a motion row from equation ``eq``."""
+    for j in range(4):
+        matrix[eq, j] -= data.inertia[row] * motion[row, 1 + j]
+    rhs[eq, 0] += data.inertia[row] * motion[row, BIAS]
+
+
+@nb.njit(cache=True)
+def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+    """Equations 20 to 25; arms from the mass centre O_1."""
+    theta_a = motion[THETA_A, VALUE]
+    x_a = 0.5 * data.l_1 * math.sin(theta_a)
+    z_a = -0.5 * data.l_1 * math.cos(theta_a)
+    x_1, z_1 = -x_a, -z_a
+    matrix[0, F_AX] = 1.0
+    matrix[0, F_21] = 1.0
+    _inertia(data, motion, O1_X, 0, matrix, rhs)
+    matrix[1, F_AY] = 1.0
+    matrix[1, F_21 + 1] = 1.0
+    matrix[2, F_AZ] = 1.0
+    matrix[2, F_21 + 2] = 1.0
+    _inertia(data, motion, O1_Z, 2, matrix, rhs)
+    rhs[2, 0] -= data.weight[O1_Z]
+    matrix[3, F_AY] = -z_a
+    matrix[3, F_21 + 1] = -z_1
+    matrix[3, M_AX] = 1.0
+    matrix[4, F_AZ] = x_a
+    matrix[4, F_AX] = -z_a
+    matrix[4, F_21 + 2] = x_1
+    matrix[4, F_21] = -z_1
+    matrix[4, M_D] = 1.0
+    _inertia(data, motion, THETA_A, 4, matrix, rhs)
+    matrix[5, F_AY] = x_a
+    matrix[5, F_21 + 1] = x_1
+    matrix[5, M_AZ] = 1.0
+
+
+@nb.njit(cache=True)
+def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+    """Equations 26 to 31, the moments projected on two directions across the thin rod.
+
+    The inertia moment is −J n × n̈, so every term of the moment balance is n × (…), and the balance
+    says that (l_2/2)(F_32 + F_21) − J n̈ has no part across n.
+    """
+    for axis in range(3):
+        matrix[6 + axis, F_32 + axis] = 1.0
+        matrix[6 + axis, F_21 + axis] = -1.0
+        _inertia(data, motion, O2_X + axis, 6 + axis, matrix, rhs)
+        rhs[6 + axis, 0] -= data.weight[O2_X + axis]
+    n_x, n_y, n_z = motion[N_X, VALUE], motion[N_X + 1, VALUE], motion[N_X + 2, VALUE]
+    # The drag link never points along Y, so these two span the plane across it.
+    first = (n_z, 0.0, -n_x)
+    second = (n_x * n_y, -(n_x * n_x + n_z * n_z), n_y * n_z)
+    for eq, across in ((9, first), (10, second)):
+        for axis in range(3):
+            row = N_X + axis
+            matrix[eq, F_32 + axis] = 0.5 * data.l_2 * across[axis]
+            matrix[eq, F_21 + axis] = 0.5 * data.l_2 * across[axis]
+            for j in range(4):
+                matrix[eq, j] -= across[axis] * data.link_inertia * motion[row, 1 + j]
+            rhs[eq, 0] += across[axis] * data.link_inertia * motion[row, BIAS]
+
+
+@nb.njit(cache=True)
+def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+    """Equations 32 to 37 with F_43z; arms from the mass centre O_3."""
+    o3_x, o3_z = ring_centre(data, motion[THETA_B, VALUE])
+    x_2, z_2 = motion[S2_X, VALUE] - o3_x, motion[S2_Z, VALUE] - o3_z
+    x_3, z_3 = motion[S3_X, VALUE] - o3_x, motion[S3_Z, VALUE] - o3_z
+    x_b, z_b = -o3_x, -o3_z
+    for axis in range(3):
+        matrix[11 + axis, F_43 + axis] = 1.0
+        matrix[11 + axis, F_32 + axis] = -1.0
+    matrix[11, F_BX] = 1.0
+    matrix[13, F_BZ] = 1.0
+    _inertia(data, motion, O3_X, 11, matrix, rhs)
+    _inertia(data, motion, O3_Y, 12, matrix, rhs)
+    _inertia(data, motion, O3_Z, 13, matrix, rhs)
+    rhs[13, 0] -= data.weight[O3_Z]
+    matrix[14, F_32 + 1] = z_2
+    matrix[14, F_43 + 1] = -z_3
+    matrix[14, M_BX] = 1.0
+    matrix[15, F_32] = z_2
+    matrix[15, F_32 + 2] = -x_2
+    matrix[15, F_BX] = -z_b
+    matrix[15, F_BZ] = x_b
+    matrix[15, F_43] = -z_3
+    matrix[15, F_43 + 2] = x_3
+    _inertia(data, motion, THETA_B, 15, matrix, rhs)
+    matrix[16, F_43 + 1] = x_3
+    matrix[16, F_32 + 1] = -x_2
+    matrix[16, M_BZ] = 1.0
+
+
+@nb.njit(cache=True)
+def _vane(
+    data: VsvData,
+    y: FloatArray,
+    memory: VsvMemory,
+    lifted: float,
+    matrix: FloatArray,
+    rhs: FloatArray,
+) -> None:
+    """Equations 38 to 43 and the condition of the frictionless pin."""
+    scratch = memory.scratch
+    motion, collar, joint = scratch.motion, scratch.collar, scratch.wrench
+    direction = memory.regime[0]
+    theta_v = motion[THETA_V, VALUE]
+    f_x, f_y, m_z = air_loads(data, theta_v, direction)
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    sec2_x, sec2_y = 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
+    arm_x, arm_y = data.vane_arm * sec2_x, data.vane_arm * sec2_y
+    lever = data.exact
+    sin_v, cos_v = math.sin(theta_v), math.cos(theta_v)
+
+    matrix[17, F_43] = -1.0
+    rhs[17, 0] -= joint[0] + f_x
+    _inertia(data, motion, OV_X, 17, matrix, rhs)
+    matrix[18, F_43 + 1] = -1.0
+    rhs[18, 0] -= joint[1] + f_y
+    _inertia(data, motion, OV_Y, 18, matrix, rhs)
+    matrix[19, F_CZ] = 1.0
+    if lifted == 0.0:
+        matrix[19, F_43 + 2] = -1.0
+        rhs[19, 0] = data.vane_weight
+
+    matrix[20, F_43 + 1] = lever * data.half_length * sec2_x
+    matrix[20, F_43 + 2] = -lever * data.l_4 * sin_v * sec2_x
+    matrix[20, F_CZ] = collar[PHI_X]
+    rhs[20, 0] -= sec2_x * joint[2] + arm_x * f_y
+    _inertia(data, motion, PHI_X, 20, matrix, rhs)
+    matrix[21, F_43] = lever * data.half_length * sec2_y
+    matrix[21, F_43 + 2] = -lever * data.l_4 * cos_v * sec2_y
+    matrix[21, F_CZ] = collar[PHI_Y]
+    rhs[21, 0] -= sec2_y * joint[3] + arm_y * f_x
+    _inertia(data, motion, PHI_Y, 21, matrix, rhs)
+    for j in range(4):
+        matrix[20, j] -= arm_x * data.m_v * motion[OV_Y, 1 + j]
+        matrix[21, j] -= arm_y * data.m_v * motion[OV_X, 1 + j]
+    rhs[20, 0] += arm_x * data.m_v * motion[OV_Y, BIAS]
+    rhs[21, 0] += arm_y * data.m_v * motion[OV_X, BIAS]
+
+    matrix[22, F_43] = data.l_4 * sin_v
+    matrix[22, F_43 + 1] = -data.l_4 * cos_v
+    matrix[22, F_43 + 2] = -lever * data.l_4 * (cos_v * tan_x - sin_v * tan_y)
+    matrix[22, F_CZ] = collar[THETA_V]
+    rhs[22, 0] -= joint[4] + m_z
+    _inertia(data, motion, THETA_V, 22, matrix, rhs)
+
+    matrix[23, F_43 + 2] = 1.0
+    matrix[23, F_43] = -lever * math.tan(motion[THETA_B, VALUE])
+
+
+@nb.njit(cache=True)
+def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float) -> None:
+    """Fill ``memory.scratch.reactions`` (24, 1) from the motion table and joint wrench in scratch.
+
+    Parameters
+    ----------
+    data
+        Constants.
+    y
+        State, shape (8,).
+    memory
+        Holds motion table, collar shares and joint wrench of this instant.
+    lifted
+        1 where the collar has let go (F_cz = 0), 0 otherwise.
+    """
+    matrix, rhs = memory.scratch.system, memory.scratch.reactions
+    motion = memory.scratch.motion
+    matrix[:, :] = 0.0
+    rhs[:, :] = 0.0
+    _crank(data, motion, matrix, rhs)
+    _drag_link(data, motion, matrix, rhs)
+    _ring(data, motion, matrix, rhs)
+    _vane(data, y, memory, lifted, matrix, rhs)
+    solve_in_place(matrix, rhs)

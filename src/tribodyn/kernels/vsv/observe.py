@@ -1,0 +1,149 @@
+"""One row of observed quantities, in the order of :data:`OBSERVED`."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numba as nb
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv import newton_euler as ne
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.layout import (
+    OV_X,
+    OV_Y,
+    PHI_X,
+    PHI_Y,
+    S3_Y,
+    THETA_A,
+    THETA_B,
+    THETA_V,
+    VALUE,
+    VELOCITY,
+)
+from tribodyn.kernels.vsv.motion import fill_rods
+
+STATES: Final = ("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot")
+MOTION: Final = (
+    "theta_a",
+    "theta_b",
+    "theta_v",
+    "theta_v_ideal",
+    "omega_a",
+    "omega_v",
+    "omega_v_ideal",
+    "h_1",
+)
+JOINT: Final = (
+    "F_cx",
+    "F_cy",
+    "M_jcx",
+    "M_jcy",
+    "F_kx",
+    "F_ky",
+    "F_fx",
+    "F_fy",
+    "M_fx",
+    "M_fy",
+    "M_jf",
+    "damping_power",
+    "friction_power",
+    "energy_contact",
+    "p_max",
+    "separation_min",
+    "tensile_clip_share",
+    "contact_fraction",
+)
+COLLAR: Final = ("M_tcx", "M_tcy", "M_tf")
+REACTIONS: Final = (
+    "F_ax",
+    "F_ay",
+    "F_az",
+    "M_ax",
+    "M_az",
+    "M_d",
+    "F_21x",
+    "F_21y",
+    "F_21z",
+    "F_32x",
+    "F_32y",
+    "F_32z",
+    "F_43x",
+    "F_43y",
+    "F_43z",
+    "F_bx",
+    "F_bz",
+    "M_bx",
+    "M_bz",
+    "F_cz",
+)
+AIR: Final = ("F_airx", "F_airy", "M_air")
+ENERGIES: Final = ("energy_kinetic", "energy_gravity")
+INTEGRALS: Final = (
+    "work_drive",
+    "work_loads",
+    "work_friction",
+    "work_collar_friction",
+    "work_collar_tilt",
+    "heat_damping",
+    "work_clearance_loads",
+    "work_clearance_friction",
+    "work_clearance_collar",
+    "work_clearance_inertia",
+)
+OBSERVED: Final = STATES + MOTION + JOINT + COLLAR + REACTIONS + AIR + ENERGIES + INTEGRALS
+
+_MOTION = len(STATES)
+_JOINT = _MOTION + len(MOTION)
+_COLLAR = _JOINT + len(JOINT)
+_REACTIONS = _COLLAR + len(COLLAR)
+_AIR = _REACTIONS + len(REACTIONS)
+_ENERGIES = _AIR + len(AIR)
+_INTEGRALS = _ENERGIES + len(ENERGIES)
+
+
+@nb.njit(cache=True)
+def _actual_vane(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row: FloatArray) -> None:
+    """Fill ideal and actual vane angle and speed.
+
+    In ``paper`` the actual angle is read from the closure with the offsets e_x, e_y alone.
+    """
+    motion = memory.scratch.motion
+    motion[:, :] = 0.0
+    fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+    row[_MOTION + 3] = motion[THETA_V, VALUE]
+    row[_MOTION + 6] = motion[THETA_V, VELOCITY]
+    tilt = data.exact
+    motion[:, :] = 0.0
+    fill_rods(data, t, y[0], y[1], tilt * y[2], tilt * y[3], y[4], y[5], tilt * y[6], tilt * y[7], motion)
+    row[_MOTION + 2] = motion[THETA_V, VALUE]
+    row[_MOTION + 5] = motion[THETA_V, VELOCITY]
+
+
+@nb.njit(cache=True)
+def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: FloatArray) -> None:
+    """Fill ``row`` with the quantities named in :data:`OBSERVED`, SI units."""
+    scratch = memory.scratch
+    row[:8] = y
+    _actual_vane(data, t, y, memory, row)
+    f_cz = ledger.evaluate(data, t, y, memory)
+    motion, force = scratch.motion, scratch.force
+    row[_MOTION] = motion[THETA_A, VALUE]
+    row[_MOTION + 1] = motion[THETA_B, VALUE]
+    row[_MOTION + 4] = motion[THETA_A, VELOCITY]
+    row[_MOTION + 7] = motion[S3_Y, VALUE] - data.l_4
+    for k in range(joint_report.N_REPORT):
+        row[_JOINT + k] = scratch.report[k]
+    row[_COLLAR] = f_cz * scratch.collar[PHI_X]
+    row[_COLLAR + 1] = f_cz * scratch.collar[PHI_Y]
+    row[_COLLAR + 2] = f_cz * scratch.collar[THETA_V]
+    row[_AIR] = force[OV_X]
+    row[_AIR + 1] = force[OV_Y]
+    row[_AIR + 2] = force[THETA_V] - scratch.wrench[4]
+    ledger.fill_energies(data, memory, row[_ENERGIES:])
+    ne.newton_euler(data, y, memory, 1.0 if f_cz == 0.0 else 0.0)
+    for k in range(ne.N_UNKNOWNS - ne.F_AX):
+        row[_REACTIONS + k] = scratch.reactions[ne.F_AX + k, 0]
+    row[_INTEGRALS : _INTEGRALS + ledger.N_INTEGRALS] = memory.integrals

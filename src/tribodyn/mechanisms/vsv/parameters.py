@@ -1,0 +1,155 @@
+"""Parameters of the variable stator vane mechanism, symbols of the paper, SI units."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from tribodyn.core.errors import InputError
+from tribodyn.joints import BushingJoint
+
+FORMULATIONS: Final = ("exact", "paper")
+
+
+@dataclass(frozen=True)
+class Lengths:
+    """Lengths [m] and angles [rad] of the mechanism, Table 2 and Fig. 2."""
+
+    l_1: float
+    l_2: float
+    l_3: float
+    l_4: float
+    l_v: float
+    l_m: float
+    gamma: float
+    phi: float
+
+
+@dataclass(frozen=True)
+class Inertias:
+    """Masses [kg] and moments of inertia [kg m²] as printed in Table 2.
+
+    J_1, J_2 and J_v are m l²/3, about the end of the rod, and J_3 is about the casing axis B.
+    ``J_vz`` is the inertia of the vane about its own axis.
+    """
+
+    m_1: float
+    m_2: float
+    m_3: float
+    m_v: float
+    J_1: float
+    J_2: float
+    J_3: float
+    J_v: float
+    J_vz: float
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Crank motion θ_a = θ_a0 + Ω/ν (1 − cos ν t): angles [rad], Ω and ν [rad/s]."""
+
+    start_angle: float
+    speed_amplitude: float
+    angular_frequency: float
+
+    @property
+    def period(self) -> float:
+        """Time of one drive cycle [s]."""
+        return 2.0 * math.pi / self.angular_frequency
+
+    @property
+    def swing(self) -> float:
+        """Angle between the two reversals of the crank [rad]."""
+        return 2.0 * self.speed_amplitude / self.angular_frequency
+
+
+@dataclass(frozen=True)
+class AirLoads:
+    """Aerodynamic loads of Table 3.
+
+    Attributes
+    ----------
+    force_x, force_y
+        [N]; F_airx changes its sign from minus to plus where θ_v passes ``switch_angle``.
+    moment
+        Size of M_air, which opposes the motion [N m].
+    switch_angle, switch_width
+        [rad].
+    """
+
+    force_x: float
+    force_y: float
+    moment: float
+    switch_angle: float
+    switch_width: float
+
+
+@dataclass(frozen=True)
+class Vsv:
+    """The mechanism with its clearance joint.
+
+    Attributes
+    ----------
+    formulation
+        ``exact`` or ``paper``, see the theory manual.
+    lengths, inertias, drive, air
+        See their classes.
+    gravity
+        Acceleration of gravity [m/s²].
+    collar_radius
+        Radius r_t of the thrust collar [m].
+    joint
+        The trunnion in its bushing.
+    """
+
+    formulation: str
+    lengths: Lengths
+    inertias: Inertias
+    drive: Drive
+    air: AirLoads
+    gravity: float
+    collar_radius: float
+    joint: BushingJoint
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown formulation."""
+        if self.formulation not in FORMULATIONS:
+            raise InputError(
+                f"given {self.formulation!r}; allowed: {', '.join(FORMULATIONS)}", key="mechanism.formulation"
+            )
+
+    @property
+    def exact(self) -> bool:
+        """Whether this is the consistent formulation."""
+        return self.formulation == "exact"
+
+    @property
+    def vane_arm(self) -> float:
+        """Distance from O_j down to the vane centre [m]: (l_v − l_z)/2, in ``paper`` l_v/2."""
+        below_lever = self.joint.geometry.length if self.exact else 0.0
+        return 0.5 * (self.lengths.l_v - below_lever)
+
+    @property
+    def crank_inertia(self) -> float:
+        """About the axis through its mass centre [kg m²]."""
+        shift = self.inertias.m_1 * self.lengths.l_1**2 / 4.0
+        return self.inertias.J_1 - (shift if self.exact else 0.0)
+
+    @property
+    def link_inertia(self) -> float:
+        """Across the drag link, about its mass centre [kg m²]."""
+        shift = self.inertias.m_2 * self.lengths.l_2**2 / 4.0
+        return self.inertias.J_2 - (shift if self.exact else 0.0)
+
+    @property
+    def ring_inertia(self) -> float:
+        """Of the ring about the axis through its mass centre [kg m²]."""
+        arm = 0.5 * self.lengths.l_3 * math.cos(0.5 * self.lengths.phi)
+        return self.inertias.J_3 - (self.inertias.m_3 * arm**2 if self.exact else 0.0)
+
+    @property
+    def vane_inertia(self) -> float:
+        """Across the vane, about its mass centre [kg m²]."""
+        shift = self.inertias.m_v * self.lengths.l_v**2 / 4.0
+        return self.inertias.J_v - (shift if self.exact else 0.0)

@@ -1,0 +1,203 @@
+"""The VSV mechanism as an initial value problem."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.problem import CompiledFunctions, Problem
+from tribodyn.kernels.bushing.memory import update_entry_velocity
+from tribodyn.kernels.bushing.report import N_REPORT
+from tribodyn.kernels.vsv import functions, layout
+from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory
+from tribodyn.kernels.vsv.ledger import CLEARANCE_INERTIA, N_INTEGRALS
+from tribodyn.kernels.vsv.newton_euler import N_UNKNOWNS
+from tribodyn.kernels.vsv.observe import OBSERVED, STATES, observe
+from tribodyn.mechanisms.vsv.equilibrium import equilibrium
+from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.mechanisms.vsv.reach import ideal_table
+
+STARTS: Final = ("equilibrium", "centred")
+
+FUNCTIONS: Final = CompiledFunctions(
+    rhs=functions.rhs,
+    jac=functions.jac,
+    enter=functions.enter,
+    advance=functions.advance,
+    accept=functions.accept,
+    observe=observe,
+    picture=functions.picture,
+)
+
+
+def vsv_data(vsv: Vsv, wear: FloatArray | None = None) -> VsvData:
+    """Return what the kernels read; ``wear`` is the wear depth at the nodes [m]."""
+    lengths, inertias = vsv.lengths, vsv.inertias
+    first = vsv.drive.start_angle
+    ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, first, first + vsv.drive.swing)
+    return VsvData(
+        exact=1.0 if vsv.exact else 0.0,
+        l_1=lengths.l_1,
+        l_2=lengths.l_2,
+        l_3=lengths.l_3,
+        l_4=lengths.l_4,
+        pivot_x=lengths.l_m * math.cos(lengths.gamma),
+        pivot_z=lengths.l_m * math.sin(lengths.gamma),
+        ring_angle=lengths.phi,
+        half_length=0.5 * vsv.joint.geometry.length,
+        vane_arm=vsv.vane_arm,
+        m_1=inertias.m_1,
+        m_2=inertias.m_2,
+        m_3=inertias.m_3,
+        m_v=inertias.m_v,
+        crank_inertia=vsv.crank_inertia,
+        link_inertia=vsv.link_inertia,
+        ring_inertia=vsv.ring_inertia,
+        inertia=_row_inertia(vsv),
+        weight=_row_weight(vsv),
+        vane_weight=inertias.m_v * vsv.gravity,
+        start_angle=vsv.drive.start_angle,
+        speed_amplitude=vsv.drive.speed_amplitude,
+        angular_frequency=vsv.drive.angular_frequency,
+        air_force_x=vsv.air.force_x,
+        air_force_y=vsv.air.force_y,
+        air_moment=vsv.air.moment,
+        switch_angle=vsv.air.switch_angle,
+        switch_width=vsv.air.switch_width,
+        collar_radius=vsv.collar_radius,
+        ideal_first=ideal_first,
+        ideal_inverse_step=ideal_inverse_step,
+        ideal=ideal,
+        joint=vsv.joint.data(wear),
+    )
+
+
+def _row_inertia(vsv: Vsv) -> FloatArray:
+    """Return the mass or moment of inertia of each row of the motion table."""
+    inertia = np.zeros(layout.N_ROWS)
+    inertia[layout.THETA_A] = vsv.crank_inertia
+    inertia[layout.THETA_B] = vsv.ring_inertia
+    inertia[layout.THETA_V] = vsv.inertias.J_vz
+    inertia[[layout.O1_X, layout.O1_Z]] = vsv.inertias.m_1
+    inertia[layout.O2_X : layout.O2_Z + 1] = vsv.inertias.m_2
+    inertia[layout.N_X : layout.N_Z + 1] = vsv.link_inertia
+    inertia[layout.O3_X : layout.O3_Z + 1] = vsv.inertias.m_3
+    inertia[[layout.OV_X, layout.OV_Y]] = vsv.inertias.m_v
+    inertia[[layout.PHI_X, layout.PHI_Y]] = vsv.vane_inertia
+    return inertia
+
+
+def _row_weight(vsv: Vsv) -> FloatArray:
+    """Return the gravity load of each row of the motion table [N]."""
+    weight = np.zeros(layout.N_ROWS)
+    weight[layout.O1_Z] = -vsv.inertias.m_1 * vsv.gravity
+    weight[layout.O2_Z] = -vsv.inertias.m_2 * vsv.gravity
+    weight[layout.O3_Z] = -vsv.inertias.m_3 * vsv.gravity
+    return weight
+
+
+def vsv_memory(data: VsvData) -> VsvMemory:
+    """Return an empty memory: no contact, no work done yet, direction forward."""
+    shape = data.joint.wear.shape
+    scratch = Scratch(
+        motion=np.zeros((layout.N_ROWS, layout.N_COLUMNS)),
+        test=np.zeros((layout.N_ROWS, 5)),
+        force=np.zeros(layout.N_ROWS),
+        collar=np.zeros(layout.N_ROWS),
+        mass=np.zeros((5, 4)),
+        load=np.zeros(5),
+        solved=np.zeros((4, 9)),
+        acceleration=np.zeros(4),
+        wrench=np.zeros(5),
+        wrench_jacobian=np.zeros((5, 9)),
+        gradient=np.zeros((3, 5)),
+        report=np.zeros(N_REPORT),
+        rates=np.zeros(CLEARANCE_INERTIA),
+        momentum=np.zeros(4),
+        state=np.zeros(8),
+        system=np.zeros((N_UNKNOWNS, N_UNKNOWNS)),
+        reactions=np.zeros((N_UNKNOWNS, 1)),
+    )
+    return VsvMemory(
+        entry_velocity=np.zeros(shape),
+        sliding_load=np.zeros(shape),
+        sliding_rate=np.zeros(shape),
+        last_time=np.zeros(2),
+        regime=np.array([1.0, 0.0]),
+        integrals=np.zeros(N_INTEGRALS),
+        rates=np.zeros(CLEARANCE_INERTIA),
+        last_state=np.zeros(8),
+        last_momentum=np.zeros(4),
+        scratch=scratch,
+    )
+
+
+def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
+    """Return the state at t = 0, shape (8,).
+
+    Parameters
+    ----------
+    data, memory
+        The mechanism.
+    start
+        ``centred``: everything zero. ``equilibrium``: the kinetostatic attitude at 0⁺ with friction
+        fully sliding in the direction of the motion about to begin.
+    """
+    if start not in STARTS:
+        raise InputError(f"given {start!r}; allowed: {', '.join(STARTS)}", key="run.start")
+    y0 = np.zeros(8)
+    if start == "equilibrium":
+        y0[:4] = equilibrium(data, memory, 0.0, direction=1.0)
+    return y0
+
+
+def reversals(vsv: Vsv, duration: float) -> tuple[float, ...]:
+    """Return the times strictly inside the run at which the crank reverses, t = kπ/ν [s]."""
+    half = 0.5 * vsv.drive.period
+    count = math.ceil(duration / half * (1.0 - 1.0e-12))
+    return tuple(half * k for k in range(1, count))
+
+
+def vsv_problem(
+    vsv: Vsv,
+    *,
+    duration: float,
+    start: str,
+    atol: tuple[float, float, float, float],
+    wear: FloatArray | None = None,
+) -> Problem:
+    """Return the initial value problem of the mechanism.
+
+    Parameters
+    ----------
+    vsv
+        The mechanism.
+    duration
+        Simulated time [s].
+    start
+        ``centred`` or ``equilibrium``.
+    atol
+        Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s].
+    wear
+        Wear depth at the nodes [m].
+    """
+    data = vsv_data(vsv, wear)
+    memory = vsv_memory(data)
+    y0 = initial_state(data, memory, start)
+    update_entry_velocity(data.joint, y0, memory.entry_velocity, 1.0)
+    return Problem(
+        functions=FUNCTIONS,
+        data=data,
+        memory=memory,
+        y0=y0,
+        t_span=(0.0, duration),
+        breakpoints=reversals(vsv, duration),
+        atol=np.repeat(np.asarray(atol, dtype=np.float64), 2),
+        state_names=STATES,
+        n_observed=len(OBSERVED),
+        field_shape=(1, *data.joint.wear.shape),
+    )

@@ -1,0 +1,109 @@
+"""Where the mechanism can be: the vane angle of the ideal mechanism over the crank angle."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.vsv.parameters import Lengths
+
+_INTERVALS: Final = 512
+_SCAN: Final = 1441
+_BISECTIONS: Final = 60
+
+
+def closure(lengths: Lengths, theta_a: FloatArray, theta_v: FloatArray) -> FloatArray:
+    """Return |S1S2|² − l_2² [m²] of the ideal mechanism, Eqs. 12 to 18; arguments broadcast [rad]."""
+    s1_x = lengths.l_m * math.cos(lengths.gamma) - lengths.l_1 * np.sin(theta_a)
+    s1_z = lengths.l_m * math.sin(lengths.gamma) + lengths.l_1 * np.cos(theta_a)
+    theta_b = np.arctan2(-lengths.l_4 * np.cos(theta_v), lengths.l_3)
+    d_x = lengths.l_3 * np.sin(lengths.phi - theta_b) - s1_x
+    d_y = lengths.l_4 * np.sin(theta_v) - lengths.l_4
+    d_z = lengths.l_3 * np.cos(lengths.phi - theta_b) - s1_z
+    return np.asarray(d_x**2 + d_y**2 + d_z**2 - lengths.l_2**2)
+
+
+def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
+    """Return θ_v [rad] of the assembly with the larger vane angle; NaN where the loop cannot close.
+
+    Parameters
+    ----------
+    lengths
+        The mechanism.
+    theta_a
+        Crank angles [rad], shape (n,).
+    """
+    scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)
+    residual = closure(lengths, theta_a[:, None], scan[None, :])
+    rising = (residual[:, :-1] < 0.0) != (residual[:, 1:] < 0.0)
+    found = rising.any(axis=1)
+    last = rising.shape[1] - 1 - np.argmax(rising[:, ::-1], axis=1)
+    low, high = scan[last], scan[last + 1]
+    sign = np.sign(closure(lengths, theta_a, high))
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        above = sign * closure(lengths, theta_a, middle) > 0.0
+        high = np.where(above, middle, high)
+        low = np.where(above, low, middle)
+    return np.where(found, 0.5 * (low + high), np.nan)
+
+
+def reachable(lengths: Lengths, first: float, last: float) -> tuple[float, float] | None:
+    """Return the first and last crank angle [rad] around the given range where the loop closes.
+
+    None where it closes nowhere in a full turn around it.
+    """
+    middle = 0.5 * (first + last)
+    angles = np.linspace(middle - math.pi, middle + math.pi, 2881)
+    closes = np.isfinite(ideal_vane_angle(lengths, angles))
+    if not closes.any():
+        return None
+    nearest = int(np.argmin(np.where(closes, np.abs(angles - middle), np.inf)))
+    breaks = np.flatnonzero(~closes)
+    low = breaks[breaks < nearest].max(initial=-1) + 1
+    high = breaks[breaks > nearest].min(initial=angles.size) - 1
+    return float(angles[low]), float(angles[high])
+
+
+def check_reach(lengths: Lengths, first: float, last: float) -> None:
+    """Refuse a drive that takes the crank beyond its reach.
+
+    Parameters
+    ----------
+    lengths
+        The mechanism.
+    first, last
+        Smallest and largest crank angle of the drive [rad].
+
+    Raises
+    ------
+    InputError
+        If the loop does not close all the way.
+    """
+    if np.isfinite(ideal_vane_angle(lengths, np.linspace(first, last, 721))).all():
+        return
+    limits = reachable(lengths, first, last)
+    if limits is None:
+        reason = "with these lengths the mechanism cannot be assembled at any crank angle"
+    else:
+        low, high = (math.degrees(angle) for angle in limits)
+        reason = (
+            f"the crank would turn from {math.degrees(first):.4g}° to {math.degrees(last):.4g}°, "
+            f"but the mechanism reaches only from {low:.4g}° to {high:.4g}°"
+        )
+    raise InputError(reason, key="drive.start_angle")
+
+
+def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, float, FloatArray]:
+    """Return the first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
+    check_reach(lengths, first, last)
+    angles = np.linspace(first, last, _INTERVALS + 1)
+    theta_v = ideal_vane_angle(lengths, angles)
+    step = (last - first) / _INTERVALS
+    slope = CubicSpline(angles, theta_v)(angles, 1)
+    return first, 1.0 / step, np.column_stack([theta_v, step * slope])
