@@ -2,26 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Any, Protocol
 
 from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.contact.table import tabulate
 from tribodyn.core.errors import InputError
 
-LAWS: dict[str, Callable[[SurfacePair], ContactLaw]] = {
+LAWS: dict[str, type[ContactLaw]] = {
     KogutEtsion.name: KogutEtsion,
     RSDC.name: RSDC,
 }
 
 
-def law(name: str, pair: SurfacePair) -> ContactLaw:
-    """Return the contact law called ``name`` for a pair of surfaces."""
+class HasSurfacePair(Protocol):
+    """Anything that knows its surfaces, such as a case."""
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The surfaces in contact."""
+
+
+def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> ContactLaw:
+    """Return the contact law called ``name`` for a pair of surfaces, or for those of a case.
+
+    ``options`` are the law's own parameters, such as ``damping_factor`` of ``rsdc``.
+    """
     if name not in LAWS:
         raise InputError(f"no contact law {name!r}; there is {', '.join(LAWS)}", key="contact.law")
-    return LAWS[name](pair)
+    pair = surfaces if isinstance(surfaces, SurfacePair) else surfaces.surface_pair
+    return LAWS[name](pair, **options)
 
 
-__all__ = ["LAWS", "RSDC", "ContactLaw", "KogutEtsion", "SurfacePair", "law", "tabulate"]
+__all__ = ["DAMPING_FACTORS", "LAWS", "RSDC", "ContactLaw", "KogutEtsion", "SurfacePair", "law", "tabulate"]

@@ -1,13 +1,13 @@
 """Elastic-plastic contact of rough surfaces after Kogut and Etsion, Eqs. 2-4 of the source paper.
 
-Each asperity of interference s·σ carries a load that is a power of s, different in four regimes: elastic up to
-the critical interference δ_c, elastic-plastic up to 6 δ_c and up to 110 δ_c, fully plastic beyond. Gaussian
-heights make the pressure the sum of four integrals. Source: Kogut, L. and Etsion, I. (2003), A finite element based
-elastic-plastic model for the contact of rough surfaces, Tribology Transactions 46, 383-390. The fully plastic
-part has s¹, not the printed s⁻¹.
+Each asperity of interference s·σ carries a load that is a power of s, different in four regimes: elastic
+up to the critical interference δ_c, elastic-plastic up to 6 δ_c and up to 110 δ_c, fully plastic beyond.
+Gaussian heights make the pressure the sum of four integrals. Source: Kogut, L. and Etsion, I. (2003), A
+finite element based elastic-plastic model for the contact of rough surfaces, Tribology Transactions 46,
+383-390. The fully plastic part has s¹, not the printed s⁻¹.
 
-Valid for spherical, independent asperities of one radius: moderate loads, -4 < h*. The published load jumps by up
-to 8 % from one regime to the next; the pressure, an integral over heights, does not.
+Valid for spherical, independent asperities of one radius under moderate load, h* > -4. The published load of
+an asperity jumps by up to 8 % from one regime to the next; the pressure, an integral over heights, does not.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.quadrature import asperity_integral, density
-from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.core.arrays import FloatArray
 
 
@@ -49,11 +49,10 @@ class Regimes(NamedTuple):
 
 
 @dataclass(frozen=True)
-class KogutEtsion:
+class KogutEtsion(ContactLaw):
     """The Kogut-Etsion law; it stores and returns all energy, so its damping is zero."""
 
     name: ClassVar[str] = "ke"
-    pair: SurfacePair
 
     @property
     def regimes(self) -> Regimes:
@@ -70,7 +69,7 @@ class KogutEtsion:
 
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
         """Return P_k = P_e + P_ep1 + P_ep2 + P_p [Pa], shape of ``h_star`` [1]."""
-        return np.sum([regime.integral(h_star) for regime in self.regimes], axis=0, dtype=np.float64)
+        return np.asarray(np.sum([regime.integral(h_star) for regime in self.regimes], axis=0))
 
     def damping_pressure(self, h_star: FloatArray) -> FloatArray:
         """Return zeros [Pa], shape of ``h_star`` [1]."""

@@ -1,8 +1,8 @@
 """Rough-surface damping contact (RSDC), Eqs. 5-10 of the source paper.
 
-The stiffness is that of Kogut and Etsion. The damping follows from the work that the asperities take on closing
-from far apart: what goes into plastic deformation is lost, which gives a restitution and by it a damping
-factor. The elastic-plastic regimes count in both works, as printed.
+The stiffness is that of Kogut and Etsion. The damping follows from the work that the asperities take on
+closing from far apart: what goes into plastic deformation is lost, which gives a restitution and by it a
+damping factor. The elastic-plastic regimes count in both works, as printed.
 """
 
 from __future__ import annotations
@@ -13,42 +13,65 @@ from typing import ClassVar
 
 import numpy as np
 
+from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.quadrature import asperity_integral, exceedance
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
 
 
 @dataclass(frozen=True)
 class RSDC(KogutEtsion):
-    """Kogut-Etsion stiffness with the damping of the energy lost in plastic asperities."""
+    """Kogut-Etsion stiffness with damping by the energy lost in plastic asperities.
+
+    Parameters
+    ----------
+    pair
+        The surfaces in contact.
+    damping_factor
+        Name of the factor that turns the restitution into damping, one of ``DAMPING_FACTORS``.
+    """
 
     name: ClassVar[str] = "rsdc"
+    damping_factor: str = "lankarani-nikravesh"
+
+    def __post_init__(self) -> None:
+        """Refuse a factor that does not exist."""
+        if self.damping_factor not in DAMPING_FACTORS:
+            raise InputError(
+                f"no damping factor {self.damping_factor!r}; there is {', '.join(DAMPING_FACTORS)}",
+                key="contact.damping_factor",
+            )
 
     def works(self, h_star: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return W_e/σ and W_p/σ [Pa], works per area on closing from far apart (Eqs. 5-6).
+        """Return W_e/σ and W_p/σ [Pa], works per area on closing from far apart.
 
         Both have the shape of ``h_star`` [1].
         """
-        parts = (regime.integral(h_star, exceedance) for regime in self.regimes)
+        parts = [regime.integral(h_star, exceedance) for regime in self.regimes]
         elastic, elastic_plastic_1, elastic_plastic_2, plastic = parts
         both = elastic_plastic_1 + elastic_plastic_2
         return elastic + both, plastic + both
 
     def loss_factor(self, h_star: FloatArray) -> FloatArray:
-        """Return μ = W_p/W_e [1], shape of ``h_star``; NaN where both works underflow (h* above 35)."""
+        """Return μ = W_p/W_e [1], shape of ``h_star``.
+
+        Where both works underflow (h* above 35) it is their limit 0: so far apart contact is elastic.
+        """
         elastic, plastic = self.works(h_star)
-        with np.errstate(invalid="ignore"):
-            return np.asarray(plastic / elastic)
+        return np.divide(plastic, elastic, out=np.zeros_like(plastic), where=plastic > 0.0)
 
     def restitution(self, h_star: FloatArray) -> FloatArray:
         """Return e = 1/√(μ + 1) [1], shape of ``h_star``."""
         return np.asarray(1.0 / np.sqrt(self.loss_factor(h_star) + 1.0))
 
     def damping_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return C = Eξ√β σ^1.5 · μ/(μ + 1) · ∫_0^∞ s^1.5 Φ(h* + s) ds [Pa], shape of ``h_star`` [1]."""
+        """Return C = (4/3)a·Eξ√β σ^1.5 ∫_0^∞ s^1.5 Φ(h* + s) ds [Pa], shape of ``h_star`` [1].
+
+        With the Lankarani-Nikravesh factor (4/3)a = 1 − e² = μ/(μ + 1), which is Eq. 10.
+        """
         pair = self.pair
         stress = pair.composite_modulus * pair.asperity_parameter
         stress *= math.sqrt(pair.roughness_rms / pair.asperity_radius)
-        elastic, plastic = self.works(h_star)
-        total = np.maximum(elastic + plastic, np.finfo(np.float64).tiny)  # far apart both underflow to 0
-        return stress * plastic / total * asperity_integral(h_star, 1.5, 0.0, math.inf)
+        ratio = DAMPING_FACTORS[self.damping_factor](self.restitution(h_star))
+        return 4.0 / 3.0 * stress * ratio * asperity_integral(h_star, 1.5, 0.0, math.inf)

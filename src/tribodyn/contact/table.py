@@ -41,7 +41,7 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     _check_onset(onset, smoothing_width)
     step = (H_LAST - H_FIRST) / INTERVALS
     beyond = _CENTRAL_DIFFERENCE.size // 2
-    h_star = H_FIRST + step * np.arange(-beyond, INTERVALS + 1 + beyond)
+    h_star = H_FIRST + step * np.arange(-beyond, INTERVALS + 1 + beyond, dtype=np.float64)
     pressure, pressure_rise = _values_and_rises(law.stiffness_pressure(h_star))
     damping, damping_rise = _values_and_rises(law.damping_pressure(h_star))
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
@@ -71,7 +71,7 @@ def _check_onset(onset: float, smoothing_width: float) -> None:
 
 
 def _values_and_rises(values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return values at the nodes and step·slope, shapes (n + 1,), from values on a grid wider by three nodes."""
+    """Return values and step·slope at the nodes, shapes (n + 1,), from values on three more at each end."""
     beyond = _CENTRAL_DIFFERENCE.size // 2
     return values[beyond:-beyond], np.correlate(values, _CENTRAL_DIFFERENCE, mode="valid")
 
