@@ -1,0 +1,51 @@
+"""Configuration of the manual (Sphinx)."""
+
+from __future__ import annotations
+
+import os
+from importlib.metadata import version as installed_version
+from typing import Any
+
+# Compiled functions hide their signature; as plain Python they show it.
+os.environ["NUMBA_DISABLE_JIT"] = "1"
+
+project = "tribodyn"
+author = "The tribodyn developers"
+copyright = f"2026, {author}"
+release = version = installed_version("tribodyn")
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "numpydoc",
+]
+exclude_patterns = ["_build"]
+templates_path = ["_templates"]
+
+myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+
+autosummary_generate = True
+autodoc_typehints = "none"  # the signature shows them, the docstring says what they mean
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+html_theme = "furo"
+html_title = f"tribodyn {release}"
+html_static_path = ["_static"]
+
+
+def _skip_tuple_fields(
+    app: Any, what: str, name: str, member: Any, skip: bool, options: Any
+) -> bool | None:
+    """Leave out the fields of named tuples: the class docstring describes them."""
+    return True if type(member).__name__ == "_tuplegetter" else None
+
+
+def setup(app: Any) -> None:
+    """Register the hook."""
+    app.connect("autodoc-skip-member", _skip_tuple_fields)
