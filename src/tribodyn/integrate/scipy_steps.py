@@ -28,10 +28,14 @@ class ScipyMethod:
         Makes of a solver the function that gives the state inside its last step. What
         ``solver.dense_output()`` returns does the same; its checks take as long as two to
         four right-hand sides of a mechanism, and the middle of every step is needed.
+    resume
+        Called with the solver before each step but the first: the memory of the problem may
+        have changed the right-hand side since the step before.
     """
 
     class_name: str
     interpolant: Callable[[Any], Interpolant]
+    resume: Callable[[Any], None] | None = None
 
     def prepare(self) -> None:
         """Import SciPy, which reading a case does not need."""
@@ -54,6 +58,8 @@ class ScipyMethod:
         decompositions = 0
         while solver.status == "running":
             t_old = float(solver.t)
+            if self.resume is not None and t_old > t_start:
+                self.resume(solver)
             message = _step_quietly(solver)
             statistics.lu_decompositions += int(solver.nlu) - decompositions
             decompositions = int(solver.nlu)
