@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 from importlib.metadata import version as installed_version
+from types import GenericAlias
 from typing import Any
 
 # Compiled functions hide their signature; as plain Python they show it.
@@ -39,13 +41,20 @@ html_title = f"tribodyn {release}"
 html_static_path = ["_static"]
 
 
-def _skip_tuple_fields(
-    app: Any, what: str, name: str, member: Any, skip: bool, options: Any
-) -> bool | None:
-    """Leave out the fields of named tuples: the class docstring describes them."""
-    return True if type(member).__name__ == "_tuplegetter" else None
+LITERAL_OR_BAR = re.compile(r"(``.*?``)|\|")
+
+
+def _skip_member(app: Any, what: str, name: str, member: Any, skip: bool, options: Any) -> bool | None:
+    """Leave out fields of named tuples, which the class docstring describes, and type aliases."""
+    return True if type(member).__name__ == "_tuplegetter" or isinstance(member, GenericAlias) else None
+
+
+def _bars_are_magnitudes(app: Any, what: str, name: str, member: Any, options: Any, lines: list[str]) -> None:
+    """Escape ``|u|``: reStructuredText would take it for a substitution."""
+    lines[:] = [LITERAL_OR_BAR.sub(lambda found: found[1] or r"\|", line) for line in lines]
 
 
 def setup(app: Any) -> None:
-    """Register the hook."""
-    app.connect("autodoc-skip-member", _skip_tuple_fields)
+    """Register the hooks."""
+    app.connect("autodoc-skip-member", _skip_member)
+    app.connect("autodoc-process-docstring", _bars_are_magnitudes)

@@ -133,7 +133,7 @@ class Solution:
     picture_times
         Times of the pictures reached [s], shape (n_p,).
     pictures
-        Fields, shape (n_p, *field_shape).
+        Fields, shape (n_p,) followed by the problem's ``field_shape``.
     t_end, y_end
         Time and state at the end of the last accepted step.
     statistics
