@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from tribodyn.cases.base import Case, Group, demand
 from tribodyn.cases.groups import Asperities, Contact, Joint, Solver, Surfaces, Wear
 from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, text
+
+if TYPE_CHECKING:
+    from tribodyn.contact import SurfacePair
 
 TABLE_2 = "paper, Table 2"
 TABLE_3 = "paper, Table 3"
@@ -70,7 +73,7 @@ class Run(Group):
     """How long, from where, and what is kept."""
 
     cycles: float | None = number(
-        None, "drive cycles to simulate; give this or duration", ASSUMED, gt=0, le=10000
+        None, "drive cycles to simulate; give this or duration", ASSUMED, gt=0, le=10000, example="2"
     )
     duration: float | None = quantity(
         None, "simulated time; give this or cycles", ASSUMED, gt=0, example="3 s"
@@ -79,6 +82,10 @@ class Run(Group):
         "equilibrium", "attitude of the trunnion at the start", "depends on mechanism.formulation"
     )
     output_interval: float = quantity("5 ms", "time between rows of the result", ASSUMED, gt=0)
+    impact_window: float = quantity(
+        "50 ms", "time after each reversal in which rows are closer together", ASSUMED, ge=0
+    )
+    impact_interval: float = quantity("0.2 ms", "time between rows in that window", ASSUMED, gt=0)
 
 
 class Vsv(Case):
@@ -112,6 +119,21 @@ class Vsv(Case):
         return defaults
 
     @property
+    def surface_pair(self) -> SurfacePair:
+        """The two surfaces in contact, as contact laws take them."""
+        from tribodyn.contact import SurfacePair
+
+        trunnion, bushing = self.surfaces.trunnion, self.surfaces.bushing
+        return SurfacePair(
+            young_modulus=(trunnion.young_modulus, bushing.young_modulus),
+            poisson_ratio=(trunnion.poisson_ratio, bushing.poisson_ratio),
+            roughness=(trunnion.roughness, bushing.roughness),
+            hardness=bushing.hardness,
+            asperity_density=self.asperities.density,
+            asperity_radius=self.asperities.radius,
+        )
+
+    @property
     def period(self) -> float:
         """Time of one drive cycle [s]."""
         return 2.0 * math.pi / self.drive.angular_frequency
@@ -136,6 +158,7 @@ class Vsv(Case):
         super().model_post_init(context)
         self._check_run()
         self._check_inertias()
+        self._check_reach()
 
     def _check_run(self) -> None:
         demand(
@@ -152,17 +175,35 @@ class Vsv(Case):
         )
 
     def _check_inertias(self) -> None:
-        """Check that the inertias about rod ends leave something about the mass centres."""
-        if self.mechanism.formulation == "paper":
+        """Check that the inertias about rod ends and casing axis leave something about the mass centres."""
+        m = self.mechanism
+        if m.formulation == "paper":
             return
-        for body, length in (("crank", "crank"), ("drag_link", "drag_link"), ("vane", "vane")):
-            least = self._number(f"{body}_mass") * self._number(f"{length}_length") ** 2 / 4.0
-            demand(
-                self._number(f"{body}_inertia") > least,
-                f"mechanism.{body}_inertia",
-                f"about the end of the rod it must exceed mass x length^2 / 4 = {least:.4g} kg m^2",
-            )
+        ring_arm = 0.5 * m.ring_radius * math.cos(0.5 * m.ring_angle)
+        for body, inertia, mass, arm in (
+            ("crank", m.crank_inertia, m.crank_mass, 0.5 * m.crank_length),
+            ("drag_link", m.drag_link_inertia, m.drag_link_mass, 0.5 * m.drag_link_length),
+            ("ring", m.ring_inertia, m.ring_mass, ring_arm),
+            ("vane", m.vane_inertia, m.vane_mass, 0.5 * m.vane_length),
+        ):
+            least = mass * arm**2
+            message = f"with this mass and size the body needs more than {least:.4g} kg m^2"
+            demand(inertia > least, f"mechanism.{body}_inertia", message)
 
-    def _number(self, name: str) -> float:
-        value: float = getattr(self.mechanism, name)
-        return value
+    def _check_reach(self) -> None:
+        """Check that the loop closes at every crank angle of the drive."""
+        # Imported here: the mechanism brings compiled code along, which reading the models does not need.
+        from tribodyn.mechanisms.vsv import Lengths, check_reach
+
+        m = self.mechanism
+        lengths = Lengths(
+            l_1=m.crank_length,
+            l_2=m.drag_link_length,
+            l_3=m.ring_radius,
+            l_4=m.lever_length,
+            l_v=m.vane_length,
+            l_m=m.pivot_distance,
+            gamma=m.pivot_angle,
+            phi=m.ring_angle,
+        )
+        check_reach(lengths, *self.crank_range)

@@ -211,7 +211,7 @@ def joint_jacobian(
     sign: float = 1.0,
     entry_velocity: FloatArray | None = None,
 ) -> FloatArray:
-    """Return the derivative of :func:`joint_wrench` with respect to the eight states and ω_v, shape (5, 9)."""
+    """Return the derivative of :func:`joint_wrench` in the eight states and ω_v, shape (5, 9)."""
     memory = np.zeros(data.wear.shape) if entry_velocity is None else entry_velocity
     out, jacobian, gradient = np.empty(5), np.empty((5, 9)), np.empty((3, 5))
     state = np.asarray(y, dtype=np.float64)

@@ -1,1 +1,55 @@
-"""TODO."""
+"""From a case to a dataset: build the problem, integrate it, gather what a user asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Final
+
+from tribodyn.core.errors import InputError
+from tribodyn.simulate.vsv import simulate_vsv
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from tribodyn.cases.base import Case
+
+SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv}
+"""What runs each kind of case."""
+
+
+def simulate(
+    case: Case,
+    *,
+    progress: Callable[[float], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> xr.Dataset:
+    """Simulate a case.
+
+    Parameters
+    ----------
+    case
+        From :func:`tribodyn.load_case`.
+    progress
+        Called with the simulated time [s] after every accepted step.
+    stop
+        Asked after every accepted step; when true the run ends there.
+
+    Returns
+    -------
+    xarray.Dataset
+        See the manual's page on results. A run that stopped before its end says why in the attribute
+        ``failure`` and holds what was computed.
+
+    Raises
+    ------
+    InputError
+        If the case asks for something that cannot be.
+    """
+    kind: str = getattr(case, "case", "")
+    if kind not in SIMULATORS:
+        raise InputError(f"given {kind!r}; allowed: {', '.join(SIMULATORS)}", key="case")
+    dataset: xr.Dataset = SIMULATORS[kind](case, progress=progress, stop=stop)
+    return dataset
+
+
+__all__ = ["SIMULATORS", "simulate"]

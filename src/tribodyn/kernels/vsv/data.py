@@ -125,6 +125,8 @@ class VsvMemory(NamedTuple):
         Path integrals of the energy ledgers [J], shape (N_INTEGRALS,).
     rates
         Their integrands at the last mark [W], shape (N_INTEGRALS,).
+    extremes
+        Peaks over all accepted steps, see ``kernels/vsv/ledger.py``, shape (N_EXTREMES,).
     last_state
         State at the last mark, shape (8,).
     last_momentum
@@ -140,6 +142,7 @@ class VsvMemory(NamedTuple):
     regime: FloatArray
     integrals: FloatArray
     rates: FloatArray
+    extremes: FloatArray
     last_state: FloatArray
     last_momentum: FloatArray
     scratch: Scratch

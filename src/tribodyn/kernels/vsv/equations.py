@@ -213,7 +213,6 @@ def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns
     float
         F_cz [N].
     """
-    scratch = memory.scratch
     fill_forces(data, y, memory)
     assemble(data, memory)
     add_collar(data, memory, 1.0)

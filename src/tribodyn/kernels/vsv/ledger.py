@@ -40,6 +40,14 @@ CLEARANCE_LOADS, CLEARANCE_FRICTION, CLEARANCE_COLLAR, CLEARANCE_INERTIA = 6, 7,
 """Clearance motion: work of everything but the joint, of joint friction, of the collar; inertia."""
 N_INTEGRALS = 10
 
+PEAK_FORCE, PEAK_FORCE_TIME, PEAK_PRESSURE, PEAK_PRESSURE_TIME = 0, 1, 2, 3
+"""Largest contact force [N] and pressure [Pa] at any mark, and when [s]."""
+LEAST_SEPARATION, LIFT_OFF = 4, 5
+"""Smallest gap between mean planes [m]; time during which the collar carries nothing [s]."""
+CLIPPED = 6
+"""Time integral of the share of the contact area where the tensile clip acts [s]."""
+N_EXTREMES = 7
+
 KINETIC, GRAVITY = 0, 1
 
 
@@ -116,6 +124,21 @@ def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
 
 
 @nb.njit(cache=True)
+def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
+    """Keep the peaks at the end ``t`` of a part of length ``h`` [s]; output times would miss them."""
+    extremes, out = memory.extremes, memory.scratch.report
+    force = math.hypot(out[joint_report.F_CX], out[joint_report.F_CY])
+    if force > extremes[PEAK_FORCE]:
+        extremes[PEAK_FORCE], extremes[PEAK_FORCE_TIME] = force, t
+    if out[joint_report.P_MAX] > extremes[PEAK_PRESSURE]:
+        extremes[PEAK_PRESSURE], extremes[PEAK_PRESSURE_TIME] = out[joint_report.P_MAX], t
+    extremes[LEAST_SEPARATION] = min(extremes[LEAST_SEPARATION], out[joint_report.SEPARATION_MIN])
+    if f_cz == 0.0:
+        extremes[LIFT_OFF] += h
+    extremes[CLIPPED] += h * out[joint_report.CLIPPED]
+
+
+@nb.njit(cache=True)
 def add_part(
     data: VsvData, t_a: float, t_b: float, y_m: FloatArray, y_b: FloatArray, memory: VsvMemory
 ) -> None:
@@ -137,6 +160,7 @@ def add_part(
         integrals[k] += h / 6.0 * 4.0 * memory.scratch.rates[k]
     f_cz = evaluate(data, t_b, y_b, memory)
     fill_rates(data, y_b, memory, f_cz)
+    note_extremes(t_b, h, f_cz, memory)
     for i in range(4):
         v_a, v_m, v_b = y_a[4 + i], y_m[4 + i], y_b[4 + i]
         inertia += memory.scratch.momentum[i] * (v_a - 4.0 * v_m + 3.0 * v_b)

@@ -17,7 +17,6 @@ from tribodyn.kernels.vsv.data import VsvData
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
-    E_Y,
     N_X,
     O1_X,
     O2_X,
@@ -27,8 +26,6 @@ from tribodyn.kernels.vsv.layout import (
     O3_Z,
     OV_X,
     OV_Y,
-    PHI_X,
-    PHI_Y,
     S1_X,
     S1_Z,
     S2_X,

@@ -101,7 +101,7 @@ def _damped_newton(data: VsvData, memory: VsvMemory, t: float, start: FloatArray
         # A little stiffness where there is none lets the trunnion move to where there is some.
         floor = 1.0e-6 * np.abs(jacobian[:2, :2]).max(initial=1.0)
         damped = jacobian - np.diag(floor / scale**2)
-        step = np.linalg.solve(damped, -residual)
+        step = np.asarray(np.linalg.solve(damped, -residual), dtype=np.float64)
         longest = np.abs(step / scale).max()
         step *= min(1.0, 0.5 * data.joint.roughness / longest)
         q, residual, jacobian = _line_search(data, memory, t, q, step, residual, scale)

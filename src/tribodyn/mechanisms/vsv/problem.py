@@ -14,7 +14,7 @@ from tribodyn.kernels.bushing.memory import update_entry_velocity
 from tribodyn.kernels.bushing.report import N_REPORT
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory
-from tribodyn.kernels.vsv.ledger import CLEARANCE_INERTIA, N_INTEGRALS
+from tribodyn.kernels.vsv.ledger import CLEARANCE_INERTIA, LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
 from tribodyn.kernels.vsv.newton_euler import N_UNKNOWNS
 from tribodyn.kernels.vsv.observe import OBSERVED, STATES, observe
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
@@ -122,6 +122,8 @@ def vsv_memory(data: VsvData) -> VsvMemory:
         system=np.zeros((N_UNKNOWNS, N_UNKNOWNS)),
         reactions=np.zeros((N_UNKNOWNS, 1)),
     )
+    extremes = np.zeros(N_EXTREMES)
+    extremes[LEAST_SEPARATION] = data.joint.clearance
     return VsvMemory(
         entry_velocity=np.zeros(shape),
         sliding_load=np.zeros(shape),
@@ -130,6 +132,7 @@ def vsv_memory(data: VsvData) -> VsvMemory:
         regime=np.array([1.0, 0.0]),
         integrals=np.zeros(N_INTEGRALS),
         rates=np.zeros(CLEARANCE_INERTIA),
+        extremes=extremes,
         last_state=np.zeros(8),
         last_momentum=np.zeros(4),
         scratch=scratch,

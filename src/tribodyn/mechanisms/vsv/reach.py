@@ -100,7 +100,7 @@ def check_reach(lengths: Lengths, first: float, last: float) -> None:
 
 
 def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, float, FloatArray]:
-    """Return the first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
+    """Return first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
     check_reach(lengths, first, last)
     angles = np.linspace(first, last, _INTERVALS + 1)
     theta_v = ideal_vane_angle(lengths, angles)

@@ -1,0 +1,106 @@
+"""What a run says about its own trustworthiness, in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints import BushingJoint, Grid
+from tribodyn.joints.bushing import joint_wrench
+from tribodyn.kernels.vsv import ledger
+from tribodyn.mechanisms.vsv import Vsv
+
+ENERGY_LIMIT: Final = 0.01
+GRID_LIMIT: Final = 0.005
+CLIP_LIMIT: Final = 0.02
+_SAMPLES: Final = 24
+
+
+def peaks(extremes: FloatArray) -> dict[str, float]:
+    """Return the peaks over all accepted steps by name, SI units."""
+    return {
+        "contact_force_peak": float(extremes[ledger.PEAK_FORCE]),
+        "contact_force_peak_time": float(extremes[ledger.PEAK_FORCE_TIME]),
+        "pressure_peak": float(extremes[ledger.PEAK_PRESSURE]),
+        "pressure_peak_time": float(extremes[ledger.PEAK_PRESSURE_TIME]),
+        "separation_least": float(extremes[ledger.LEAST_SEPARATION]),
+        "collar_lift_off_time": float(extremes[ledger.LIFT_OFF]),
+        "tensile_clip_time": float(extremes[ledger.CLIPPED]),
+    }
+
+
+def grid_force_error(joint: BushingJoint, rows: Mapping[str, FloatArray]) -> float:
+    """Return the largest error of the contact force on the run's grid against one four times finer [1].
+
+    Taken at some of the run's own attitudes, without their velocities, relative to the largest force.
+    """
+    n_rows = rows["e_x"].size
+    if not n_rows:
+        return 0.0
+    fine = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z)).data()
+    coarse = joint.data()
+    largest = error = 0.0
+    for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
+        y = np.zeros(8)
+        y[:4] = [rows[name][i] for name in ("e_x", "e_y", "phi_x", "phi_y")]
+        exact = joint_wrench(fine, y)[:2]
+        largest = max(largest, float(np.hypot(*exact)))
+        error = max(error, float(np.hypot(*(joint_wrench(coarse, y)[:2] - exact))))
+    return error / largest if largest > 0.0 else 0.0
+
+
+def warnings(
+    vsv: Vsv, found: Mapping[str, float], whole: float, clearance: float, grid_error: float, t_end: float
+) -> list[str]:
+    """Return what a user should know before trusting the numbers, one sentence each.
+
+    Parameters
+    ----------
+    vsv
+        The mechanism.
+    found
+        From :func:`peaks`.
+    whole, clearance
+        Energy residuals as fractions.
+    grid_error
+        From :func:`grid_force_error`.
+    t_end
+        Simulated time reached [s].
+    """
+    depth = found["separation_least"] / vsv.joint.roughness
+    messages = [
+        _energy_message(vsv, whole, clearance),
+        f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
+        if grid_error > GRID_LIMIT
+        else "",
+        f"The mean planes of the surfaces came within {depth:.2g} sigma of each other: below 0 the "
+        "statistical contact law is outside its range."
+        if depth < 0.0
+        else "",
+        f"The thrust collar carried nothing for {1e3 * found['collar_lift_off_time']:.3g} ms: "
+        "lift-off of the vane is not modelled."
+        if found["collar_lift_off_time"] > 0.0
+        else "",
+        f"The clip of tensile pressure acted on {100 * found['tensile_clip_time'] / t_end:.2g} % of the "
+        "contact area on average: damping is strong against stiffness there."
+        if t_end > 0.0 and found["tensile_clip_time"] > CLIP_LIMIT * t_end
+        else "",
+    ]
+    return [message for message in messages if message]
+
+
+def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
+    """Say that the ledgers do not close, and why."""
+    if max(whole, clearance) <= ENERGY_LIMIT:
+        return ""
+    numbers = f"Energy is missed: {100 * whole:.2g} % of the whole mechanism's, {100 * clearance:.2g} % of"
+    if vsv.exact:
+        return f"{numbers} the clearance motion's. Tighten solver.rtol."
+    return (
+        f"{numbers} the clearance motion's. The paper's equations do not come from one virtual work, so "
+        "their ledger cannot close; mechanism.formulation = 'exact' does."
+    )

@@ -1,0 +1,56 @@
+"""When a run keeps rows and pictures."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from tribodyn.cases.vsv import Vsv as VsvCase
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.vsv import Vsv, ideal_vane_angle
+from tribodyn.mechanisms.vsv.problem import reversals
+
+_END_SHARE: Final = 0.02
+"""Share of the vane's range by which pictures near the reversals stand off their impacts."""
+
+
+def output_times(case: VsvCase, vsv: Vsv) -> FloatArray:
+    """Return the times of the rows [s]: uniform, the reversals, and close together after each reversal.
+
+    The impacts after a reversal last milliseconds; ``run.impact_interval`` resolves them for the
+    length of ``run.impact_window``.
+    """
+    duration, run = case.duration, case.run
+    uniform = np.append(np.arange(0.0, duration, run.output_interval), duration)
+    events = [uniform]
+    burst = np.arange(0.0, run.impact_window, run.impact_interval)
+    for reversal in reversals(vsv, duration):
+        events.append(reversal + burst)
+    times = np.unique(np.concatenate(events))
+    times = times[times <= duration]
+    distinct = np.append(np.diff(times) > 1.0e-9 * duration, True)
+    return np.asarray(times[distinct])
+
+
+def snapshots(vsv: Vsv, duration: float) -> FloatArray:
+    """Return the times of the pressure pictures [s]: three vane angles forward, the same in reverse.
+
+    Near the smallest vane angle, at the angle where the air load changes sign (or the middle of the
+    range), and near the largest; in the last complete cycle, or in the first where none is complete.
+    """
+    drive = vsv.drive
+    crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
+    vane = ideal_vane_angle(vsv.lengths, crank)
+    low, high = float(vane[0]), float(vane[-1])
+    switch = vsv.air.switch_angle
+    middle = switch if min(low, high) < switch < max(low, high) else 0.5 * (low + high)
+    wanted = np.array([low + _END_SHARE * (high - low), middle, high - _END_SHARE * (high - low)])
+    order = np.argsort(vane)
+    angle = np.interp(wanted, vane[order], crank[order])
+    phase = np.arccos(np.clip(1.0 - (angle - drive.start_angle) / (0.5 * drive.swing), -1.0, 1.0))
+    forward = phase / drive.angular_frequency
+    cycle = max(math.floor(duration / drive.period + 1.0e-9) - 1, 0) * drive.period
+    times = cycle + np.concatenate([forward, drive.period - forward[::-1]])
+    return np.asarray(times[times <= duration])

@@ -1,0 +1,187 @@
+"""Simulation of the variable stator vane mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases.vsv import Vsv as VsvCase
+from tribodyn.contact import law, tabulate
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Problem, Solution
+from tribodyn.integrate import integrate
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Lengths, Vsv, ideal_vane_angle, vsv_problem
+from tribodyn.results import build
+from tribodyn.simulate.checks import grid_force_error, peaks, warnings
+from tribodyn.simulate.ledger import ledger_columns, residual_fractions
+from tribodyn.simulate.provenance import provenance
+from tribodyn.simulate.times import output_times, snapshots
+
+NOT_STORED = ("work_", "heat_")
+"""Observed quantities that reach the user under the names of the ledger instead."""
+
+
+def simulate_vsv(
+    case: VsvCase,
+    *,
+    progress: Callable[[float], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> xr.Dataset:
+    """Simulate a ``vsv`` case, see :func:`tribodyn.simulate.simulate`."""
+    vsv = mechanism(case)
+    atol = case.solver.atol
+    problem = vsv_problem(
+        vsv,
+        duration=case.duration,
+        start=case.run.start,
+        atol=(atol.position, atol.tilt, atol.velocity, atol.tilt_rate),
+    )
+    pictures = snapshots(vsv, case.duration)
+    solution = integrate(
+        problem,
+        solver=case.solver.name,
+        rtol=case.solver.rtol,
+        output_times=output_times(case, vsv),
+        picture_times=pictures,
+        progress=progress,
+        stop=stop,
+    )
+    return _Gathered(case, vsv, problem, solution).dataset()
+
+
+def joint(case: VsvCase) -> BushingJoint:
+    """Return the clearance joint of a case with its tabulated contact law."""
+    contact = case.contact
+    table = tabulate(
+        law(contact.law, case), onset=contact.onset_separation, smoothing_width=contact.smoothing_width
+    )
+    return BushingJoint(
+        geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
+        friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
+        entry=EntryMemory(contact.onset_separation, contact.minimum_entry_velocity, contact.tensile_clip),
+        grid=Grid(case.solver.grid.theta, case.solver.grid.z),
+        roughness=case.surface_pair.roughness_rms,
+        table=table,
+    )
+
+
+def mechanism(case: VsvCase) -> Vsv:
+    """Return the mechanism that a case describes, in the symbols of the paper."""
+    m, loads, drive = case.mechanism, case.loads, case.drive
+    return Vsv(
+        formulation=m.formulation,
+        lengths=Lengths(
+            l_1=m.crank_length,
+            l_2=m.drag_link_length,
+            l_3=m.ring_radius,
+            l_4=m.lever_length,
+            l_v=m.vane_length,
+            l_m=m.pivot_distance,
+            gamma=m.pivot_angle,
+            phi=m.ring_angle,
+        ),
+        inertias=Inertias(
+            m_1=m.crank_mass,
+            m_2=m.drag_link_mass,
+            m_3=m.ring_mass,
+            m_v=m.vane_mass,
+            J_1=m.crank_inertia,
+            J_2=m.drag_link_inertia,
+            J_3=m.ring_inertia,
+            J_v=m.vane_inertia,
+            J_vz=m.vane_spin_inertia,
+        ),
+        drive=Drive(drive.start_angle, drive.speed_amplitude, drive.angular_frequency),
+        air=AirLoads(
+            loads.air_force_x, loads.air_force_y, loads.air_moment, loads.switch_angle, loads.switch_width
+        ),
+        gravity=m.gravity,
+        collar_radius=case.joint.collar_radius,
+        joint=joint(case),
+    )
+
+
+@dataclass(frozen=True)
+class _Gathered:
+    """A finished or interrupted run on its way to a dataset."""
+
+    case: VsvCase
+    vsv: Vsv
+    problem: Problem
+    solution: Solution
+
+    def dataset(self) -> xr.Dataset:
+        """Return the result."""
+        rows = {name: self.solution.rows[:, i] for i, name in enumerate(OBSERVED)}
+        ledger = ledger_columns(rows)
+        kept = {name: values for name, values in rows.items() if not name.startswith(NOT_STORED)}
+        kept["F_dx"] = rows["F_cx"] - rows["F_kx"]
+        kept["F_dy"] = rows["F_cy"] - rows["F_ky"]
+        kept["friction_power"] = -rows["friction_power"]
+        return build(
+            coordinates=self._coordinates(),
+            columns=kept | ledger,
+            fields=self._fields(),
+            attributes=self._attributes(rows, ledger),
+        )
+
+    def _coordinates(self) -> dict[str, FloatArray]:
+        times = self.solution.picture_times
+        theta_a = self._crank_angle(times)
+        return {
+            "time": self.solution.t,
+            "snapshot": np.arange(times.size, dtype=np.float64),
+            "snapshot_time": times,
+            "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, theta_a),
+            "snapshot_direction": np.sign(np.sin(self.vsv.drive.angular_frequency * times)),
+            "theta": self.vsv.joint.theta,
+            "z": self.vsv.joint.z,
+        }
+
+    def _crank_angle(self, times: FloatArray) -> FloatArray:
+        drive = self.vsv.drive
+        return drive.start_angle + 0.5 * drive.swing * (1.0 - np.cos(drive.angular_frequency * times))
+
+    def _fields(self) -> dict[str, FloatArray]:
+        wear = self.case.wear
+        rate = wear.specific_wear_rate / (wear.paper_hardness_divisor or 1.0)
+        return {
+            "pressure": self.solution.pictures[:, 0].transpose(0, 2, 1),
+            "wear_depth": rate * self.problem.memory.sliding_load.T,
+        }
+
+    def _attributes(self, rows: dict[str, FloatArray], ledger: dict[str, FloatArray]) -> dict[str, object]:
+        whole, clearance = residual_fractions(ledger)
+        grid_error = grid_force_error(self.vsv.joint, rows)
+        found = peaks(self.problem.memory.extremes)
+        return {
+            "title": self.case.title,
+            "case": self.case.to_toml(),
+            **provenance(),
+            "solver": self._solver(),
+            "formulation": self.vsv.formulation,
+            "contact_law": self.case.contact.law,
+            "friction_coefficient": self.case.joint.friction_coefficient,
+            "clearance": self.case.joint.clearance,
+            "roughness": self.vsv.joint.roughness,
+            "joint_length": self.case.joint.length,
+            "cycle_period": self.vsv.drive.period,
+            "energy_residual": whole,
+            "clearance_energy_residual": clearance,
+            "grid_force_error": grid_error,
+            **found,
+            "failure": self.solution.failure or "",
+            "warnings": warnings(self.vsv, found, whole, clearance, grid_error, float(self.solution.t_end)),
+        }
+
+    def _solver(self) -> dict[str, object]:
+        return {
+            "name": self.case.solver.name,
+            "rtol": self.case.solver.rtol,
+            **vars(self.solution.statistics),
+        }
