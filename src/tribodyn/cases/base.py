@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationInfo, field_validator
 
-from tribodyn.cases.keys import Value, family_names
+from tribodyn.cases.keys import Value, family_names, text
 from tribodyn.core.errors import InputError
 
 _T = TypeVar("_T")
@@ -38,6 +38,9 @@ class Case(Group):
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Pairs of keys of which only one may be given."""
 
+    case: str
+    title: str = text("", "heading of figures and report")
+
     _given: dict[str, Any] = PrivateAttr(default_factory=dict)
 
     @classmethod
@@ -49,6 +52,11 @@ class Case(Group):
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that depend on what was given; by default there are none."""
         return {}
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of the whole run [s]."""
+        raise NotImplementedError
 
     def at(self, path: str) -> Value | None:
         """Return the value at a dotted path, such as ``joint.clearance``."""
@@ -86,7 +94,7 @@ class Case(Group):
 
     def __eq__(self, other: object) -> bool:
         """Cases are equal when all their values are, however they were spelled."""
-        return type(self) is type(other) and self.model_dump() == other.model_dump()  # type: ignore[attr-defined]
+        return isinstance(other, Case) and self.model_dump() == other.model_dump()
 
     def __hash__(self) -> int:
         """Hash of all values."""

@@ -48,6 +48,7 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
         Named in messages about values that were not given.
     """
     keys = keys_of(model)
+    entries = {path: entry for path, entry in entries.items() if not _empty_table(path, entry, keys)}
     for path, entry in entries.items():
         if path not in keys:
             raise InputError(_unknown(path, keys), key=path, source=entry.source)
@@ -58,7 +59,7 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
     except ValidationError as error:
         raise _first_problem(error, keys, entries, source) from None
     except InputError as error:
-        raise _located(error, entries, source) from None
+        raise _located(error, keys, entries, source) from None
     case._given.update(entries)
     return case
 
@@ -97,12 +98,11 @@ def _refused(key: Key, entry: Entry, why: str = "") -> str:
 
 def _unknown(path: str, keys: Mapping[str, Key]) -> str:
     """Say that there is no such key, and which one may have been meant."""
-    tables = {key.table for key in keys.values()} - {""}
     inside = [key.name for key in keys.values() if key.table == path]
     if inside:
         return f"this is a table, not a value; its keys: {', '.join(inside)}"
-    if path in tables:
-        below = sorted(table for table in tables if table.startswith(f"{path}."))
+    below = sorted({key.table for key in keys.values() if key.table.startswith(f"{path}.")})
+    if below:
         return f"this holds only tables: {', '.join(below)}"
     near = _nearest_key(path, keys)
     return "unknown key" + (
@@ -119,6 +119,11 @@ def _nearest_key(path: str, keys: Mapping[str, Key]) -> str | None:
         return siblings[near[0]]
     elsewhere = [key.path for key in keys.values() if key.name == name]
     return closest(path, elsewhere or keys) or (elsewhere[0] if elsewhere else None)
+
+
+def _empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:
+    """Tell whether an entry is a table of the case that a file left empty."""
+    return entry.value == {} and not entry.text and any(key.startswith(f"{path}.") for key in keys)
 
 
 def _one_of_each(model: type[Case], entries: Mapping[str, Entry]) -> None:
@@ -150,8 +155,14 @@ def _first_problem(
     return InputError(_refused(keys[path], entry), key=path, source=entry.source)
 
 
-def _located(error: InputError, entries: Mapping[str, Entry], source: str) -> InputError:
+def _located(
+    error: InputError, keys: Mapping[str, Key], entries: Mapping[str, Entry], source: str
+) -> InputError:
     """Add to the message of a cross-check what was given, and where."""
-    entry = entries.get(error.key or "")
-    given = f"given {shown(entry.value)}; " if entry else ""
-    return InputError(given + error.reason, key=error.key, source=entry.source if entry else source)
+    path = error.key or ""
+    entry = entries.get(path)
+    default = keys[path].default if path in keys else None
+    if entry is not None:
+        return InputError(f"given {shown(entry.value)}; {error.reason}", key=path, source=entry.source)
+    held = "" if default is None else f"by default {keys[path].write(default)}; "
+    return InputError(held + error.reason, key=error.key, source=source)

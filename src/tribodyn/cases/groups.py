@@ -53,6 +53,12 @@ class Contact(Group):
     """The law of rough contact and its damping."""
 
     law: str = choice("rsdc", "contact law", "paper, section 2", family="tribodyn.contact:LAWS")
+    damping_factor: str = choice(
+        "lankarani-nikravesh",
+        "how damping follows from restitution in the law rsdc",
+        "paper, Eq. 9",
+        family="tribodyn.contact:DAMPING_FACTORS",
+    )
     onset_separation: float = number(
         4.0,
         "separation over sigma at which contact begins and the entry velocity is taken",

@@ -18,7 +18,7 @@ from typing import Any, Literal, TypeAlias, Union, get_args, get_origin
 from pydantic import BaseModel, Field
 from pydantic.fields import FieldInfo
 
-from tribodyn.cases.units import UnitProblem, dimension, from_si, si_unit, to_si, unit_of
+from tribodyn.cases.units import MissingUnit, UnitProblem, dimension, from_si, si_unit, to_si, unit_of
 
 Value: TypeAlias = float | int | bool | str
 """What a key can hold once read: numbers in SI units, switches, names."""
@@ -118,13 +118,20 @@ class Key:
 
     def _read_quantity(self, value: object) -> float:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
-            raise ValueProblem("the unit is missing" if _finite(value) else "the number must be finite")
+            raise ValueProblem(self._without_unit(value) if _finite(value) else "the number must be finite")
         if not isinstance(value, str):
             raise ValueProblem("")
         try:
             return to_si(value, self.unit)
+        except MissingUnit:
+            raise ValueProblem(self._without_unit(value)) from None
         except UnitProblem as problem:
             raise ValueProblem(str(problem)) from None
+
+    def _without_unit(self, value: object) -> str:
+        """Show how a number given without a unit would be spelled with one."""
+        number = str(value).strip()
+        return f'the unit is missing, as in {self.name} = "{number[:_LONGEST_SHOWN]} {self.unit}"'
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""
@@ -175,10 +182,11 @@ def number(
     ge: float | None = None,
     lt: float | None = None,
     le: float | None = None,
+    example: str = "",
 ) -> Any:
     """Declare a dimensionless key; its values are bare numbers."""
     bounds: dict[str, Bound] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    return _field(default, description, source, bounds, bounds, kind="number")
+    return _field(default, description, source, bounds, bounds, kind="number", example=example)
 
 
 def count(default: int, description: str, source: str, *, ge: int, le: int) -> Any:

@@ -114,7 +114,7 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, ob
         path = prefix + _key_text(name)
         if isinstance(value, dict) and value:
             yield from _flat(value, f"{path}.")
-        elif not isinstance(value, dict):
+        else:
             yield path, value
 
 

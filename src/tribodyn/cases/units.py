@@ -17,7 +17,7 @@ from typing import Final
 import pint
 
 _ARITHMETIC: Final = Context(prec=34)
-_REGISTRY: Final = pint.UnitRegistry(
+_REGISTRY: Final[pint.UnitRegistry[Decimal]] = pint.UnitRegistry(
     non_int_type=Decimal, on_redefinition="ignore", cache_folder=None, autoconvert_offset_to_baseunit=True
 )
 # pint reads Nm as the number metric of yarns; an engineer means the moment.
@@ -55,6 +55,10 @@ _DIMENSIONS: Final = {
 
 class UnitProblem(ValueError):
     """A text is not a quantity of the wanted kind; the message says why."""
+
+
+class MissingUnit(UnitProblem):
+    """A number stands alone where a unit is needed."""
 
 
 def si_unit(unit: str) -> str:
@@ -140,7 +144,7 @@ def _split(text: str) -> tuple[Decimal, str]:
         raise UnitProblem("this is not a number followed by a unit")
     number, unit = match.group(1), match.group(2).strip()
     if not unit:
-        raise UnitProblem("the unit is missing")
+        raise MissingUnit("the unit is missing")
     return Decimal(number), f"1{unit}" if unit.startswith("/") else unit
 
 

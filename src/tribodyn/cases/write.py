@@ -8,7 +8,9 @@ from itertools import groupby
 from tribodyn.cases.base import Case
 from tribodyn.cases.keys import ASSUMED, Key, keys_of
 
-_COMMENT_COLUMN = 36
+_COMMENT_COLUMN = 38
+_LONGEST_LINE = 120
+_ASSUMED = "ASSUMED"
 
 
 def to_toml(case: Case, *, comments: bool) -> str:
@@ -23,26 +25,28 @@ def to_toml(case: Case, *, comments: bool) -> str:
 
 def _head(case: Case) -> Iterator[str]:
     yield f'# All keys of a "{case.kind()}" case. Copy, edit, then: tribodyn run FILE.toml'
-    yield '# A value with a unit is text, "20 um"; one without is a bare number. Keys left out take their defaults.'
+    yield '# Values with a unit are text, "20 um"; others are bare. Keys left out take their defaults.'
+    yield f"# {_ASSUMED}: the paper does not give this value."
     yield ""
 
 
 def _lines(case: Case, key: Key, comments: bool) -> Iterator[str]:
     value = case.at(key.path)
-    if value is None:
-        if comments:
-            yield _commented(f'# {key.name} = "{key.example}"' if key.example else f"# {key.name} =", key)
+    line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
+    if not comments:
+        yield from [] if value is None else [line]
         return
-    line = f"{key.name} = {key.write(value)}"
-    yield _commented(line, key) if comments else line
+    together = f"{line:<{_COMMENT_COLUMN}}  # {comment(key)}"
+    yield from [together] if len(together) <= _LONGEST_LINE else [f"# {comment(key)}:", line]
 
 
-def _commented(line: str, key: Key) -> str:
-    return f"{line:<{_COMMENT_COLUMN}}  # {comment(key)}"
+def _example(key: Key) -> str:
+    """Return a value for a key that is not in force, where its alternative is."""
+    return f'"{key.example}"' if key.unit else key.example
 
 
 def comment(key: Key) -> str:
     """Return what a key means, where its default comes from and what it may hold, on one line."""
-    source = "ASSUMED, not in the paper" if key.source == ASSUMED else key.source
+    source = _ASSUMED if key.source == ASSUMED else key.source
     bounds = " | ".join(key.choices) if len(key.choices) > 1 else key.limits
     return "; ".join(part for part in (key.description, bounds, source) if part)

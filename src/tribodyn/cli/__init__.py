@@ -1,1 +1,1 @@
-"""TODO."""
+"""The command ``tribodyn``: thin, parses, calls and prints. Heavy imports stand inside functions."""

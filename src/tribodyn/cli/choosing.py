@@ -1,0 +1,43 @@
+"""The options that choose a case and change it."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from typing import TYPE_CHECKING
+
+from tribodyn.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tribodyn.cases import Case
+
+
+def add_case_arguments(parser: ArgumentParser) -> None:
+    """Add CASE and the options that change it."""
+    parser.add_argument("case", metavar="CASE", help="a built-in case (see `tribodyn cases`) or a TOML file")
+    parser.add_argument(
+        "--set",
+        dest="changes",
+        metavar="PATH=VALUE",
+        action="append",
+        default=[],
+        help='change a key, with its unit: --set joint.clearance="25 um"; may be repeated',
+    )
+    parser.add_argument("--solver", metavar="NAME", help="short for --set solver.name=NAME")
+
+
+def chosen_case(args: Namespace) -> Case:
+    """Return the case that the arguments name, with the changes they ask for."""
+    from tribodyn.cases import load_case
+
+    case = load_case(args.case)
+    changes = dict(_change(text) for text in args.changes)
+    if changes:
+        case = case.replace(changes, source="--set")
+    return case if args.solver is None else case.replace({"solver.name": args.solver}, source="--solver")
+
+
+def _change(text: str) -> tuple[str, str]:
+    path, equals, value = text.partition("=")
+    if not (equals and path.strip()):
+        raise InputError(f'given "{text}"; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set")
+    return path.strip(), value.strip()

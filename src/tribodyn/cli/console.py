@@ -1,0 +1,68 @@
+"""What the command prints, and where: results on stdout, everything about the work on stderr."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from argparse import Namespace
+from dataclasses import dataclass
+from typing import Any, TextIO
+
+
+@dataclass(frozen=True)
+class Console:
+    """Where messages go.
+
+    Attributes
+    ----------
+    quiet
+        Whether nothing but errors and warnings is printed.
+    json
+        Whether stdout belongs to one JSON document.
+    """
+
+    quiet: bool = False
+    json: bool = False
+
+    @classmethod
+    def of(cls, args: Namespace) -> Console:
+        """Return the console that the options ask for."""
+        return cls(quiet=args.quiet, json=args.json)
+
+    def say(self, text: str) -> None:
+        """Print what the user asked for."""
+        if not (self.quiet or self.json):
+            print(text)
+
+    def note(self, text: str) -> None:
+        """Print how the work is going."""
+        if not self.quiet:
+            print(text, file=sys.stderr, flush=True)
+
+
+def show_json(document: Any) -> None:
+    """Print one JSON document on stdout."""
+    import json
+
+    print(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def complain(text: str) -> None:
+    """Print one error or warning on stderr, on one line, whatever it quotes."""
+    one_line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    print(f"tribodyn: {one_line}", file=sys.stderr, flush=True)
+
+
+def forgive_encodings() -> None:
+    """Let streams that cannot show a character show its code instead of failing."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="backslashreplace")
+
+
+def is_terminal(stream: TextIO) -> bool:
+    """Tell whether a person watches the stream."""
+    with contextlib.suppress(ValueError, AttributeError):
+        return stream.isatty()
+    return False

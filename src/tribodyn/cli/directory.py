@@ -1,0 +1,83 @@
+"""The directory that results go to: checked before anything is computed."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from pathlib import Path
+from typing import Final
+
+from tribodyn.core.errors import InputError
+
+FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html")
+FIGURES: Final = "figures"
+REPORT: Final = "report.html"
+
+
+class OutputDirectory:
+    """A directory that can be written to.
+
+    Parameters
+    ----------
+    path
+        Where results go; made with its parents if missing.
+
+    Raises
+    ------
+    InputError
+        Results cannot be written there. Nothing is left behind.
+    """
+
+    def __init__(self, path: str) -> None:
+        self.path = Path(path)
+        if not path:
+            raise _refused(path, "the name is empty")
+        self._made = _missing_parents(self.path)
+        self._make()
+        self._check_names()
+
+    def _make(self) -> None:
+        from tribodyn.results.store import prepare_directory
+
+        try:
+            prepare_directory(self.path)
+        except (InputError, OSError, ValueError) as error:
+            self.forget()
+            cause = error.__cause__ or error
+            reason = cause.strerror if isinstance(cause, OSError) else None
+            raise _refused(os.fspath(self.path), (reason or str(cause)).lower()) from None
+
+    def _check_names(self) -> None:
+        """Refuse a directory in which a result could not take its name."""
+        for name in FILES:
+            if (self.path / name).is_dir():
+                raise _refused(os.fspath(self.path), f"{name} in it is a directory")
+        figures = self.path / FIGURES
+        if figures.exists() and not figures.is_dir():
+            raise _refused(os.fspath(self.path), f"{FIGURES} in it is a file")
+
+    def forget(self) -> None:
+        """Remove what was made, as far as it is still empty."""
+        for path in self._made:
+            with contextlib.suppress(OSError, ValueError):
+                path.rmdir()
+
+    def drop_pictures(self) -> None:
+        """Remove figures and report of an earlier run, which would contradict the new result."""
+        for path in (self.path / REPORT, *(self.path / FIGURES).glob("*.png")):
+            path.unlink(missing_ok=True)
+
+
+def _missing_parents(path: Path) -> list[Path]:
+    """Return what making `path` will make, innermost first."""
+    with contextlib.suppress(OSError, ValueError):
+        return [place for place in (path, *path.parents) if not place.exists()]
+    return []
+
+
+def _refused(path: str, reason: str) -> InputError:
+    return InputError(
+        f'given "{path}": results cannot be written there ({reason}); allowed: a directory that can be '
+        "written to, or a new name in one",
+        key="--output",
+    )

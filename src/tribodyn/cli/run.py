@@ -1,0 +1,121 @@
+"""``tribodyn run``: simulate a case, save the result, draw it, say what came out."""
+
+from __future__ import annotations
+
+import os
+import traceback
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.compiling import announced_compilation
+from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.headlines import in_words
+from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.pictures import draw
+from tribodyn.cli.progress import progress
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from tribodyn.cases import Case
+
+HELP = "simulate a case; results, figures and a report go to a directory"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``run``."""
+    add_case_arguments(parser)
+    parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: results-CASE)")
+
+
+def execute(args: Namespace) -> int:
+    """Run the case; 0 when it came to its end and everything is written, else 1."""
+    console = Console.of(args)
+    case = chosen_case(args)
+    directory = OutputDirectory(_name(args) if args.output is None else args.output)
+    with Interruption() as interruption:
+        try:
+            dataset = _simulate(case, console, interruption)
+        except BaseException:
+            directory.forget()
+            raise
+        summary = _save(dataset, directory)
+    drawn = _draw(dataset, directory, console, args.debug, skip=interruption.requested)
+    _tell(summary, directory.path, console)
+    failure = str(dataset.attrs.get("failure", ""))
+    if failure:
+        complain(_stopped(dataset, case, failure, directory.path))
+    return 0 if drawn and not failure else 1
+
+
+def _name(args: Namespace) -> str:
+    """Return the default directory: named after the case, in the current directory."""
+    return f"results-{Path(args.case).stem}"
+
+
+def _simulate(case: Case, console: Console, stop: Interruption) -> xr.Dataset:
+    console.note(f"running {case.title}")
+    with progress(case.duration, console) as shown, announced_compilation(shown.note):
+        from tribodyn.simulate import simulate
+
+        return simulate(case, progress=shown, stop=stop)
+
+
+def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
+    from tribodyn.results.store import write_run
+    from tribodyn.results.summary import summarise
+
+    write_run(dataset, directory.path)
+    return dict(summarise(dataset))
+
+
+def _draw(
+    dataset: xr.Dataset, directory: OutputDirectory, console: Console, debug: bool, *, skip: bool
+) -> bool:
+    """Draw figures and report; the result is safe whatever happens here. Tell whether all were drawn."""
+    path = os.fspath(directory.path)
+    again = f"`tribodyn report {path}` draws them"
+    if skip:
+        directory.drop_pictures()
+        console.note(f"figures and report were left out; {again}")
+        return False
+    console.note("drawing figures and report")
+    try:
+        draw(dataset, directory.path)
+    except KeyboardInterrupt:
+        complain(f"interrupted while drawing; the result is saved in {path}; {again}")
+        return False
+    except Exception as error:
+        if debug:
+            traceback.print_exc()
+        directory.drop_pictures()
+        complain(f"figures and report could not be made ({error}); the result is saved in {path}; {again}")
+        return False
+    return True
+
+
+def _tell(summary: dict[str, Any], path: Path, console: Console) -> None:
+    """Print the headline numbers, the warnings, and where to look."""
+    for line in ("", str(summary.get("title", "")), *in_words(summary), ""):
+        console.say(line)
+    if summary.get("warnings"):
+        complain(f"warning: {summary['warnings']}")
+    report = path / "report.html"
+    console.say(
+        f"look at {report if report.exists() else path / 'result.nc'}; everything is in {path}{os.sep}"
+    )
+    if console.json:
+        show_json(summary)
+
+
+def _stopped(dataset: xr.Dataset, case: Case, failure: str, path: Path) -> str:
+    """Say when a run stopped, why, and where the rest is."""
+    times = dataset["time"].values
+    reached = float(times[-1]) if times.size else 0.0
+    return (
+        f"the run stopped at t = {reached:.6g} s of {case.duration:.6g} s: {failure}; "
+        f"what was computed until then is saved in {os.fspath(path)}"
+    )
