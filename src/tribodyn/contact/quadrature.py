@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Final
 
@@ -12,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 _DECAY: Final = 40.0
-"""Heights whose density is below exp(-40) = 4e-18 of the largest one in contact are left out."""
+"""Heights whose density is below exp(-40) = 4e-18 of the largest one in the interval are left out."""
 
 
 def density(z: FloatArray) -> FloatArray:
@@ -41,8 +42,8 @@ def asperity_integral(
     upper limit is cut where the density has died away.
     """
     h = np.asarray(h_star, dtype=np.float64)[..., np.newaxis]
-    reach = np.sqrt(np.maximum(h, 0.0) ** 2 + 2.0 * _DECAY) - h
-    t_first = np.sqrt(np.minimum(lower, reach))
+    reach = np.sqrt(np.maximum(h + lower, 0.0) ** 2 + 2.0 * _DECAY) - h
+    t_first = math.sqrt(lower)
     half = 0.5 * (np.sqrt(np.minimum(upper, reach)) - t_first)
     t = t_first + half * (1.0 + _NODES)
     integrand = 2.0 * t ** (2.0 * power + 1.0) * weight(h + t**2)

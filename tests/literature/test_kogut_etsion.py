@@ -1,0 +1,79 @@
+"""Kogut-Etsion pressures against numbers computed independently of this project."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tribodyn.contact import KogutEtsion, SurfacePair
+
+# Surfaces of Table 1 of the source paper, values of section 2 of the model as specified.
+TABLE_1_PROPERTIES = [
+    ("composite_modulus", 7.818e9, 0.0005e9),
+    ("hardness_coefficient", 0.5934, 0.00005),
+    ("roughness_rms", 1.634e-6, 0.0005e-6),
+    ("critical_interference", 0.02811e-6, 0.000005e-6),
+    ("critical_interference_star", 0.01721, 0.000005),
+    ("asperity_parameter", 0.5072, 0.00005),
+]
+TABLE_1_PRESSURE = [
+    (0.0, 518.2e6, 0.05e6),
+    (1.0, 98.78e6, 0.005e6),
+    (2.0, 9.287e6, 0.0005e6),
+    (3.0, 0.3904e6, 0.00005e6),
+    (4.0, 0.006889e6, 0.0000005e6),
+]
+
+# Dimensionless load F/(A_n H) by plasticity index, after Kogut and Etsion (2003), ηRσ = 0.04, ν = 0.3.
+# The separation there is measured from the mean of surface heights, here from that of asperity heights.
+# The area fractions A* of the same source are left out: no law here has an area.
+SEPARATIONS = np.array([0.0, 0.5, 1.0, 1.5, 2.0, 3.0])
+DIMENSIONLESS_LOAD = {
+    0.5: [3.94187e-02, 2.28604e-02, 1.15229e-02, 4.89120e-03, 1.69827e-03, 1.01883e-04],
+    1.0: [7.68165e-02, 4.50192e-02, 2.28722e-02, 9.75983e-03, 3.39883e-03, 2.04251e-04],
+    2.0: [1.33168e-01, 7.97206e-02, 4.12545e-02, 1.78850e-02, 6.31484e-03, 3.88186e-04],
+    2.5: [1.51768e-01, 9.17302e-02, 4.79933e-02, 2.10316e-02, 7.49584e-03, 4.66965e-04],
+    4.0: [1.95403e-01, 1.18844e-01, 6.27714e-02, 2.78467e-02, 1.00650e-02, 6.45480e-04],
+    8.0: [2.78207e-01, 1.71272e-01, 9.09959e-02, 4.04893e-02, 1.46740e-02, 9.49146e-04],
+}
+
+
+@pytest.mark.parametrize(("name", "expected", "last_digit"), TABLE_1_PROPERTIES)
+def test_properties_of_table_1(
+    table_1_pair: SurfacePair, name: str, expected: float, last_digit: float
+) -> None:
+    # Half a unit of the last printed digit.
+    assert getattr(table_1_pair, name) == pytest.approx(expected, abs=last_digit)
+
+
+@pytest.mark.parametrize(("h_star", "expected", "last_digit"), TABLE_1_PRESSURE)
+def test_pressure_of_table_1(
+    table_1_pair: SurfacePair, h_star: float, expected: float, last_digit: float
+) -> None:
+    # Half a unit of the last printed digit.
+    pressure = KogutEtsion(table_1_pair).stiffness_pressure(np.array([h_star]))[0]
+    assert pressure == pytest.approx(expected, abs=last_digit)
+
+
+@pytest.mark.parametrize("plasticity_index", DIMENSIONLESS_LOAD)
+def test_dimensionless_load(plasticity_index: float) -> None:
+    beta, radius, roughness = 0.04, 10e-6, 1e-6
+    summit_ratio = math.sqrt(1.0 - 3.717e-4 / beta**2)  # σ_s/σ
+    law = KogutEtsion(
+        pair_of(plasticity_index, beta / (radius * roughness), radius, summit_ratio * roughness)
+    )
+    h_star = (SEPARATIONS - 0.045944 / beta) / summit_ratio
+    load = law.stiffness_pressure(h_star) / law.pair.hardness
+    # Six printed digits: half a unit of the last is at most 5e-6 of the smallest leading digits here.
+    np.testing.assert_allclose(load, DIMENSIONLESS_LOAD[plasticity_index], rtol=6e-6)
+
+
+def pair_of(plasticity_index: float, density: float, radius: float, summit_rms: float) -> SurfacePair:
+    """Return surfaces whose critical interference is ``summit_rms``/ψ², with ν = 0.3."""
+    hardness, nu = 1e9, 0.3
+    slope = math.sqrt(summit_rms / radius) / plasticity_index
+    modulus = math.pi * (0.454 + 0.41 * nu) * hardness / (2.0 * slope)
+    young = 2.0 * (1.0 - nu**2) * modulus
+    return SurfacePair((young, young), (nu, nu), (0.0, summit_rms), hardness, density, radius)

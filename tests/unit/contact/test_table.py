@@ -1,0 +1,118 @@
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tribodyn.contact import RSDC, KogutEtsion, SurfacePair, tabulate
+from tribodyn.contact.table import onset_share
+from tribodyn.core.errors import InputError
+from tribodyn.kernels.lookup import pressure_and_damping
+
+SEPARATIONS = -4.0 + 12.0 * np.sqrt(np.arange(1, 48) / 48.0)
+"""Off the nodes, closer together where the pressure is small."""
+
+
+def gauss(z: float) -> float:
+    return math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi)
+
+
+def tail(z: float) -> float:
+    return 0.5 * math.erfc(z / math.sqrt(2.0))
+
+
+def adaptive(
+    pair: SurfacePair, h: float, weight: Callable[[float], float]
+) -> tuple[float, float, float, float]:
+    """Return the four terms of Eqs. 2-4 at h* = ``h``, written out again and integrated adaptively [Pa]."""
+    d = pair.critical_interference_star
+    scale = 2.0 / 3.0 * pair.hardness_coefficient * pair.hardness * math.pi * pair.asperity_parameter
+    end = 15.0 - min(h, 0.0)
+
+    def integral(power: float, lower: float, upper: float) -> float:
+        if lower >= end:
+            return 0.0
+        upper = min(upper, end)
+        return float(
+            quad(lambda s: s**power * weight(h + s), lower, upper, epsabs=0, epsrel=1e-11, limit=400)[0]
+        )
+
+    return (
+        scale * d**-0.5 * integral(1.5, 0.0, d),
+        scale * 1.03 * d**-0.425 * integral(1.425, d, 6.0 * d),
+        scale * 1.40 * d**-0.263 * integral(1.263, 6.0 * d, 110.0 * d),
+        2.0 * pair.hardness * math.pi * pair.asperity_parameter * integral(1.0, 110.0 * d, math.inf),
+    )
+
+
+def adaptive_damping(pair: SurfacePair, h: float) -> float:
+    elastic, first, second, plastic = adaptive(pair, h, tail)
+    mu = (plastic + first + second) / (elastic + first + second)
+    end = 15.0 - min(h, 0.0)
+    height = quad(lambda s: s**1.5 * gauss(h + s), 0.0, end, epsabs=0, epsrel=1e-11, limit=400)[0]
+    stress = pair.composite_modulus * pair.asperity_density
+    stress *= math.sqrt(pair.asperity_radius) * pair.roughness_rms**1.5
+    return float(stress * mu / (mu + 1.0) * height)
+
+
+# From nearly plastic through Table 1 to nearly elastic: δ_c* = 7e-8, 0.017, 1.7.
+@pytest.mark.parametrize("hardness", [1e6, 492e6, 4.9e9])
+def test_table_agrees_with_adaptive_quadrature(table_1_pair: SurfacePair, hardness: float) -> None:
+    pair = dataclasses.replace(table_1_pair, hardness=hardness)
+    table = tabulate(RSDC(pair), onset=8.0, smoothing_width=0.1)
+    found = np.array([pressure_and_damping(table, h) for h in SEPARATIONS])
+    pressure = [sum(adaptive(pair, h, gauss)) for h in SEPARATIONS]
+    # 1e-6 is the accuracy that the model asks of the table.
+    np.testing.assert_allclose(found[:, 0], pressure, rtol=1e-6)
+    raw = SEPARATIONS < 7.9
+    damping = [adaptive_damping(pair, h) for h in SEPARATIONS[raw]]
+    np.testing.assert_allclose(found[raw, 2], damping, rtol=1e-6)
+
+
+def test_law_without_damping_tabulates_to_zero_damping(table_1_pair: SurfacePair) -> None:
+    assert not tabulate(KogutEtsion(table_1_pair)).nodes[:, 2:].any()
+
+
+def test_nodes_are_ready_for_a_kernel(table_1_pair: SurfacePair) -> None:
+    table = tabulate(RSDC(table_1_pair))
+    assert table.nodes.flags.c_contiguous
+    assert table.nodes.shape == (1537, 4)
+    assert table.energy.shape == (1537,)
+    assert (table.h_first, table.h_last, 1.0 / table.inverse_step) == (-4.0, 8.0, 12.0 / 1536)
+
+
+def test_damping_is_zero_above_the_onset_and_whole_below_it(table_1_pair: SurfacePair) -> None:
+    law = RSDC(table_1_pair)
+    table = tabulate(law, onset=3.0, smoothing_width=0.5)
+    for h_star in (3.0, 3.1, 4.0, 7.99):
+        assert pressure_and_damping(table, h_star)[2:] == (0.0, 0.0)
+    whole = law.damping_pressure(np.array([2.5]))[0]
+    assert pressure_and_damping(table, 2.5)[2] == pytest.approx(whole, rel=1e-12)
+
+
+def test_smoothstep_runs_from_zero_at_the_onset_to_one() -> None:
+    share, slope = onset_share(np.array([4.5, 4.0, 3.5, 3.0, 0.0]), 4.0, 1.0)
+    np.testing.assert_allclose(share, [0.0, 0.0, 0.5, 1.0, 1.0], atol=1e-15)
+    np.testing.assert_allclose(slope, [0.0, 0.0, -1.5, 0.0, 0.0], atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("onset", "width", "key"),
+    [
+        (4.0, 0.0, "contact.smoothing_width"),
+        (4.0, math.nan, "contact.smoothing_width"),
+        (9.0, 1.0, "contact.onset_separation"),
+        (math.nan, 1.0, "contact.onset_separation"),
+        (-3.5, 1.0, "contact.onset_separation"),
+    ],
+)
+def test_impossible_onset_is_refused_by_key(
+    table_1_pair: SurfacePair, onset: float, width: float, key: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        tabulate(KogutEtsion(table_1_pair), onset=onset, smoothing_width=width)
+    assert caught.value.key == key
