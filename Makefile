@@ -48,7 +48,7 @@ clean:
 # Stamps: an environment is made once, and again when pyproject.toml changes.
 
 $(BIN)/python:
-	@python="$$(tools/find-python)" && echo "Making $(VENV) with $$python" && "$$python" -m venv --clear $(VENV)
+	@tools/make-venv $(VENV)
 
 $(VENV)/.run: pyproject.toml $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
