@@ -1,8 +1,30 @@
+"""The mechanism of the source paper, made from its tables, and runs of it that several tests read."""
+
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
 import pytest
 
-from tribodyn.contact import SurfacePair
+from tribodyn.contact import SurfacePair, law, tabulate
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.tables import ContactTable
+from tribodyn.integrate import integrate
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Lengths, Vsv, vsv_problem
+
+LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, math.radians(20.0), math.radians(55.0))
+INERTIAS = Inertias(0.82, 0.1232, 0.6744, 0.253, 6.22e-4, 8.33e-4, 7.20e-2, 2.16e-3, 2.16e-3)
+DRIVE = Drive(math.radians(-16.0), math.radians(20.0), 1.0)
+TABLE_3 = AirLoads(0.4, 1.2, 0.84, math.radians(90.0), 0.01)
+ATOL = (1e-10, 1e-8, 1e-6, 1e-4)
+"""Default absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s]."""
+
+Columns = dict[str, FloatArray]
 
 
 @pytest.fixture(scope="session")
@@ -16,3 +38,83 @@ def table_1_pair() -> SurfacePair:
         asperity_density=0.038e12,
         asperity_radius=8.17e-6,
     )
+
+
+@pytest.fixture(scope="session")
+def contact_table(table_1_pair: SurfacePair) -> ContactTable:
+    """The default contact law of the default surfaces."""
+    return tabulate(law("rsdc", table_1_pair))
+
+
+@pytest.fixture(scope="session")
+def make_joint(contact_table: ContactTable, table_1_pair: SurfacePair) -> Callable[..., BushingJoint]:
+    """Return a maker of bushing joints; what is not said is the paper's or the default."""
+
+    def make(
+        clearance: float = 20e-6,
+        *,
+        friction: str = "traction",
+        coefficient: float = 0.1,
+        slip_velocity: float = 1e-5,
+        grid: tuple[int, int] = (96, 16),
+        minimum_velocity: float = 1e-3,
+        clip: bool = True,
+        table: ContactTable = contact_table,
+    ) -> BushingJoint:
+        return BushingJoint(
+            BushingGeometry(clearance, 6e-3, 20e-3),
+            Friction(coefficient, friction, slip_velocity),
+            EntryMemory(4.0, minimum_velocity, clip),
+            Grid(*grid),
+            table_1_pair.roughness_rms,
+            table,
+        )
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def make_vsv(make_joint: Callable[..., BushingJoint]) -> Callable[..., Vsv]:
+    """Return a maker of mechanisms; friction is a moment in ``paper`` and a traction in ``exact``."""
+
+    def make(
+        formulation: str = "exact",
+        clearance: float = 20e-6,
+        *,
+        friction: str | None = None,
+        gravity: float = 9.81,
+        **joint: object,
+    ) -> Vsv:
+        model = friction or ("traction" if formulation == "exact" else "moment")
+        bushing = make_joint(clearance, friction=model, **joint)
+        return Vsv(formulation, LENGTHS, INERTIAS, DRIVE, TABLE_3, gravity, 0.012, bushing)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def vsv_run(make_vsv: Callable[..., Vsv]) -> Callable[..., Columns]:
+    """Return a runner that gives observed columns over ``t`` every 5 ms; equal runs are made once."""
+
+    @cache
+    def run(
+        formulation: str = "exact",
+        clearance: float = 20e-6,
+        *,
+        duration: float = 2.0 * math.pi,
+        rtol: float = 1e-4,
+        atol_scale: float = 1.0,
+        **options: object,
+    ) -> Columns:
+        start = "equilibrium" if formulation == "exact" else "centred"
+        atol = tuple(atol_scale * value for value in ATOL)
+        problem = vsv_problem(
+            make_vsv(formulation, clearance, **options), duration=duration, start=start, atol=atol
+        )
+        times = np.append(np.arange(0.0, duration - 1e-9, 5e-3), duration)
+        solution = integrate(problem, solver="bdf", rtol=rtol, output_times=times)
+        assert solution.complete, solution.failure
+        columns = {name: solution.rows[:, k] for k, name in enumerate(OBSERVED)}
+        return {"t": solution.t, **columns}
+
+    return run
