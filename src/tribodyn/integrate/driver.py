@@ -101,13 +101,11 @@ class _Walk:
 
     def run(self, method: Method, rtol: float) -> None:
         """Integrate segment after segment."""
-        edges = self.schedule.edges
-        for number, t_end in enumerate(edges[1:].tolist()):
+        for number, t_end in enumerate(self.schedule.edges[1:].tolist()):
+            self.statistics.restarts = number
             self.enter()
-            if number == 0 and self.marks[0] <= self.t:
+            if self.marks[self.next_mark] <= self.t:  # only at the initial time; later ones are taken
                 self.take()
-            else:
-                self.statistics.restarts += number > 0
             self.segment(method, rtol, t_end)
 
     def enter(self) -> None:
