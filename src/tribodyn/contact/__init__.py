@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any, Protocol
 
 from tribodyn.contact.base import ContactLaw
@@ -29,12 +30,21 @@ class HasSurfacePair(Protocol):
 def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> ContactLaw:
     """Return the contact law called ``name`` for a pair of surfaces, or for those of a case.
 
-    ``options`` are the law's own parameters, such as ``damping_factor`` of ``rsdc``.
+    ``options`` are parameters of laws, such as ``damping_factor`` of ``rsdc``. Those of other laws than the one
+    asked for are passed over, so that a case can hand on all it has.
     """
     if name not in LAWS:
         raise InputError(f"no contact law {name!r}; there is {', '.join(LAWS)}", key="contact.law")
     pair = surfaces if isinstance(surfaces, SurfacePair) else surfaces.surface_pair
-    return LAWS[name](pair, **options)
+    own = _options_of(LAWS[name])
+    unknown = options.keys() - set().union(*map(_options_of, LAWS.values()))
+    if unknown:
+        raise InputError(f"no contact law has the option {', '.join(sorted(unknown))}", key="contact")
+    return LAWS[name](pair, **{key: value for key, value in options.items() if key in own})
+
+
+def _options_of(kind: type[ContactLaw]) -> set[str]:
+    return {entry.name for entry in fields(kind)} - {"pair"}
 
 
 __all__ = ["DAMPING_FACTORS", "LAWS", "RSDC", "ContactLaw", "KogutEtsion", "SurfacePair", "law", "tabulate"]

@@ -31,6 +31,15 @@ def test_options_reach_the_law(table_1_pair: SurfacePair) -> None:
     assert law("rsdc", table_1_pair, damping_factor="flores") == RSDC(table_1_pair, "flores")
 
 
+def test_options_of_other_laws_are_passed_over(table_1_pair: SurfacePair) -> None:
+    assert law("ke", table_1_pair, damping_factor="flores") == law("ke", table_1_pair)
+
+
+def test_options_of_no_law_are_refused(table_1_pair: SurfacePair) -> None:
+    with pytest.raises(InputError, match="dampng"):
+        law("ke", table_1_pair, dampng="flores")
+
+
 @pytest.mark.parametrize("name", LAWS)
 def test_pressure_takes_a_gap_in_metres(table_1_pair: SurfacePair, name: str) -> None:
     found = law(name, table_1_pair)
