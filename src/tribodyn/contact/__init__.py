@@ -30,8 +30,8 @@ class HasSurfacePair(Protocol):
 def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> ContactLaw:
     """Return the contact law called ``name`` for a pair of surfaces, or for those of a case.
 
-    ``options`` are parameters of laws, such as ``damping_factor`` of ``rsdc``. Those of other laws than the one
-    asked for are passed over, so that a case can hand on all it has.
+    ``options`` are parameters of laws, such as ``damping_factor`` of ``rsdc``. Those of laws other than
+    the one asked for are passed over, so that a case can hand on all it has.
     """
     if name not in LAWS:
         raise InputError(f"no contact law {name!r}; there is {', '.join(LAWS)}", key="contact.law")
