@@ -57,9 +57,8 @@ def simulate_vsv(
 def joint(case: VsvCase) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
     contact = case.contact
-    table = tabulate(
-        law(contact.law, case), onset=contact.onset_separation, smoothing_width=contact.smoothing_width
-    )
+    chosen = law(contact.law, case, damping_factor=contact.damping_factor)
+    table = tabulate(chosen, onset=contact.onset_separation, smoothing_width=contact.smoothing_width)
     return BushingJoint(
         geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
         friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
