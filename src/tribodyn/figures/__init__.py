@@ -1,1 +1,60 @@
-"""TODO."""
+"""Figures: from a result to what an engineer would look at first."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+import xarray as xr
+
+from tribodyn.figures import (
+    contact_force,
+    energy,
+    motion,
+    pressure,
+    tilt,
+    trajectory,
+    vane_error,
+    wear,
+)
+from tribodyn.figures.base import Family
+from tribodyn.figures.style import DPI
+from tribodyn.results.atomic import replacing
+
+FIGURES: Final[dict[str, Family]] = {
+    module.FAMILY.name: module.FAMILY
+    for module in (motion, vane_error, contact_force, trajectory, tilt, pressure, wear, energy)
+}
+"""Every figure, in the order in which one reads them."""
+
+__all__ = ["FIGURES", "Family", "draw_all"]
+
+
+def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
+    """Draw every figure that the result holds the data for, as PNG.
+
+    Parameters
+    ----------
+    dataset
+        A result, whole or partial.
+    directory
+        Folder to write to; made if missing. A figure left by an earlier result that this one cannot
+        show is removed.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The files written, in reading order.
+    """
+    folder = Path(directory)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for family in FIGURES.values():
+        path = folder / f"{family.name}.png"
+        if not family.drawable(dataset):
+            path.unlink(missing_ok=True)
+            continue
+        with replacing(path) as part:
+            family.draw(dataset).savefig(part, format="png", dpi=DPI)
+        written.append(path)
+    return written

@@ -1,0 +1,166 @@
+"""The two energy ledgers: what each term amounts to, and what they miss."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.base import Family
+from tribodyn.figures.style import (
+    BLUE,
+    DASHDOT,
+    DASHED,
+    DOTTED,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PALE,
+    PURPLE,
+    SMALL,
+    SOLID,
+    VERMILION,
+    caption,
+    finish,
+    finite,
+    note,
+    peak,
+    series,
+    sheet,
+)
+
+TITLE: Final = "Energy ledgers"
+WHOLE: Final = {
+    "energy_drive": "drive work, in",
+    "energy_loads": "load work, in",
+    "energy_gravity": "gravity",
+    "energy_kinetic": "kinetic",
+    "energy_contact": "stored in contact",
+    "energy_friction": "bushing friction, out",
+    "energy_collar_friction": "collar friction, out",
+    "energy_collar_tilt": "collar tilt, out",
+    "energy_damping": "contact damping, out",
+    "energy_residual": "residual",
+}
+CLEARANCE: Final = {
+    "energy_clearance_loads": "loads and reactions, in",
+    "energy_clearance_inertia": "inertia",
+    "energy_clearance_contact": "stored in contact",
+    "energy_clearance_friction": "friction, out",
+    "energy_clearance_collar": "collar, out",
+    "energy_clearance_damping": "contact damping, out",
+    "energy_clearance_residual": "residual",
+}
+LOOKS: Final = (
+    (INK, SOLID),
+    (BLUE, DASHED),
+    (VERMILION, DASHDOT),
+    (GREEN, DOTTED),
+    (ORANGE, SOLID),
+    (PURPLE, DASHED),
+)
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw the histories of the large terms [J] and the sizes of all of them, for both ledgers."""
+    figure = sheet(dataset, TITLE, 6.8)
+    grid = figure.subplots(2, 2, width_ratios=(1.35, 1.0))
+    ledgers = (
+        ("Whole mechanism", WHOLE, "energy_residual", "largest term"),
+        ("Motion in the clearance alone", CLEARANCE, "clearance_energy_residual", "largest contact term"),
+    )
+    for (history, sizes), (name, terms, attribute, yardstick) in zip(grid, ledgers, strict=True):
+        unit, scale = _unit(dataset, terms)
+        _history(history, dataset, terms, scale)
+        _sizes(sizes, dataset, terms)
+        caption(history, name)
+        finish(history, "time [s]", f"energy [{unit}]")
+        caption(sizes, _verdict(dataset, attribute, yardstick), side="right")
+    return figure
+
+
+def _unit(dataset: xr.Dataset, terms: dict[str, str]) -> tuple[str, float]:
+    """Return the unit in which the largest term of a ledger reads well, and the factor to it."""
+    largest = max(peak(series(dataset, name)) for name in terms)
+    return next(
+        ((u, f) for u, f in (("J", 1.0), ("mJ", 1e3), ("µJ", 1e6)) if largest * f >= 1.0), ("nJ", 1e9)
+    )
+
+
+def _history(axes: Axes, dataset: xr.Dataset, terms: dict[str, str], scale: float) -> None:
+    """Draw the terms that are seen beside the largest, at most six, and always the residual."""
+    time = series(dataset, "time")
+    others = sorted(
+        (name for name in terms if not name.endswith("residual")),
+        key=lambda name: -peak(series(dataset, name)),
+    )
+    largest = peak(series(dataset, others[0]))
+    for name, (colour, dash) in zip(others, LOOKS, strict=False):
+        values = series(dataset, name, scale)
+        if finite(values).size and peak(values) >= 0.01 * largest * scale:
+            axes.plot(time, values, color=colour, linestyle=dash, linewidth=1.3, label=terms[name])
+    residual = next(name for name in terms if name.endswith("residual"))
+    axes.plot(time, series(dataset, residual, scale), color=GREY, linewidth=2.6, alpha=0.55, label="residual")
+    if finite(series(dataset, others[0])).size:
+        axes.legend(fontsize=SMALL - 0.5, frameon=False, loc="best", handlelength=3.0, labelspacing=0.25)
+    else:
+        note(axes, "nothing computed")
+
+
+def _sizes(axes: Axes, dataset: xr.Dataset, terms: dict[str, str]) -> None:
+    """Draw the largest size of each term on a logarithmic axis, with its number."""
+    sizes = np.array([peak(series(dataset, name)) for name in terms])
+    colours = [VERMILION if name.endswith("residual") else PALE for name in terms]
+    rows = np.arange(len(terms))
+    floor = _floor(sizes)
+    bars = axes.barh(rows, np.maximum(sizes, floor), color=colours, height=0.7)
+    bars[-1].set_hatch("////")
+    bars[-1].set_edgecolor("white")
+    axes.set_xscale("log")
+    axes.set_xlim(floor, max(sizes.max() * 30.0, floor * 1e3))
+    for row, size in enumerate(sizes.tolist()):
+        place = 1.25 * max(size, floor)
+        axes.text(place, row, _joule(size), va="center", size=SMALL - 0.5, color=INK)
+    finish(axes, "largest size [J]")
+    axes.set_yticks(rows, list(terms.values()), size=SMALL)
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
+
+
+def _floor(sizes: FloatArray) -> float:
+    """Return where the logarithmic axis begins [J]."""
+    positive = sizes[sizes > 0.0]
+    return float(10.0 ** np.floor(np.log10(positive.min()) - 0.3)) if positive.size else 1e-9
+
+
+def _joule(size: float) -> str:
+    """Return an energy with a fitting prefix."""
+    for unit, scale in (("J", 1.0), ("mJ", 1e3), ("µJ", 1e6), ("nJ", 1e9)):
+        if size * scale >= 1.0:
+            return f"{size * scale:.3g} {unit}"
+    return "0" if size == 0.0 else f"{size:.1e} J"
+
+
+def _verdict(dataset: xr.Dataset, attribute: str, yardstick: str) -> str:
+    """Return the residual in words."""
+    value = dataset.attrs.get(attribute)
+    if not isinstance(value, float) or not np.isfinite(value):
+        return "residual not known"
+    return f"residual {100.0 * value:.2g} % of {yardstick}"
+
+
+FAMILY: Final = Family(
+    name="energy",
+    title=TITLE,
+    caption=(
+        "Two ways to check the integration. Above: all bodies, drive and loads. Below: the motion in the "
+        "clearance alone, where an error in the small contact heat cannot hide behind the work of the drive."
+    ),
+    needs=("time", *WHOLE, *CLEARANCE),
+    draw=draw,
+)

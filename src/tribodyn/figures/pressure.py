@@ -1,0 +1,111 @@
+"""Contact pressure on the unrolled bushing at the snapshots."""
+
+from __future__ import annotations
+
+from string import ascii_lowercase
+from typing import Final, TypeAlias
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from tribodyn.figures.base import Family
+from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, series, sheet, signed
+from tribodyn.figures.unrolled import best_cut, draw_map, threshold_line, unloaded_middle, z_label
+
+TITLE: Final = "Contact pressure on the unrolled bushing"
+Panels: TypeAlias = NDArray[np.object_]
+CONTACT_ZONE: Final = 0.05
+"""The contact zone is where the pressure exceeds this share of its peak (section 5.2 of the paper)."""
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw the pressure [MPa] of each snapshot: forward motion at the left, reverse at the right."""
+    figure = sheet(dataset, TITLE, 6.2)
+    places = _places(dataset)
+    rows = max(3, 1 + max((row for row, _ in places), default=0))
+    panels = figure.subplots(rows, 2, sharex=True, sharey=True, squeeze=False)
+    pressure = np.nan_to_num(dataset["pressure"].values) * 1e-6
+    largest = float(pressure.max(initial=0.0)) or 1.0
+    cut = best_cut(dataset["theta"].values, pressure.max(axis=(0, 2), initial=0.0))
+    empty = unloaded_middle(dataset, pressure.max(axis=0, initial=0.0))
+    for index, place in enumerate(places):
+        mesh = draw_map(panels[place], dataset, pressure[index], cut, largest, empty)
+        _describe(panels[place], dataset, index)
+        threshold_line(panels[place], dataset, pressure[index], cut, CONTACT_ZONE * pressure[index].max())
+    _blank(panels, set(places))
+    _label(panels, z_label(empty))
+    if places:
+        bar = figure.colorbar(mesh, ax=panels, shrink=0.6, aspect=30, pad=0.02)
+        bar.set_label("contact pressure [MPa]", size=TEXT)
+        bar.ax.tick_params(labelsize=SMALL)
+        bar.outline.set_visible(False)
+    return figure
+
+
+def _places(dataset: xr.Dataset) -> list[tuple[int, int]]:
+    """Return row and column of each snapshot.
+
+    Forward snapshots run down the left column, reverse ones up the right column, so that a row holds
+    one vane position in both directions.
+    """
+    forward = series(dataset, "snapshot_direction") > 0.0
+    rows = max(3, int(forward.sum()), int((~forward).sum()))
+    down, up = iter(range(rows)), iter(range(rows - 1, -1, -1))
+    return [(next(down), 0) if ahead else (next(up), 1) for ahead in forward]
+
+
+def _describe(axes: Axes, dataset: xr.Dataset, index: int) -> None:
+    """Write above a map which vane position it is and where its peak lies."""
+    field = np.nan_to_num(dataset["pressure"].values[index]) * 1e-6
+    angle = float(np.rad2deg(dataset["snapshot_theta_v"].values[index]))
+    at_theta, at_z = np.unravel_index(int(field.argmax()), field.shape)
+    theta = float(np.rad2deg(dataset["theta"].values[at_theta])) % 360.0
+    z = float(dataset["z"].values[at_z]) * 1e3
+    caption(axes, f"({ascii_lowercase[index % 26]})  {angle:.1f}°")
+    text = f"peak {field.max():.3g} MPa at {theta:.0f}°, {signed(z)} mm"
+    axes.text(1.0, 1.04, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
+
+
+def _blank(panels: Panels, used: set[tuple[int, int]]) -> None:
+    """Say in the panels without a snapshot that it was not reached."""
+    for place, axes in np.ndenumerate(panels):
+        if place not in used:
+            note(axes, "not reached in this run")
+            axes.tick_params(labelsize=SMALL, color=GREY, length=3)
+            axes.spines[:].set_color("#dddddd")
+
+
+def _label(panels: Panels, z_text: str) -> None:
+    """Write the axis labels at the outer panels, and the direction above the columns."""
+    for axes in panels[:, 0]:
+        axes.set_ylabel(z_text, size=TEXT)
+    for axes in panels[-1]:
+        axes.set_xlabel("bushing angle θ [°]", size=TEXT)
+    for axes, way in zip(
+        panels[0], ("forward, vane angle growing", "reverse, vane angle falling"), strict=True
+    ):
+        axes.annotate(
+            way,
+            (0.5, 1.0),
+            xycoords="axes fraction",
+            xytext=(0, 20),
+            textcoords="offset points",
+            ha="center",
+            size=TEXT,
+            weight="bold",
+        )
+
+
+FAMILY: Final = Family(
+    name="pressure",
+    title=TITLE,
+    caption=(
+        "The bushing cut open and laid flat, one map for each vane position; grey lines enclose what lies "
+        "above 5 % of the peak. Rows compare the two directions of motion at one vane angle."
+    ),
+    needs=("pressure", "theta", "z", "snapshot_theta_v", "snapshot_direction"),
+    draw=draw,
+)
