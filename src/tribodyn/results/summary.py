@@ -24,6 +24,8 @@ class Headline:
         What it is, for a table.
     unit
         Unit as printed.
+    group
+        What kind of question it answers.
     meaning
         Why an engineer cares, in a sentence.
     compute
@@ -32,6 +34,7 @@ class Headline:
 
     label: str
     unit: str
+    group: str
     meaning: str
     compute: Callable[[xr.Dataset], float]
 
@@ -50,6 +53,11 @@ def _peak(values: FloatArray) -> float:
     """Return the largest finite size, NaN when there is none."""
     finite = np.abs(values[np.isfinite(values)])
     return float(finite.max()) if finite.size else math.nan
+
+
+def _reached(dataset: xr.Dataset, attribute: str, values: FloatArray) -> float:
+    """Return the peak of a quantity; where it fell between output times, an attribute holds it."""
+    return _peak(np.append(values, float(dataset.attrs.get(attribute, math.nan))))
 
 
 def _time_mean(dataset: xr.Dataset, values: FloatArray) -> float:
@@ -104,94 +112,110 @@ HEADLINES: Final[dict[str, Headline]] = {
     "vane_angle_error_max_deg": Headline(
         "Vane-angle error, largest",
         "°",
+        "Accuracy",
         "How far clearance lets the vane stray from where the drive puts it.",
         lambda d: _peak(_angle_error(d)),
     ),
     "vane_angle_error_rms_deg": Headline(
         "Vane-angle error, rms",
         "°",
+        "Accuracy",
         "The same error as an average over the run.",
         lambda d: _rms(d, _angle_error(d)),
     ),
     "vane_speed_error_rms_deg_per_s": Headline(
         "Vane-speed error, rms",
         "°/s",
+        "Accuracy",
         "How unsteadily the vane turns compared with a tight joint.",
         lambda d: _rms(d, _speed_error(d)),
     ),
     "contact_force_max_N": Headline(
         "Contact force, largest",
         "N",
+        "Load",
         "Peak load on the bushing, usually an impact after a reversal.",
-        lambda d: _peak(_norm(d, "F_cx", "F_cy")),
+        lambda d: _reached(d, "contact_force_peak", _norm(d, "F_cx", "F_cy")),
     ),
     "contact_force_mean_N": Headline(
         "Contact force, mean",
         "N",
+        "Load",
         "Average load on the bushing: what wears it.",
         lambda d: _time_mean(d, _norm(d, "F_cx", "F_cy")),
     ),
     "peak_pressure_MPa": Headline(
         "Peak pressure",
         "MPa",
+        "Load",
         "Highest pressure anywhere in the bushing; compare it with the hardness.",
-        lambda d: _peak(_values(d, "p_max")) * 1e-6,
+        lambda d: _reached(d, "pressure_peak", _values(d, "p_max")) * 1e-6,
     ),
     "tilt_max_mrad": Headline(
         "Tilt, largest",
         "mrad",
+        "Load",
         "How far the trunnion leans in the bushing: tilt loads the edges.",
         lambda d: _peak(_norm(d, "phi_x", "phi_y")) * 1e3,
     ),
     "eccentricity_max_um": Headline(
         "Eccentricity, largest",
         "µm",
+        "Load",
         "How far the trunnion centre moves off the bushing axis.",
         lambda d: _peak(_norm(d, "e_x", "e_y")) * 1e6,
     ),
     "drive_moment_max_Nm": Headline(
         "Drive moment, largest",
         "N m",
+        "Load",
         "What the actuator must deliver at the crank.",
         lambda d: _peak(_values(d, "M_d")),
     ),
     "wear_depth_max_nm": Headline(
         "Wear depth after this run",
         "nm",
+        "Wear",
         "Deepest point of the worn bushing, linear estimate.",
         lambda d: _peak(_values(d, "wear_depth")) * 1e9,
     ),
     "wear_depth_rate_nm_per_1000_cycles": Headline(
         "Wear rate",
         "nm per 1000 cycles",
+        "Wear",
         "Deepest wear if this motion repeats and the pressure stays as it is.",
         _wear_rate,
     ),
     "energy_residual_percent": Headline(
         "Energy residual, whole mechanism",
         "%",
+        "Trust",
         "What the energy ledger of all bodies misses; below 1 % is sound.",
         lambda d: float(d.attrs["energy_residual"]) * 100.0,
     ),
     "clearance_energy_residual_percent": Headline(
         "Energy residual, clearance motion",
         "%",
+        "Trust",
         "The stricter ledger of the motion in the clearance alone.",
         lambda d: float(d.attrs["clearance_energy_residual"]) * 100.0,
     ),
     "simulated_time_s": Headline(
         "Simulated time",
         "s",
+        "Effort",
         "How much of the motion this result holds.",
         lambda d: float(np.ptp(_values(d, "time"))),
     ),
-    "steps": Headline("Steps", "", "Accepted steps of the integrator.", _statistic("steps")),
+    "steps": Headline("Steps", "", "Effort", "Accepted steps of the integrator.", _statistic("steps")),
     "rhs_evaluations": Headline(
-        "Evaluations", "", "Calls of the equations of motion.", _statistic("rhs_evaluations")
+        "Evaluations", "", "Effort", "Calls of the equations of motion.", _statistic("rhs_evaluations")
     ),
-    "wall_time_s": Headline("Wall time", "s", "How long the integration took.", _statistic("wall_time")),
+    "wall_time_s": Headline(
+        "Wall time", "s", "Effort", "How long the integration took.", _statistic("wall_time")
+    ),
     "real_time_factor": Headline(
-        "Real-time factor", "", "Wall time for each second simulated.", _real_time_factor
+        "Real-time factor", "", "Effort", "Wall time for each second simulated.", _real_time_factor
     ),
 }
 """Every headline number, by its name in ``summary.json``."""
