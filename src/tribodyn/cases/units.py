@@ -121,8 +121,9 @@ def from_si(value: float, unit: str) -> str:
     """
     in_unit = _ARITHMETIC.divide(Decimal(value), _factor_and_base(unit)[0])
     for digits in range(1, 18):
-        text = f"{_plain(float(f'{in_unit:.{digits - 1}e}'))} {unit}"
-        if to_si(text, unit) == value:
+        number = float(f"{in_unit:.{digits - 1}e}")
+        text = f"{_plain(number)} {unit}"
+        if math.isfinite(number) and to_si(text, unit) == value:
             return text
     return f"{value!r} {si_unit(unit)}"
 
@@ -154,6 +155,8 @@ def _known(unit: str) -> tuple[Decimal, str]:
         raise UnitProblem(f"{unit!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)")
     try:
         return _factor_and_base(unit)
+    except UnitProblem:
+        raise
     except pint.UndefinedUnitError:
         raise UnitProblem(f"unknown unit {unit!r}") from None
     except (pint.PintError, ArithmeticError, ValueError, TypeError):

@@ -12,6 +12,7 @@ from tribodyn.core.errors import InputError
 FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html")
 FIGURES: Final = "figures"
 REPORT: Final = "report.html"
+_LONGEST_SHOWN: Final = 200
 
 
 class OutputDirectory:
@@ -33,6 +34,8 @@ class OutputDirectory:
         if not path:
             raise _refused(path, "the name is empty")
         self._made = _missing_parents(self.path)
+        if self.path.is_file():
+            raise _refused(path, "it is a file")
         self._make()
         self._check_names()
 
@@ -76,8 +79,9 @@ def _missing_parents(path: Path) -> list[Path]:
 
 
 def _refused(path: str, reason: str) -> InputError:
+    name = path if len(path) <= _LONGEST_SHOWN else f"{path[:_LONGEST_SHOWN]}..."
     return InputError(
-        f'given "{path}": results cannot be written there ({reason}); allowed: a directory that can be '
+        f'given "{name}": results cannot be written there ({reason}); allowed: a directory that can be '
         "written to, or a new name in one",
         key="--output",
     )

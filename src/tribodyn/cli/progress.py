@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 import time
 from contextlib import AbstractContextManager
@@ -47,7 +48,7 @@ class Lines:
             elapsed = time.monotonic() - self._began
             share = 100 * part // _PARTS
             self.note(
-                f"{share:3d} %  {reached:.2f} of {self._total:.2f} s simulated, {elapsed:.0f} s elapsed"
+                f"{share:3d} %  {reached:.4g} of {self._total:.4g} s simulated, {elapsed:.0f} s elapsed"
             )
 
     def note(self, text: str) -> None:
@@ -63,7 +64,11 @@ class Bar:
 
         self._console = console
         self._write = tqdm.write
-        self._bar = tqdm(total=total, bar_format=_BAR, file=sys.stderr, leave=False, delay=1e-3)
+        # Not tqdm's own measure: 0 by 0 where a terminal does not tell its size, and then no bar is drawn.
+        columns, rows = shutil.get_terminal_size()
+        self._bar = tqdm(
+            total=total, bar_format=_BAR, file=sys.stderr, leave=False, delay=1e-3, ncols=columns, nrows=rows
+        )
 
     def __enter__(self) -> Bar:
         return self

@@ -1,0 +1,185 @@
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+import tribodyn as td
+from tribodyn.cases import CASES, KINDS, Case, Key, keys_of, parse_case
+from tribodyn.core.errors import InputError
+
+CASE = td.load_case("vsv")
+
+# Close to the defaults, so that the mechanism still reaches and the inertias still fit.
+NEAR = {"mechanism", "drive"}
+
+
+def _near(key: Key, scale: float) -> object:
+    """Return a value near the default of a key, as a person would write it."""
+    if key.kind == "quantity":
+        base = float(key.default or 1.0)
+        spread = 1e-3 if key.table in NEAR else 0.3
+        return key.write(base * (1.0 + spread * scale)).strip('"')
+    if key.kind == "number":
+        return float(key.default or 1.0) * (1.0 - 0.1 * abs(scale))
+    if key.kind == "count":
+        return int(key.default or 0) + int(10 * abs(scale))
+    return key.default
+
+
+SCALES = st.floats(-1.0, 1.0)
+CHANGEABLE = {
+    path: key
+    for path, key in keys_of(type(CASE)).items()
+    if key.kind in {"quantity", "number", "count"} and not path.startswith("run.")
+}
+
+
+@st.composite
+def changes(draw: st.DrawFn) -> dict[str, object]:
+    paths = draw(st.lists(st.sampled_from(sorted(CHANGEABLE)), max_size=8, unique=True))
+    result = {path: _near(CHANGEABLE[path], draw(SCALES)) for path in paths}
+    words: dict[str, st.SearchStrategy[Any]] = {
+        "mechanism.formulation": st.sampled_from(["exact", "paper"]),
+        "joint.friction": st.sampled_from(["traction", "moment"]),
+        "run.start": st.sampled_from(["equilibrium", "centred"]),
+        "contact.tensile_clip": st.booleans(),
+        "run.duration": st.floats(0.1, 1e3).map(lambda value: f"{value!r} s"),
+        "title": st.text(
+            st.characters(codec="utf-8", exclude_categories=["Cc", "Zl", "Zp", "Cs"]), max_size=40
+        ),
+    }
+    for path in draw(st.lists(st.sampled_from(sorted(words)), max_size=4, unique=True)):
+        result[path] = draw(words[path])
+    return result
+
+
+@given(changes())
+@settings(max_examples=60, deadline=None)
+def test_case_text_reads_back_to_the_same_case(changed: dict[str, object]) -> None:
+    case = CASE.replace(changed)
+    for comments in (False, True):
+        again = parse_case(case.to_toml(comments=comments), "case.toml")
+        assert again == case
+        assert hash(again) == hash(case)
+        assert again.model_dump() == case.model_dump()
+        assert again.to_toml() == case.to_toml()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_built_in_cases_load_and_read_back(name: str) -> None:
+    case = td.load_case(name)
+    assert isinstance(case, CASES[name].model)
+    assert parse_case(case.to_toml(), name) == case
+    assert case.kind() in KINDS
+    assert case.duration > 0.0
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_models_alone_give_the_same_defaults_as_loading(name: str) -> None:
+    entry = CASES[name]
+    if not entry.given:
+        assert entry.model() == td.load_case(name)  # type: ignore[call-arg]
+
+
+def test_defaults_are_those_of_the_tables() -> None:
+    case: Any = CASE
+    assert case.surfaces.bushing.hardness == 492e6
+    assert case.joint.clearance == 20e-6
+    assert case.mechanism.crank_length == 47.7e-3
+    assert case.drive.start_angle == pytest.approx(-0.2792526803190927, rel=1e-15)
+    assert case.joint.friction == "traction"
+    assert case.run.start == "equilibrium"
+    assert case.duration == pytest.approx(4 * 3.141592653589793)
+
+
+def test_formulation_decides_defaults_unless_they_are_given() -> None:
+    paper: Any = CASE.replace({"mechanism.formulation": "paper"})
+    assert (paper.joint.friction, paper.run.start) == ("moment", "centred")
+    mixed: Any = paper.replace({"joint.friction": "traction"})
+    assert (mixed.joint.friction, mixed.run.start) == ("traction", "centred")
+    back: Any = paper.replace({"mechanism.formulation": "exact"})
+    assert back == CASE
+
+
+def test_a_resolved_file_keeps_what_it_says() -> None:
+    written = CASE.to_toml().replace('formulation = "exact"', 'formulation = "paper"')
+    case: Any = parse_case(written, "case.toml")
+    assert (case.joint.friction, case.run.start) == ("traction", "equilibrium")
+
+
+def test_duration_takes_the_place_of_cycles_and_back() -> None:
+    short = parse_case(CASE.to_toml(), "case.toml").replace({"run.duration": "3 s"})
+    assert short.at("run.cycles") is None
+    assert short.duration == 3.0
+    assert short.replace({"run.cycles": 2}) == CASE
+
+
+def test_cases_are_frozen() -> None:
+    case: Any = CASE
+    with pytest.raises(ValidationError):
+        case.title = "other"
+    with pytest.raises(ValidationError):
+        case.joint.clearance = 1.0
+
+
+def test_replace_leaves_the_original_alone() -> None:
+    wide = CASE.replace({"joint.clearance": "30 um"})
+    assert wide.at("joint.clearance") == 30e-6
+    assert CASE.at("joint.clearance") == 20e-6
+    assert wide != CASE
+    assert wide.replace({"joint.clearance": "0.02 mm"}) == CASE
+
+
+def test_cases_travel_between_processes() -> None:
+    wide = CASE.replace({"joint.clearance": "30 um"})
+    again = pickle.loads(pickle.dumps(wide))
+    assert again == wide
+    assert again.replace({"joint.clearance": "20 um"}) == CASE
+
+
+def test_surfaces_reach_the_contact_law() -> None:
+    pair = CASE.surface_pair  # type: ignore[attr-defined]
+    # model.md, section 2: check values of the surfaces of Table 1, given to four digits.
+    assert pair.composite_modulus == pytest.approx(7.818e9, rel=1e-4)
+    assert pair.roughness_rms == pytest.approx(1.634e-6, rel=5e-4)
+
+
+def test_crank_range_covers_the_swing_of_a_whole_cycle_only_if_it_is_run() -> None:
+    low, high = CASE.crank_range  # type: ignore[attr-defined]
+    assert high - low == pytest.approx(0.6981317007977318)
+    short = CASE.replace({"run.duration": "0.1 s", "drive.speed_amplitude": "200 deg/s"})
+    assert short.crank_range[1] < 0.0  # type: ignore[attr-defined]
+
+
+def test_comments_fit_on_a_screen() -> None:
+    assert max(map(len, CASE.to_toml(comments=True).splitlines())) <= 140
+
+
+def test_assumed_values_are_flagged() -> None:
+    line = next(x for x in CASE.to_toml(comments=True).splitlines() if x.startswith("friction_coefficient"))
+    assert "ASSUMED" in line
+
+
+def test_the_kind_of_a_case_cannot_be_replaced() -> None:
+    with pytest.raises(InputError, match="case"):
+        CASE.replace({"case": "other"})
+
+
+def test_models_check_values_without_a_file() -> None:
+    from tribodyn.cases.groups import Joint
+
+    with pytest.raises(ValidationError):
+        Joint(clearance=-1.0)
+    with pytest.raises(ValidationError):
+        Joint(slack=1.0)  # type: ignore[call-arg]
+    with pytest.raises(InputError, match="a tenth of"):
+        Joint(clearance=1e-3)
+
+
+def test_every_case_is_a_case() -> None:
+    assert all(issubclass(entry.model, Case) for entry in CASES.values())

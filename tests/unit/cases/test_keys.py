@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tribodyn.cases import CASES, Key, keys_of
+from tribodyn.cases.keys import ValueProblem, shown, toml_string
+
+ALL_KEYS = [key for entry in CASES.values() for key in keys_of(entry.model).values()]
+
+
+@pytest.mark.parametrize("key", ALL_KEYS, ids=lambda key: key.path)
+def test_every_key_is_documented(key: Key) -> None:
+    assert key.description
+    assert key.source or key.path in {"case", "title"}
+    assert key.allowed
+    if key.kind == "choice":
+        assert key.default in key.choices
+
+
+@pytest.mark.parametrize("key", ALL_KEYS, ids=lambda key: key.path)
+def test_every_default_reads_back_from_what_is_written(key: Key) -> None:
+    if key.default is not None:
+        written = tomllib.loads(f"key = {key.write(key.default)}")["key"]
+        assert key.read(written, text=False) == key.default
+
+
+def test_keys_of_a_table_come_before_its_sub_tables() -> None:
+    paths = list(keys_of(CASES["vsv"].model))
+    assert paths[:2] == ["case", "title"]
+    assert paths.index("solver.rtol") < paths.index("solver.atol.position") < paths.index("run.cycles")
+
+
+@pytest.mark.parametrize(
+    ("path", "given", "value"),
+    [
+        ("solver.rtol", "1e-5", 1e-5),
+        ("solver.grid.theta", "48", 48),
+        ("contact.tensile_clip", "False", False),
+        ("joint.friction", "moment", "moment"),
+    ],
+)
+def test_numbers_and_switches_may_be_typed_as_text_outside_files(
+    path: str, given: str, value: object
+) -> None:
+    key = keys_of(CASES["vsv"].model)[path]
+    assert key.read(given, text=True) == value
+    if not isinstance(value, str):
+        with pytest.raises(ValueProblem):
+            key.read(given, text=False)
+
+
+@pytest.mark.parametrize("wrong", [True, None, [1], {"a": 1}, "x", 10**400, float("nan"), "1_0"])
+@pytest.mark.parametrize("path", ["joint.clearance", "solver.rtol", "solver.grid.z"])
+def test_values_of_another_kind_are_refused(path: str, wrong: object) -> None:
+    for text in (True, False):
+        with pytest.raises(ValueProblem):
+            keys_of(CASES["vsv"].model)[path].read(wrong, text=text)
+
+
+@given(st.text(st.characters(codec="utf-8")))
+def test_strings_are_written_as_toml(value: str) -> None:
+    assert tomllib.loads(f"key = {toml_string(value)}")["key"] == value
+
+
+@given(st.one_of(st.text(), st.integers(), st.floats(), st.booleans(), st.just({}), st.just([])))
+def test_messages_quote_any_value_on_one_short_line(value: object) -> None:
+    assert len(shown(value)) <= 60
+    assert shown(value).isprintable()

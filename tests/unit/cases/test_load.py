@@ -1,0 +1,59 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tribodyn.cases import load_case, parse_case
+from tribodyn.core.errors import InputError
+
+
+def test_a_file_needs_only_what_differs(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('case = "vsv"\n[joint]\nclearance = "30 um"\n[solver]\n[solver.grid]\n', encoding="utf-8")
+    assert load_case(path) == load_case("vsv").replace({"joint.clearance": "30 um"})
+    assert load_case(str(path)) == load_case(path)
+
+
+def test_a_byte_order_mark_is_no_obstacle(tmp_path: Path) -> None:
+    path = tmp_path / "windows.toml"
+    path.write_bytes(b'\xef\xbb\xbfcase = "vsv"\r\n')
+    assert load_case(path) == load_case("vsv")
+
+
+def test_built_in_names_come_before_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("vsv").write_text("nonsense", encoding="utf-8")
+    load_case("vsv")
+    with pytest.raises(InputError, match="not valid TOML"):
+        load_case("./vsv")
+
+
+def test_names_are_data_only(tmp_path: Path) -> None:
+    path = tmp_path / "<b>лопатка {0} %s $(id).toml"
+    title = "<script>alert(1)</script> лопатка {0} %s 🌀"
+    path.write_text(f'case = "vsv"\ntitle = "{title}"\n', encoding="utf-8")
+    case = load_case(path)
+    assert case.title == title
+    assert parse_case(case.to_toml(), "again") == case
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ('case = "vsv"\n"joint.clearance" = "20 um"\n', '"joint.clearance"'),
+        ('case = "vsv"\n"" = 1\n', '""'),
+        ('case = "vsv"\n[joint.clearance]\nvalue = "20 um"\n', "joint.clearance.value"),
+        ('case = "vsv"\n[[joint]]\nclearance = "20 um"\n', "joint"),
+        ('case = "vsv"\n[jiont]\n', "jiont"),
+        ('case = "vsv"\njoint = {}\n[loads]\nair_force_x = {}\n', "loads.air_force_x"),
+        ('case = "vsv"\n[run]\ncycles = 2\nduration = "3 s"\n', "run.duration"),
+        ('case = ["vsv"]\n', "case"),
+        ("case = {}\n", "case"),
+    ],
+)
+def test_misplaced_keys_are_found(text: str, key: str) -> None:
+    with pytest.raises(InputError) as caught:
+        parse_case(text, "case.toml")
+    assert caught.value.key == key
+    assert caught.value.source == "case.toml"

@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+import contextlib
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tribodyn.cases.units import UnitProblem, dimension, from_si, si_unit, to_si
+
+UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N", "kg m^2", "ms", "um/s")
+
+
+@pytest.mark.parametrize(
+    ("text", "like", "value"),
+    [
+        ("20 um", "m", 2e-5),
+        ("20um", "m", 2e-5),
+        ("20 µm", "m", 2e-5),
+        ("20 μm", "m", 2e-5),
+        (" 2e1  um ", "m", 2e-5),
+        ("0.02 mm", "m", 2e-5),
+        ("1 in", "m", 0.0254),
+        ("203 GPa", "Pa", 203e9),
+        ("-16 deg", "rad", math.radians(-16)),
+        ("−16°", "rad", math.radians(-16)),
+        ("0.038 1/um^2", "1/m^2", 0.038e12),
+        ("0.038/um^2", "1/m^2", 0.038e12),
+        ("0.038 um**-2", "1/m^2", 0.038e12),
+        ("0.84 Nm", "N m", 0.84),
+        ("0.84 N m", "N m", 0.84),
+        ("840 mN*m", "N m", 0.84),
+        ("6.22e-4 kg·m²", "kg m^2", 6.22e-4),
+        ("60 rpm", "rad/s", 2 * math.pi),
+        ("5 ms", "s", 5e-3),
+    ],
+)
+def test_quantities_are_read(text: str, like: str, value: float) -> None:
+    # One rounding at most: 4 units in the last place cover the reference value's own rounding.
+    assert to_si(text, like) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize("value", [2e-5, 3e-5, 1.1e-15, 7.17e9, 0.392e-6])
+def test_a_decimal_scaled_by_a_power_of_ten_is_the_same_float(value: float) -> None:
+    assert to_si(f"{value!r} m", "m") == value
+
+
+def test_micrometres_are_the_float_a_person_expects() -> None:
+    assert to_si("20 um", "m") == 20e-6 == 2e-05
+
+
+@pytest.mark.parametrize(
+    ("text", "like", "reason"),
+    [
+        ("20", "m", "unit is missing"),
+        ("20 kg", "m", "not a unit of length"),
+        ("20 parsnip", "m", "unknown unit 'parsnip'"),
+        ("um", "m", "not a number"),
+        ("", "m", "not a number"),
+        ("nan um", "m", "finite"),
+        ("-inf m", "m", "finite"),
+        ("1e999 m", "m", "too large"),
+        ("1e999999999 m", "m", "not a unit"),
+        ("1,5 um", "m", "not a unit"),
+        ("20 um + 3 um", "m", "not a unit"),
+        ("2*3 um", "m", "not a number|not a unit"),
+        ("20 m^99999999", "m", "not a unit"),
+        ("20 um; import os", "m", "not a unit"),
+        ("20 __import__('os')", "m", "not a unit"),
+        ("20 " + "m*" * 100 + "m", "m", "too long"),
+        ("٢٠ um", "m", "not a number"),
+        ("1 percent", "rad", "not a unit of angle"),
+        ("1 dB", "rad", "a unit"),
+        ("1 Hz", "rad/s", "not a unit of angular speed"),
+        ("20 degC", "m", "offset"),
+    ],
+)
+def test_other_text_is_refused_with_the_reason(text: str, like: str, reason: str) -> None:
+    with pytest.raises(UnitProblem, match=reason):
+        to_si(text, like)
+
+
+@given(st.text(max_size=120))
+def test_no_text_breaks_the_reader(text: str) -> None:
+    with contextlib.suppress(UnitProblem):
+        assert math.isfinite(to_si(text, "m"))
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(UNITS))
+def test_what_is_written_reads_back_exactly(value: float, unit: str) -> None:
+    assert to_si(from_si(value, unit), unit) == value
+
+
+def test_what_is_written_is_what_a_person_would_write() -> None:
+    assert from_si(2e-5, "um") == "20 um"
+    assert from_si(to_si("-16 deg", "deg"), "deg") == "-16 deg"
+    assert from_si(203e9, "GPa") == "203 GPa"
+    assert from_si(0.0, "um") == "0 um"
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_every_unit_has_an_si_unit_of_factor_one(unit: str) -> None:
+    assert to_si(f"1.5 {si_unit(unit)}", unit) == 1.5
+    assert dimension(unit) == dimension(si_unit(unit))
