@@ -33,6 +33,7 @@ from tribodyn.kernels.vsv.layout import (
     S1_Z,
     S2_X,
     S2_Z,
+    S3_X,
     S3_Z,
     THETA_B,
     THETA_V,
@@ -70,6 +71,8 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
         test[N_X + axis, 1] = d_s2[axis] / data.l_2
         test[O3_X + axis, 1] = d_o3[axis]
     for row in (E_X, OV_X):
+        # F_43 has no part along Z here, so it drops out only where vane and ring keep together along X.
+        test[row, 0] = -motion[S3_Z, VALUE] * motion[THETA_B, 0] - motion[S3_X, 0]
         test[row, 1] = -motion[S3_Z, VALUE] * kappa
         test[row + 1, 1] = 1.0
     theta_v = motion[THETA_V, VALUE]
