@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
 
 
-@nb.njit(cache=True)
+@kernel
 def solve_in_place(matrix: FloatArray, rhs: FloatArray) -> None:
     """Solve ``matrix x = rhs`` by Gaussian elimination with partial pivoting.
 

@@ -6,12 +6,11 @@ node. A separation that is not a number gives results that are not numbers.
 
 from __future__ import annotations
 
-from numba import njit
-
 from tribodyn.core.tables import ContactTable
+from tribodyn.kernels.jit import inlined, kernel
 
 
-@njit(cache=True)
+@inlined
 def pressure_and_damping(table: ContactTable, h_star: float) -> tuple[float, float, float, float]:
     """Return P_k, dP_k/dh*, C and dC/dh* [Pa] at the separation ``h_star`` [1].
 
@@ -43,7 +42,7 @@ def pressure_and_damping(table: ContactTable, h_star: float) -> tuple[float, flo
     )
 
 
-@njit(cache=True)
+@kernel
 def stored_energy(table: ContactTable, h_star: float) -> float:
     """Return W_k = ∫_h*^∞ P_k dh* [Pa] at ``h_star`` [1]; times σ it is the stored energy per area [J/m²].
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.bushing.window import contact_window
 from tribodyn.kernels.bushing.wrench import row_motion
+from tribodyn.kernels.jit import kernel
 
 
-@nb.njit(cache=True)
+@kernel
 def pressure_field(
     joint: BushingData, entry_velocity: FloatArray, y: FloatArray, pressure: FloatArray
 ) -> None:
@@ -40,7 +39,7 @@ def pressure_field(
                 pressure[j, i] = p
 
 
-@nb.njit(cache=True)
+@kernel
 def update_entry_velocity(
     joint: BushingData, y: FloatArray, entry_velocity: FloatArray, at_start: float
 ) -> None:

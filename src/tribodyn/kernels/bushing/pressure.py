@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import numba as nb
-
 from tribodyn.core.tables import ContactTable
+from tribodyn.kernels.jit import inlined
 from tribodyn.kernels.lookup import pressure_and_damping
 
 
-@nb.njit(cache=True, inline="always")
+@inlined
 def reference_velocity(entry_velocity: float, approach: float, minimum: float) -> float:
     """Return δ̇₋ [m/s]: the remembered entry velocity, or max(|δ̇|, v_min) where there is none yet."""
     if entry_velocity > 0.0:
@@ -16,7 +15,7 @@ def reference_velocity(entry_velocity: float, approach: float, minimum: float) -
     return max(abs(approach), minimum)
 
 
-@nb.njit(cache=True, inline="always")
+@inlined
 def node_pressure(
     table: ContactTable,
     roughness: float,

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.pressure import node_pressure
 from tribodyn.kernels.bushing.window import contact_window
 from tribodyn.kernels.bushing.wrench import friction_ratio, row_motion
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.lookup import stored_energy
 
 F_CX, F_CY, M_JCX, M_JCY = 0, 1, 2, 3
@@ -26,7 +25,7 @@ CLIPPED, CONTACT_FRACTION = 16, 17
 N_REPORT = 18
 
 
-@nb.njit(cache=True)
+@kernel
 def report(
     joint: BushingData,
     entry_velocity: FloatArray,

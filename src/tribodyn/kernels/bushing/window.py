@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
+from tribodyn.kernels.jit import kernel
 
 
-@nb.njit(cache=True)
+@kernel
 def contact_window(clearance: float, a: float, b: float, limit: float, n_theta: int) -> tuple[int, int]:
     """Return the first node and the number of nodes with an unworn gap below ``limit``.
 

@@ -13,15 +13,14 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.pressure import node_pressure
 from tribodyn.kernels.bushing.window import contact_window
+from tribodyn.kernels.jit import inlined, kernel
 
 
-@nb.njit(cache=True, inline="always")
+@inlined
 def row_motion(y: FloatArray, z: float) -> tuple[float, float, float, float]:
     """Return offset (a, b) [m] and velocity (v_a, v_b) [m/s] of the trunnion axis at height ``z`` [m]."""
     tan_x = math.tan(y[2])
@@ -33,7 +32,7 @@ def row_motion(y: FloatArray, z: float) -> tuple[float, float, float, float]:
     return a, b, v_a, v_b
 
 
-@nb.njit(cache=True, inline="always")
+@inlined
 def friction_ratio(joint: BushingData, slip: float, sign: float) -> tuple[float, float]:
     """Return friction per normal pressure and its derivative with respect to slip [s/m].
 
@@ -48,7 +47,7 @@ def friction_ratio(joint: BushingData, slip: float, sign: float) -> tuple[float,
     return sign * joint.friction_coefficient * joint.bore_radius / joint.journal_radius, 0.0
 
 
-@nb.njit(cache=True)
+@kernel
 def wrench(
     joint: BushingData,
     entry_velocity: FloatArray,
@@ -116,7 +115,7 @@ def wrench(
         out[4] += area * joint.journal_radius * torque
 
 
-@nb.njit(cache=True)
+@kernel
 def _add_row(
     area: float, z: float, y: FloatArray, radius: float, gradient: FloatArray, jacobian: FloatArray
 ) -> None:
@@ -147,7 +146,7 @@ def _add_row(
             jacobian[3 - k, 8] -= z * d_omega
 
 
-@nb.njit(cache=True)
+@kernel
 def wrench_and_jacobian(
     joint: BushingData,
     entry_velocity: FloatArray,

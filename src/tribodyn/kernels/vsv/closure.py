@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
-
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.data import VsvData
 
 MAX_NEWTON = 30
 
 
-@nb.njit(cache=True)
+@kernel
 def drive(data: VsvData, t: float) -> tuple[float, float, float]:
     """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at time ``t`` [s]."""
     nu = data.angular_frequency
@@ -19,7 +18,7 @@ def drive(data: VsvData, t: float) -> tuple[float, float, float]:
     return theta, data.speed_amplitude * math.sin(nu * t), data.speed_amplitude * nu * math.cos(nu * t)
 
 
-@nb.njit(cache=True)
+@kernel
 def ideal_guess(data: VsvData, theta_a: float) -> float:
     """Return the tabulated vane angle of the ideal mechanism [rad], a start for Newton's method."""
     n = data.ideal.shape[0]
@@ -31,7 +30,7 @@ def ideal_guess(data: VsvData, theta_a: float) -> float:
     return p0 + u * (m0 + u * (3.0 * (p1 - p0) - 2.0 * m0 - m1 + u * (2.0 * (p0 - p1) + m0 + m1)))
 
 
-@nb.njit(cache=True)
+@kernel
 def closure_residual(
     data: VsvData,
     theta_a: float,
@@ -61,7 +60,7 @@ def closure_residual(
     return residual, slope
 
 
-@nb.njit(cache=True)
+@kernel
 def vane_angle(data: VsvData, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float) -> float:
     """Return θ_v [rad] of the assembly with the larger vane angle, to machine precision; NaN out of reach."""
     theta_v = ideal_guess(data, theta_a)

@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.layout import (
@@ -46,7 +45,7 @@ TILT_FLOOR = 1.0e-6
 """Regularisation of the unit tilt vector [rad]."""
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> None:
     """Fill the test motions (N_ROWS, 5): along the crank, then four for the clearance motion."""
     if data.exact > 0.0:
@@ -86,7 +85,7 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
     test[OV_X, 4] = motion[OV_X, 4]
 
 
-@nb.njit(cache=True)
+@kernel
 def ring_centre(data: VsvData, theta_b: float) -> tuple[float, float]:
     """Return x and z of the ring's mass centre relative to its axis [m]."""
     radius = 0.5 * data.l_3 * math.cos(0.5 * data.ring_angle)
@@ -94,14 +93,14 @@ def ring_centre(data: VsvData, theta_b: float) -> tuple[float, float]:
     return -radius * math.sin(angle), radius * math.cos(angle)
 
 
-@nb.njit(cache=True)
+@kernel
 def air_loads(data: VsvData, theta_v: float, direction: float) -> tuple[float, float, float]:
     """Return F_airx, F_airy [N] and M_air [N m], Table 3."""
     f_x = data.air_force_x * math.tanh((theta_v - data.switch_angle) / data.switch_width)
     return f_x, data.air_force_y, -data.air_moment * direction
 
 
-@nb.njit(cache=True)
+@kernel
 def slip_speed(memory: VsvMemory, motion: FloatArray) -> float:
     """Return the vane speed that traction sees [rad/s]: the actual one, or fully sliding if asked."""
     if memory.regime[1] != 0.0:
@@ -109,7 +108,7 @@ def slip_speed(memory: VsvMemory, motion: FloatArray) -> float:
     return motion[THETA_V, VELOCITY]
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     """Fill the force of each row and the collar's share per unit of F_cz from the joint wrench."""
     scratch = memory.scratch
@@ -133,7 +132,7 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     collar[THETA_V] = -direction * data.joint.friction_coefficient * data.collar_radius
 
 
-@nb.njit(cache=True)
+@kernel
 def assemble(data: VsvData, memory: VsvMemory) -> None:
     """Fill the mass matrix (5, 4) and the load (5,); row 0 belongs to the crank and gives M_d."""
     scratch = memory.scratch
@@ -154,7 +153,7 @@ def assemble(data: VsvData, memory: VsvMemory) -> None:
                     mass[i, j] += inertia * share * motion[row, 1 + j]
 
 
-@nb.njit(cache=True)
+@kernel
 def collar_share(memory: VsvMemory, i: int) -> float:
     """Return the generalised force of a unit F_cz along test motion ``i``."""
     test, collar = memory.scratch.test, memory.scratch.collar
@@ -163,13 +162,13 @@ def collar_share(memory: VsvMemory, i: int) -> float:
     )
 
 
-@nb.njit(cache=True)
+@kernel
 def lever_lift(data: VsvData, memory: VsvMemory) -> float:
     """Return tan θ_b, the vertical per horizontal force of the frictionless pin; 0 in ``paper``."""
     return math.tan(memory.scratch.motion[THETA_B, VALUE]) if data.exact > 0.0 else 0.0
 
 
-@nb.njit(cache=True)
+@kernel
 def add_collar(data: VsvData, memory: VsvMemory, factor: float) -> None:
     """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
     scratch = memory.scratch
@@ -184,7 +183,7 @@ def add_collar(data: VsvData, memory: VsvMemory, factor: float) -> None:
             scratch.mass[i, j] += share * lift * data.m_v * scratch.motion[OV_X, 1 + j]
 
 
-@nb.njit(cache=True)
+@kernel
 def collar_force(data: VsvData, memory: VsvMemory, acceleration: FloatArray) -> float:
     """Return m_v g + F_43z [N] for given clearance accelerations; negative means lift-off."""
     scratch = memory.scratch
@@ -195,7 +194,7 @@ def collar_force(data: VsvData, memory: VsvMemory, acceleration: FloatArray) -> 
     return data.vane_weight + lever_lift(data, memory) * f_43x
 
 
-@nb.njit(cache=True)
+@kernel
 def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill motion table and test motions; return the vane speed that traction sees [rad/s]."""
     scratch = memory.scratch
@@ -204,7 +203,7 @@ def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     return slip_speed(memory, scratch.motion)
 
 
-@nb.njit(cache=True)
+@kernel
 def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns: int) -> float:
     """Solve for the clearance accelerations with the joint wrench in ``memory.scratch``.
 
@@ -227,7 +226,7 @@ def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns
     return f_cz
 
 
-@nb.njit(cache=True)
+@kernel
 def _solve(memory: VsvMemory, data: VsvData, columns: int) -> float:
     """Solve the four clearance equations and return the collar force that follows."""
     scratch = memory.scratch
@@ -241,7 +240,7 @@ def _solve(memory: VsvMemory, data: VsvData, columns: int) -> float:
     return collar_force(data, memory, scratch.acceleration)
 
 
-@nb.njit(cache=True)
+@kernel
 def drive_moment(memory: VsvMemory) -> float:
     """Return M_d [N m] from the crank row of the projected equations."""
     scratch = memory.scratch
@@ -251,7 +250,7 @@ def drive_moment(memory: VsvMemory) -> float:
     return moment
 
 
-@nb.njit(cache=True)
+@kernel
 def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
     omega = set_up(data, t, y, memory)
@@ -259,7 +258,7 @@ def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> 
     return solve_accelerations(data, y, memory, 1)
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_load_gradient(
     data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
 ) -> None:
@@ -303,7 +302,7 @@ def fill_load_gradient(
         gradient[i, 3] += t_px * collar_xy + t_py * collar_yy
 
 
-@nb.njit(cache=True)
+@kernel
 def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """As :func:`accelerations`, and leave ∂q̈/∂y in columns 1 to 8 of ``memory.scratch.solved``.
 

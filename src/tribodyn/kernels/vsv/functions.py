@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import drive
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -17,7 +16,7 @@ from tribodyn.kernels.vsv.equations import (
 from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
 
 
-@nb.njit(cache=True)
+@kernel
 def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray) -> None:
     """Fill ``f`` (8,) with the time derivative of the state."""
     accelerations(data, t, y, memory)
@@ -26,7 +25,7 @@ def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray
         f[4 + i] = memory.scratch.acceleration[i]
 
 
-@nb.njit(cache=True)
+@kernel
 def jac(
     t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray, jacobian: FloatArray
 ) -> None:
@@ -41,7 +40,7 @@ def jac(
             jacobian[4 + i, k] = memory.scratch.solved[i, 1 + k]
 
 
-@nb.njit(cache=True)
+@kernel
 def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Begin a segment: set the direction of the ideal vane motion.
 
@@ -55,7 +54,7 @@ def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     memory.last_time[1] = t
 
 
-@nb.njit(cache=True)
+@kernel
 def advance(
     t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: VsvData, memory: VsvMemory
 ) -> None:
@@ -63,14 +62,14 @@ def advance(
     ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
 
 
-@nb.njit(cache=True)
+@kernel
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Update entry velocities and sliding load at the end of an accepted step."""
     add_sliding_load(t, y, data, memory)
     update_entry_velocity(data.joint, y, memory.entry_velocity, 0.0)
 
 
-@nb.njit(cache=True)
+@kernel
 def add_sliding_load(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Add P_c |u|, u = ω_v r_j, over the step by the trapezoidal rule (Eq. 47 and the text below it)."""
     half_step = 0.5 * (t - memory.last_time[1])
@@ -83,13 +82,13 @@ def add_sliding_load(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) 
     memory.last_time[1] = t
 
 
-@nb.njit(cache=True)
+@kernel
 def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatArray) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
     pressure_field(data.joint, memory.entry_velocity, y, fields[0])
 
 
-@nb.njit(cache=True)
+@kernel
 def kinetostatic_residual(
     t: float, q: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatArray
 ) -> None:

@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
@@ -51,7 +50,7 @@ N_EXTREMES = 7
 KINETIC, GRAVITY = 0, 1
 
 
-@nb.njit(cache=True)
+@kernel
 def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch = memory.scratch
@@ -66,13 +65,13 @@ def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float
     return solve_accelerations(data, y, memory, 1)
 
 
-@nb.njit(cache=True)
+@kernel
 def clearance_velocity(motion: FloatArray, row: int, y: FloatArray) -> float:
     """Return the part of a row's velocity that the clearance motion makes."""
     return motion[row, 1] * y[4] + motion[row, 2] * y[5] + motion[row, 3] * y[6] + motion[row, 4] * y[7]
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> None:
     """Fill ``scratch.rates`` [W] and ``scratch.momentum`` from the scratch arrays of this instant."""
     scratch = memory.scratch
@@ -112,7 +111,7 @@ def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> 
     rates[CLEARANCE_COLLAR] = tilt_power + f_cz * collar[THETA_V] * omega_c
 
 
-@nb.njit(cache=True)
+@kernel
 def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
     f_cz = evaluate(data, t, y, memory)
@@ -123,7 +122,7 @@ def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     memory.last_time[0] = t
 
 
-@nb.njit(cache=True)
+@kernel
 def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
     """Keep the peaks at the end ``t`` of a part of length ``h`` [s]; output times would miss them."""
     extremes, out = memory.extremes, memory.scratch.report
@@ -138,7 +137,7 @@ def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
     extremes[CLIPPED] += h * out[joint_report.CLIPPED]
 
 
-@nb.njit(cache=True)
+@kernel
 def add_part(
     data: VsvData, t_a: float, t_b: float, y_m: FloatArray, y_b: FloatArray, memory: VsvMemory
 ) -> None:
@@ -173,7 +172,7 @@ def add_part(
     memory.last_time[0] = t_b
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_energies(data: VsvData, memory: VsvMemory, energies: FloatArray) -> None:
     """Fill kinetic and gravity energy [J] from the scratch arrays of this instant."""
     motion = memory.scratch.motion

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.closure import drive, vane_angle
 from tribodyn.kernels.vsv.data import VsvData
 from tribodyn.kernels.vsv.layout import (
@@ -42,7 +41,7 @@ from tribodyn.kernels.vsv.layout import (
 )
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> None:
     """Fill the motion table (N_ROWS, N_COLUMNS) at time ``t`` [s] and state ``y`` (8,)."""
     motion[:, :] = 0.0
@@ -64,7 +63,7 @@ def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> N
         _shift(motion, O3_Y, 2, 1.0, y[1], y[5])
 
 
-@nb.njit(cache=True)
+@kernel
 def _shift(motion: FloatArray, row: int, column: int, share: float, value: float, rate: float) -> None:
     """Shift a row by ``share`` of one clearance coordinate."""
     motion[row, column] = share
@@ -72,7 +71,7 @@ def _shift(motion: FloatArray, row: int, column: int, share: float, value: float
     motion[row, VELOCITY] += share * rate
 
 
-@nb.njit(cache=True)
+@kernel
 def _fill_trunnion(data: VsvData, y: FloatArray, motion: FloatArray) -> None:
     """Fill the rows of the trunnion and of the vane centre O_v."""
     for k in range(4):
@@ -96,7 +95,7 @@ def _fill_trunnion(data: VsvData, y: FloatArray, motion: FloatArray) -> None:
     motion[OV_Y, VALUE] = y[1] + arm * tan_x
 
 
-@nb.njit(cache=True)
+@kernel
 def fill_rods(
     data: VsvData,
     t: float,
@@ -215,7 +214,7 @@ def fill_rods(
     _fill_bodies(data, motion, s2_x, s2_z, omega_b, theta_b)
 
 
-@nb.njit(cache=True)
+@kernel
 def _fill_bodies(
     data: VsvData, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
 ) -> None:

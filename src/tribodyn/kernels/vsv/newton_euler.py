@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import air_loads, ring_centre
@@ -44,7 +43,7 @@ F_BX, F_BZ, M_BX, M_BZ, F_CZ = 19, 20, 21, 22, 23
 N_UNKNOWNS = 24
 
 
-@nb.njit(cache=True)
+@kernel
 def _inertia(
     data: VsvData, motion: FloatArray, row: int, eq: int, matrix: FloatArray, rhs: FloatArray
 ) -> None:
@@ -54,7 +53,7 @@ def _inertia(
     rhs[eq, 0] += data.inertia[row] * motion[row, BIAS]
 
 
-@nb.njit(cache=True)
+@kernel
 def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Equations 20 to 25; arms from the mass centre O_1."""
     theta_a = motion[THETA_A, VALUE]
@@ -84,7 +83,7 @@ def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArra
     matrix[5, M_AZ] = 1.0
 
 
-@nb.njit(cache=True)
+@kernel
 def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Equations 26 to 31, the moments projected on two directions across the thin rod.
 
@@ -110,7 +109,7 @@ def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: Float
             rhs[eq, 0] += across[axis] * data.link_inertia * motion[row, BIAS]
 
 
-@nb.njit(cache=True)
+@kernel
 def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Equations 32 to 37 with F_43z; arms from the mass centre O_3."""
     o3_x, o3_z = ring_centre(data, motion[THETA_B, VALUE])
@@ -141,7 +140,7 @@ def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
     matrix[16, M_BZ] = 1.0
 
 
-@nb.njit(cache=True)
+@kernel
 def _vane(
     data: VsvData,
     y: FloatArray,
@@ -200,7 +199,7 @@ def _vane(
     matrix[23, F_43] = -lever * math.tan(motion[THETA_B, VALUE])
 
 
-@nb.njit(cache=True)
+@kernel
 def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float) -> None:
     """Fill ``memory.scratch.reactions`` (24, 1) from the motion table and joint wrench in scratch.
 

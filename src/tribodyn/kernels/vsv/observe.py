@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Final
 
-import numba as nb
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -104,7 +103,7 @@ _ENERGIES = _AIR + len(AIR)
 _INTEGRALS = _ENERGIES + len(ENERGIES)
 
 
-@nb.njit(cache=True)
+@kernel
 def _actual_vane(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row: FloatArray) -> None:
     """Fill ideal and actual vane angle and speed.
 
@@ -122,7 +121,7 @@ def _actual_vane(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row:
     row[_MOTION + 5] = motion[THETA_V, VELOCITY]
 
 
-@nb.njit(cache=True)
+@kernel
 def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: FloatArray) -> None:
     """Fill ``row`` with the quantities named in :data:`OBSERVED`, SI units."""
     scratch = memory.scratch
