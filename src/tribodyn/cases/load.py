@@ -15,6 +15,7 @@ from tribodyn.cases.keys import shown
 from tribodyn.core.errors import InputError
 
 _LARGEST_FILE: Final = 1_000_000
+_LONGEST_NAME: Final = 200
 
 
 def load_case(case: str | os.PathLike[str]) -> Case:
@@ -35,8 +36,9 @@ def load_case(case: str | os.PathLike[str]) -> Case:
         source = f"built-in case {case}"
         given = {path: Entry(value, source) for path, value in entry.given.items()}
         return build(entry.model, given, source)
-    path = Path(case)
-    return parse_case(_text(path), source=os.fspath(case))
+    name = os.fspath(case)
+    source = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}..."
+    return parse_case(_text(Path(name), source), source)
 
 
 def parse_case(text: str, source: str) -> Case:
@@ -70,10 +72,10 @@ def _kind(entries: Mapping[str, Entry], source: str) -> type[Case]:
     return KINDS[name]
 
 
-def _text(path: Path) -> str:
+def _text(path: Path, source: str) -> str:
     """Read a file as UTF-8 text."""
-    source = os.fspath(path)
-    if path.is_dir():
+    # Not path.is_dir, which fails on names that are too long.
+    if os.path.isdir(path):
         raise InputError("this is a directory; a TOML file or a built-in case is needed", source=source)
     try:
         with path.open("rb") as file:
@@ -83,14 +85,20 @@ def _text(path: Path) -> str:
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise InputError(f"the file cannot be read: {reason}", source=source) from None
-    if b"\0" in content:
-        raise InputError("this is a binary file, not TOML text", source=source)
+    return _decoded(content, source)
+
+
+def _decoded(content: bytes, source: str) -> str:
+    """Return the text of a file, refusing what cannot be TOML."""
     if len(content) > _LARGEST_FILE:
         raise InputError("the file is larger than 1 MB; this is not a case", source=source)
     try:
-        return content.decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"the file is not UTF-8 text (byte {error.start})", source=source) from None
+    if "\0" in text:
+        raise InputError("this is a binary file, not TOML text", source=source)
+    return text
 
 
 def _no_such_file(name: str) -> str:

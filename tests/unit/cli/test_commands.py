@@ -1,0 +1,49 @@
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import tribodyn as td
+from tribodyn.cases import CASES, parse_case
+from tribodyn.cli.main import main
+
+
+def test_cases_are_listed_one_a_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["cases"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(CASES)
+    assert main(["cases", "--json"]) == 0
+    assert list(json.loads(capsys.readouterr().out)) == list(CASES)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_show_prints_runs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", name]) == 0
+    assert parse_case(capsys.readouterr().out, "show") == td.load_case(name)
+
+
+def test_show_prints_resolved_defaults(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", "vsv", "--set", "mechanism.formulation=paper", "--solver", "radau"]) == 0
+    shown = tomllib.loads(capsys.readouterr().out)
+    assert shown["joint"]["friction"] == "moment"
+    assert shown["run"]["start"] == "centred"
+    assert shown["solver"]["name"] == "radau"
+
+
+def test_show_as_json_is_in_si_units(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", "vsv", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["joint"]["clearance"] == 2e-5
+
+
+def test_check_says_that_a_file_is_valid(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('case = "vsv"\n', encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    assert "valid" in capsys.readouterr().out
+    assert main(["check", str(path), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+    assert main(["check", str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"case": str(path), "valid": True}

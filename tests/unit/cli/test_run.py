@@ -1,0 +1,237 @@
+"""``tribodyn run`` and ``report`` around a simulation that is made up."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray as xr
+
+import tribodyn.figures
+import tribodyn.report
+import tribodyn.simulate
+from tribodyn.cases import load_case, parse_case
+from tribodyn.cli.main import main
+from tribodyn.core.errors import InputError, IntegrationFailure
+
+ResultFactory = Callable[..., xr.Dataset]
+
+
+@pytest.fixture
+def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def _quick_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+        directory.mkdir(exist_ok=True)
+        (directory / "motion.png").write_text("new", encoding="utf-8")
+
+    def write(dataset: xr.Dataset, path: Path) -> None:
+        path.write_text("new", encoding="utf-8")
+
+    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all, raising=False)
+    monkeypatch.setattr(tribodyn.report, "write", write, raising=False)
+
+
+@pytest.fixture
+def simulation(monkeypatch: pytest.MonkeyPatch, make_result: ResultFactory) -> Callable[..., None]:
+    """Replace the simulation by one that does ``during`` and returns a made-up result."""
+
+    def install(during: Callable[[Any], str] = lambda stop: "") -> None:
+        def simulate(case: Any, *, progress: Callable[[float], None], stop: Callable[[], bool]) -> xr.Dataset:
+            progress(1.0)
+            failure = during(stop)
+            end = 5.0 if failure else case.duration
+            return make_result(end, failure=failure, case=case.to_toml(), title=case.title)
+
+        monkeypatch.setattr(tribodyn.simulate, "simulate", simulate)
+
+    return install
+
+
+def test_a_run_leaves_everything_and_says_where(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "--set", "joint.clearance=30 um", "--solver", "radau"]) == 0
+    directory = in_empty_directory / "results-vsv"
+    names = {path.name for path in directory.iterdir()}
+    assert names == {"result.nc", "summary.json", "case.toml", "report.html", "figures"}
+    expected = load_case("vsv").replace({"joint.clearance": "30 um", "solver.name": "radau"})
+    assert parse_case((directory / "case.toml").read_text(encoding="utf-8"), "case.toml") == expected
+    captured = capsys.readouterr()
+    assert "Vane-angle error, largest" in captured.out
+    assert os.path.join("results-vsv", "report.html") in captured.out
+
+
+def test_the_directory_is_named_after_the_file(
+    in_empty_directory: Path, simulation: Callable[..., None]
+) -> None:
+    simulation()
+    Path("wide.toml").write_text('case = "vsv"\n', encoding="utf-8")
+    assert main(["run", "wide.toml"]) == 0
+    assert (in_empty_directory / "results-wide" / "result.nc").exists()
+    assert main(["run", "vsv", "-o", "deep/er"]) == 0
+    assert (in_empty_directory / "deep" / "er" / "result.nc").exists()
+
+
+def test_json_is_all_there_is_on_stdout(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    stored = json.loads(Path("results-vsv/summary.json").read_text(encoding="utf-8"))
+    assert printed == stored
+
+
+def test_quiet_prints_warnings_only(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "--quiet"]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert "warning: the friction coefficient" in captured.err
+
+
+def test_a_run_that_stops_midway_is_saved_and_explained(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation(lambda stop: "the step size became too small")
+    assert main(["run", "vsv"]) == 1
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert "stopped at t = 4.995 s of 12.5664 s: the step size became too small" in last
+    assert "saved in results-vsv" in last
+    assert Path("results-vsv/result.nc").exists()
+    assert Path("results-vsv/report.html").exists()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_is_saved(
+    number: signal.Signals,
+    in_empty_directory: Path,
+    simulation: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def interrupt(stop: Callable[[], bool]) -> str:
+        os.kill(os.getpid(), number)
+        assert stop()
+        return "interrupted"
+
+    simulation()
+    assert main(["run", "vsv"]) == 0
+    simulation(interrupt)
+    assert main(["run", "vsv"]) == 1
+    assert "interrupted" in capsys.readouterr().err
+    assert json.loads(Path("results-vsv/summary.json").read_text(encoding="utf-8"))["status"] == "failed"
+    # What the complete run had drawn would contradict the new result.
+    assert not Path("results-vsv/report.html").exists()
+    assert not list(Path("results-vsv/figures").iterdir())
+
+
+def test_a_second_interrupt_aborts_at_once(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupt(stop: Callable[[], bool]) -> str:
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        return "not reached"
+
+    simulation(interrupt)
+    assert main(["run", "vsv"]) == 1
+    assert "aborted" in capsys.readouterr().err
+    assert list(in_empty_directory.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (InputError("not installed", key="solver.name"), 2),
+        (IntegrationFailure(0.0, "no equilibrium"), 1),
+        (ZeroDivisionError("surprise"), 1),
+        (MemoryError(), 1),
+    ],
+)
+def test_errors_of_the_simulation_are_one_line(
+    error: Exception,
+    status: int,
+    in_empty_directory: Path,
+    simulation: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def fail(stop: Callable[[], bool]) -> str:
+        raise error
+
+    simulation(fail)
+    assert main(["run", "vsv", "--quiet"]) == status
+    message = capsys.readouterr().err
+    assert message.startswith("tribodyn: ")
+    assert message.count("\n") == 1
+    assert list(in_empty_directory.iterdir()) == []
+    assert main(["run", "vsv", "--quiet", "--debug"]) == status
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_pictures_that_fail_do_not_lose_the_result(
+    in_empty_directory: Path,
+    simulation: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+        raise ValueError("no colour left")
+
+    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    simulation()
+    assert main(["run", "vsv"]) == 1
+    message = capsys.readouterr().err
+    assert "no colour left" in message
+    assert "tribodyn report results-vsv" in message
+    assert "Traceback" not in message
+    assert Path("results-vsv/result.nc").exists()
+
+
+def test_an_interrupt_while_drawing_keeps_the_result(
+    in_empty_directory: Path,
+    simulation: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    simulation()
+    assert main(["run", "vsv"]) == 1
+    assert "interrupted while drawing" in capsys.readouterr().err
+    assert Path("results-vsv/result.nc").exists()
+
+
+def test_report_draws_stored_results_again(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "-o", "out"]) == 0
+    Path("out/report.html").unlink()
+    assert main(["report", "out"]) == 0
+    assert Path("out/report.html").read_text(encoding="utf-8") == "new"
+    assert "report.html" in capsys.readouterr().out
+
+
+def test_results_are_replaced(in_empty_directory: Path, simulation: Callable[..., None]) -> None:
+    simulation()
+    assert main(["run", "vsv", "-o", "out"]) == 0
+    Path("out/notes.txt").write_text("mine", encoding="utf-8")
+    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]) == 0
+    assert 'clearance = "40 um"' in Path("out/case.toml").read_text(encoding="utf-8")
+    assert Path("out/notes.txt").read_text(encoding="utf-8") == "mine"

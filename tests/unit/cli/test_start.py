@@ -1,0 +1,66 @@
+"""Starting the command: quick, light, and helpful."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+
+import pytest
+
+from tribodyn.cli.main import COMMANDS, main
+
+HEAVY = ("numpy", "numba", "scipy", "pydantic", "pint", "xarray", "matplotlib", "tqdm", "importlib.metadata")
+
+
+def test_help_imports_nothing_heavy() -> None:
+    program = (
+        "import sys\nfrom tribodyn.cli.main import main\n"
+        "try: main(['--help'])\nexcept SystemExit: pass\n"
+        f"print([name for name in {HEAVY!r} if name in sys.modules])"
+    )
+    output = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout
+    assert output.splitlines()[-1] == "[]"
+
+
+def test_help_answers_in_under_half_a_second() -> None:
+    command = [sys.executable, "-c", "from tribodyn.cli.main import main; main(['--help'])"]
+    times = []
+    # The best of several: other work on the machine only ever adds time.
+    for _ in range(5):
+        began = time.perf_counter()
+        subprocess.run(command, capture_output=True, check=True)
+        times.append(time.perf_counter() - began)
+    assert min(times) < 0.5
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main([*([command] if command else []), "--help"])
+    assert caught.value.code == 0
+    assert "usage: tribodyn" in capsys.readouterr().out
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["--version"])
+    assert caught.value.code == 0
+    assert capsys.readouterr().out.startswith("tribodyn ")
+
+
+def test_the_package_itself_is_light() -> None:
+    program = (
+        "import sys, tribodyn\n"
+        f"assert not [name for name in {HEAVY!r} if name in sys.modules]\n"
+        "assert tribodyn.__version__ and tribodyn.load_case and tribodyn.simulate\n"
+        "assert tribodyn.contact.LAWS and tribodyn.integrate.SOLVERS\n"
+        "assert set(tribodyn.__all__) <= set(dir(tribodyn))\n"
+        "try: tribodyn.nonsense\nexcept AttributeError: print('good')"
+    )
+    output = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout
+    assert output == "good\n"
