@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tribodyn import contact, integrate
     from tribodyn.cases import load_case
-    from tribodyn.simulate import simulate
+    from tribodyn.simulation import simulate
 
 __all__ = ["__version__", "contact", "integrate", "load_case", "simulate"]
 
-_HOME = {"load_case": "tribodyn.cases", "simulate": "tribodyn.simulate"}
+_HOME = {"load_case": "tribodyn.cases", "simulate": "tribodyn.simulation"}
 
 
 def __getattr__(name: str) -> Any:

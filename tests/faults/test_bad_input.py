@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-import tribodyn.simulate
+import tribodyn.simulation
 from tribodyn.cli.main import main
 
 RunCommand = Callable[..., str]
@@ -26,7 +26,7 @@ def refused(
     def simulate(*_: object, **__: object) -> None:
         pytest.fail("bad input reached the simulation")
 
-    monkeypatch.setattr(tribodyn.simulate, "simulate", simulate)
+    monkeypatch.setattr(tribodyn.simulation, "simulate", simulate)
 
     def run(*arguments: str) -> str:
         before = _tree(tmp_path)

@@ -59,7 +59,7 @@ def _name(args: Namespace) -> str:
 def _simulate(case: Case, console: Console, stop: Interruption) -> xr.Dataset:
     console.note(f"running {case.title}")
     with progress(case.duration, console) as shown, announced_compilation(shown.note):
-        from tribodyn.simulate import simulate
+        from tribodyn.simulation import simulate
 
         return simulate(case, progress=shown, stop=stop)
 

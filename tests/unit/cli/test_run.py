@@ -14,7 +14,7 @@ import xarray as xr
 
 import tribodyn.figures
 import tribodyn.report
-import tribodyn.simulate
+import tribodyn.simulation
 from tribodyn.cases import load_case, parse_case
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, IntegrationFailure
@@ -52,7 +52,7 @@ def simulation(monkeypatch: pytest.MonkeyPatch, make_result: ResultFactory) -> C
             end = 5.0 if failure else case.duration
             return make_result(end, failure=failure, case=case.to_toml(), title=case.title)
 
-        monkeypatch.setattr(tribodyn.simulate, "simulate", simulate)
+        monkeypatch.setattr(tribodyn.simulation, "simulate", simulate)
 
     return install
 

@@ -17,10 +17,10 @@ from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Lengths, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.results import build
-from tribodyn.simulate.checks import grid_force_error, peaks, warnings
-from tribodyn.simulate.ledger import ledger_columns, residual_fractions
-from tribodyn.simulate.provenance import provenance
-from tribodyn.simulate.times import output_times, snapshots
+from tribodyn.simulation.checks import grid_force_error, peaks, warnings
+from tribodyn.simulation.ledger import ledger_columns, residual_fractions
+from tribodyn.simulation.provenance import provenance
+from tribodyn.simulation.times import output_times, snapshots
 
 NOT_STORED = ("work_", "heat_")
 """Observed quantities that reach the user under the names of the ledger instead."""
@@ -32,7 +32,7 @@ def simulate_vsv(
     progress: Callable[[float], None] | None = None,
     stop: Callable[[], bool] | None = None,
 ) -> xr.Dataset:
-    """Simulate a ``vsv`` case, see :func:`tribodyn.simulate.simulate`."""
+    """Simulate a ``vsv`` case, see :func:`tribodyn.simulation.simulate`."""
     vsv = mechanism(case)
     atol = case.solver.atol
     problem = vsv_problem(

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError
-from tribodyn.simulate.vsv import simulate_vsv
+from tribodyn.simulation.vsv import simulate_vsv
 
 if TYPE_CHECKING:
     import xarray as xr
