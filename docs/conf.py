@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from importlib.metadata import version as installed_version
+from pathlib import Path
 from types import GenericAlias
 from typing import Any
 
 # Compiled functions hide their signature; as plain Python they show it.
 os.environ["NUMBA_DISABLE_JIT"] = "1"
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
 project = "tribodyn"
 author = "The tribodyn developers"
@@ -22,6 +26,7 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",
     "numpydoc",
+    "case_keys",
 ]
 exclude_patterns = ["_build"]
 templates_path = ["_templates"]
