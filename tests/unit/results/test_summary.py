@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -55,3 +56,16 @@ def test_no_wear_rate_before_a_cycle_is_complete(make_result):
 def test_another_mechanism_gives_what_it_has():
     result = build(coordinates={"time": [0.0, 1.0]}, columns={"e_x": [0.0, 3e-6], "e_y": [0.0, 4e-6]})
     assert summarise(result)["eccentricity_max_um"] == pytest.approx(5.0)
+
+
+def test_a_peak_between_output_times_is_not_lost(make_result):
+    result = make_result(0.5, contact_force_peak=1234.0, pressure_peak=5e8)
+    summary = summarise(result)
+    assert summary["contact_force_max_N"] == 1234.0
+    assert summary["peak_pressure_MPa"] == pytest.approx(500.0)
+
+
+def test_groups_of_headlines_hang_together():
+    groups = [headline.group for headline in HEADLINES.values()]
+    changes = sum(a != b for a, b in itertools.pairwise(groups))
+    assert changes == len(set(groups)) - 1

@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tribodyn.figures.pressure import _places
+from tribodyn.figures.trajectory import centre
+from tribodyn.figures.unrolled import best_cut, rolled, unloaded_middle
+from tribodyn.figures.wear import fitting_unit
+from tribodyn.results import build
+
+THETA = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
+
+
+def _hump(*centres_deg):
+    distance = [np.abs((np.rad2deg(THETA) - c + 180.0) % 360.0 - 180.0) for c in centres_deg]
+    return np.exp(-((np.min(distance, axis=0) / 15.0) ** 2))
+
+
+@pytest.mark.parametrize(("centres", "cut"), [((0, 180), 90.0), ((270, 10, 170), 90.0), ((90, 0), 270.0)])
+def test_the_cut_avoids_the_load(centres, cut):
+    assert best_cut(THETA, _hump(*centres)) == cut
+
+
+def test_the_cut_of_nothing_is_the_preferred_one():
+    assert best_cut(THETA, np.zeros_like(THETA)) == 90.0
+
+
+@pytest.mark.parametrize("cut", [0.0, 90.0, 180.0, 270.0])
+def test_rolling_keeps_each_value_at_its_angle(cut):
+    field = np.rad2deg(THETA)[:, None] * np.ones((1, 3))
+    angle, values = rolled(THETA, field, cut)
+    assert np.all(np.diff(angle) > 0.0)
+    assert angle[-1] - angle[0] == pytest.approx(360.0)
+    assert angle % 360.0 == pytest.approx(values[:, 0] % 360.0, abs=1e-9)
+    assert angle[0] % 360.0 == pytest.approx(cut)
+
+
+@pytest.mark.parametrize(("reach", "height"), [(2.0, 7.5), (4.5, 5.0), (9.0, 0.0)])
+def test_an_empty_middle_is_found(reach, height):
+    z = np.linspace(-10e-3, 10e-3, 41)
+    result = build(coordinates={"time": [0.0], "theta": THETA, "z": z}, columns={})
+    load = np.outer(_hump(0), np.abs(z) >= (10.0 - reach - 1e-9) * 1e-3).astype(float)
+    assert unloaded_middle(result, load) == height
+
+
+def test_no_load_at_all_shortens_nothing(make_result):
+    result = make_result(0.1)
+    assert unloaded_middle(result, np.zeros((96, 18))) == 0.0
+
+
+def test_a_row_of_maps_compares_directions(make_result):
+    assert _places(make_result()) == [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)]
+    assert _places(make_result(3.5)) == [(0, 0), (1, 0), (2, 0), (2, 1)]
+    assert _places(make_result(0.1)) == []
+
+
+@pytest.mark.parametrize(
+    ("depth", "unit"), [(2e-6, "µm"), (2e-9, "nm"), (5e-13, "fm"), (1.5e-10, "pm"), (0.0, "pm")]
+)
+def test_depth_is_given_in_a_readable_unit(depth, unit):
+    assert fitting_unit(depth)[0] == unit
+
+
+def test_centres_of_a_tilted_trunnion():
+    # Section 1 of the model: the axis at height z lies at (e_x - z tan phi_y, e_y - z tan phi_x).
+    result = build(
+        coordinates={"time": [0.0]},
+        columns={"e_x": [1e-6], "e_y": [2e-6], "phi_x": [1e-3], "phi_y": [-5e-4]},
+    )
+    x, y = centre(result, 10e-3)
+    assert (x[0], y[0]) == (pytest.approx(1.0 + 5.0, rel=1e-5), pytest.approx(2.0 - 10.0, rel=1e-5))

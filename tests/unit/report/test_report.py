@@ -1,0 +1,143 @@
+from __future__ import annotations
+
+import base64
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from tribodyn.figures import draw_all
+from tribodyn.report import write
+from tribodyn.report.numbers import in_words
+from tribodyn.results import HEADLINES, build
+
+HOSTILE = '<script>alert("x")</script> & "quotes" \' </title></style>{{ 7*7 }} ünïcode µ'
+
+
+class _Page(HTMLParser):
+    """Tags, attributes and text of a page; complains about tags that do not nest."""
+
+    void = frozenset({"meta", "img", "br", "link"})
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.text = [], [], []
+        self.feed(text)
+        self.close()
+        assert not self.open
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        if tag not in self.void:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+    @property
+    def words(self):
+        return " ".join("".join(self.text).split())
+
+
+def _page(path):
+    return _Page(path.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def report(make_result, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    result = make_result(7.0)
+    return result, draw_all(result, folder / "figures"), write(result, folder)
+
+
+def test_it_shows_every_headline_with_its_meaning(report):
+    words = _page(report[2]).words
+    for headline in HEADLINES.values():
+        assert headline.label in words
+        assert headline.meaning in words
+    assert "0.1 (assumed)" in words
+
+
+def test_figures_are_embedded_whole(report):
+    sources = [attrs["src"] for tag, attrs in _page(report[2]).tags if tag == "img"]
+    data = [base64.b64decode(source.removeprefix("data:image/png;base64,")) for source in sources]
+    assert data == [path.read_bytes() for path in report[1]]
+
+
+def test_nothing_is_fetched_and_nothing_runs(report):
+    text = report[2].read_text(encoding="utf-8")
+    assert not re.search(r"https?://|//cdn|@import|url\(", text)
+    tags = _page(report[2]).tags
+    assert {tag for tag, _ in tags}.isdisjoint({"script", "link", "iframe", "object", "embed"})
+    policies = [attrs["content"] for tag, attrs in tags if attrs.get("http-equiv")]
+    assert policies[0].startswith("default-src 'none'")
+
+
+def test_warnings_come_before_numbers(report):
+    words = _page(report[2]).words
+    assert words.index("Before you trust") < words.index("Headline numbers")
+
+
+def test_failure_comes_first_and_says_how_far_it_went(make_result, tmp_path):
+    words = _page(write(make_result(1.0, failure="stopped at t = 1 s: step too small"), tmp_path)).words
+    assert words.index("step too small") < words.index("Before you trust")
+    assert "0.995 s that were simulated" in words
+
+
+def test_hostile_texts_are_escaped(make_result, tmp_path):
+    result = make_result(
+        0.5,
+        failure=HOSTILE,
+        title=HOSTILE,
+        case=HOSTILE,
+        warnings=[HOSTILE],
+        contact_law=HOSTILE,
+        formulation=HOSTILE,
+        solver={HOSTILE: HOSTILE},
+        tribodyn_version=HOSTILE,
+    )
+    page = _page(write(result, tmp_path))
+    assert "script" not in {tag for tag, _ in page.tags}
+    assert "{{ 7*7 }}" in page.words
+    # Title (head and page), law, formulation, failure, warning, solver name and value, version, case.
+    assert page.words.count("<script>alert(") == 10
+
+
+@pytest.mark.parametrize("end", [0.0, 0.005])
+def test_a_run_that_hardly_began(make_result, tmp_path, end):
+    assert "did not reach its end" in _page(write(make_result(end, failure="at once"), tmp_path)).words
+
+
+def test_a_result_with_next_to_nothing(tmp_path):
+    path = write(build(coordinates={"time": []}, columns={}), tmp_path / "new" / "some.html")
+    assert path.name == "some.html"
+    assert "Nothing was computed" in _page(path).words
+
+
+def test_a_failing_render_leaves_the_old_report(make_result, tmp_path):
+    path = write(make_result(0.1), tmp_path)
+    old = path.read_bytes()
+    with pytest.raises(FileNotFoundError):
+        write(make_result(0.2), tmp_path, [tmp_path / "absent.png"])
+    assert path.read_bytes() == old
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0302934, "0.03029"),
+        (12.0, "12"),
+        (-1.5, "−1.5"),
+        (1.589e-6, "1.589 × 10⁻⁶"),
+        (2.5e7, "2.5 × 10⁷"),
+        (24091, "24\u202f091"),
+        ("bdf", "bdf"),
+        (True, "True"),
+    ],
+)
+def test_numbers_are_written_for_people(value, text):
+    assert in_words(value) == text
