@@ -43,8 +43,8 @@ def draw(dataset: xr.Dataset) -> Figure:
     _loop(over_angle, ideal, error, direction(dataset))
     for axes in (over_time, over_angle):
         axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
-    caption(over_time, f"largest {peak(error):.3g}°")
-    finish(over_time, "time [s]", "actual - ideal vane angle [°]")
+    caption(over_time, f"largest {peak(error):.3g}°", side="right")
+    finish(over_time, "time [s]", "actual − ideal vane angle [°]")
     finish(over_angle, "ideal vane angle [°]")
     return figure
 
