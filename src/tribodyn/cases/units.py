@@ -119,12 +119,13 @@ def from_si(value: float, unit: str) -> str:
         Preferred unit. It is used when some number of at most 17 digits in it reads back exactly,
         otherwise the value stands in SI units.
     """
-    in_unit = _ARITHMETIC.divide(Decimal(value), _factor_and_base(unit)[0])
+    factor = _factor_and_base(unit)[0]
+    in_unit = _ARITHMETIC.divide(Decimal(value), factor)
     for digits in range(1, 18):
         number = float(f"{in_unit:.{digits - 1}e}")
-        text = f"{_plain(number)} {unit}"
-        if math.isfinite(number) and to_si(text, unit) == value:
-            return text
+        # As to_si does it, but a rounded number may be too large here, which is no error.
+        if float(_ARITHMETIC.multiply(Decimal(repr(number)), factor)) == value:
+            return f"{_plain(number)} {unit}"
     return f"{value!r} {si_unit(unit)}"
 
 

@@ -4,7 +4,7 @@ import contextlib
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tribodyn.cases.units import UnitProblem, dimension, from_si, si_unit, to_si
@@ -87,6 +87,9 @@ def test_no_text_breaks_the_reader(text: str) -> None:
         assert math.isfinite(to_si(text, "m"))
 
 
+@example(1.5e308, "GPa")
+@example(1.5e308, "um")
+@example(5e-324, "GPa")
 @given(st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(UNITS))
 def test_what_is_written_reads_back_exactly(value: float, unit: str) -> None:
     assert to_si(from_si(value, unit), unit) == value
