@@ -39,11 +39,12 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 docs: $(VENV)/.docs
+	$(BIN)/python docs/plots/convergence.py docs/_static/generated
 	$(BIN)/sphinx-build -W --keep-going -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 
 clean:
-	rm -rf $(VENV) docs/_build docs/reference/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
+	rm -rf $(VENV) docs/_build docs/reference/generated docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
 
 # Stamps: an environment is made once, and again when pyproject.toml changes.
 

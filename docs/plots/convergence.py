@@ -1,6 +1,6 @@
 """Draw the convergence figures of the manual: forces over the grid, results over the tolerance, v_min.
 
-    python docs/plots/convergence.py OUTPUT_DIRECTORY
+python docs/plots/convergence.py OUTPUT_DIRECTORY
 """
 
 from __future__ import annotations
@@ -76,8 +76,10 @@ def draw_tolerance(target: Path) -> None:
         axes.legend()
     figure.savefig(target / "tolerance_convergence.png", dpi=130)
     for rtol, *numbers in zip(TOLERANCES, angle, force, whole, clearance, strict=True):
-        print(f"rtol {rtol:g}: angle {numbers[0]:.2g} deg, force {numbers[1]:.2g} %, "
-              f"residuals {numbers[2]:.2g} % and {numbers[3]:.2g} %")
+        print(
+            f"rtol {rtol:g}: angle {numbers[0]:.2g} deg, force {numbers[1]:.2g} %, "
+            f"residuals {numbers[2]:.2g} % and {numbers[3]:.2g} %"
+        )
 
 
 def grid_errors(case: VsvCase, result: xr.Dataset) -> list[float]:

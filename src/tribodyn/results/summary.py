@@ -103,9 +103,9 @@ def _statistic(name: str) -> Callable[[xr.Dataset], float]:
 
 
 def _real_time_factor(dataset: xr.Dataset) -> float:
-    """Return wall time over simulated time."""
+    """Return simulated time over wall time."""
     time = _values(dataset, "time")
-    return _statistic("wall_time")(dataset) / float(time[-1] - time[0])
+    return float(time[-1] - time[0]) / _statistic("wall_time")(dataset)
 
 
 HEADLINES: Final[dict[str, Headline]] = {
@@ -215,7 +215,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Wall time", "s", "Effort", "How long the integration took.", _statistic("wall_time")
     ),
     "real_time_factor": Headline(
-        "Real-time factor", "", "Effort", "Wall time for each second simulated.", _real_time_factor
+        "Real-time factor", "", "Effort", "Seconds of motion simulated in a second of computing.", _real_time_factor
     ),
 }
 """Every headline number, by its name in ``summary.json``."""
