@@ -152,6 +152,7 @@ def make_result() -> ResultFactory:
             "energy_residual": 3.1e-4,
             "clearance_energy_residual": 5.2e-3,
             "warnings": ["the friction coefficient 0.1 is assumed: the paper does not give it"],
+            "time_reached": end,
             "failure": failure,
             "clearance": CLEARANCE,
             "joint_length": LENGTH,

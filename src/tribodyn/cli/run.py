@@ -113,8 +113,7 @@ def _tell(summary: dict[str, Any], path: Path, console: Console) -> None:
 
 def _stopped(dataset: xr.Dataset, case: Case, failure: str, path: Path) -> str:
     """Say when a run stopped, why, and where the rest is."""
-    times = dataset["time"].values
-    reached = float(times[-1]) if times.size else 0.0
+    reached = float(dataset.attrs.get("time_reached", 0.0))
     return (
         f"the run stopped at t = {reached:.6g} s of {case.duration:.6g} s: {failure}; "
         f"what was computed until then is saved in {os.fspath(path)}"

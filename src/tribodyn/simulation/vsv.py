@@ -174,6 +174,7 @@ class _Gathered:
             "clearance_energy_residual": clearance,
             "grid_force_error": grid_error,
             **found,
+            "time_reached": float(self.solution.t_end),
             "failure": self.solution.failure or "",
             "warnings": warnings(self.vsv, found, whole, clearance, grid_error, float(self.solution.t_end)),
         }

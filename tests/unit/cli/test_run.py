@@ -110,7 +110,7 @@ def test_a_run_that_stops_midway_is_saved_and_explained(
     simulation(lambda stop: "the step size became too small")
     assert main(["run", "vsv"]) == 1
     last = capsys.readouterr().err.splitlines()[-1]
-    assert "stopped at t = 4.995 s of 12.5664 s: the step size became too small" in last
+    assert "stopped at t = 5 s of 12.5664 s: the step size became too small" in last
     assert "saved in results-vsv" in last
     assert Path("results-vsv/result.nc").exists()
     assert Path("results-vsv/report.html").exists()
