@@ -133,7 +133,7 @@ class Grid(Group):
 class Solver(Group):
     """The time integration."""
 
-    name: str = choice("bdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
+    name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
     rtol: float = number(1e-4, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
     atol: Tolerances = Tolerances()
     grid: Grid = Grid()

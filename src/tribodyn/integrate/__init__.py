@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,12 +14,17 @@ from tribodyn.integrate.bdf import BDF
 from tribodyn.integrate.cvode import CVODE
 from tribodyn.integrate.driver import INTERRUPTED, Integrator, Stepwise
 from tribodyn.integrate.lsoda import LSODA
+from tribodyn.integrate.mebdf import MEBDF as COMPILED_MEBDF
 from tribodyn.integrate.radau import RADAU
 from tribodyn.integrate.schedule import make_schedule
 
-__all__ = ["INTERRUPTED", "SOLVERS", "integrate"]
+if TYPE_CHECKING:
+    from tribodyn.integrate.mebdf_solver import MEBDF
+
+__all__ = ["INTERRUPTED", "MEBDF", "SOLVERS", "integrate"]
 
 SOLVERS: Final[dict[str, Integrator]] = {
+    "mebdf": COMPILED_MEBDF,
     "bdf": Stepwise(BDF),
     "radau": Stepwise(RADAU),
     "lsoda": Stepwise(LSODA),
@@ -28,10 +33,19 @@ SOLVERS: Final[dict[str, Integrator]] = {
 """All integrators by name."""
 
 
+def __getattr__(name: str) -> Any:
+    """Import the solver class for SciPy when it is asked for: SciPy and numba take a while."""
+    if name == "MEBDF":
+        from tribodyn.integrate.mebdf_solver import MEBDF
+
+        return MEBDF
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
 def integrate(
     problem: Problem,
     *,
-    solver: str = "bdf",
+    solver: str = "mebdf",
     rtol: float = 1e-4,
     output_times: ArrayLike = (),
     picture_times: ArrayLike = (),
@@ -51,9 +65,9 @@ def integrate(
     output_times, picture_times
         When to call ``observe`` and ``picture`` [s]: increasing, inside the time span.
     progress
-        Called with the simulated time [s] after every accepted step.
+        Called with the simulated time [s] after accepted steps; ``mebdf`` runs up to 500 of them in between.
     stop
-        Asked after every accepted step; when true, the run ends with the failure
+        Asked whenever ``progress`` is called; when true, the run ends with the failure
         ``"interrupted"``.
 
     Returns

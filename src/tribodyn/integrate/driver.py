@@ -61,18 +61,18 @@ class Stepwise:
     ) -> Solution:
         """Integrate ``problem``, see :class:`Integrator`."""
         self.method.prepare()
-        walk = _Walk(problem, schedule, progress, stop)
+        walk = Walk(problem, schedule, progress, stop)
         begin = time.perf_counter()
         failure: str | None = None
         try:
-            walk.run(self.method, rtol)
+            walk.run(lambda t_end: walk.segment(self.method, rtol, t_end))
         except IntegrationFailure as error:
             failure = walk.describe(error)
         walk.statistics.wall_time = time.perf_counter() - begin
         return walk.solution(failure)
 
 
-class _Walk:
+class Walk:
     """One integration under way."""
 
     def __init__(
@@ -99,14 +99,14 @@ class _Walk:
         self.n_rows = 0
         self.n_pictures = 0
 
-    def run(self, method: Method, rtol: float) -> None:
-        """Integrate segment after segment."""
+    def run(self, segment: Callable[[float], None]) -> None:
+        """Integrate segment after segment; ``segment`` integrates to the time it is given."""
         for number, t_end in enumerate(self.schedule.edges[1:].tolist()):
             self.statistics.restarts = number
             self.enter()
             if self.marks[self.next_mark] <= self.t:  # only at the initial time; later ones are taken
                 self.take()
-            self.segment(method, rtol, t_end)
+            segment(t_end)
 
     def enter(self) -> None:
         """Begin a segment; refuse one whose first rate is not finite, which SciPy would try for ever."""

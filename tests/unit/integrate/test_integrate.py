@@ -70,7 +70,7 @@ def test_rows_do_not_depend_on_each_other(solver):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"solver": "euler"}, r"solver\.name: unknown solver 'euler'; choose one of bdf"),
+        ({"solver": "euler"}, r"solver\.name: unknown solver 'euler'; choose one of mebdf"),
         ({"rtol": 0.0}, r"solver\.rtol: rtol must lie between"),
         ({"rtol": float("nan")}, r"solver\.rtol: rtol must lie between"),
         ({"output_times": [2.0]}, "output times must lie between"),

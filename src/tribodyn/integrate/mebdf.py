@@ -1,0 +1,180 @@
+"""MEBDF: Cash's modified extended backward differentiation formulae, a whole segment in compiled code.
+
+Sources: J. R. Cash, The integration of stiff initial value problems in ODEs using modified extended
+backward differentiation formulae, Comput. Math. Appl. 9 (1983) 645-657; J. R. Cash, S. Considine, An MEBDF
+code for stiff initial value problems, ACM Trans. Math. Softw. 18 (1992) 142-155.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from tribodyn.core.errors import IntegrationFailure
+from tribodyn.core.problem import Problem, Solution
+from tribodyn.integrate.driver import INTERRUPTED, Walk
+from tribodyn.integrate.schedule import Schedule
+
+if TYPE_CHECKING:
+    from tribodyn.kernels.mebdf.drive import Marks
+    from tribodyn.kernels.mebdf.state import MebdfState
+
+STEPS_BETWEEN_LOOKS: Final = 500
+"""Steps in compiled code between two looks at ``progress`` and ``stop``: some milliseconds."""
+
+
+class CompiledMebdf:
+    """The integrator that ``SOLVERS`` lists; problems in plain Python are run by the same source."""
+
+    def __call__(
+        self,
+        problem: Problem,
+        schedule: Schedule,
+        rtol: float,
+        progress: Callable[[float], None] | None,
+        stop: Callable[[], bool] | None,
+    ) -> Solution:
+        """Integrate ``problem``, see :class:`tribodyn.integrate.driver.Integrator`."""
+        walk = _CompiledWalk(problem, schedule, progress, stop)
+        walk.prepare(rtol)
+        begin = time.perf_counter()
+        failure: str | None = None
+        try:
+            walk.run(walk.compiled_segment)
+        except IntegrationFailure as error:
+            failure = walk.describe(error)
+        walk.statistics.wall_time = time.perf_counter() - begin
+        return walk.solution(failure)
+
+
+class _CompiledWalk(Walk):
+    """One integration under way."""
+
+    _loop: Callable[..., int]
+    _functions: tuple[Callable[..., None], ...]
+    _marks: Marks
+    _at_once: int
+    _rtol: float
+
+    def prepare(self, rtol: float) -> None:
+        """Compile, or find the compiled code; not counted as integration."""
+        from tribodyn.kernels.mebdf.drive import run
+
+        problem, functions = self.problem, self.problem.functions
+        self._rtol = rtol
+        self._marks = self._new_marks()
+        self._functions = (
+            functions.rhs,
+            functions.jac,
+            functions.advance,
+            functions.accept,
+            functions.observe,
+            functions.picture,
+        )
+        if all(hasattr(function, "compile") for function in self._functions):
+            state = self._new_state(self.t, float(self.schedule.edges[-1]))
+            self._loop = _compiled(run, self._functions, state, problem, self._marks)
+            self._at_once = STEPS_BETWEEN_LOOKS
+        else:
+            self._loop = run.py_func
+            self._at_once = 1
+
+    def compiled_segment(self, t_end: float) -> None:
+        """Integrate to the next breakpoint or to the end."""
+        from tribodyn.kernels.mebdf.drive import ENDED, PAUSED
+
+        problem, marks = self.problem, self._marks
+        state = self._new_state(self.t, t_end)
+        marks.position[:] = self.next_mark, self.n_rows, self.n_pictures
+        marks.reached[0] = self.t
+        before = vars(self.statistics).copy()
+        outcome = PAUSED
+        while outcome == PAUSED:
+            outcome = self._loop(*self._functions, state, problem.data, problem.memory, marks, self._at_once)
+            self._take_over(state, before)
+            if outcome not in (ENDED, PAUSED):
+                raise IntegrationFailure(self.t, self._reason(state))
+            if self.progress is not None:
+                self.progress(self.t)
+            if self.stop is not None and self.stop() and self.t < self.schedule.edges[-1]:
+                raise IntegrationFailure(self.t, INTERRUPTED)
+
+    def _new_state(self, t: float, t_end: float) -> MebdfState:
+        from tribodyn.kernels.mebdf.state import new_state
+
+        return new_state(t, self.y, t_end, self._rtol, self.problem.atol)
+
+    def _new_marks(self) -> Marks:
+        from tribodyn.kernels.mebdf.drive import Marks
+
+        n = self.y.size
+        pictures = self.pictures if self.pictures.ndim > 1 else self.pictures[:, None]
+        return Marks(
+            times=np.array(self.marks),
+            is_output=self.schedule.is_output,
+            is_picture=self.schedule.is_picture,
+            tolerance=np.array([self.schedule.tolerance]),
+            rows=self.rows,
+            pictures=pictures,
+            position=np.zeros(3, dtype=np.int64),
+            reached=np.zeros(1),
+            middle=np.zeros(n),
+            end=np.zeros(n),
+        )
+
+    def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
+        """Take from the compiled loop where it is and what it has cost."""
+        from tribodyn.kernels.mebdf import state as entry
+
+        self.next_mark, self.n_rows, self.n_pictures = self._marks.position.tolist()
+        self.t = float(state.real[entry.T])
+        self.y = state.rows[entry.HISTORY].copy()
+        self.step_size = float(state.real[entry.H_LAST])
+        for name, place in (
+            ("steps", entry.STEPS),
+            ("rejected", entry.REJECTED),
+            ("rhs_evaluations", entry.N_F),
+            ("jacobian_evaluations", entry.N_J),
+            ("lu_decompositions", entry.N_LU),
+        ):
+            setattr(self.statistics, name, before[name] + int(state.counts[place]))
+
+    def _reason(self, state: MebdfState) -> str:
+        """Return why the core gave up, in words."""
+        from tribodyn.integrate.mebdf_reasons import reason
+
+        return reason(state, self.problem.state_names)
+
+
+def _compiled(run: Any, functions: tuple[Any, ...], state: Any, problem: Problem, marks: Any) -> Any:
+    """Return the loop compiled for the types of the problem, from numba's cache where it is there.
+
+    With the functions of a problem as ordinary arguments the loop would be compiled for each of them
+    and never found in the cache by another process.
+    """
+    import numba
+    from numba import float64, int64, void
+    from numba.core.types import FunctionType
+
+    typeof: Callable[[Any], Any] = numba.typeof
+    vector, matrix = float64[::1], float64[:, ::1]
+    data, memory = typeof(problem.data), typeof(problem.memory)
+    row, fields = typeof(marks.rows[:1].reshape(-1)), typeof(np.empty(marks.pictures.shape[1:]))
+    signatures = (
+        void(float64, vector, data, memory, vector),
+        void(float64, vector, data, memory, vector, matrix),
+        void(float64, float64, vector, vector, data, memory),
+        void(float64, vector, data, memory),
+        void(float64, vector, data, memory, row),
+        void(float64, vector, data, memory, fields),
+    )
+    for function, signature in zip(functions, signatures, strict=True):
+        function.compile(signature.args)
+    types = tuple(map(FunctionType, signatures))
+    return run.compile((*types, typeof(state), data, memory, typeof(marks), int64))
+
+
+MEBDF = CompiledMebdf()

@@ -1,0 +1,37 @@
+"""Why the MEBDF gave up, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tribodyn.kernels.mebdf import phases
+from tribodyn.kernels.mebdf import state as entry
+from tribodyn.kernels.mebdf.state import MebdfState
+
+
+def reason(state: MebdfState, names: Sequence[str]) -> str:
+    """Return the reason of a failure: what went wrong, and in which state.
+
+    Parameters
+    ----------
+    state
+        After ``resume`` has returned FAILED.
+    names
+        Names of the states.
+    """
+    if state.counts[entry.REASON] == phases.JACOBIAN_NOT_FINITE:
+        row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
+        return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
+    text = "the step became shorter than the spacing between numbers"
+    if (bad := int(state.counts[entry.BAD])) >= 0:
+        return f"{text}; the rate of {names[bad]} was not finite at t = {state.real[entry.T_BAD]:.9g} s"
+    if (worst := int(state.counts[entry.WORST])) >= 0:
+        cause = (
+            "Newton's iteration did not converge"
+            if state.counts[entry.CAUSE] == phases.NEWTON
+            else "the error stayed above the tolerance"
+        )
+        return f"{text}; {cause}, worst in {names[worst]}"
+    return text

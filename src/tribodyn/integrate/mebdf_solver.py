@@ -1,0 +1,154 @@
+"""The MEBDF as a solver class of SciPy: ``solve_ivp(fun, t_span, y0, method=tribodyn.integrate.MEBDF)``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numba as nb
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import DenseOutput, OdeSolver
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.integrate.mebdf_checks import largest_step, starting_step, tolerances, warn_extraneous
+from tribodyn.integrate.mebdf_jacobian import make_jacobian
+from tribodyn.integrate.mebdf_reasons import reason
+from tribodyn.kernels.mebdf import state as entry
+from tribodyn.kernels.mebdf.coefficients import MAX_K
+from tribodyn.kernels.mebdf.core import resume
+from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, STEP_ACCEPTED
+from tribodyn.kernels.mebdf.state import new_state
+
+
+class MEBDF(OdeSolver):
+    """Modified extended backward differentiation formulae of Cash, orders 2 to 8.
+
+    For stiff problems. Use it as ``solve_ivp(..., method=MEBDF)``, with events, dense output and
+    everything else that SciPy's own stiff solvers take. The right-hand side is never evaluated beyond
+    ``t_bound``.
+
+    Parameters
+    ----------
+    fun
+        ``fun(t, y)``: right-hand side, shape (n,); with ``vectorized`` also (n, m) of (n, m).
+    t0, t_bound
+        Start and end; backward in time if ``t_bound < t0``.
+    y0
+        Initial state, shape (n,), real.
+    max_step, first_step
+        Largest step; first step, ``None`` to choose it.
+    rtol, atol
+        The local error of component i is kept below ``atol_i + rtol_i |y_i|`` in the root mean square;
+        numbers or shape (n,).
+    jac
+        Jacobian ``jac(t, y)`` of shape (n, n), a constant matrix, or ``None`` for finite differences; dense
+        or sparse. The algebra is dense.
+    jac_sparsity
+        Where entries of the Jacobian may differ from zero, to group finite differences; shape (n, n).
+    vectorized
+        Whether ``fun`` takes several states at once.
+    max_order
+        Largest order, 2 to 8.
+
+    References
+    ----------
+    J. R. Cash, Comput. Math. Appl. 9 (1983) 645-657; J. R. Cash, S. Considine, ACM Trans. Math. Softw. 18
+    (1992) 142-155.
+    """
+
+    def __init__(
+        self,
+        fun: Any,
+        t0: float,
+        y0: Any,
+        t_bound: float,
+        max_step: float = np.inf,
+        rtol: ArrayLike = 1e-3,
+        atol: ArrayLike = 1e-6,
+        jac: Any = None,
+        jac_sparsity: Any = None,
+        vectorized: bool = False,
+        first_step: float | None = None,
+        max_order: int = MAX_K + 1,
+        **extraneous: Any,
+    ) -> None:
+        warn_extraneous(extraneous)
+        super().__init__(fun, t0, y0, t_bound, vectorized)
+        if not 2 <= max_order <= MAX_K + 1:
+            raise ValueError(f"`max_order` must lie between 2 and {MAX_K + 1}, not {max_order}.")
+        self.max_step = largest_step(max_step)
+        self.rtol, self.atol = tolerances(rtol, atol, self.n)
+        self._state = new_state(
+            float(self.t),
+            self.y,
+            float(self.t_bound),
+            self.rtol,
+            self.atol,
+            max_step=self.max_step,
+            first_step=starting_step(first_step, t0, t_bound),
+            largest_k=max_order - 1,
+            inside=True,
+        )
+        self._jacobian = make_jacobian(self, jac, jac_sparsity, self.atol)
+        self._resume = _machine_code()
+
+    def _step_impl(self) -> tuple[bool, str | None]:
+        """Take one step; return whether it succeeded, and why not."""
+        state = self._state
+        request = 0
+        while request not in (STEP_ACCEPTED, FAILED):
+            request = self._resume(*state)
+            if request in (STEP_ACCEPTED, FAILED):
+                break
+            t, y = float(state.real[entry.T_EVAL]), state.rows[entry.Y].copy()
+            if request == NEED_F:
+                state.rows[entry.F] = self.fun(t, y)
+            else:
+                state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
+        self.njev, self.nlu = int(state.counts[entry.N_J]), int(state.counts[entry.N_LU])
+        if request == FAILED:
+            return False, reason(state, [f"component {i}" for i in range(self.n)])
+        self.t = float(state.real[entry.T])
+        self.y = state.rows[entry.HISTORY].copy()
+        return True, None
+
+    def _dense_output_impl(self) -> DenseOutput:
+        """Return the polynomial of the last step."""
+        return MebdfDenseOutput(self.t_old, self.t, self._state)
+
+
+class MebdfDenseOutput(DenseOutput):
+    """Newton's polynomial through the newest value and the differences of the last accepted step.
+
+    Parameters
+    ----------
+    t_old, t
+        Begin and end of the step.
+    state
+        The integration; what is needed of it is copied.
+    """
+
+    def __init__(self, t_old: float, t: float, state: entry.MebdfState) -> None:
+        super().__init__(t_old, t)
+        degree = int(state.counts[entry.K_LAST]) + 1
+        self._step = float(state.real[entry.H_LAST])
+        self._differences = state.rows[entry.HISTORY : entry.HISTORY + degree + 1].copy()
+
+    def _call_impl(self, t: FloatArray) -> FloatArray:
+        """Return the solution at ``t``, shape (n,) or (n, number of times)."""
+        s = (t - self.t) / self._step
+        weight = np.ones_like(s)
+        weights = [weight]
+        for m in range(1, len(self._differences)):
+            weight = weight * (s + m - 1.0) / m
+            weights.append(weight)
+        y: FloatArray = np.tensordot(self._differences, np.array(weights), axes=(0, 0))
+        return y
+
+
+def _machine_code() -> Callable[..., int]:
+    """Return the core compiled for its only types: called directly it need not find them out each time."""
+    types = (nb.float64[::1], nb.int64[::1], nb.float64[:, ::1], nb.float64[:, :, ::1])
+    code: Callable[..., int] = resume.compile(types)
+    return code

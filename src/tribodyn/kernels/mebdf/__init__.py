@@ -1,0 +1,1 @@
+"""Kernels of the modified extended backward differentiation formulae."""

@@ -1,0 +1,166 @@
+"""Which order and which step next: error tests, growth, and the way back from failures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mebdf.coefficients import SCALARS
+from tribodyn.kernels.mebdf.history import rescale
+from tribodyn.kernels.mebdf.phases import ERROR_TEST, NEWTON, STEP
+from tribodyn.kernels.mebdf.state import (
+    ATOL,
+    CARRIED,
+    CAUSE,
+    DELTA,
+    EQUAL_STEPS,
+    FACTORED,
+    FAILURES,
+    FIXED,
+    FRESH,
+    H_MAX,
+    HISTORY,
+    INSIDE,
+    JACOBIAN_AGE,
+    LARGEST_GROWTH,
+    LARGEST_K,
+    LAST,
+    LEAST_GROWTH,
+    N_DIFFERENCES,
+    OLD_JACOBIAN,
+    PHASE,
+    REJECTED,
+    RTOL,
+    SAFETY,
+    SAFETY_HIGHER,
+    SAFETY_LOWER,
+    T_END,
+    WAIT,
+    WEIGHT,
+    WORST,
+    H,
+    K,
+    T,
+)
+
+SMALLEST_SCALE = 1.0e-150
+"""What stands for a tolerance of zero where the solution is zero too."""
+FAILED_NEWTON = 0.25
+"""What the step is multiplied by when Newton's iteration fails although the Jacobian is new."""
+
+
+@kernel
+def norm(rows: FloatArray, row: int) -> float:
+    """Return the weighted root mean square of a row."""
+    total = 0.0
+    for i in range(rows.shape[1]):
+        total += (rows[row, i] * rows[WEIGHT, i]) ** 2
+    return math.sqrt(total / rows.shape[1])
+
+
+@kernel
+def set_weights(rows: FloatArray) -> None:
+    """Make the weights those of the newest value."""
+    for i in range(rows.shape[1]):
+        scale = rows[ATOL, i] + rows[RTOL, i] * abs(rows[HISTORY, i])
+        rows[WEIGHT, i] = 1.0 / max(scale, SMALLEST_SCALE)
+
+
+@kernel
+def change_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float) -> None:
+    """Multiply the step by ``factor`` and make the history fit it."""
+    rescale(rows, count[K], factor)
+    real[H] *= factor
+    count[EQUAL_STEPS] = 0
+    count[CARRIED] = 0
+
+
+@kernel
+def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Keep the step below its maximum and let the last steps end at the end."""
+    left = abs(real[T_END] - real[T])
+    h = abs(real[H])
+    largest = left
+    if count[FIXED] == 0:
+        largest = min(real[H_MAX], left)
+        if h < left * (1.0 - 1.0e-9) and 2.0 * h > left:
+            # Two equal last steps rather than a long one and a sliver.
+            largest = min(largest, 0.5 * left)
+    if h > largest:
+        change_step(real, count, rows, largest / h)
+    count[LAST] = 1 if count[INSIDE] == 1 and 2.0 * abs(real[H]) > left * (1.0 + 1.0e-9) else 0
+
+
+@kernel
+def blame(count: NDArray[np.int64], rows: FloatArray, row: int) -> None:
+    """Remember the component that contributes most to the norm of a row."""
+    count[CAUSE] = NEWTON if row == DELTA else ERROR_TEST
+    worst = -1.0
+    for i in range(rows.shape[1]):
+        size = abs(rows[row, i] * rows[WEIGHT, i])
+        if size > worst:
+            worst = size
+            count[WORST] = i
+
+
+@kernel
+def reject(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float, row: int) -> None:
+    """Go back to the start of the step and try a smaller one; the largest entry of ``row`` is to blame."""
+    blame(count, rows, row)
+    count[REJECTED] += 1
+    count[FAILURES] += 1
+    if count[FAILURES] >= 3 and count[K] > 1:
+        # The history is of no use: begin again at the lowest order from the last slope.
+        count[K] = 1
+        for m in range(2, N_DIFFERENCES):
+            for i in range(rows.shape[1]):
+                rows[HISTORY + m, i] = 0.0
+    change_step(real, count, rows, factor)
+    count[PHASE] = STEP
+
+
+@kernel
+def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Try again with a new Jacobian, or with a shorter step where it was new already."""
+    if count[FRESH] == 0:
+        count[JACOBIAN_AGE] = int(real[OLD_JACOBIAN]) + 1
+        real[FACTORED] = 0.0
+        count[CARRIED] = 0
+        count[PHASE] = STEP
+    else:
+        reject(real, count, rows, FAILED_NEWTON, DELTA)
+
+
+@kernel
+def growth(rows: FloatArray, k: int, safety: float) -> float:
+    """Return by how much the step could grow with ``k`` back values."""
+    error = SCALARS[k, 3] * norm(rows, HISTORY + k + 1)
+    return 1.0 / (safety * error ** (1.0 / (k + 1)) + 1.0e-6)
+
+
+@kernel
+def choose(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Choose order and step for the next step, once enough equal steps have been taken."""
+    k = count[K]
+    if count[FIXED] == 1 or count[EQUAL_STEPS] < k + real[WAIT]:
+        return
+    set_weights(rows)
+    best, factor = k, growth(rows, k, real[SAFETY])
+    if k > 1:
+        lower = growth(rows, k - 1, real[SAFETY_LOWER])
+        if lower > factor:
+            best, factor = k - 1, lower
+    if k < count[LARGEST_K]:
+        higher = growth(rows, k + 1, real[SAFETY_HIGHER])
+        if higher > factor:
+            best, factor = k + 1, higher
+    if factor < real[LEAST_GROWTH]:
+        # Not worth a new matrix; look again after as many steps.
+        count[EQUAL_STEPS] = 1
+        return
+    count[K] = best
+    change_step(real, count, rows, min(factor, real[LARGEST_GROWTH]))

@@ -1,0 +1,160 @@
+"""The MEBDF as a machine that asks its caller for evaluations.
+
+``resume`` runs until it needs the right-hand side or the Jacobian, or until a step is accepted, and
+returns which. The caller evaluates at ``real[T_EVAL]`` and ``rows[Y]``, fills ``rows[F]`` or
+``matrices[JACOBIAN]`` and calls again. So one source serves compiled problems, where the loop around it
+never leaves compiled code, and Python callables.
+
+One step, Cash's three stages on one iteration matrix I − hβJ:
+
+1. BDF with k back values at t_{n+1} gives ȳ1;
+2. the same BDF on {ȳ1, y_n, …} at t_{n+2} gives ȳ2;
+3. the extended formula at t_{n+1}, with f̄1 and f̄2 known and hβ f(y) implicit, gives y_{n+1}.
+
+Cash (1983), Comput. Math. Appl. 9, 645; Cash & Considine (1992), ACM TOMS 18, 142; Hairer & Wanner,
+Solving Ordinary Differential Equations II, V.3.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mebdf.coefficients import SCALARS
+from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
+from tribodyn.kernels.mebdf.history import push
+from tribodyn.kernels.mebdf.newton import iterate, renew_matrix, start_stage
+from tribodyn.kernels.mebdf.phases import (
+    ACCEPT,
+    AFTER,
+    FACTORISE,
+    FAILED,
+    ITERATE,
+    NEED_JACOBIAN,
+    START_STAGE,
+    STEP,
+    STEP_ACCEPTED,
+    STEP_TOO_SMALL,
+)
+from tribodyn.kernels.mebdf.start import start
+from tribodyn.kernels.mebdf.state import (
+    BAD,
+    CARRIED,
+    EQUAL_STEPS,
+    FACTORED,
+    FAILURES,
+    FRESH,
+    H_LAST,
+    HISTORY,
+    JACOBIAN_AGE,
+    K_LAST,
+    N_DIFFERENCES,
+    N_J,
+    OLD_JACOBIAN,
+    PHASE,
+    RATE,
+    REASON,
+    RELAXATION,
+    SAME_MATRIX,
+    SCALED,
+    SLOW,
+    STAGE,
+    STEPS,
+    T_END,
+    T_EVAL,
+    T_OLD,
+    WORST,
+    H,
+    K,
+    T,
+    Y,
+)
+
+LEAST_STEP: Final = 10.0 * float(np.finfo(np.float64).eps)
+"""Smallest step relative to the time."""
+ROUNDING: Final = 1.0e-10
+"""Distance from the end, in steps, that is none."""
+
+
+@kernel
+def resume(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
+    """Go on until something is needed; return NEED_F, NEED_JACOBIAN, STEP_ACCEPTED or FAILED.
+
+    After STEP_ACCEPTED the solution at ``real[T]`` is ``rows[HISTORY]``, and the polynomial of degree
+    ``count[K_LAST]`` + 1 through the history is the dense output between ``real[T_OLD]`` and ``real[T]``,
+    until the next call.
+    """
+    request = 0
+    while request == 0:
+        phase = count[PHASE]
+        if phase == ITERATE:
+            request = iterate(real, count, rows, matrices)
+        elif phase == START_STAGE:
+            request = start_stage(real, count, rows)
+        elif phase == STEP:
+            request = _begin_step(real, count, rows)
+        elif phase == FACTORISE:
+            request = renew_matrix(real, count, rows, matrices)
+        elif phase == ACCEPT:
+            _accept(real, count, rows)
+            request = STEP_ACCEPTED
+        elif phase == AFTER:
+            count[PHASE] = STEP
+            choose(real, count, rows)
+        else:
+            request = start(real, count, rows)
+    return request
+
+
+@kernel
+def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+    """Limit the step, and renew the iteration matrix where the step or its age demands it."""
+    limit_step(real, count, rows)
+    h = real[H]
+    if not abs(h) > LEAST_STEP * abs(real[T]):
+        count[REASON] = STEP_TOO_SMALL
+        return FAILED
+    set_weights(rows)
+    scaled = h * SCALARS[count[K], 0]
+    real[SCALED] = scaled
+    if real[FACTORED] != 0.0 and abs(scaled / real[FACTORED] - 1.0) <= real[SAME_MATRIX]:
+        real[RELAXATION] = 2.0 / (1.0 + scaled / real[FACTORED])
+        count[STAGE] = 1
+        count[PHASE] = START_STAGE
+        return 0
+    count[PHASE] = FACTORISE
+    old = count[JACOBIAN_AGE] >= real[OLD_JACOBIAN] or real[RATE] > real[SLOW] or count[N_J] == 0
+    if not old or count[FRESH] == 1:
+        return 0
+    for i in range(rows.shape[1]):
+        rows[Y, i] = rows[HISTORY, i]
+    real[T_EVAL] = real[T]
+    count[N_J] += 1
+    count[JACOBIAN_AGE] = 0
+    count[FRESH] = 1
+    return NEED_JACOBIAN
+
+
+@kernel
+def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Make y_{n+1} the newest value."""
+    push(rows, Y, N_DIFFERENCES, HISTORY)
+    real[T_OLD] = real[T]
+    real[T] += real[H]
+    if abs(real[T_END] - real[T]) <= ROUNDING * abs(real[H]):
+        real[T] = real[T_END]
+    real[H_LAST] = real[H]
+    count[K_LAST] = count[K]
+    count[STEPS] += 1
+    count[EQUAL_STEPS] += 1
+    count[JACOBIAN_AGE] += 1
+    count[FRESH] = 0
+    count[FAILURES] = 0
+    count[BAD] = -1
+    count[WORST] = -1
+    count[CARRIED] = 1
+    count[PHASE] = AFTER

@@ -1,0 +1,135 @@
+"""The loop around the MEBDF core: evaluations, and the walk over accepted steps.
+
+The compiled counterpart of ``tribodyn.integrate.driver``, with the same order of calls. The functions of
+the problem are arguments. Compiled for first-class function types, whose code does not depend on which
+function it is, the loop is found in numba's cache by every later process; plain Python functions are
+served by the uncompiled loop, ``run.py_func``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mebdf.core import resume
+from tribodyn.kernels.mebdf.history import value_at
+from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, NEED_JACOBIAN
+from tribodyn.kernels.mebdf.state import H_LAST, HISTORY, JACOBIAN, K_LAST, T_END, T_EVAL, F, MebdfState, T, Y
+
+ENDED: Final = 0
+PAUSED: Final = 1
+
+# Entries of ``Marks.position``.
+NEXT_MARK: Final = 0
+N_OUTPUTS: Final = 1
+N_PICTURES: Final = 2
+
+
+class Marks(NamedTuple):
+    """When to take what, and what was taken.
+
+    Attributes
+    ----------
+    times
+        Times of outputs and pictures [s], shape (n_marks + 1,), the last one infinite.
+    is_output, is_picture
+        What is taken at each mark, shape (n_marks,).
+    tolerance
+        Times closer than this are the same [s], shape (1,).
+    rows
+        Observed quantities, shape (n_outputs, n_observed).
+    pictures
+        Fields, shape (n_pictures, ...).
+    position
+        Next mark, rows taken and pictures taken.
+    reached
+        Time up to which the accepted step has been walked [s], shape (1,).
+    middle, end
+        States in the middle and at the end of a part of a step, shape (n,).
+    """
+
+    times: FloatArray
+    is_output: NDArray[np.bool_]
+    is_picture: NDArray[np.bool_]
+    tolerance: FloatArray
+    rows: FloatArray
+    pictures: FloatArray
+    position: NDArray[np.int64]
+    reached: FloatArray
+    middle: FloatArray
+    end: FloatArray
+
+
+@kernel
+def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: float, y: FloatArray) -> None:
+    """Fill ``y`` with the solution at a time inside the last accepted step."""
+    s = (t - real[T]) / real[H_LAST]
+    for i in range(y.size):
+        y[i] = value_at(rows, HISTORY, count[K_LAST] + 1, s, i)
+
+
+@kernel
+def run(
+    rhs: Callable[..., None],
+    jac: Callable[..., None],
+    advance: Callable[..., None],
+    accept: Callable[..., None],
+    observe: Callable[..., None],
+    picture: Callable[..., None],
+    state: MebdfState,
+    data: Any,
+    memory: Any,
+    marks: Marks,
+    most_steps: int,
+) -> int:
+    """Integrate until the end or for ``most_steps``; return ENDED, PAUSED or FAILED."""
+    real, count, rows, matrices = state
+    jacobian = matrices[JACOBIAN]
+    y, f, newest = rows[Y], rows[F], rows[HISTORY]
+    times, position, reached = marks.times, marks.position, marks.reached
+    middle, end, tolerance = marks.middle, marks.end, marks.tolerance[0]
+    steps = 0
+    while True:
+        request = resume(real, count, rows, matrices)
+        if request == NEED_F:
+            rhs(real[T_EVAL], y, data, memory, f)
+            continue
+        if request == NEED_JACOBIAN:
+            jacobian[:, :] = 0.0
+            jac(real[T_EVAL], y, data, memory, f, jacobian)
+            continue
+        if request == FAILED:
+            return FAILED
+        t = real[T]
+        ended = False
+        while not ended:
+            mark = position[NEXT_MARK]
+            inside = times[mark] < t - tolerance
+            ended = not inside
+            t_part = times[mark] if inside else t
+            state_at(real, count, rows, 0.5 * (reached[0] + t_part), middle)
+            if inside:
+                state_at(real, count, rows, t_part, end)
+            else:
+                end[:] = newest
+            advance(reached[0], t_part, middle, end, data, memory)
+            reached[0] = t_part
+            if times[mark] <= t + tolerance:
+                if marks.is_output[mark]:
+                    observe(t_part, end, data, memory, marks.rows[position[N_OUTPUTS]])
+                    position[N_OUTPUTS] += 1
+                if marks.is_picture[mark]:
+                    picture(t_part, end, data, memory, marks.pictures[position[N_PICTURES]])
+                    position[N_PICTURES] += 1
+                position[NEXT_MARK] += 1
+        accept(t, newest, data, memory)
+        steps += 1
+        if t == real[T_END]:
+            return ENDED
+        if steps >= most_steps:
+            return PAUSED

@@ -1,0 +1,228 @@
+"""Newton's iteration of the three stages, all on one iteration matrix."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
+from tribodyn.kernels.mebdf.control import newton_failed, norm, reject
+from tribodyn.kernels.mebdf.history import push
+from tribodyn.kernels.mebdf.matrix import factorise, solve
+from tribodyn.kernels.mebdf.phases import ACCEPT, FAILED, ITERATE, JACOBIAN_NOT_FINITE, NEED_F, START_STAGE
+from tribodyn.kernels.mebdf.start import all_finite
+from tribodyn.kernels.mebdf.state import (
+    CARRIED,
+    CONSTANT,
+    DELTA,
+    DISAGREEMENT,
+    ERROR,
+    F_1,
+    F_2,
+    FACTORED,
+    FIXED,
+    FORGET,
+    FRESH,
+    HISTORY,
+    ITERATION,
+    JACOBIAN,
+    KAPPA,
+    LAST,
+    LAST_JACOBIAN,
+    LAST_NORM,
+    N_F,
+    N_J,
+    N_LU,
+    N_SOLVES,
+    PHASE,
+    RATE,
+    REASON,
+    RELAXATION,
+    SCALED,
+    SCRATCH,
+    SHRINK,
+    STAGE,
+    STAGE_HISTORY,
+    T_EVAL,
+    WEIGHT,
+    Y_1,
+    Y_2,
+    F,
+    H,
+    K,
+    T,
+    Y,
+)
+
+MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
+DIVERGING: Final = 2.0
+
+
+@kernel
+def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
+    """Take over a new Jacobian, if it is finite, and factorise."""
+    if count[FRESH] == 1:
+        if math.isfinite(matrices[JACOBIAN].sum()):
+            matrices[LAST_JACOBIAN] = matrices[JACOBIAN]
+        elif count[N_J] == 1:
+            count[REASON] = JACOBIAN_NOT_FINITE
+            return FAILED
+    real[FACTORED] = real[SCALED]
+    real[RELAXATION] = 1.0
+    real[RATE] = 1.0
+    count[N_LU] += 1
+    count[STAGE] = 1
+    count[PHASE] = START_STAGE
+    if not factorise(count, matrices, real[SCALED]):
+        newton_failed(real, count, rows)
+    return 0
+
+
+@kernel
+def start_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+    """Fill what the stage knows already, predict, and ask for f where it is not known."""
+    stage, h = count[STAGE], real[H]
+    _set_constant(real, count, rows)
+    count[ITERATION] = 0
+    count[PHASE] = ITERATE
+    real[T_EVAL] = real[T] + (2.0 * h if stage == 2 else h)
+    if stage == 3:
+        _copy(rows, Y_1, Y, F_1, F)
+        return 0
+    if stage == 1 and count[CARRIED] == 1:
+        _copy(rows, Y_2, Y, F_2, F)
+        return 0
+    first = STAGE_HISTORY if stage == 2 else HISTORY
+    for i in range(rows.shape[1]):
+        total = 0.0
+        for m in range(count[K] + 1):
+            total += rows[first + m, i]
+        rows[Y, i] = total
+    count[N_F] += 1
+    return NEED_F
+
+
+@kernel
+def _copy(rows: FloatArray, y: int, to_y: int, f: int, to_f: int) -> None:
+    for i in range(rows.shape[1]):
+        rows[to_y, i] = rows[y, i]
+        rows[to_f, i] = rows[f, i]
+
+
+@kernel
+def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Fill the part of the formula of a stage that does not depend on its value."""
+    k, stage, h = count[K], count[STAGE], real[H]
+    slope_1 = h * (SCALARS[k, 1] - SCALARS[k, 0])
+    slope_2 = h * SCALARS[k, 2]
+    for i in range(rows.shape[1]):
+        total = 0.0
+        if stage == 3:
+            for m in range(k):
+                total += EXTENDED_HISTORY[k, m] * rows[HISTORY + m, i]
+            total += slope_1 * rows[F_1, i] + slope_2 * rows[F_2, i]
+        else:
+            first = STAGE_HISTORY if stage == 2 else HISTORY
+            for m in range(k):
+                total += BDF_HISTORY[k, m] * rows[first + m, i]
+        rows[CONSTANT, i] = total
+
+
+@kernel
+def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
+    """One Newton correction with f known at Y; then accept the stage, go on, or give up."""
+    stage = count[STAGE]
+    for i in range(rows.shape[1]):
+        rows[DELTA, i] = real[SCALED] * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
+    if not all_finite(real, count, rows):
+        newton_failed(real, count, rows)
+        return 0
+    solve(count, rows, matrices)
+    count[N_SOLVES] += 1
+    size = _correct(real, rows)
+    if not _converging(real, count, size):
+        newton_failed(real, count, rows)
+        return 0
+    count[ITERATION] += 1
+    rate = real[RATE]
+    left = size * (min(1.0, rate / (1.0 - rate)) if rate < 1.0 else 1.0)
+    if left <= real[KAPPA + stage]:
+        finish_stage(real, count, rows)
+        return 0
+    if count[ITERATION] >= MAX_ITERATIONS[stage]:
+        newton_failed(real, count, rows)
+        return 0
+    count[N_F] += 1
+    return NEED_F
+
+
+@kernel
+def _correct(real: FloatArray, rows: FloatArray) -> float:
+    """Add the correction to Y; return its norm."""
+    total = 0.0
+    for i in range(rows.shape[1]):
+        change = real[RELAXATION] * rows[DELTA, i]
+        rows[Y, i] += change
+        total += (change * rows[WEIGHT, i]) ** 2
+    return math.sqrt(total / rows.shape[1])
+
+
+@kernel
+def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool:
+    """Update the convergence rate; return whether there is hope."""
+    if not math.isfinite(size):
+        return False
+    if count[ITERATION] > 0:
+        ratio = size / real[LAST_NORM] if real[LAST_NORM] > 0.0 else 0.0
+        if ratio > DIVERGING:
+            return False
+        real[RATE] = max(real[FORGET] * real[RATE], ratio)
+    real[LAST_NORM] = size
+    return True
+
+
+@kernel
+def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
+    stage = count[STAGE]
+    count[PHASE] = START_STAGE
+    count[STAGE] = stage + 1
+    if stage == 1:
+        _keep(real, rows, Y_1, F_1)
+        _test_error(real, count, rows)
+    elif stage == 2:
+        _keep(real, rows, Y_2, F_2)
+    else:
+        for i in range(rows.shape[1]):
+            rows[SCRATCH, i] = rows[Y, i] - rows[Y_1, i]
+        if count[FIXED] == 0 and norm(rows, SCRATCH) > real[DISAGREEMENT]:
+            reject(real, count, rows, 0.5, SCRATCH)
+        else:
+            count[PHASE] = ACCEPT
+
+
+@kernel
+def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
+    """Store a stage; its slope follows from the formula without another call."""
+    for i in range(rows.shape[1]):
+        rows[y, i] = rows[Y, i]
+        rows[f, i] = (rows[Y, i] - rows[CONSTANT, i]) / real[SCALED]
+
+
+@kernel
+def _test_error(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
+    k = count[K]
+    push(rows, Y_1, k + 2, STAGE_HISTORY)
+    error = SCALARS[k, 3] * norm(rows, STAGE_HISTORY + k + 1)
+    real[ERROR] = error
+    if error > 1.0 and count[FIXED] == 0:
+        shrink = 1.0 / (real[SHRINK] * error ** (1.0 / (k + 1)))
+        reject(real, count, rows, min(0.9, max(0.1, shrink)), STAGE_HISTORY + k + 1)
+    elif count[LAST] == 1:
+        count[PHASE] = ACCEPT

@@ -1,0 +1,27 @@
+"""Where the machine stands between two calls, and what it asks of its caller."""
+
+from __future__ import annotations
+
+from typing import Final
+
+NEED_F: Final = 1
+NEED_JACOBIAN: Final = 2
+STEP_ACCEPTED: Final = 3
+FAILED: Final = 4
+
+STEP_TOO_SMALL: Final = 1
+NOT_FINITE: Final = 2
+JACOBIAN_NOT_FINITE: Final = 3
+
+ERROR_TEST: Final = 1
+NEWTON: Final = 2
+
+BEGIN: Final = 0
+FIRST_F: Final = 1
+SECOND_F: Final = 2
+STEP: Final = 3
+FACTORISE: Final = 4
+START_STAGE: Final = 5
+ITERATE: Final = 6
+ACCEPT: Final = 7
+AFTER: Final = 8

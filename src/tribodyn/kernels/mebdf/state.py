@@ -1,0 +1,203 @@
+"""State of an MEBDF integration: plain arrays, so that compiled code and Python drive the same core."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mebdf.coefficients import MAX_K
+
+# Entries of ``MebdfState.real``.
+T: Final = 0
+T_END: Final = 1
+H: Final = 2
+H_MAX: Final = 3
+T_EVAL: Final = 4
+SCALED: Final = 5
+"""Step times β of the present step."""
+FACTORED: Final = 6
+"""Step times β that the factorised matrix belongs to; 0 when there is none."""
+RATE: Final = 7
+"""Estimate of the convergence rate of Newton's iteration."""
+LAST_NORM: Final = 8
+T_OLD: Final = 9
+H_LAST: Final = 10
+"""Signed size of the last accepted step; the differences belong to it."""
+ERROR: Final = 11
+DIRECTION: Final = 12
+RELAXATION: Final = 13
+"""What Newton corrections are multiplied by because the matrix belongs to another step."""
+T_BAD: Final = 14
+"""Time at which the right-hand side was not finite last."""
+SETTINGS: Final = 15
+"""First of the entries that hold the settings of the controllers."""
+
+# Settings, in ``real[SETTINGS + ...]``; their values stand in ``DEFAULTS``.
+KAPPA: Final = SETTINGS - 1
+"""Share of the tolerance that Newton's iteration may leave in stages 1, 2, 3: entries KAPPA + stage."""
+SLOW: Final = SETTINGS + 3
+"""Convergence rate above which a new matrix takes a new Jacobian."""
+OLD_JACOBIAN: Final = SETTINGS + 4
+"""Steps after which a new matrix takes a new Jacobian."""
+SAME_MATRIX: Final = SETTINGS + 5
+"""Relative change of step times β up to which the matrix is kept."""
+SAFETY_LOWER: Final = SETTINGS + 6
+SAFETY: Final = SETTINGS + 7
+SAFETY_HIGHER: Final = SETTINGS + 8
+LEAST_GROWTH: Final = SETTINGS + 9
+LARGEST_GROWTH: Final = SETTINGS + 10
+DISAGREEMENT: Final = SETTINGS + 11
+"""Largest distance of y_{n+1} from ȳ1 in units of the tolerance."""
+FORGET: Final = SETTINGS + 12
+"""How much of the estimated convergence rate the next stage inherits."""
+WAIT: Final = SETTINGS + 13
+"""Steps to wait, beyond k, before order and step are chosen anew."""
+SHRINK: Final = SETTINGS + 14
+"""Reluctance of the step after a failed error test."""
+DEFAULTS: Final = (0.3, 0.2, 0.1, 0.2, 20.0, 0.0, 1.6, 1.5, 1.7, 1.2, 3.0, 2.0, 0.3, 2.0, 1.2)
+N_REAL: Final = SETTINGS + len(DEFAULTS)
+
+# Entries of ``MebdfState.counts``.
+PHASE: Final = 0
+K: Final = 1
+EQUAL_STEPS: Final = 2
+ITERATION: Final = 3
+STAGE: Final = 4
+STEPS: Final = 5
+REJECTED: Final = 6
+N_F: Final = 7
+N_J: Final = 8
+N_LU: Final = 9
+JACOBIAN_AGE: Final = 10
+CARRIED: Final = 11
+"""Whether stage 2 of the last step predicts stage 1 of this one, with its derivative."""
+FAILURES: Final = 12
+"""Failed error tests in a row."""
+K_LAST: Final = 13
+FRESH: Final = 14
+"""Whether the Jacobian was evaluated at the present point."""
+REASON: Final = 15
+LARGEST_K: Final = 16
+FIXED: Final = 17
+"""Whether step and order are held, for convergence tests."""
+INSIDE: Final = 18
+"""Whether the right-hand side may not be evaluated beyond the end."""
+BAD: Final = 19
+"""Component in which the right-hand side was not finite last, −1 if it never was."""
+N_SOLVES: Final = 20
+LAST: Final = 21
+"""Whether this is a last step that may not look beyond the end."""
+WORST: Final = 22
+"""Component to blame for the last rejected step, −1 if there was none since the last accepted one."""
+CAUSE: Final = 23
+"""Why the last step was rejected."""
+PIVOTS: Final = 24
+"""First of n row exchanges of the factorised matrix."""
+
+# Rows of ``MebdfState.rows``.
+ATOL: Final = 0
+RTOL: Final = 1
+WEIGHT: Final = 2
+"""Reciprocal error scale 1/(atol + rtol |y|)."""
+Y: Final = 3
+"""Point at which the caller evaluates."""
+F: Final = 4
+"""Derivative the caller fills in."""
+CONSTANT: Final = 5
+"""What a stage knows before it starts."""
+Y_1: Final = 6
+F_1: Final = 7
+Y_2: Final = 8
+F_2: Final = 9
+DELTA: Final = 10
+"""Newton correction."""
+HISTORY: Final = 11
+"""First of the backward differences ∇^i y_n."""
+N_DIFFERENCES: Final = MAX_K + 3
+STAGE_HISTORY: Final = HISTORY + N_DIFFERENCES
+"""First of the backward differences with ȳ1 as the newest value."""
+SCRATCH: Final = STAGE_HISTORY + N_DIFFERENCES
+N_ROWS: Final = SCRATCH + N_DIFFERENCES
+
+# Matrices of ``MebdfState.matrices``.
+JACOBIAN: Final = 0
+"""Jacobian the caller fills in."""
+LAST_JACOBIAN: Final = 1
+"""Last Jacobian that was finite."""
+FACTORS: Final = 2
+"""Inverse or LU factors of the iteration matrix."""
+WORK: Final = 3
+
+
+class MebdfState(NamedTuple):
+    """Everything an integration of ``n`` equations needs between two calls of ``resume``.
+
+    Attributes
+    ----------
+    real, counts
+        Numbers named above; ``counts`` ends with n row exchanges.
+    rows
+        Vectors named above, shape (N_ROWS, n).
+    matrices
+        Matrices named above, shape (4, n, n).
+    """
+
+    real: FloatArray
+    counts: NDArray[np.int64]
+    rows: FloatArray
+    matrices: FloatArray
+
+
+def new_state(
+    t: float,
+    y: FloatArray,
+    t_end: float,
+    rtol: float | FloatArray,
+    atol: FloatArray,
+    *,
+    max_step: float = np.inf,
+    first_step: float = 0.0,
+    largest_k: int = MAX_K,
+    inside: bool = False,
+) -> MebdfState:
+    """Return the state before the first step.
+
+    Parameters
+    ----------
+    t, t_end
+        Start and end of the integration; backward in time if ``t_end < t``.
+    y
+        Initial value, shape (n,).
+    rtol, atol
+        Tolerances, numbers or shape (n,).
+    max_step
+        Largest step size.
+    first_step
+        Size of the first step; 0 to estimate it.
+    largest_k
+        Largest number of back values, 1 to MAX_K.
+    inside
+        Whether the right-hand side may not be evaluated beyond ``t_end``.
+    """
+    n = y.size
+    real = np.zeros(N_REAL)
+    real[[T, T_OLD]] = t
+    real[T_END] = t_end
+    real[DIRECTION] = 1.0 if t_end >= t else -1.0
+    real[H] = first_step
+    real[H_MAX] = max_step
+    real[[RATE, RELAXATION]] = 1.0
+    real[SETTINGS:] = DEFAULTS
+    count = np.zeros(PIVOTS + n, dtype=np.int64)
+    count[[K, K_LAST]] = 1
+    count[LARGEST_K] = largest_k
+    count[INSIDE] = inside
+    count[[BAD, WORST]] = -1
+    rows = np.zeros((N_ROWS, n))
+    rows[ATOL] = atol
+    rows[RTOL] = rtol
+    rows[[Y, HISTORY]] = y
+    return MebdfState(real, count, rows, np.zeros((4, n, n)))
