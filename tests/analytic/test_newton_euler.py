@@ -54,7 +54,7 @@ def evaluate(data, t, y, direction, entry):
     memory.entry_velocity[:, :] = entry
     rate, row = np.empty(8), np.empty(len(OBSERVED))
     functions.rhs(t, y, data, memory, rate)
-    projected_moment = drive_moment(memory)
+    projected_moment = drive_moment(memory.scratch)
     observe(t, y, data, memory, row)
     full = memory.scratch.reactions[:, 0].copy()
     seen = SimpleNamespace(**dict(zip(OBSERVED, row, strict=True)))

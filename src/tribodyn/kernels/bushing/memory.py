@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.bushing.window import contact_window
@@ -17,7 +18,7 @@ def pressure_field(
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa] at all nodes."""
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
-    pressure[:, :] = 0.0
+    clear(pressure)
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)

@@ -38,7 +38,8 @@ def report(
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     onset = joint.onset * joint.roughness
-    out[:] = 0.0
+    for k in range(N_REPORT):
+        out[k] = 0.0
     out[SEPARATION_MIN] = 1.0e30
     contact_area = clipped_area = 0.0
     for j in range(joint.z.size):

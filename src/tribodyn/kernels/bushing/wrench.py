@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.pressure import node_pressure
 from tribodyn.kernels.bushing.window import contact_window
@@ -75,7 +76,8 @@ def wrench(
     """
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
-    out[:] = 0.0
+    for k in range(5):
+        out[k] = 0.0
     for j in range(joint.z.size):
         area = joint.area[j]
         if area == 0.0:
@@ -172,8 +174,9 @@ def wrench_and_jacobian(
     limit = joint.table.h_last * joint.roughness
     r_j = joint.journal_radius
     tangential = joint.tangential
-    out[:] = 0.0
-    jacobian[:, :] = 0.0
+    clear(jacobian)
+    for k in range(5):
+        out[k] = 0.0
     for j in range(joint.z.size):
         area = joint.area[j]
         if area == 0.0:

@@ -12,10 +12,11 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -53,7 +54,7 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
             for k in range(5):
                 test[row, k] = motion[row, k]
         return
-    test[:, :] = 0.0
+    clear(test)
     for row in range(N_ROWS):
         test[row, 0] = motion[row, 0]
     s2_x, s2_z = motion[S2_X, VALUE], motion[S2_Z, VALUE]
@@ -61,7 +62,7 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
     d_y = motion[S2_X + 1, VALUE] - data.l_4
     d_z = s2_z - motion[S1_Z, VALUE]
     kappa = -d_y / (d_z * s2_x - d_x * s2_z)
-    o3_x, o3_z = ring_centre(data, motion[THETA_B, VALUE])
+    o3_x, o3_z = ring_centre(data.l_3, data.ring_angle, motion[THETA_B, VALUE])
     test[THETA_B, 1] = kappa
     d_s2 = (-s2_z * kappa, 1.0, s2_x * kappa)
     d_o3 = (-o3_z * kappa, 1.0, o3_x * kappa)
@@ -86,10 +87,10 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
 
 
 @kernel
-def ring_centre(data: VsvData, theta_b: float) -> tuple[float, float]:
+def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, float]:
     """Return x and z of the ring's mass centre relative to its axis [m]."""
-    radius = 0.5 * data.l_3 * math.cos(0.5 * data.ring_angle)
-    angle = theta_b - 0.5 * data.ring_angle
+    radius = 0.5 * l_3 * math.cos(0.5 * ring_angle)
+    angle = theta_b - 0.5 * ring_angle
     return -radius * math.sin(angle), radius * math.cos(angle)
 
 
@@ -101,10 +102,10 @@ def air_loads(data: VsvData, theta_v: float, direction: float) -> tuple[float, f
 
 
 @kernel
-def slip_speed(memory: VsvMemory, motion: FloatArray) -> float:
+def slip_speed(regime: FloatArray, motion: FloatArray) -> float:
     """Return the vane speed that traction sees [rad/s]: the actual one, or fully sliding if asked."""
-    if memory.regime[1] != 0.0:
-        return memory.regime[1]
+    if regime[1] != 0.0:
+        return regime[1]
     return motion[THETA_V, VELOCITY]
 
 
@@ -133,15 +134,15 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
 
 
 @kernel
-def assemble(data: VsvData, memory: VsvMemory) -> None:
+def assemble(inertias: FloatArray, scratch: Scratch) -> None:
     """Fill the mass matrix (5, 4) and the load (5,); row 0 belongs to the crank and gives M_d."""
-    scratch = memory.scratch
     motion, test, force = scratch.motion, scratch.test, scratch.force
     mass, load = scratch.mass, scratch.load
-    mass[:, :] = 0.0
-    load[:] = 0.0
+    clear(mass)
+    for i in range(5):
+        load[i] = 0.0
     for row in range(N_ROWS):
-        inertia = data.inertia[row]
+        inertia = inertias[row]
         applied = force[row] - inertia * motion[row, BIAS]
         for i in range(5):
             share = test[row, i]
@@ -154,44 +155,41 @@ def assemble(data: VsvData, memory: VsvMemory) -> None:
 
 
 @kernel
-def collar_share(memory: VsvMemory, i: int) -> float:
+def collar_share(test: FloatArray, collar: FloatArray, i: int) -> float:
     """Return the generalised force of a unit F_cz along test motion ``i``."""
-    test, collar = memory.scratch.test, memory.scratch.collar
     return (
         test[PHI_X, i] * collar[PHI_X] + test[PHI_Y, i] * collar[PHI_Y] + test[THETA_V, i] * collar[THETA_V]
     )
 
 
 @kernel
-def lever_lift(data: VsvData, memory: VsvMemory) -> float:
+def lever_lift(exact: float, theta_b: float) -> float:
     """Return tan θ_b, the vertical per horizontal force of the frictionless pin; 0 in ``paper``."""
-    return math.tan(memory.scratch.motion[THETA_B, VALUE]) if data.exact > 0.0 else 0.0
+    return math.tan(theta_b) if exact > 0.0 else 0.0
 
 
 @kernel
-def add_collar(data: VsvData, memory: VsvMemory, factor: float) -> None:
+def add_collar(data: VsvData, scratch: Scratch, factor: float) -> None:
     """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
-    scratch = memory.scratch
-    lift = lever_lift(data, memory)
+    lift = lever_lift(data.exact, scratch.motion[THETA_B, VALUE])
     at_rest = data.vane_weight + lift * (
         scratch.wrench[0] + scratch.force[OV_X] - data.m_v * scratch.motion[OV_X, BIAS]
     )
     for i in range(5):
-        share = factor * collar_share(memory, i)
+        share = factor * collar_share(scratch.test, scratch.collar, i)
         scratch.load[i] += share * at_rest
         for j in range(4):
             scratch.mass[i, j] += share * lift * data.m_v * scratch.motion[OV_X, 1 + j]
 
 
 @kernel
-def collar_force(data: VsvData, memory: VsvMemory, acceleration: FloatArray) -> float:
+def collar_force(data: VsvData, scratch: Scratch, acceleration: FloatArray) -> float:
     """Return m_v g + F_43z [N] for given clearance accelerations; negative means lift-off."""
-    scratch = memory.scratch
     x_ov = scratch.motion[OV_X, BIAS]
     for j in range(4):
         x_ov += scratch.motion[OV_X, 1 + j] * acceleration[j]
     f_43x = scratch.wrench[0] + scratch.force[OV_X] - data.m_v * x_ov
-    return data.vane_weight + lever_lift(data, memory) * f_43x
+    return data.vane_weight + lever_lift(data.exact, scratch.motion[THETA_B, VALUE]) * f_43x
 
 
 @kernel
@@ -200,7 +198,7 @@ def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     scratch = memory.scratch
     fill_motion(data, t, y, scratch.motion)
     fill_test_motions(data, scratch.motion, scratch.test)
-    return slip_speed(memory, scratch.motion)
+    return slip_speed(memory.regime, scratch.motion)
 
 
 @kernel
@@ -216,20 +214,19 @@ def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns
         F_cz [N].
     """
     fill_forces(data, y, memory)
-    assemble(data, memory)
-    add_collar(data, memory, 1.0)
-    f_cz = _solve(memory, data, columns)
+    assemble(data.inertia, memory.scratch)
+    add_collar(data, memory.scratch, 1.0)
+    f_cz = _solve(data, memory.scratch, columns)
     if f_cz < 0.0:
-        add_collar(data, memory, -1.0)
-        _solve(memory, data, columns)
+        add_collar(data, memory.scratch, -1.0)
+        _solve(data, memory.scratch, columns)
         return 0.0
     return f_cz
 
 
 @kernel
-def _solve(memory: VsvMemory, data: VsvData, columns: int) -> float:
+def _solve(data: VsvData, scratch: Scratch, columns: int) -> float:
     """Solve the four clearance equations and return the collar force that follows."""
-    scratch = memory.scratch
     for i in range(4):
         scratch.solved[i, 0] = scratch.load[1 + i]
         for j in range(4):
@@ -237,13 +234,12 @@ def _solve(memory: VsvMemory, data: VsvData, columns: int) -> float:
     solve_in_place(scratch.system[:4, :4], scratch.solved[:, :columns])
     for i in range(4):
         scratch.acceleration[i] = scratch.solved[i, 0]
-    return collar_force(data, memory, scratch.acceleration)
+    return collar_force(data, scratch, scratch.acceleration)
 
 
 @kernel
-def drive_moment(memory: VsvMemory) -> float:
+def drive_moment(scratch: Scratch) -> float:
     """Return M_d [N m] from the crank row of the projected equations."""
-    scratch = memory.scratch
     moment = -scratch.load[0]
     for j in range(4):
         moment += scratch.mass[0, j] * scratch.acceleration[j]
@@ -267,14 +263,14 @@ def fill_load_gradient(
     motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
     sec2_x = 1.0 + math.tan(y[2]) ** 2
     sec2_y = 1.0 + math.tan(y[3]) ** 2
-    lift = lever_lift(data, memory) if f_cz > 0.0 else 0.0
+    lift = lever_lift(data.exact, motion[THETA_B, VALUE]) if f_cz > 0.0 else 0.0
     free_slip = 1.0 if memory.regime[1] == 0.0 else 0.0
     tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
     collar_xx = -data.collar_radius * f_cz * (tilt * tilt - y[2] * y[2]) / tilt**3
     collar_yy = -data.collar_radius * f_cz * (tilt * tilt - y[3] * y[3]) / tilt**3
     collar_xy = data.collar_radius * f_cz * y[2] * y[3] / tilt**3
     for i in range(4):
-        c_i = collar_share(memory, 1 + i)
+        c_i = collar_share(test, scratch.collar, 1 + i)
         t_x = test[E_X, 1 + i] + c_i * lift
         t_y = test[E_Y, 1 + i]
         t_px = test[PHI_X, 1 + i]

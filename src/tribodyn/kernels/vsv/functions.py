@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import add_scaled, clear
 from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import drive
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -16,7 +17,7 @@ from tribodyn.kernels.vsv.equations import (
 from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
 
 
-@kernel
+@entry
 def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray) -> None:
     """Fill ``f`` (8,) with the time derivative of the state."""
     accelerations(data, t, y, memory)
@@ -25,13 +26,13 @@ def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray
         f[4 + i] = memory.scratch.acceleration[i]
 
 
-@kernel
+@entry
 def jac(
     t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray, jacobian: FloatArray
 ) -> None:
     """Fill ``f`` (8,) and its derivative ``jacobian`` (8, 8)."""
     accelerations_and_gradient(data, t, y, memory)
-    jacobian[:, :] = 0.0
+    clear(jacobian)
     for i in range(4):
         f[i] = y[4 + i]
         f[4 + i] = memory.scratch.acceleration[i]
@@ -40,7 +41,7 @@ def jac(
             jacobian[4 + i, k] = memory.scratch.solved[i, 1 + k]
 
 
-@kernel
+@entry
 def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Begin a segment: set the direction of the ideal vane motion.
 
@@ -54,7 +55,7 @@ def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     memory.last_time[1] = t
 
 
-@kernel
+@entry
 def advance(
     t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: VsvData, memory: VsvMemory
 ) -> None:
@@ -62,7 +63,7 @@ def advance(
     ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
 
 
-@kernel
+@entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Update entry velocities and sliding load at the end of an accepted step."""
     add_sliding_load(t, y, data, memory)
@@ -72,17 +73,20 @@ def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
 @kernel
 def add_sliding_load(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Add P_c |u|, u = ω_v r_j, over the step by the trapezoidal rule (Eq. 47 and the text below it)."""
+    load, rate = memory.sliding_load, memory.sliding_rate
     half_step = 0.5 * (t - memory.last_time[1])
-    memory.sliding_load[:, :] += half_step * memory.sliding_rate
+    add_scaled(half_step, rate, load)
     set_up(data, t, y, memory)
     slip = abs(memory.scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
-    pressure_field(data.joint, memory.entry_velocity, y, memory.sliding_rate)
-    memory.sliding_rate[:, :] *= slip
-    memory.sliding_load[:, :] += half_step * memory.sliding_rate
+    pressure_field(data.joint, memory.entry_velocity, y, rate)
+    for j in range(rate.shape[0]):
+        for i in range(rate.shape[1]):
+            rate[j, i] *= slip
+    add_scaled(half_step, rate, load)
     memory.last_time[1] = t
 
 
-@kernel
+@entry
 def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatArray) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
     pressure_field(data.joint, memory.entry_velocity, y, fields[0])
@@ -108,8 +112,9 @@ def kinetostatic_residual(
         Derivative with the geometry of the rods held fixed, shape (4, 4).
     """
     y = memory.scratch.state
-    y[:4] = q
-    y[4:] = 0.0
+    for i in range(4):
+        y[i] = q[i]
+        y[4 + i] = 0.0
     accelerations_and_gradient(data, t, y, memory)
     for i in range(4):
         residual[i] = memory.scratch.load[1 + i]

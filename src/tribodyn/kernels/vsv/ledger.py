@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -80,7 +81,7 @@ def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> 
     omega_v = motion[THETA_V, VELOCITY]
     air_moment = force[THETA_V] - scratch.wrench[4]
     tilt_power = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
-    rates[DRIVE] = drive_moment(memory) * motion[THETA_A, VELOCITY]
+    rates[DRIVE] = drive_moment(scratch) * motion[THETA_A, VELOCITY]
     rates[LOADS] = (
         force[OV_X] * motion[OV_X, VELOCITY] + force[OV_Y] * motion[OV_Y, VELOCITY] + air_moment * omega_v
     )
@@ -90,7 +91,8 @@ def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> 
     rates[DAMPING] = out[joint_report.HEAT_DAMPING]
 
     total = 0.0
-    scratch.momentum[:] = 0.0
+    for j in range(4):
+        scratch.momentum[j] = 0.0
     for row in range(N_ROWS):
         v = clearance_velocity(motion, row, y)
         inertia = data.inertia[row]
@@ -116,9 +118,9 @@ def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
     f_cz = evaluate(data, t, y, memory)
     fill_rates(data, y, memory, f_cz)
-    memory.rates[:] = memory.scratch.rates
-    memory.last_momentum[:] = memory.scratch.momentum
-    memory.last_state[:] = y
+    copy(memory.scratch.rates, memory.rates)
+    copy(memory.scratch.momentum, memory.last_momentum)
+    copy(y, memory.last_state)
     memory.last_time[0] = t
 
 
@@ -166,9 +168,9 @@ def add_part(
     for k in range(CLEARANCE_INERTIA):
         integrals[k] += h / 6.0 * memory.scratch.rates[k]
     integrals[CLEARANCE_INERTIA] += inertia / 6.0
-    memory.rates[:] = memory.scratch.rates
-    memory.last_momentum[:] = memory.scratch.momentum
-    memory.last_state[:] = y_b
+    copy(memory.scratch.rates, memory.rates)
+    copy(memory.scratch.momentum, memory.last_momentum)
+    copy(y_b, memory.last_state)
     memory.last_time[0] = t_b
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.closure import drive, vane_angle
 from tribodyn.kernels.vsv.data import VsvData
@@ -44,7 +45,7 @@ from tribodyn.kernels.vsv.layout import (
 @kernel
 def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> None:
     """Fill the motion table (N_ROWS, N_COLUMNS) at time ``t`` [s] and state ``y`` (8,)."""
-    motion[:, :] = 0.0
+    clear(motion)
     if data.exact > 0.0:
         _fill_trunnion(data, y, motion)
         fill_rods(data, t, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)

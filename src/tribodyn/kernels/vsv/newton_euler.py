@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -45,12 +46,12 @@ N_UNKNOWNS = 24
 
 @kernel
 def _inertia(
-    data: VsvData, motion: FloatArray, row: int, eq: int, matrix: FloatArray, rhs: FloatArray
+    inertias: FloatArray, motion: FloatArray, row: int, eq: int, matrix: FloatArray, rhs: FloatArray
 ) -> None:
     """Subtract the inertia force of a motion row from equation ``eq``."""
     for j in range(4):
-        matrix[eq, j] -= data.inertia[row] * motion[row, 1 + j]
-    rhs[eq, 0] += data.inertia[row] * motion[row, BIAS]
+        matrix[eq, j] -= inertias[row] * motion[row, 1 + j]
+    rhs[eq, 0] += inertias[row] * motion[row, BIAS]
 
 
 @kernel
@@ -62,12 +63,12 @@ def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArra
     x_1, z_1 = -x_a, -z_a
     matrix[0, F_AX] = 1.0
     matrix[0, F_21] = 1.0
-    _inertia(data, motion, O1_X, 0, matrix, rhs)
+    _inertia(data.inertia, motion, O1_X, 0, matrix, rhs)
     matrix[1, F_AY] = 1.0
     matrix[1, F_21 + 1] = 1.0
     matrix[2, F_AZ] = 1.0
     matrix[2, F_21 + 2] = 1.0
-    _inertia(data, motion, O1_Z, 2, matrix, rhs)
+    _inertia(data.inertia, motion, O1_Z, 2, matrix, rhs)
     rhs[2, 0] -= data.weight[O1_Z]
     matrix[3, F_AY] = -z_a
     matrix[3, F_21 + 1] = -z_1
@@ -77,7 +78,7 @@ def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArra
     matrix[4, F_21 + 2] = x_1
     matrix[4, F_21] = -z_1
     matrix[4, M_D] = 1.0
-    _inertia(data, motion, THETA_A, 4, matrix, rhs)
+    _inertia(data.inertia, motion, THETA_A, 4, matrix, rhs)
     matrix[5, F_AY] = x_a
     matrix[5, F_21 + 1] = x_1
     matrix[5, M_AZ] = 1.0
@@ -93,7 +94,7 @@ def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: Float
     for axis in range(3):
         matrix[6 + axis, F_32 + axis] = 1.0
         matrix[6 + axis, F_21 + axis] = -1.0
-        _inertia(data, motion, O2_X + axis, 6 + axis, matrix, rhs)
+        _inertia(data.inertia, motion, O2_X + axis, 6 + axis, matrix, rhs)
         rhs[6 + axis, 0] -= data.weight[O2_X + axis]
     n_x, n_y, n_z = motion[N_X, VALUE], motion[N_X + 1, VALUE], motion[N_X + 2, VALUE]
     # The drag link never points along Y, so these two span the plane across it.
@@ -112,7 +113,7 @@ def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: Float
 @kernel
 def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Equations 32 to 37 with F_43z; arms from the mass centre O_3."""
-    o3_x, o3_z = ring_centre(data, motion[THETA_B, VALUE])
+    o3_x, o3_z = ring_centre(data.l_3, data.ring_angle, motion[THETA_B, VALUE])
     x_2, z_2 = motion[S2_X, VALUE] - o3_x, motion[S2_Z, VALUE] - o3_z
     x_3, z_3 = motion[S3_X, VALUE] - o3_x, motion[S3_Z, VALUE] - o3_z
     x_b, z_b = -o3_x, -o3_z
@@ -121,9 +122,9 @@ def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
         matrix[11 + axis, F_32 + axis] = -1.0
     matrix[11, F_BX] = 1.0
     matrix[13, F_BZ] = 1.0
-    _inertia(data, motion, O3_X, 11, matrix, rhs)
-    _inertia(data, motion, O3_Y, 12, matrix, rhs)
-    _inertia(data, motion, O3_Z, 13, matrix, rhs)
+    _inertia(data.inertia, motion, O3_X, 11, matrix, rhs)
+    _inertia(data.inertia, motion, O3_Y, 12, matrix, rhs)
+    _inertia(data.inertia, motion, O3_Z, 13, matrix, rhs)
     rhs[13, 0] -= data.weight[O3_Z]
     matrix[14, F_32 + 1] = z_2
     matrix[14, F_43 + 1] = -z_3
@@ -134,7 +135,7 @@ def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
     matrix[15, F_BZ] = x_b
     matrix[15, F_43] = -z_3
     matrix[15, F_43 + 2] = x_3
-    _inertia(data, motion, THETA_B, 15, matrix, rhs)
+    _inertia(data.inertia, motion, THETA_B, 15, matrix, rhs)
     matrix[16, F_43 + 1] = x_3
     matrix[16, F_32 + 1] = -x_2
     matrix[16, M_BZ] = 1.0
@@ -163,10 +164,10 @@ def _vane(
 
     matrix[17, F_43] = -1.0
     rhs[17, 0] -= joint[0] + f_x
-    _inertia(data, motion, OV_X, 17, matrix, rhs)
+    _inertia(data.inertia, motion, OV_X, 17, matrix, rhs)
     matrix[18, F_43 + 1] = -1.0
     rhs[18, 0] -= joint[1] + f_y
-    _inertia(data, motion, OV_Y, 18, matrix, rhs)
+    _inertia(data.inertia, motion, OV_Y, 18, matrix, rhs)
     matrix[19, F_CZ] = 1.0
     if lifted == 0.0:
         matrix[19, F_43 + 2] = -1.0
@@ -176,12 +177,12 @@ def _vane(
     matrix[20, F_43 + 2] = -lever * data.l_4 * sin_v * sec2_x
     matrix[20, F_CZ] = collar[PHI_X]
     rhs[20, 0] -= sec2_x * joint[2] + arm_x * f_y
-    _inertia(data, motion, PHI_X, 20, matrix, rhs)
+    _inertia(data.inertia, motion, PHI_X, 20, matrix, rhs)
     matrix[21, F_43] = lever * data.half_length * sec2_y
     matrix[21, F_43 + 2] = -lever * data.l_4 * cos_v * sec2_y
     matrix[21, F_CZ] = collar[PHI_Y]
     rhs[21, 0] -= sec2_y * joint[3] + arm_y * f_x
-    _inertia(data, motion, PHI_Y, 21, matrix, rhs)
+    _inertia(data.inertia, motion, PHI_Y, 21, matrix, rhs)
     for j in range(4):
         matrix[20, j] -= arm_x * data.m_v * motion[OV_Y, 1 + j]
         matrix[21, j] -= arm_y * data.m_v * motion[OV_X, 1 + j]
@@ -193,7 +194,7 @@ def _vane(
     matrix[22, F_43 + 2] = -lever * data.l_4 * (cos_v * tan_x - sin_v * tan_y)
     matrix[22, F_CZ] = collar[THETA_V]
     rhs[22, 0] -= joint[4] + m_z
-    _inertia(data, motion, THETA_V, 22, matrix, rhs)
+    _inertia(data.inertia, motion, THETA_V, 22, matrix, rhs)
 
     matrix[23, F_43 + 2] = 1.0
     matrix[23, F_43] = -lever * math.tan(motion[THETA_B, VALUE])
@@ -216,8 +217,8 @@ def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float)
     """
     matrix, rhs = memory.scratch.system, memory.scratch.reactions
     motion = memory.scratch.motion
-    matrix[:, :] = 0.0
-    rhs[:, :] = 0.0
+    clear(matrix)
+    clear(rhs)
     _crank(data, motion, matrix, rhs)
     _drag_link(data, motion, matrix, rhs)
     _ring(data, motion, matrix, rhs)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear, copy
 from tribodyn.kernels.bushing import report as joint_report
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -110,22 +111,22 @@ def _actual_vane(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row:
     In ``paper`` the actual angle is read from the closure with the offsets e_x, e_y alone.
     """
     motion = memory.scratch.motion
-    motion[:, :] = 0.0
+    clear(motion)
     fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
     row[_MOTION + 3] = motion[THETA_V, VALUE]
     row[_MOTION + 6] = motion[THETA_V, VELOCITY]
     tilt = data.exact
-    motion[:, :] = 0.0
+    clear(motion)
     fill_rods(data, t, y[0], y[1], tilt * y[2], tilt * y[3], y[4], y[5], tilt * y[6], tilt * y[7], motion)
     row[_MOTION + 2] = motion[THETA_V, VALUE]
     row[_MOTION + 5] = motion[THETA_V, VELOCITY]
 
 
-@kernel
+@entry
 def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: FloatArray) -> None:
     """Fill ``row`` with the quantities named in :data:`OBSERVED`, SI units."""
     scratch = memory.scratch
-    row[:8] = y
+    copy(y, row)
     _actual_vane(data, t, y, memory, row)
     f_cz = ledger.evaluate(data, t, y, memory)
     motion, force = scratch.motion, scratch.force
@@ -145,4 +146,5 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     ne.newton_euler(data, y, memory, 1.0 if f_cz == 0.0 else 0.0)
     for k in range(ne.N_UNKNOWNS - ne.F_AX):
         row[_REACTIONS + k] = scratch.reactions[ne.F_AX + k, 0]
-    row[_INTEGRALS : _INTEGRALS + ledger.N_INTEGRALS] = memory.integrals
+    for k in range(ledger.N_INTEGRALS):
+        row[_INTEGRALS + k] = memory.integrals[k]
