@@ -5,8 +5,9 @@ The extended formula with k back values is sought in backward differences of y a
     Σ_{m=1}^{k} (b_0/m + b_1 H_m) ∇^m y_{n+1} = h (b_0 f_{n+1} + b_1 f_{n+2}),
 
 because h f_{n+1} = Σ ∇^m y_{n+1}/m and h f_{n+2} = Σ H_m ∇^m y_{n+1} + … (the generating functions of
-differentiation at the last point and one step beyond). Two conditions fix b_0 and b_1: the coefficient of
-y_{n+1}, Σ_m (b_0/m + b_1 H_m), is one, and the term ∇^{k+1} cancels, b_0/(k+1) + b_1 H_{k+1} = 0. Order k + 1.
+differentiation at the last point and one step beyond). Two conditions fix b_0 and b_1: the coefficient
+of y_{n+1}, Σ_m (b_0/m + b_1 H_m), is one, and the term ∇^{k+1} cancels, b_0/(k+1) + b_1 H_{k+1} = 0. The
+order is k + 1.
 
 Cash (1983), Computers & Mathematics with Applications 9, 645; Hairer & Wanner, Solving ODEs II, V.3.
 

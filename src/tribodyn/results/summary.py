@@ -215,7 +215,11 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Wall time", "s", "Effort", "How long the integration took.", _statistic("wall_time")
     ),
     "real_time_factor": Headline(
-        "Real-time factor", "", "Effort", "Seconds of motion simulated in a second of computing.", _real_time_factor
+        "Real-time factor",
+        "",
+        "Effort",
+        "Seconds of motion simulated in a second of computing.",
+        _real_time_factor,
     ),
 }
 """Every headline number, by its name in ``summary.json``."""
