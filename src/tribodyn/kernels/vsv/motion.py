@@ -8,6 +8,9 @@ shifts O2 by (e_x/2, e_y/2) and O3 by (e_x/2, e_y), Appendix 2.
 from __future__ import annotations
 
 import math
+from typing import Final
+
+import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
@@ -41,6 +44,11 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 
+SHIFTED: Final = np.array([O2_X, O2_Y, O3_X, O3_Y])
+SHIFTS: Final = np.array([0, 1, 0, 1])
+SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
+"""Rows that the clearance motion shifts in ``paper``, by which coordinate and by how much of it."""
+
 
 @kernel
 def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> None:
@@ -58,18 +66,11 @@ def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> N
             for column in range(1, 5):
                 motion[row, column] = 0.0
         _fill_trunnion(data, y, motion)
-        _shift(motion, O2_X, 1, 0.5, y[0], y[4])
-        _shift(motion, O2_Y, 2, 0.5, y[1], y[5])
-        _shift(motion, O3_X, 1, 0.5, y[0], y[4])
-        _shift(motion, O3_Y, 2, 1.0, y[1], y[5])
-
-
-@kernel
-def _shift(motion: FloatArray, row: int, column: int, share: float, value: float, rate: float) -> None:
-    """Shift a row by ``share`` of one clearance coordinate."""
-    motion[row, column] = share
-    motion[row, VALUE] += share * value
-    motion[row, VELOCITY] += share * rate
+        for k in range(SHIFTED.size):
+            row, coordinate, share = SHIFTED[k], SHIFTS[k], SHARES[k]
+            motion[row, 1 + coordinate] = share
+            motion[row, VALUE] += share * y[coordinate]
+            motion[row, VELOCITY] += share * y[4 + coordinate]
 
 
 @kernel

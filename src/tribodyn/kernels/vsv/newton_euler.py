@@ -8,6 +8,9 @@ independently of the projected equations, and gives the reactions.
 from __future__ import annotations
 
 import math
+from typing import Final
+
+import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
@@ -21,6 +24,8 @@ from tribodyn.kernels.vsv.layout import (
     O1_X,
     O1_Z,
     O2_X,
+    O2_Y,
+    O2_Z,
     O3_X,
     O3_Y,
     O3_Z,
@@ -44,18 +49,40 @@ F_BX, F_BZ, M_BX, M_BZ, F_CZ = 19, 20, 21, 22, 23
 N_UNKNOWNS = 24
 
 
-@kernel
-def _inertia(
-    inertias: FloatArray, motion: FloatArray, row: int, eq: int, matrix: FloatArray, rhs: FloatArray
-) -> None:
-    """Subtract the inertia force of a motion row from equation ``eq``."""
-    for j in range(4):
-        matrix[eq, j] -= inertias[row] * motion[row, 1 + j]
-    rhs[eq, 0] += inertias[row] * motion[row, BIAS]
+ROWS_OF_EQUATIONS: Final = np.array(
+    [
+        (O1_X, 0),
+        (O1_Z, 2),
+        (THETA_A, 4),
+        (O2_X, 6),
+        (O2_Y, 7),
+        (O2_Z, 8),
+        (O3_X, 11),
+        (O3_Y, 12),
+        (O3_Z, 13),
+        (THETA_B, 15),
+        (OV_X, 17),
+        (OV_Y, 18),
+        (PHI_X, 20),
+        (PHI_Y, 21),
+        (THETA_V, 22),
+    ]
+)
+"""Which row of the motion table gives the inertia and the weight of which equation."""
 
 
 @kernel
-def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+def _inertia_and_weight(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+    """Enter −m a and the weight of every mass centre and rotation into its equation."""
+    for k in range(ROWS_OF_EQUATIONS.shape[0]):
+        row, equation = ROWS_OF_EQUATIONS[k, 0], ROWS_OF_EQUATIONS[k, 1]
+        for j in range(4):
+            matrix[equation, j] -= data.inertia[row] * motion[row, 1 + j]
+        rhs[equation, 0] += data.inertia[row] * motion[row, BIAS] - data.weight[row]
+
+
+@kernel
+def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 20 to 25; arms from the mass centre O_1."""
     theta_a = motion[THETA_A, VALUE]
     x_a = 0.5 * data.l_1 * math.sin(theta_a)
@@ -63,13 +90,10 @@ def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArra
     x_1, z_1 = -x_a, -z_a
     matrix[0, F_AX] = 1.0
     matrix[0, F_21] = 1.0
-    _inertia(data.inertia, motion, O1_X, 0, matrix, rhs)
     matrix[1, F_AY] = 1.0
     matrix[1, F_21 + 1] = 1.0
     matrix[2, F_AZ] = 1.0
     matrix[2, F_21 + 2] = 1.0
-    _inertia(data.inertia, motion, O1_Z, 2, matrix, rhs)
-    rhs[2, 0] -= data.weight[O1_Z]
     matrix[3, F_AY] = -z_a
     matrix[3, F_21 + 1] = -z_1
     matrix[3, M_AX] = 1.0
@@ -78,7 +102,6 @@ def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArra
     matrix[4, F_21 + 2] = x_1
     matrix[4, F_21] = -z_1
     matrix[4, M_D] = 1.0
-    _inertia(data.inertia, motion, THETA_A, 4, matrix, rhs)
     matrix[5, F_AY] = x_a
     matrix[5, F_21 + 1] = x_1
     matrix[5, M_AZ] = 1.0
@@ -94,8 +117,6 @@ def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: Float
     for axis in range(3):
         matrix[6 + axis, F_32 + axis] = 1.0
         matrix[6 + axis, F_21 + axis] = -1.0
-        _inertia(data.inertia, motion, O2_X + axis, 6 + axis, matrix, rhs)
-        rhs[6 + axis, 0] -= data.weight[O2_X + axis]
     n_x, n_y, n_z = motion[N_X, VALUE], motion[N_X + 1, VALUE], motion[N_X + 2, VALUE]
     # The drag link never points along Y, so these two span the plane across it.
     first = (n_z, 0.0, -n_x)
@@ -111,7 +132,7 @@ def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: Float
 
 
 @kernel
-def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 32 to 37 with F_43z; arms from the mass centre O_3."""
     o3_x, o3_z = ring_centre(data.l_3, data.ring_angle, motion[THETA_B, VALUE])
     x_2, z_2 = motion[S2_X, VALUE] - o3_x, motion[S2_Z, VALUE] - o3_z
@@ -122,10 +143,6 @@ def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
         matrix[11 + axis, F_32 + axis] = -1.0
     matrix[11, F_BX] = 1.0
     matrix[13, F_BZ] = 1.0
-    _inertia(data.inertia, motion, O3_X, 11, matrix, rhs)
-    _inertia(data.inertia, motion, O3_Y, 12, matrix, rhs)
-    _inertia(data.inertia, motion, O3_Z, 13, matrix, rhs)
-    rhs[13, 0] -= data.weight[O3_Z]
     matrix[14, F_32 + 1] = z_2
     matrix[14, F_43 + 1] = -z_3
     matrix[14, M_BX] = 1.0
@@ -135,7 +152,6 @@ def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
     matrix[15, F_BZ] = x_b
     matrix[15, F_43] = -z_3
     matrix[15, F_43 + 2] = x_3
-    _inertia(data.inertia, motion, THETA_B, 15, matrix, rhs)
     matrix[16, F_43 + 1] = x_3
     matrix[16, F_32 + 1] = -x_2
     matrix[16, M_BZ] = 1.0
@@ -164,25 +180,21 @@ def _vane(
 
     matrix[17, F_43] = -1.0
     rhs[17, 0] -= joint[0] + f_x
-    _inertia(data.inertia, motion, OV_X, 17, matrix, rhs)
     matrix[18, F_43 + 1] = -1.0
     rhs[18, 0] -= joint[1] + f_y
-    _inertia(data.inertia, motion, OV_Y, 18, matrix, rhs)
     matrix[19, F_CZ] = 1.0
     if lifted == 0.0:
         matrix[19, F_43 + 2] = -1.0
-        rhs[19, 0] = data.vane_weight
+        rhs[19, 0] += data.vane_weight
 
     matrix[20, F_43 + 1] = lever * data.half_length * sec2_x
     matrix[20, F_43 + 2] = -lever * data.l_4 * sin_v * sec2_x
     matrix[20, F_CZ] = collar[PHI_X]
     rhs[20, 0] -= sec2_x * joint[2] + arm_x * f_y
-    _inertia(data.inertia, motion, PHI_X, 20, matrix, rhs)
     matrix[21, F_43] = lever * data.half_length * sec2_y
     matrix[21, F_43 + 2] = -lever * data.l_4 * cos_v * sec2_y
     matrix[21, F_CZ] = collar[PHI_Y]
     rhs[21, 0] -= sec2_y * joint[3] + arm_y * f_x
-    _inertia(data.inertia, motion, PHI_Y, 21, matrix, rhs)
     for j in range(4):
         matrix[20, j] -= arm_x * data.m_v * motion[OV_Y, 1 + j]
         matrix[21, j] -= arm_y * data.m_v * motion[OV_X, 1 + j]
@@ -194,7 +206,6 @@ def _vane(
     matrix[22, F_43 + 2] = -lever * data.l_4 * (cos_v * tan_x - sin_v * tan_y)
     matrix[22, F_CZ] = collar[THETA_V]
     rhs[22, 0] -= joint[4] + m_z
-    _inertia(data.inertia, motion, THETA_V, 22, matrix, rhs)
 
     matrix[23, F_43 + 2] = 1.0
     matrix[23, F_43] = -lever * math.tan(motion[THETA_B, VALUE])
@@ -219,8 +230,9 @@ def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float)
     motion = memory.scratch.motion
     clear(matrix)
     clear(rhs)
-    _crank(data, motion, matrix, rhs)
+    _inertia_and_weight(data, motion, matrix, rhs)
+    _crank(data, motion, matrix)
     _drag_link(data, motion, matrix, rhs)
-    _ring(data, motion, matrix, rhs)
+    _ring(data, motion, matrix)
     _vane(data, y, memory, lifted, matrix, rhs)
     solve_in_place(matrix, rhs)
