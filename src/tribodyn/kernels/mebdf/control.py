@@ -17,7 +17,9 @@ from tribodyn.kernels.mebdf.state import (
     CARRIED,
     CAUSE,
     DELTA,
+    EARLY,
     EQUAL_STEPS,
+    ERROR,
     FACTORED,
     FAILURES,
     FIXED,
@@ -39,6 +41,7 @@ from tribodyn.kernels.mebdf.state import (
     SAFETY_HIGHER,
     SAFETY_LOWER,
     T_END,
+    TIGHT,
     WAIT,
     WEIGHT,
     WORST,
@@ -63,10 +66,10 @@ def norm(rows: FloatArray, row: int) -> float:
 
 
 @kernel
-def set_weights(rows: FloatArray) -> None:
+def set_weights(real: FloatArray, rows: FloatArray) -> None:
     """Make the weights those of the newest value."""
     for i in range(rows.shape[1]):
-        scale = rows[ATOL, i] + rows[RTOL, i] * abs(rows[HISTORY, i])
+        scale = real[TIGHT] * (rows[ATOL, i] + rows[RTOL, i] * abs(rows[HISTORY, i]))
         rows[WEIGHT, i] = 1.0 / max(scale, SMALLEST_SCALE)
 
 
@@ -84,6 +87,9 @@ def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> 
     """Keep the step below its maximum and let the last steps end at the end."""
     left = abs(real[T_END] - real[T])
     h = abs(real[H])
+    count[LAST] = 0
+    if 2.0 * h < left and h <= real[H_MAX]:
+        return
     largest = left
     if count[FIXED] == 0:
         largest = min(real[H_MAX], left)
@@ -92,7 +98,8 @@ def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> 
             largest = min(largest, 0.5 * left)
     if h > largest:
         change_step(real, count, rows, largest / h)
-    count[LAST] = 1 if count[INSIDE] == 1 and 2.0 * abs(real[H]) > left * (1.0 + 1.0e-9) else 0
+    if count[INSIDE] == 1 and 2.0 * abs(real[H]) > left * (1.0 + 1.0e-9):
+        count[LAST] = 1
 
 
 @kernel
@@ -146,21 +153,24 @@ def growth(rows: FloatArray, k: int, safety: float) -> float:
 def choose(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Choose order and step for the next step, once enough equal steps have been taken."""
     k = count[K]
-    if count[FIXED] == 1 or count[EQUAL_STEPS] < k + real[WAIT]:
+    settled = count[EQUAL_STEPS] >= k + real[WAIT]
+    if count[FIXED] == 1 or not (settled or real[ERROR] > real[EARLY]):
         return
-    set_weights(rows)
+    set_weights(real, rows)
     best, factor = k, growth(rows, k, real[SAFETY])
     if k > 1:
         lower = growth(rows, k - 1, real[SAFETY_LOWER])
         if lower > factor:
             best, factor = k - 1, lower
-    if k < count[LARGEST_K]:
+    if settled and k < count[LARGEST_K]:
         higher = growth(rows, k + 1, real[SAFETY_HIGHER])
         if higher > factor:
             best, factor = k + 1, higher
-    if factor < real[LEAST_GROWTH]:
+    if settled and factor < real[LEAST_GROWTH]:
         # Not worth a new matrix; look again after as many steps.
         count[EQUAL_STEPS] = 1
+        return
+    if not settled and factor >= 1.0:
         return
     count[K] = best
     change_step(real, count, rows, min(factor, real[LARGEST_GROWTH]))

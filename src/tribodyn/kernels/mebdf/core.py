@@ -52,13 +52,15 @@ from tribodyn.kernels.mebdf.state import (
     HISTORY,
     JACOBIAN_AGE,
     K_LAST,
-    N_DIFFERENCES,
+    MATRIX_AGE,
     N_J,
     OLD_JACOBIAN,
     PHASE,
     RATE,
+    RATE_AGE,
     REASON,
     RELAXATION,
+    RENEW,
     SAME_MATRIX,
     SCALED,
     SLOW,
@@ -67,6 +69,7 @@ from tribodyn.kernels.mebdf.state import (
     T_END,
     T_EVAL,
     T_OLD,
+    UNSURE,
     WORST,
     H,
     K,
@@ -118,10 +121,16 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     if not abs(h) > LEAST_STEP * abs(real[T]):
         count[REASON] = STEP_TOO_SMALL
         return FAILED
-    set_weights(rows)
+    set_weights(real, rows)
     scaled = h * SCALARS[count[K], 0]
     real[SCALED] = scaled
-    if real[FACTORED] != 0.0 and abs(scaled / real[FACTORED] - 1.0) <= real[SAME_MATRIX]:
+    if count[RATE_AGE] > real[UNSURE]:
+        real[RATE] = 1.0
+    if (
+        real[FACTORED] != 0.0
+        and abs(scaled / real[FACTORED] - 1.0) <= real[SAME_MATRIX]
+        and count[MATRIX_AGE] < real[RENEW]
+    ):
         real[RELAXATION] = 2.0 / (1.0 + scaled / real[FACTORED])
         count[STAGE] = 1
         count[PHASE] = START_STAGE
@@ -142,7 +151,7 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
 @kernel
 def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Make y_{n+1} the newest value."""
-    push(rows, Y, N_DIFFERENCES, HISTORY)
+    push(rows, Y, count[K] + 3, HISTORY)
     real[T_OLD] = real[T]
     real[T] += real[H]
     if abs(real[T_END] - real[T]) <= ROUNDING * abs(real[H]):
@@ -152,6 +161,8 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> Non
     count[STEPS] += 1
     count[EQUAL_STEPS] += 1
     count[JACOBIAN_AGE] += 1
+    count[MATRIX_AGE] += 1
+    count[RATE_AGE] += 1
     count[FRESH] = 0
     count[FAILURES] = 0
     count[BAD] = -1

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.state import DELTA, FACTORS, LAST_JACOBIAN, PIVOTS, WORK, F
+from tribodyn.kernels.mebdf.state import FACTORS, LAST_JACOBIAN, PIVOTS, RESIDUAL, WORK
 
 LARGEST_INVERSE: Final = 24
 """Number of equations up to which the inverse is used: a product has no chain of divisions."""
@@ -87,38 +87,22 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
 
 
 @kernel
-def solve(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
-    """Replace the row DELTA by the solution with it on the right; the row F is used as scratch."""
-    n = rows.shape[1]
-    if n > LARGEST_INVERSE:
-        _substitute(count, rows, matrices)
-        return
-    for i in range(n):
-        total = 0.0
-        for j in range(n):
-            total += matrices[FACTORS, i, j] * rows[DELTA, j]
-        rows[F, i] = total
-    for i in range(n):
-        rows[DELTA, i] = rows[F, i]
-
-
-@kernel
-def _substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
-    """Solve with the factors of :func:`_decompose`."""
+def substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
+    """Replace the row RESIDUAL by the solution with it on the right; the factors are those of a decomposition."""
     n = rows.shape[1]
     for k in range(n):
         pivot = count[PIVOTS + k]
         if pivot != k:
-            value = rows[DELTA, k]
-            rows[DELTA, k] = rows[DELTA, pivot]
-            rows[DELTA, pivot] = value
+            value = rows[RESIDUAL, k]
+            rows[RESIDUAL, k] = rows[RESIDUAL, pivot]
+            rows[RESIDUAL, pivot] = value
     for k in range(n):
-        total = rows[DELTA, k]
+        total = rows[RESIDUAL, k]
         for j in range(k):
-            total -= matrices[FACTORS, k, j] * rows[DELTA, j]
-        rows[DELTA, k] = total
+            total -= matrices[FACTORS, k, j] * rows[RESIDUAL, j]
+        rows[RESIDUAL, k] = total
     for k in range(n - 1, -1, -1):
-        total = rows[DELTA, k]
+        total = rows[RESIDUAL, k]
         for j in range(k + 1, n):
-            total -= matrices[FACTORS, k, j] * rows[DELTA, j]
-        rows[DELTA, k] = total / matrices[FACTORS, k, k]
+            total -= matrices[FACTORS, k, j] * rows[RESIDUAL, j]
+        rows[RESIDUAL, k] = total / matrices[FACTORS, k, k]

@@ -13,9 +13,9 @@ from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from tribodyn.kernels.mebdf.control import newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
-from tribodyn.kernels.mebdf.matrix import factorise, solve
+from tribodyn.kernels.mebdf.matrix import LARGEST_INVERSE, factorise, substitute
 from tribodyn.kernels.mebdf.phases import ACCEPT, FAILED, ITERATE, JACOBIAN_NOT_FINITE, NEED_F, START_STAGE
-from tribodyn.kernels.mebdf.start import all_finite
+from tribodyn.kernels.mebdf.start import remember_not_finite
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
     CONSTANT,
@@ -25,6 +25,7 @@ from tribodyn.kernels.mebdf.state import (
     F_1,
     F_2,
     FACTORED,
+    FACTORS,
     FIXED,
     FORGET,
     FRESH,
@@ -35,14 +36,17 @@ from tribodyn.kernels.mebdf.state import (
     LAST,
     LAST_JACOBIAN,
     LAST_NORM,
+    MATRIX_AGE,
     N_F,
     N_J,
     N_LU,
     N_SOLVES,
     PHASE,
     RATE,
+    RATE_AGE,
     REASON,
     RELAXATION,
+    RESIDUAL,
     SCALED,
     SCRATCH,
     SHRINK,
@@ -75,6 +79,7 @@ def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, m
     real[FACTORED] = real[SCALED]
     real[RELAXATION] = 1.0
     real[RATE] = 1.0
+    count[MATRIX_AGE] = 0
     count[N_LU] += 1
     count[STAGE] = 1
     count[PHASE] = START_STAGE
@@ -137,20 +142,15 @@ def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
 def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
     """One Newton correction with f known at Y; then accept the stage, go on, or give up."""
     stage = count[STAGE]
-    for i in range(rows.shape[1]):
-        rows[DELTA, i] = real[SCALED] * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
-    if not all_finite(real, count, rows):
-        newton_failed(real, count, rows)
-        return 0
-    solve(count, rows, matrices)
-    count[N_SOLVES] += 1
-    size = _correct(real, rows)
+    size = _correct(real, count, rows, matrices)
     if not _converging(real, count, size):
+        if not math.isfinite(size):
+            remember_not_finite(real, count, rows)
         newton_failed(real, count, rows)
         return 0
     count[ITERATION] += 1
     rate = real[RATE]
-    left = size * (min(1.0, rate / (1.0 - rate)) if rate < 1.0 else 1.0)
+    left = size if rate >= 0.5 else size * rate / (1.0 - rate)
     if left <= real[KAPPA + stage]:
         finish_stage(real, count, rows)
         return 0
@@ -162,14 +162,27 @@ def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matric
 
 
 @kernel
-def _correct(real: FloatArray, rows: FloatArray) -> float:
-    """Add the correction to Y; return its norm."""
-    total = 0.0
-    for i in range(rows.shape[1]):
-        change = real[RELAXATION] * rows[DELTA, i]
+def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> float:
+    """Add the Newton correction to Y and keep it in DELTA; return its norm."""
+    n = rows.shape[1]
+    scaled, relaxation = real[SCALED], real[RELAXATION]
+    for i in range(n):
+        rows[RESIDUAL, i] = scaled * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
+    if n > LARGEST_INVERSE:
+        substitute(count, rows, matrices)
+    count[N_SOLVES] += 1
+    squares = 0.0
+    for i in range(n):
+        change = rows[RESIDUAL, i]
+        if n <= LARGEST_INVERSE:
+            change = 0.0
+            for j in range(n):
+                change += matrices[FACTORS, i, j] * rows[RESIDUAL, j]
+        change *= relaxation
+        rows[DELTA, i] = change
         rows[Y, i] += change
-        total += (change * rows[WEIGHT, i]) ** 2
-    return math.sqrt(total / rows.shape[1])
+        squares += (change * rows[WEIGHT, i]) ** 2
+    return math.sqrt(squares / n)
 
 
 @kernel
@@ -182,6 +195,7 @@ def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool
         if ratio > DIVERGING:
             return False
         real[RATE] = max(real[FORGET] * real[RATE], ratio)
+        count[RATE_AGE] = 0
     real[LAST_NORM] = size
     return True
 
@@ -209,9 +223,10 @@ def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -
 @kernel
 def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
     """Store a stage; its slope follows from the formula without another call."""
+    inverse = 1.0 / real[SCALED]
     for i in range(rows.shape[1]):
         rows[y, i] = rows[Y, i]
-        rows[f, i] = (rows[Y, i] - rows[CONSTANT, i]) / real[SCALED]
+        rows[f, i] = (rows[Y, i] - rows[CONSTANT, i]) * inverse
 
 
 @kernel

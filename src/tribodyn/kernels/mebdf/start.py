@@ -35,10 +35,10 @@ from tribodyn.kernels.mebdf.state import (
 def start(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
     """Go through the phases before the first step; return what is needed, 0 when it can begin."""
     if count[PHASE] == BEGIN:
-        set_weights(rows)
+        set_weights(real, rows)
         return _ask(real, count, rows, 0.0, FIRST_F)
     if count[PHASE] == FIRST_F:
-        if not all_finite(real, count, rows):
+        if remember_not_finite(real, count, rows):
             count[REASON] = NOT_FINITE
             return FAILED
         for i in range(rows.shape[1]):
@@ -69,14 +69,14 @@ def _ask(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, h: float,
 
 
 @kernel
-def all_finite(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> bool:
-    """Tell whether f is finite; remember where it is not."""
+def remember_not_finite(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> bool:
+    """Remember where f is not finite; tell whether there was such a place."""
     for i in range(rows.shape[1]):
         if not math.isfinite(rows[F, i]):
             count[BAD] = i
             real[T_BAD] = real[T_EVAL]
-            return False
-    return True
+            return True
+    return False
 
 
 @kernel

@@ -57,7 +57,21 @@ WAIT: Final = SETTINGS + 13
 """Steps to wait, beyond k, before order and step are chosen anew."""
 SHRINK: Final = SETTINGS + 14
 """Reluctance of the step after a failed error test."""
-DEFAULTS: Final = (0.3, 0.2, 0.1, 0.2, 20.0, 0.0, 1.6, 1.5, 1.7, 1.2, 3.0, 2.0, 0.3, 2.0, 1.2)
+RENEW: Final = SETTINGS + 15
+"""Steps after which the matrix is renewed although the step has not changed."""
+UNSURE: Final = SETTINGS + 16
+"""Steps after which a convergence rate that was not measured again is forgotten."""
+EARLY: Final = SETTINGS + 17
+"""Error, in units of the tolerance, above which the step is shortened before it fails."""
+TIGHT: Final = SETTINGS + 18
+"""Share of the tolerances that the method uses: errors of steps add up."""
+DEFAULTS: Final = (
+    *(0.24, 0.32, 0.12),
+    *(0.05, 40.0, 0.05),
+    *(1.44, 1.46, 1.55, 1.14, 7.0),
+    *(1.9, 0.46, 2.0, 1.9, 8.0, 4.0, 0.8),
+    0.4,
+)
 N_REAL: Final = SETTINGS + len(DEFAULTS)
 
 # Entries of ``MebdfState.counts``.
@@ -94,7 +108,11 @@ WORST: Final = 22
 """Component to blame for the last rejected step, −1 if there was none since the last accepted one."""
 CAUSE: Final = 23
 """Why the last step was rejected."""
-PIVOTS: Final = 24
+RATE_AGE: Final = 24
+"""Steps since the convergence rate was measured."""
+MATRIX_AGE: Final = 25
+"""Steps since the matrix was factorised."""
+PIVOTS: Final = 26
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -114,7 +132,8 @@ Y_2: Final = 8
 F_2: Final = 9
 DELTA: Final = 10
 """Newton correction."""
-HISTORY: Final = 11
+RESIDUAL: Final = 11
+HISTORY: Final = 12
 """First of the backward differences ∇^i y_n."""
 N_DIFFERENCES: Final = MAX_K + 3
 STAGE_HISTORY: Final = HISTORY + N_DIFFERENCES

@@ -1,0 +1,70 @@
+"""Order k + 1 with every number k of back values, at fixed step from exact starting values.
+
+The global error of y' = −2 t y², y = 1/(1 + t²), beside a linear oscillator.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from tribodyn.kernels.mebdf import phases
+from tribodyn.kernels.mebdf import state as entry
+from tribodyn.kernels.mebdf.coefficients import MAX_K
+from tribodyn.kernels.mebdf.core import resume
+
+
+def rational(t, y):
+    return np.array([-2.0 * t * y[0] ** 2, y[2], -y[1]])
+
+
+def rational_jacobian(t, y):
+    return np.array([[-4.0 * t * y[0], 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+
+def exact(t):
+    return np.array([1.0 / (1.0 + t * t), np.cos(t), -np.sin(t)])
+
+
+def global_error(k, n_steps):
+    """Integrate over [0, 2] with ``n_steps`` equal steps; return the largest error."""
+    h = 2.0 / n_steps
+    state = entry.new_state(0.0, exact(0.0), 100.0, 1e-13, np.full(3, 1e-13), first_step=h)
+    values = [exact(-j * h) for j in range(k + 1)]
+    for m in range(k + 1):
+        state.rows[entry.HISTORY + m] = values[0]
+        values = [a - b for a, b in pairwise(values)]
+    state.counts[[entry.K, entry.FIXED, entry.PHASE]] = k, 1, phases.STEP
+    state.real[[entry.RENEW, entry.OLD_JACOBIAN]] = 0.0  # a new Jacobian each step: Newton reaches rounding
+    error = 0.0
+    while state.counts[entry.STEPS] < n_steps:
+        request = resume(*state)
+        assert request != phases.FAILED
+        if request == phases.STEP_ACCEPTED:
+            error = max(error, np.abs(state.rows[entry.HISTORY] - exact(state.real[entry.T])).max())
+        t, y = state.real[entry.T_EVAL], state.rows[entry.Y]
+        if request == phases.NEED_F:
+            state.rows[entry.F] = rational(t, y)
+        elif request == phases.NEED_JACOBIAN:
+            state.matrices[entry.JACOBIAN] = rational_jacobian(t, y)
+    assert state.counts[entry.REJECTED] == 0
+    return error
+
+
+@pytest.mark.parametrize("k", range(1, MAX_K + 1))
+def test_order_is_one_more_than_the_back_values(k):
+    # Steps short enough for the leading term, long enough to stay clear of rounding and of Newton's limits.
+    steps = {
+        1: (320, 640),
+        2: (160, 320),
+        3: (160, 320),
+        4: (80, 160),
+        5: (56, 112),
+        6: (56, 112),
+        7: (56, 80),
+    }
+    coarse, fine = steps[k]
+    order = np.log(global_error(k, coarse) / global_error(k, fine)) / np.log(fine / coarse)
+    assert order == pytest.approx(k + 1, abs=0.35)
