@@ -50,13 +50,15 @@ def fraction(ledger, run):
 
 @pytest.fixture(scope="module")
 def two_cycles(vsv_run):
-    return vsv_run("exact", 20e-6, duration=4.0 * math.pi)
+    return vsv_run("exact", 20e-6, duration=4.0 * math.pi, solver="mebdf")
 
 
-def test_both_close_over_two_cycles(two_cycles):
-    # Measured at the default tolerance: 2e-6 and 2.5e-3.
-    assert fraction(whole, two_cycles) < ALLOWED
-    assert fraction(clearance, two_cycles) < ALLOWED
+@pytest.mark.parametrize("solver", ["mebdf", "bdf"])
+def test_both_close_over_two_cycles(vsv_run, solver):
+    # Measured at the default tolerance: 2e-6 and 2e-5 with MEBDF, 3e-8 and 3e-4 with BDF.
+    run = vsv_run("exact", 20e-6, duration=4.0 * math.pi, solver=solver)
+    assert fraction(whole, run) < ALLOWED
+    assert fraction(clearance, run) < ALLOWED
 
 
 def test_both_close_at_40_micrometres(vsv_run):
@@ -65,16 +67,18 @@ def test_both_close_at_40_micrometres(vsv_run):
     assert fraction(clearance, run) < ALLOWED
 
 
-def test_both_fall_with_the_tolerance(vsv_run):
-    # Relative and absolute tolerances together; measured 3e-2, 2e-3, 2e-4 and 2e-5, 6e-6, 4e-8.
+@pytest.mark.parametrize("solver", ["mebdf", "bdf"])
+def test_both_fall_with_the_tolerance(vsv_run, solver):
+    # Relative and absolute tolerances together. Measured: clearance 2e-3, 5e-5, 6e-7 with MEBDF and 1e-2,
+    # 5e-4, 7e-6 with BDF; whole mechanism from 3e-5 and 4e-4 to 2e-9.
     runs = [
-        vsv_run("exact", 20e-6, duration=HALF_CYCLE, rtol=rtol, atol_scale=1e4 * rtol)
-        for rtol in (1e-3, 1e-4, 1e-5)
+        vsv_run("exact", duration=HALF_CYCLE, solver=solver, rtol=rtol, atol_scale=1e4 * rtol)
+        for rtol in (1e-2, 1e-4, 1e-6)
     ]
     of_clearance = [fraction(clearance, run) for run in runs]
-    assert of_clearance[0] > 4.0 * of_clearance[1] > 16.0 * of_clearance[2]
+    assert of_clearance[0] > 5.0 * of_clearance[1] > 25.0 * of_clearance[2]
     of_whole = [fraction(whole, run) for run in runs]
-    assert min(of_whole[:2]) > 10.0 * of_whole[2]
+    assert of_whole[0] > 100.0 * of_whole[2]
 
 
 def test_what_each_ledger_would_notice(two_cycles):
@@ -121,7 +125,7 @@ def test_what_is_missed_in_paper_is_work_on_opening_joints(make_vsv):
     atol = (1e-11, 1e-9, 1e-7, 1e-5)
     problem = vsv_problem(make_vsv("paper", 20e-6), duration=0.02, start="centred", atol=atol)
     times = np.linspace(0.0, 0.02, 10001)
-    solution = integrate(problem, solver="bdf", rtol=1e-5, output_times=times)
+    solution = integrate(problem, solver="mebdf", rtol=1e-5, output_times=times)
     run = {name: solution.rows[:, k] for k, name in enumerate(OBSERVED)}
     opening = 0.5 * run["e_x_dot"] * (run["F_43x"] - run["F_bx"] + run["F_21x"])
     opening += 0.5 * run["e_y_dot"] * (run["F_32y"] + run["F_21y"])
