@@ -64,7 +64,9 @@ def update_entry_velocity(
     n_theta = joint.cos_theta.size
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(y, joint.z[j])
-        for i in range(n_theta):
+        first, count = contact_window(joint.clearance, a, b, onset, n_theta)
+        for k in range(count):
+            i = (first + k) % n_theta
             c = joint.cos_theta[i]
             s = joint.sin_theta[i]
             gap = joint.clearance + a * c + b * s + joint.wear[j, i]
@@ -76,3 +78,5 @@ def update_entry_velocity(
                 else:
                     approach = -(v_a * c + v_b * s)
                     entry_velocity[j, i] = reference_velocity(0.0, approach, joint.minimum_entry_velocity)
+        for k in range(count, n_theta):
+            entry_velocity[j, (first + k) % n_theta] = 0.0
