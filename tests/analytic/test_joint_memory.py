@@ -83,6 +83,32 @@ def test_a_worn_point_enters_later(make_joint):
     assert memory[node[0], node[1] + 1] > 0.0
 
 
+@pytest.mark.parametrize("clearance", [20e-6, 3e-6])
+def test_every_node_follows_the_rules_on_a_random_walk(make_joint, clearance):
+    # Jumps across the whole clearance included, after which far nodes have to forget; worn unevenly.
+    joint = make_joint(clearance, grid=(36, 6))
+    random = np.random.default_rng(3)
+    wear = 1.5 * joint.roughness * random.random(joint.field_shape)
+    data, memory, expected = joint.data(wear), joint.no_memory(), joint.no_memory()
+    z, cos, sin = joint.z[:, None], np.cos(joint.theta), np.sin(joint.theta)
+    entered = kept = left = 0
+    for _ in range(60):
+        y = random.normal(size=8) * np.array([0.5, 0.5, 25.0, 25.0, 2e2, 2e2, 2e4, 2e4]) * clearance
+        tan_x, tan_y = np.tan(y[2:4])
+        gap = clearance + (y[0] - z * tan_y) * cos + (y[1] - z * tan_x) * sin + wear
+        v_a, v_b = y[4] - z * y[7] * (1 + tan_y**2), y[5] - z * y[6] * (1 + tan_x**2)
+        approach = -(v_a * cos + v_b * sin)
+        touching, before = gap < ONSET * joint.roughness, expected > 0.0
+        entered += np.count_nonzero(touching & ~before)
+        kept += np.count_nonzero(touching & before)
+        left += np.count_nonzero(~touching & before)
+        fresh = np.where(before, expected, np.maximum(np.abs(approach), V_MIN))
+        expected = np.where(touching, fresh, 0.0)
+        update_entry_velocity(data, y, memory, 0.0)
+        np.testing.assert_allclose(memory, expected, rtol=1e-12)
+    assert min(entered, kept, left) > 100
+
+
 def total(joint, h_star, approach, entry):
     """Return (P_k, P_c) of one node."""
     return node_pressure(joint.table, joint.roughness, V_MIN, 1.0, h_star * joint.roughness, approach, entry)[
