@@ -8,7 +8,7 @@ DOCS := docs/_build/html
 PYTEST := $(BIN)/python -m pytest -n 2
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-long lint format docs clean
+.PHONY: help demo test test-long lint format docs bench clean
 
 help:
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
@@ -17,6 +17,7 @@ help:
 	@echo "make lint        style, types and layers"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
+	@echo "make bench       work and precision of the integrators (some minutes)"
 	@echo "make clean       remove .venv and everything built"
 
 demo: $(VENV)/.run
@@ -42,6 +43,9 @@ docs: $(VENV)/.docs
 	$(BIN)/python docs/plots/convergence.py docs/_static/generated
 	$(BIN)/sphinx-build -W --keep-going -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
+
+bench: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.work_precision
 
 clean:
 	rm -rf $(VENV) docs/_build docs/reference/generated docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

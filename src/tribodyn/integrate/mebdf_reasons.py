@@ -34,4 +34,6 @@ def reason(state: MebdfState, names: Sequence[str]) -> str:
             else "the error stayed above the tolerance"
         )
         return f"{text}; {cause}, worst in {names[worst]}"
-    return text
+    newest = state.rows[entry.HISTORY + int(state.counts[entry.K_LAST]) + 1]
+    fastest = int(np.argmax(np.abs(newest * state.rows[entry.WEIGHT])))
+    return f"{text}; the solution changes fastest in {names[fastest]}"

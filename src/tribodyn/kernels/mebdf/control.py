@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.history import rescale
 from tribodyn.kernels.mebdf.phases import ERROR_TEST, NEWTON, STEP
@@ -56,7 +56,7 @@ FAILED_NEWTON = 0.25
 """What the step is multiplied by when Newton's iteration fails although the Jacobian is new."""
 
 
-@kernel
+@inlined
 def norm(rows: FloatArray, row: int) -> float:
     """Return the weighted root mean square of a row."""
     total = 0.0
@@ -65,7 +65,7 @@ def norm(rows: FloatArray, row: int) -> float:
     return math.sqrt(total / rows.shape[1])
 
 
-@kernel
+@inlined
 def set_weights(real: FloatArray, rows: FloatArray) -> None:
     """Make the weights those of the newest value."""
     for i in range(rows.shape[1]):
@@ -82,7 +82,7 @@ def change_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, fa
     count[CARRIED] = 0
 
 
-@kernel
+@inlined
 def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Keep the step below its maximum and let the last steps end at the end."""
     left = abs(real[T_END] - real[T])

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
 from tribodyn.kernels.mebdf.history import push
@@ -113,7 +113,7 @@ def resume(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrice
     return request
 
 
-@kernel
+@inlined
 def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
     limit_step(real, count, rows)
@@ -148,7 +148,7 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     return NEED_JACOBIAN
 
 
-@kernel
+@inlined
 def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Make y_{n+1} the newest value."""
     push(rows, Y, count[K] + 3, HISTORY)

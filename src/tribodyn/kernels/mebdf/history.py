@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.state import HISTORY, N_DIFFERENCES, SCRATCH
 
 
@@ -30,7 +30,7 @@ def rescale(rows: FloatArray, degree: int, factor: float) -> None:
             rows[HISTORY + m, i] = 0.0
 
 
-@kernel
+@inlined
 def value_at(rows: FloatArray, first: int, degree: int, s: float, i: int) -> float:
     """Return component ``i`` of the polynomial, ``s`` steps after its newest value (s ≤ 0 is inside).
 
@@ -42,7 +42,7 @@ def value_at(rows: FloatArray, first: int, degree: int, s: float, i: int) -> flo
     return rows[first, i] + total
 
 
-@kernel
+@inlined
 def push(rows: FloatArray, newest: int, count: int, first: int) -> None:
     """Write ``count`` differences of the history after row ``newest`` has joined it, from row ``first``.
 

@@ -88,7 +88,7 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
 
 @kernel
 def substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
-    """Replace the row RESIDUAL by the solution with it on the right; the factors are those of a decomposition."""
+    """Replace the row RESIDUAL by the solution with it on the right."""
     n = rows.shape[1]
     for k in range(n):
         pivot = count[PIVOTS + k]

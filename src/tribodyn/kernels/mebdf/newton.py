@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from tribodyn.kernels.mebdf.control import newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
@@ -19,6 +19,7 @@ from tribodyn.kernels.mebdf.start import remember_not_finite
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
     CONSTANT,
+    CONSTANT_3,
     DELTA,
     DISAGREEMENT,
     ERROR,
@@ -42,6 +43,7 @@ from tribodyn.kernels.mebdf.state import (
     N_LU,
     N_SOLVES,
     PHASE,
+    PREDICTED,
     RATE,
     RATE_AGE,
     REASON,
@@ -88,7 +90,7 @@ def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, m
     return 0
 
 
-@kernel
+@inlined
 def start_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
     """Fill what the stage knows already, predict, and ask for f where it is not known."""
     stage, h = count[STAGE], real[H]
@@ -102,43 +104,47 @@ def start_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     if stage == 1 and count[CARRIED] == 1:
         _copy(rows, Y_2, Y, F_2, F)
         return 0
-    first = STAGE_HISTORY if stage == 2 else HISTORY
-    for i in range(rows.shape[1]):
-        total = 0.0
-        for m in range(count[K] + 1):
-            total += rows[first + m, i]
-        rows[Y, i] = total
+    _copy(rows, PREDICTED, Y, F, F)
     count[N_F] += 1
     return NEED_F
 
 
-@kernel
+@inlined
 def _copy(rows: FloatArray, y: int, to_y: int, f: int, to_f: int) -> None:
     for i in range(rows.shape[1]):
         rows[to_y, i] = rows[y, i]
         rows[to_f, i] = rows[f, i]
 
 
-@kernel
+@inlined
 def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
-    """Fill the part of the formula of a stage that does not depend on its value."""
+    """Fill the part of the formula of a stage that does not depend on its value, and its extrapolation.
+
+    What stage 3 takes from the history is gathered with stage 1, in one pass.
+    """
     k, stage, h = count[K], count[STAGE], real[H]
-    slope_1 = h * (SCALARS[k, 1] - SCALARS[k, 0])
-    slope_2 = h * SCALARS[k, 2]
+    if stage == 3:
+        slope_1 = h * (SCALARS[k, 1] - SCALARS[k, 0])
+        slope_2 = h * SCALARS[k, 2]
+        for i in range(rows.shape[1]):
+            slopes = slope_1 * rows[F_1, i] + slope_2 * rows[F_2, i]
+            rows[CONSTANT, i] = rows[CONSTANT_3, i] + slopes
+        return
+    first = STAGE_HISTORY if stage == 2 else HISTORY
     for i in range(rows.shape[1]):
-        total = 0.0
-        if stage == 3:
-            for m in range(k):
-                total += EXTENDED_HISTORY[k, m] * rows[HISTORY + m, i]
-            total += slope_1 * rows[F_1, i] + slope_2 * rows[F_2, i]
-        else:
-            first = STAGE_HISTORY if stage == 2 else HISTORY
-            for m in range(k):
-                total += BDF_HISTORY[k, m] * rows[first + m, i]
-        rows[CONSTANT, i] = total
+        constant = extended = predicted = rows[first, i]
+        for m in range(1, k):
+            difference = rows[first + m, i]
+            constant += BDF_HISTORY[k, m] * difference
+            extended += EXTENDED_HISTORY[k, m] * difference
+            predicted += difference
+        rows[CONSTANT, i] = constant
+        rows[PREDICTED, i] = predicted + rows[first + k, i]
+        if stage == 1:
+            rows[CONSTANT_3, i] = extended
 
 
-@kernel
+@inlined
 def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
     """One Newton correction with f known at Y; then accept the stage, go on, or give up."""
     stage = count[STAGE]
@@ -161,7 +167,7 @@ def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matric
     return NEED_F
 
 
-@kernel
+@inlined
 def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> float:
     """Add the Newton correction to Y and keep it in DELTA; return its norm."""
     n = rows.shape[1]
@@ -185,7 +191,7 @@ def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matri
     return math.sqrt(squares / n)
 
 
-@kernel
+@inlined
 def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool:
     """Update the convergence rate; return whether there is hope."""
     if not math.isfinite(size):
@@ -200,7 +206,7 @@ def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool
     return True
 
 
-@kernel
+@inlined
 def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
     stage = count[STAGE]
@@ -220,7 +226,7 @@ def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -
             count[PHASE] = ACCEPT
 
 
-@kernel
+@inlined
 def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
     """Store a stage; its slope follows from the formula without another call."""
     inverse = 1.0 / real[SCALED]
@@ -229,7 +235,7 @@ def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
         rows[f, i] = (rows[Y, i] - rows[CONSTANT, i]) * inverse
 
 
-@kernel
+@inlined
 def _test_error(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
     k = count[K]

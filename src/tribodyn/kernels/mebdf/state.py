@@ -66,11 +66,11 @@ EARLY: Final = SETTINGS + 17
 TIGHT: Final = SETTINGS + 18
 """Share of the tolerances that the method uses: errors of steps add up."""
 DEFAULTS: Final = (
-    *(0.24, 0.32, 0.12),
+    *(0.24, 0.42, 0.20),
     *(0.05, 40.0, 0.05),
-    *(1.44, 1.46, 1.55, 1.14, 7.0),
-    *(1.9, 0.46, 2.0, 1.9, 8.0, 4.0, 0.8),
-    0.4,
+    *(1.44, 1.54, 1.62, 1.05, 6.0),
+    *(1.9, 0.28, 2.0, 1.7, 20.0, 3.0, 0.8),
+    0.3,
 )
 N_REAL: Final = SETTINGS + len(DEFAULTS)
 
@@ -133,7 +133,11 @@ F_2: Final = 9
 DELTA: Final = 10
 """Newton correction."""
 RESIDUAL: Final = 11
-HISTORY: Final = 12
+PREDICTED: Final = 12
+"""Extrapolation to the point of the stage."""
+CONSTANT_3: Final = 13
+"""What stage 3 takes from the history."""
+HISTORY: Final = 14
 """First of the backward differences ∇^i y_n."""
 N_DIFFERENCES: Final = MAX_K + 3
 STAGE_HISTORY: Final = HISTORY + N_DIFFERENCES

@@ -1,0 +1,141 @@
+"""Work and precision of the MEBDF beside CVODE and SciPy's stiff solvers, all in one run.
+
+    python -m benchmarks.work_precision          # or: make bench
+
+writes ``docs/_static/mebdf_work_precision.json`` and ``.svg`` and prints the ratios to CVODE at equal digits.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.cvode_native import cvode
+from benchmarks.mebdf_native import mebdf
+from benchmarks.problems import PROBLEMS, Benchmark
+from benchmarks.scipy_solvers import scipy_solver
+
+TARGET = Path(__file__).parents[1] / "docs" / "_static" / "mebdf_work_precision"
+COMPILED = 10.0 ** -np.arange(2.5, 11.1, 0.25)
+IN_PYTHON = 10.0 ** -np.arange(3.0, 10.1, 1.0)
+TOO_LONG_IN_PYTHON = ("RING", "VDP11")
+REPEATS = 5
+"""Compiled runs are timed this often; the shortest counts. The solvers take turns."""
+DIGITS = (5.0, 7.5)
+
+Run = Callable[[Benchmark, float], dict[str, Any]]
+COMPILED_SOLVERS: dict[str, Run] = {"MEBDF": mebdf, "CVODE": cvode}
+PYTHON_SOLVERS: dict[str, Run] = {
+    f"SciPy {method}": partial(scipy_solver, method) for method in ("BDF", "Radau", "LSODA")
+}
+
+
+def timed(problem: Benchmark, rtol: float) -> dict[str, dict[str, Any]]:
+    """Return a run of each compiled solver with the shortest of several times."""
+    repeats = 1 if problem.name == "RING" else REPEATS
+    runs: dict[str, list[dict[str, Any]]] = {name: [] for name in COMPILED_SOLVERS}
+    for _ in range(repeats):
+        for name, solver in COMPILED_SOLVERS.items():
+            runs[name].append(solver(problem, rtol))
+    return {name: min(found, key=lambda run: run["seconds"]) for name, found in runs.items()}
+
+
+def measure(problem: Benchmark) -> dict[str, list[dict[str, Any]]]:
+    """Return the runs of every solver."""
+    results: dict[str, list[dict[str, Any]]] = {}
+    for rtol in (COMPILED[::2] if problem.name == "RING" else COMPILED).tolist():
+        for name, run in timed(problem, rtol).items():
+            run.pop("y", None)
+            results.setdefault(name, []).append({"rtol": rtol, **run})
+    if problem.name not in TOO_LONG_IN_PYTHON:
+        for name, solver in PYTHON_SOLVERS.items():
+            results[name] = [{"rtol": rtol, **solver(problem, rtol)} for rtol in IN_PYTHON.tolist()]
+    return results
+
+
+def cost_at(runs: list[dict[str, Any]], digits: float, cost: Callable[[dict[str, Any]], float]) -> float:
+    """Return the cost at a number of digits: a line through its logarithm over the runs near by."""
+    found = [(run["digits"], cost(run)) for run in runs if not run["failed"] and cost(run) > 0.0]
+    distance, value = np.array(found).T
+    distance = distance - digits
+    weight = np.exp(-0.5 * (distance / 0.7) ** 2)
+    terms = np.stack((np.ones_like(distance), distance), axis=1) * weight[:, None]
+    return float(np.exp(np.linalg.lstsq(terms, np.log(value) * weight)[0][0]))
+
+
+def ratios(name: str, results: dict[str, list[dict[str, Any]]]) -> list[float]:
+    """Return MEBDF over CVODE at each number of digits: calls, calls with differences for J, LU, time."""
+    n = PROBLEMS[name].y0.size
+    costs: tuple[Callable[[dict[str, Any]], float], ...] = (
+        lambda run: run["rhs"],
+        lambda run: run["rhs"] + n * run["jac"],
+        lambda run: run["lu"],
+        lambda run: run["seconds"],
+    )
+    return [
+        cost_at(results["MEBDF"], digits, cost) / cost_at(results["CVODE"], digits, cost)
+        for digits in DIGITS
+        for cost in costs
+    ]
+
+
+def draw(everything: dict[str, dict[str, list[dict[str, Any]]]]) -> None:
+    """Draw digits against calls and against time, a row a problem."""
+    import matplotlib as mpl
+
+    mpl.use("svg")
+    from matplotlib import pyplot as plt
+
+    plt.rcParams.update({"svg.hashsalt": "tribodyn", "font.size": 8})
+    figure, axes = plt.subplots(len(everything), 3, figsize=(9.0, 2.1 * len(everything)), squeeze=False)
+    quantities = (
+        ("rhs", 1.0, "right-hand sides"),
+        ("lu", 1.0, "LU decompositions"),
+        ("seconds", 1e3, "time [ms]"),
+    )
+    for row, (name, results) in zip(axes, everything.items(), strict=True):
+        for axis, (key, factor, label) in zip(row, quantities, strict=True):
+            for solver, runs in results.items():
+                good = [run for run in runs if not run["failed"] and run["digits"] > 0.0 and run[key] > 0.0]
+                axis.plot(
+                    [run["digits"] for run in good],
+                    [factor * run[key] for run in good],
+                    marker=".",
+                    markersize=3,
+                    linewidth=1.6 if solver == "MEBDF" else 0.8,
+                    label=solver,
+                )
+            axis.set_yscale("log")
+            axis.set_title(f"{name}: {label}", fontsize=8)
+            axis.grid(alpha=0.3)
+    for axis in axes[-1]:
+        axis.set_xlabel("correct digits")
+    axes[0, 0].legend(fontsize=6)
+    figure.tight_layout()
+    figure.savefig(TARGET.with_suffix(".svg"), metadata={"Date": None})
+
+
+def main() -> None:
+    """Measure, store, draw and print."""
+    for problem in PROBLEMS.values():  # compile before anything is timed
+        for solver in COMPILED_SOLVERS.values():
+            solver(problem, 1e-3)
+    everything = {name: measure(problem) for name, problem in PROBLEMS.items()}
+    table = {name: ratios(name, results) for name, results in everything.items()}
+    mean = np.exp(np.mean(np.log(list(table.values())), axis=0)).tolist()
+    TARGET.parent.mkdir(parents=True, exist_ok=True)
+    stored = {"ratios to CVODE": {**table, "geometric mean": mean}, "runs": everything}
+    TARGET.with_suffix(".json").write_text(json.dumps(stored, indent=1), encoding="utf-8")
+    draw(everything)
+    print("MEBDF / CVODE at 5 and 7.5 digits: calls, calls with differences for J, LU, time")
+    for name, values in (*table.items(), ("geometric mean", mean)):
+        print(f"{name:15s}", " ".join(f"{value:5.2f}" for value in values))
+
+
+if __name__ == "__main__":
+    main()
