@@ -91,7 +91,7 @@ def draw(everything: dict[str, dict[str, list[dict[str, Any]]]]) -> None:
     mpl.use("svg")
     from matplotlib import pyplot as plt
 
-    plt.rcParams.update({"svg.hashsalt": "tribodyn", "font.size": 8})
+    plt.rcParams.update({"svg.hashsalt": "tribodyn", "svg.fonttype": "none", "font.size": 8})
     figure, axes = plt.subplots(len(everything), 3, figsize=(9.0, 2.1 * len(everything)), squeeze=False)
     quantities = (
         ("rhs", 1.0, "right-hand sides"),
