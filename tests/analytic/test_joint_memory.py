@@ -92,7 +92,7 @@ def test_every_node_follows_the_rules_on_a_random_walk(make_joint, clearance):
     data, memory, expected = joint.data(wear), joint.no_memory(), joint.no_memory()
     z, cos, sin = joint.z[:, None], np.cos(joint.theta), np.sin(joint.theta)
     entered = kept = left = 0
-    for _ in range(60):
+    for _ in range(120):
         y = random.normal(size=8) * np.array([0.5, 0.5, 25.0, 25.0, 2e2, 2e2, 2e4, 2e4]) * clearance
         tan_x, tan_y = np.tan(y[2:4])
         gap = clearance + (y[0] - z * tan_y) * cos + (y[1] - z * tan_x) * sin + wear
