@@ -30,7 +30,7 @@ def state(e_x=0.0, e_y=0.0, phi_x=0.0, phi_y=0.0, rates=(0.0, 0.0, 0.0, 0.0)):
 def seen(data, y, *, omega=0.0, sign=1.0, entry=None):
     """Return the joint's report by name."""
     out = np.empty(report_kernel.N_REPORT)
-    report(data, np.zeros(data.wear.shape) if entry is None else entry, y, omega, sign, out)
+    report(data, np.zeros(data.wear.shape) if entry is None else entry, y, omega, sign, True, out)
     return {name: out[k] for name, k in vars(report_kernel).items() if name.isupper() and name != "N_REPORT"}
 
 

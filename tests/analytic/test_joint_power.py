@@ -19,7 +19,7 @@ AGREE = 1e-8
 
 def out_of(data, y, omega, sign, entry):
     out = np.empty(names.N_REPORT)
-    report(data, entry, y, omega, sign, out)
+    report(data, entry, y, omega, sign, True, out)
     return out
 
 

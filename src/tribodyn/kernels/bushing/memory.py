@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.data import BushingData
@@ -18,12 +20,14 @@ def pressure_field(
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa] at all nodes."""
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     clear(pressure)
     for j in range(joint.z.size):
-        a, b, v_a, v_b = row_motion(y, joint.z[j])
+        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
-        for k in range(count):
-            i = (first + k) % n_theta
+        i = first % n_theta - 1
+        for _ in range(count):
+            i = i + 1 if i + 1 < n_theta else 0
             c = joint.cos_theta[i]
             s = joint.sin_theta[i]
             gap = joint.clearance + a * c + b * s + joint.wear[j, i]
@@ -61,12 +65,14 @@ def update_entry_velocity(
         1 at the start of a run, 0 otherwise.
     """
     onset = joint.onset * joint.roughness
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     n_theta = joint.cos_theta.size
     for j in range(joint.z.size):
-        a, b, v_a, v_b = row_motion(y, joint.z[j])
+        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, onset, n_theta)
-        for k in range(count):
-            i = (first + k) % n_theta
+        i = first % n_theta - 1
+        for _ in range(count):
+            i = i + 1 if i + 1 < n_theta else 0
             c = joint.cos_theta[i]
             s = joint.sin_theta[i]
             gap = joint.clearance + a * c + b * s + joint.wear[j, i]
@@ -78,5 +84,6 @@ def update_entry_velocity(
                 else:
                     approach = -(v_a * c + v_b * s)
                     entry_velocity[j, i] = reference_velocity(0.0, approach, joint.minimum_entry_velocity)
-        for k in range(count, n_theta):
-            entry_velocity[j, (first + k) % n_theta] = 0.0
+        for _ in range(count, n_theta):
+            i = i + 1 if i + 1 < n_theta else 0
+            entry_velocity[j, i] = 0.0

@@ -56,6 +56,8 @@ def node_pressure(
         ∂P_c/∂δ̇ [Pa s/m].
     """
     rigid, d_rigid, damping, d_damping = pressure_and_damping(table, gap / roughness)
+    if damping == 0.0:  # above the onset, and everywhere in a law without damping
+        return rigid, rigid, d_rigid / roughness, 0.0
     reference = reference_velocity(entry_velocity, approach, minimum_entry_velocity)
     ratio = approach / reference
     total = rigid + damping * ratio

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.pressure import node_pressure
@@ -32,12 +34,17 @@ def report(
     y: FloatArray,
     omega: float,
     sign: float,
+    with_energy: bool,
     out: FloatArray,
 ) -> None:
-    """Fill ``out`` (N_REPORT,) with the quantities named above; arguments as for ``wrench``."""
+    """Fill ``out`` (N_REPORT,) with the quantities named above; arguments as for ``wrench``.
+
+    The stored energy takes a look-up of its own at every node and is left at zero unless ``with_energy``.
+    """
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     onset = joint.onset * joint.roughness
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     for k in range(N_REPORT):
         out[k] = 0.0
     out[SEPARATION_MIN] = 1.0e30
@@ -45,11 +52,12 @@ def report(
     for j in range(joint.z.size):
         area = joint.area[j]
         z = joint.z[j]
-        a, b, v_a, v_b = row_motion(y, z)
+        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, z)
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
         f_cx = f_cy = f_kx = f_ky = f_fx = f_fy = torque = heat = power = stored = 0.0
-        for k in range(count):
-            i = (first + k) % n_theta
+        i = first % n_theta - 1
+        for _ in range(count):
+            i = i + 1 if i + 1 < n_theta else 0
             c = joint.cos_theta[i]
             s = joint.sin_theta[i]
             gap = joint.clearance + a * c + b * s + joint.wear[j, i]
@@ -81,7 +89,8 @@ def report(
                 power += tau * slip
             else:
                 power += tau * omega * joint.journal_radius
-            stored += joint.roughness * stored_energy(joint.table, gap / joint.roughness)
+            if with_energy:
+                stored += joint.roughness * stored_energy(joint.table, gap / joint.roughness)
             out[P_MAX] = max(out[P_MAX], p)
             if gap < onset:
                 contact_area += area

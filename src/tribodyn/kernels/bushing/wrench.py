@@ -22,10 +22,11 @@ from tribodyn.kernels.jit import inlined, kernel
 
 
 @inlined
-def row_motion(y: FloatArray, z: float) -> tuple[float, float, float, float]:
-    """Return offset (a, b) [m] and velocity (v_a, v_b) [m/s] of the trunnion axis at height ``z`` [m]."""
-    tan_x = math.tan(y[2])
-    tan_y = math.tan(y[3])
+def row_motion(y: FloatArray, tan_x: float, tan_y: float, z: float) -> tuple[float, float, float, float]:
+    """Return offset (a, b) [m] and velocity (v_a, v_b) [m/s] of the trunnion axis at height ``z`` [m].
+
+    ``tan_x`` and ``tan_y`` are the tangents of the tilts, the same for every row.
+    """
     a = y[0] - z * tan_y
     b = y[1] - z * tan_x
     v_a = y[4] - z * y[7] * (1.0 + tan_y * tan_y)
@@ -76,6 +77,7 @@ def wrench(
     """
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     for k in range(5):
         out[k] = 0.0
     for j in range(joint.z.size):
@@ -83,11 +85,12 @@ def wrench(
         if area == 0.0:
             continue
         z = joint.z[j]
-        a, b, v_a, v_b = row_motion(y, z)
+        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, z)
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
         f_x = f_y = torque = 0.0
-        i = first % n_theta
+        i = first % n_theta - 1
         for _ in range(count):
+            i = i + 1 if i + 1 < n_theta else 0
             c = joint.cos_theta[i]
             s = joint.sin_theta[i]
             gap = joint.clearance + a * c + b * s + joint.wear[j, i]
@@ -107,9 +110,6 @@ def wrench(
                 f_x += p * c + joint.tangential * tau * s
                 f_y += p * s - joint.tangential * tau * c
                 torque += tau
-            i += 1
-            if i == n_theta:
-                i = 0
         out[0] += area * f_x
         out[1] += area * f_y
         out[2] -= area * z * f_y
@@ -172,6 +172,7 @@ def wrench_and_jacobian(
     """
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     r_j = joint.journal_radius
     tangential = joint.tangential
     clear(jacobian)
@@ -182,7 +183,7 @@ def wrench_and_jacobian(
         if area == 0.0:
             continue
         z = joint.z[j]
-        a, b, v_a, v_b = row_motion(y, z)
+        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, z)
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
         f_x = f_y = torque = 0.0
         # Stiffness k = ∂P/∂h and damping d = ∂P/∂δ̇, summed with products of cos θ and sin θ.
@@ -191,8 +192,9 @@ def wrench_and_jacobian(
         kappa_cc = kappa_cs = kappa_ss = kappa_c = kappa_s = 0.0
         lambda_cc = lambda_cs = lambda_ss = lambda_c = lambda_s = 0.0
         rho_cc = rho_cs = rho_ss = rho_c = rho_s = rho = 0.0
-        i = first % n_theta
+        i = first % n_theta - 1
         for _ in range(count):
+            i = i + 1 if i + 1 < n_theta else 0
             c = joint.cos_theta[i]
             s = joint.sin_theta[i]
             gap = joint.clearance + a * c + b * s + joint.wear[j, i]
@@ -240,9 +242,6 @@ def wrench_and_jacobian(
                 rho_c += slope * c
                 rho_s += slope * s
                 rho += slope
-            i += 1
-            if i == n_theta:
-                i = 0
         if count == 0:
             continue
         out[0] += area * f_x

@@ -52,12 +52,12 @@ KINETIC, GRAVITY = 0, 1
 
 
 @kernel
-def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, with_energy: bool) -> float:
     """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch = memory.scratch
     omega = set_up(data, t, y, memory)
     out = scratch.report
-    joint_report.report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], out)
+    joint_report.report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], with_energy, out)
     scratch.wrench[0] = out[joint_report.F_CX] + out[joint_report.F_FX]
     scratch.wrench[1] = out[joint_report.F_CY] + out[joint_report.F_FY]
     scratch.wrench[2] = out[joint_report.M_JCX] + out[joint_report.M_FX]
@@ -116,7 +116,7 @@ def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> 
 @kernel
 def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
-    f_cz = evaluate(data, t, y, memory)
+    f_cz = evaluate(data, t, y, memory, False)
     fill_rates(data, y, memory, f_cz)
     copy(memory.scratch.rates, memory.rates)
     copy(memory.scratch.momentum, memory.last_momentum)
@@ -153,13 +153,13 @@ def add_part(
         inertia += memory.last_momentum[i] * (-3.0 * v_a + 4.0 * v_m - v_b)
     for k in range(CLEARANCE_INERTIA):
         integrals[k] += h / 6.0 * memory.rates[k]
-    f_cz = evaluate(data, 0.5 * (t_a + t_b), y_m, memory)
+    f_cz = evaluate(data, 0.5 * (t_a + t_b), y_m, memory, False)
     fill_rates(data, y_m, memory, f_cz)
     for i in range(4):
         inertia += 4.0 * memory.scratch.momentum[i] * (y_b[4 + i] - y_a[4 + i])
     for k in range(CLEARANCE_INERTIA):
         integrals[k] += h / 6.0 * 4.0 * memory.scratch.rates[k]
-    f_cz = evaluate(data, t_b, y_b, memory)
+    f_cz = evaluate(data, t_b, y_b, memory, False)
     fill_rates(data, y_b, memory, f_cz)
     note_extremes(t_b, h, f_cz, memory)
     for i in range(4):

@@ -128,7 +128,7 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     scratch = memory.scratch
     copy(y, row)
     _actual_vane(data, t, y, memory, row)
-    f_cz = ledger.evaluate(data, t, y, memory)
+    f_cz = ledger.evaluate(data, t, y, memory, True)
     motion, force = scratch.motion, scratch.force
     row[_MOTION] = motion[THETA_A, VALUE]
     row[_MOTION + 1] = motion[THETA_B, VALUE]
