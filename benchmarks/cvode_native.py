@@ -13,6 +13,7 @@ from typing import Any
 
 import numba as nb
 import numpy as np
+
 from benchmarks.problems import Benchmark
 
 CV_BDF, CV_NORMAL = 2, 1

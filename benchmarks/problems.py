@@ -5,7 +5,7 @@ Van der Pol's equation in the form of Hairer and Wanner over 11 units of time, w
 runs. The pendulum has the form of index 0: the multiplier has the differential equation
 λ' = −3v − 2λ(xu + yv), so the problem is ordinary and hardly stiff. The end points of ``E5`` (up to
 t = 1e9) and of ``RING``, the ring modulator, are MEBDF runs at rtol 1e-12; CVODE at its tightest agrees to
-9.5 and 6 digits, and the known end point of the ring modulator to 9.
+9.5 and 6 digits.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LONG_FILE = 400
 TOOLS = {
     "layers": ("lint-imports",),
-    "lint": ("ruff", "check", "."),
+    "lint": ("ruff", "check", "--no-cache", "."),
     "format": ("ruff", "format", "--check", "."),
     "types": ("mypy",),
 }
