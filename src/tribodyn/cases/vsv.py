@@ -12,6 +12,7 @@ from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, text
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair
+    from tribodyn.mechanisms.vsv import Lengths
 
 TABLE_2 = "paper, Table 2"
 TABLE_3 = "paper, Table 3"
@@ -147,6 +148,24 @@ class Vsv(Case):
         return self.run.cycles * self.period
 
     @property
+    def lengths(self) -> Lengths:
+        """Lengths and angles of the mechanism in the symbols of the paper."""
+        # Imported here: the mechanism brings compiled code along, which reading the models does not need.
+        from tribodyn.mechanisms.vsv import Lengths
+
+        m = self.mechanism
+        return Lengths(
+            l_1=m.crank_length,
+            l_2=m.drag_link_length,
+            l_3=m.ring_radius,
+            l_4=m.lever_length,
+            l_v=m.vane_length,
+            l_m=m.pivot_distance,
+            gamma=m.pivot_angle,
+            phi=m.ring_angle,
+        )
+
+    @property
     def crank_range(self) -> tuple[float, float]:
         """Smallest and largest crank angle reached in the run [rad]."""
         half_turn = min(self.drive.angular_frequency * self.duration, math.pi)
@@ -192,18 +211,6 @@ class Vsv(Case):
 
     def _check_reach(self) -> None:
         """Check that the loop closes at every crank angle of the drive."""
-        # Imported here: the mechanism brings compiled code along, which reading the models does not need.
-        from tribodyn.mechanisms.vsv import Lengths, check_reach
+        from tribodyn.mechanisms.vsv import check_reach
 
-        m = self.mechanism
-        lengths = Lengths(
-            l_1=m.crank_length,
-            l_2=m.drag_link_length,
-            l_3=m.ring_radius,
-            l_4=m.lever_length,
-            l_v=m.vane_length,
-            l_m=m.pivot_distance,
-            gamma=m.pivot_angle,
-            phi=m.ring_angle,
-        )
-        check_reach(lengths, *self.crank_range)
+        check_reach(self.lengths, *self.crank_range)

@@ -15,7 +15,7 @@ from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.kernels.vsv.observe import OBSERVED
-from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Lengths, Vsv, ideal_vane_angle, vsv_problem
+from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
 from tribodyn.simulation.ledger import ledger_columns, residual_fractions
@@ -74,16 +74,7 @@ def mechanism(case: VsvCase) -> Vsv:
     m, loads, drive = case.mechanism, case.loads, case.drive
     return Vsv(
         formulation=m.formulation,
-        lengths=Lengths(
-            l_1=m.crank_length,
-            l_2=m.drag_link_length,
-            l_3=m.ring_radius,
-            l_4=m.lever_length,
-            l_v=m.vane_length,
-            l_m=m.pivot_distance,
-            gamma=m.pivot_angle,
-            phi=m.ring_angle,
-        ),
+        lengths=case.lengths,
         inertias=Inertias(
             m_1=m.crank_mass,
             m_2=m.drag_link_mass,

@@ -63,6 +63,11 @@ class Drive:
         """Angle between the two reversals of the crank [rad]."""
         return 2.0 * self.speed_amplitude / self.angular_frequency
 
+    def last_angle(self, duration: float) -> float:
+        """Return the largest crank angle that a run of ``duration`` [s] reaches [rad]."""
+        phase = min(self.angular_frequency * duration, math.pi)
+        return self.start_angle + 0.5 * self.swing * (1.0 - math.cos(phase))
+
 
 @dataclass(frozen=True)
 class AirLoads:

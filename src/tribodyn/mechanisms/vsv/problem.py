@@ -34,11 +34,21 @@ FUNCTIONS: Final = CompiledFunctions(
 )
 
 
-def vsv_data(vsv: Vsv, wear: FloatArray | None = None) -> VsvData:
-    """Return what the kernels read; ``wear`` is the wear depth at the nodes [m]."""
+def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.inf) -> VsvData:
+    """Return what the kernels read.
+
+    Parameters
+    ----------
+    vsv
+        The mechanism.
+    wear
+        Wear depth at the nodes [m].
+    duration
+        Length of the run [s]; the crank must reach no further than it takes it.
+    """
     lengths, inertias = vsv.lengths, vsv.inertias
-    first = vsv.drive.start_angle
-    ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, first, first + vsv.drive.swing)
+    first, last = vsv.drive.start_angle, vsv.drive.last_angle(duration)
+    ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, first, last)
     return VsvData(
         exact=1.0 if vsv.exact else 0.0,
         l_1=lengths.l_1,
@@ -188,7 +198,7 @@ def vsv_problem(
     wear
         Wear depth at the nodes [m].
     """
-    data = vsv_data(vsv, wear)
+    data = vsv_data(vsv, wear, duration)
     memory = vsv_memory(data)
     y0 = initial_state(data, memory, start)
     update_entry_velocity(data.joint, y0, memory.entry_velocity, 1.0)
