@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.state import FACTORS, LAST_JACOBIAN, PIVOTS, RESIDUAL, WORK
+from tribodyn.kernels.mebdf.state import DELTA, FACTORS, LAST_JACOBIAN, PIVOTS, RESIDUAL
 
 LARGEST_INVERSE: Final = 24
 """Number of equations up to which the inverse is used: a product has no chain of divisions."""
@@ -19,44 +19,61 @@ LARGEST_INVERSE: Final = 24
 def factorise(count: NDArray[np.int64], matrices: FloatArray, scaled: float) -> bool:
     """Prepare solutions with I − ``scaled`` J; return whether the matrix is regular."""
     n = matrices.shape[1]
-    place = WORK if n <= LARGEST_INVERSE else FACTORS
+    transposed = n <= LARGEST_INVERSE
     for i in range(n):
         for j in range(n):
-            matrices[place, i, j] = -scaled * matrices[LAST_JACOBIAN, i, j]
-        matrices[place, i, i] += 1.0
-    if n <= LARGEST_INVERSE:
-        return _invert(matrices)
+            entry = matrices[LAST_JACOBIAN, j, i] if transposed else matrices[LAST_JACOBIAN, i, j]
+            matrices[FACTORS, i, j] = -scaled * entry
+        matrices[FACTORS, i, i] += 1.0
+    if transposed:
+        return _invert(count, matrices)
     return _decompose(count, matrices)
 
 
 @kernel
-def _invert(matrices: FloatArray) -> bool:
-    """Gauss-Jordan elimination with row pivoting from WORK to FACTORS."""
+def _invert(count: NDArray[np.int64], matrices: FloatArray) -> bool:
+    """Gauss-Jordan elimination in place, with row pivoting, in FACTORS.
+
+    The matrix is the transposed one, so that products run along rows of its inverse.
+    """
     n = matrices.shape[1]
-    for i in range(n):
-        for j in range(n):
-            matrices[FACTORS, i, j] = 1.0 if i == j else 0.0
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
-            if abs(matrices[WORK, i, k]) > abs(matrices[WORK, pivot, k]):
+            if abs(matrices[FACTORS, i, k]) > abs(matrices[FACTORS, pivot, k]):
                 pivot = i
-        if not abs(matrices[WORK, pivot, k]) > 0.0:
+        count[PIVOTS + k] = pivot
+        if not abs(matrices[FACTORS, pivot, k]) > 0.0:
             return False
-        inverse = 1.0 / matrices[WORK, pivot, k]
-        for place in (WORK, FACTORS):
-            for j in range(n):
-                value = matrices[place, pivot, j]
-                matrices[place, pivot, j] = matrices[place, k, j]
-                matrices[place, k, j] = value * inverse
+        _exchange(matrices, k, pivot)
+        inverse = 1.0 / matrices[FACTORS, k, k]
+        matrices[FACTORS, k, k] = 1.0
+        for j in range(n):
+            matrices[FACTORS, k, j] *= inverse
         for i in range(n):
-            factor = matrices[WORK, i, k]
+            factor = matrices[FACTORS, i, k]
             if i != k and factor != 0.0:
-                for j in range(k + 1, n):
-                    matrices[WORK, i, j] -= factor * matrices[WORK, k, j]
+                matrices[FACTORS, i, k] = 0.0
                 for j in range(n):
                     matrices[FACTORS, i, j] -= factor * matrices[FACTORS, k, j]
+    for k in range(n - 1, -1, -1):
+        pivot = count[PIVOTS + k]
+        if pivot != k:
+            for i in range(n):
+                value = matrices[FACTORS, i, k]
+                matrices[FACTORS, i, k] = matrices[FACTORS, i, pivot]
+                matrices[FACTORS, i, pivot] = value
     return True
+
+
+@kernel
+def _exchange(matrices: FloatArray, k: int, pivot: int) -> None:
+    """Exchange two rows of FACTORS."""
+    if pivot != k:
+        for j in range(matrices.shape[1]):
+            value = matrices[FACTORS, k, j]
+            matrices[FACTORS, k, j] = matrices[FACTORS, pivot, j]
+            matrices[FACTORS, pivot, j] = value
 
 
 @kernel
@@ -71,11 +88,7 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
         count[PIVOTS + k] = pivot
         if not abs(matrices[FACTORS, pivot, k]) > 0.0:
             return False
-        if pivot != k:
-            for j in range(n):
-                value = matrices[FACTORS, k, j]
-                matrices[FACTORS, k, j] = matrices[FACTORS, pivot, j]
-                matrices[FACTORS, pivot, j] = value
+        _exchange(matrices, k, pivot)
         inverse = 1.0 / matrices[FACTORS, k, k]
         for i in range(k + 1, n):
             factor = matrices[FACTORS, i, k] * inverse
@@ -87,22 +100,39 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
 
 
 @kernel
-def substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
-    """Replace the row RESIDUAL by the solution with it on the right."""
+def solve(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
+    """Fill the row DELTA with the solution for the row RESIDUAL."""
+    n = rows.shape[1]
+    if n > LARGEST_INVERSE:
+        for i in range(n):
+            rows[DELTA, i] = rows[RESIDUAL, i]
+        _substitute(count, rows, matrices)
+        return
+    for i in range(n):
+        rows[DELTA, i] = 0.0
+    for j in range(n):
+        value = rows[RESIDUAL, j]
+        for i in range(n):
+            rows[DELTA, i] += matrices[FACTORS, j, i] * value
+
+
+@kernel
+def _substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
+    """Replace the row DELTA by the solution with it on the right, with the factors of :func:`_decompose`."""
     n = rows.shape[1]
     for k in range(n):
         pivot = count[PIVOTS + k]
         if pivot != k:
-            value = rows[RESIDUAL, k]
-            rows[RESIDUAL, k] = rows[RESIDUAL, pivot]
-            rows[RESIDUAL, pivot] = value
+            value = rows[DELTA, k]
+            rows[DELTA, k] = rows[DELTA, pivot]
+            rows[DELTA, pivot] = value
     for k in range(n):
-        total = rows[RESIDUAL, k]
+        total = rows[DELTA, k]
         for j in range(k):
-            total -= matrices[FACTORS, k, j] * rows[RESIDUAL, j]
-        rows[RESIDUAL, k] = total
+            total -= matrices[FACTORS, k, j] * rows[DELTA, j]
+        rows[DELTA, k] = total
     for k in range(n - 1, -1, -1):
-        total = rows[RESIDUAL, k]
+        total = rows[DELTA, k]
         for j in range(k + 1, n):
-            total -= matrices[FACTORS, k, j] * rows[RESIDUAL, j]
-        rows[RESIDUAL, k] = total / matrices[FACTORS, k, k]
+            total -= matrices[FACTORS, k, j] * rows[DELTA, j]
+        rows[DELTA, k] = total / matrices[FACTORS, k, k]

@@ -13,7 +13,7 @@ from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from tribodyn.kernels.mebdf.control import newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
-from tribodyn.kernels.mebdf.matrix import LARGEST_INVERSE, factorise, substitute
+from tribodyn.kernels.mebdf.matrix import factorise, solve
 from tribodyn.kernels.mebdf.phases import ACCEPT, FAILED, ITERATE, JACOBIAN_NOT_FINITE, NEED_F, START_STAGE
 from tribodyn.kernels.mebdf.start import remember_not_finite
 from tribodyn.kernels.mebdf.state import (
@@ -26,7 +26,6 @@ from tribodyn.kernels.mebdf.state import (
     F_1,
     F_2,
     FACTORED,
-    FACTORS,
     FIXED,
     FORGET,
     FRESH,
@@ -174,17 +173,11 @@ def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matri
     scaled, relaxation = real[SCALED], real[RELAXATION]
     for i in range(n):
         rows[RESIDUAL, i] = scaled * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
-    if n > LARGEST_INVERSE:
-        substitute(count, rows, matrices)
+    solve(count, rows, matrices)
     count[N_SOLVES] += 1
     squares = 0.0
     for i in range(n):
-        change = rows[RESIDUAL, i]
-        if n <= LARGEST_INVERSE:
-            change = 0.0
-            for j in range(n):
-                change += matrices[FACTORS, i, j] * rows[RESIDUAL, j]
-        change *= relaxation
+        change = rows[DELTA, i] * relaxation
         rows[DELTA, i] = change
         rows[Y, i] += change
         squares += (change * rows[WEIGHT, i]) ** 2

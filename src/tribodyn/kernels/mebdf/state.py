@@ -152,7 +152,6 @@ LAST_JACOBIAN: Final = 1
 """Last Jacobian that was finite."""
 FACTORS: Final = 2
 """Inverse or LU factors of the iteration matrix."""
-WORK: Final = 3
 
 
 class MebdfState(NamedTuple):
@@ -165,7 +164,7 @@ class MebdfState(NamedTuple):
     rows
         Vectors named above, shape (N_ROWS, n).
     matrices
-        Matrices named above, shape (4, n, n).
+        Matrices named above, shape (3, n, n).
     """
 
     real: FloatArray
@@ -223,4 +222,4 @@ def new_state(
     rows[ATOL] = atol
     rows[RTOL] = rtol
     rows[[Y, HISTORY]] = y
-    return MebdfState(real, count, rows, np.zeros((4, n, n)))
+    return MebdfState(real, count, rows, np.zeros((3, n, n)))
