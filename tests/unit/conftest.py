@@ -129,6 +129,8 @@ def _fields(t: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]
         "snapshot_time": times,
         "snapshot_theta_v": motion["theta_v"],
         "snapshot_direction": direction,
+        "frame": np.arange(frames.size),
+        "frame_time": frames,
         "theta": theta,
         "z": z,
     }
