@@ -102,6 +102,13 @@ def _pressure(theta: FloatArray, z: FloatArray, direction: float, share: float) 
     return share * 90e6 * np.exp(-1.4 * np.clip(gap / SURFACE_ROUGHNESS, -1.0, None) ** 1.1 * 1.0)
 
 
+def _film(t: FloatArray, theta: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return times and fields of the frames of one cycle."""
+    times = np.linspace(0.0, min(t[-1], PERIOD), 13) if t.size else np.empty(0)
+    film = [_pressure(theta, z, 1.0 if np.sin(s) >= 0.0 else -1.0, 1.0 + 0.2 * np.sin(s)) for s in times]
+    return times, np.array(film).reshape(times.size, theta.size, z.size)
+
+
 def _fields(t: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
     """Return coordinates and fields of the six snapshots that were reached."""
     theta = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
@@ -116,16 +123,19 @@ def _fields(t: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]
         for s, share in zip(direction, (1.0, 0.8, 1.2, 1.1, 0.7, 0.9), strict=False)
     ]
     pressure = np.array(pictures).reshape(times.size, theta.size, z.size)
+    frames, film = _film(t, theta, z)
     coordinates = {
         "snapshot": np.arange(times.size),
         "snapshot_time": times,
         "snapshot_theta_v": motion["theta_v"],
         "snapshot_direction": direction,
+        "frame": np.arange(frames.size),
+        "frame_time": frames,
         "theta": theta,
         "z": z,
     }
     worn = 1e-12 * (_pressure(theta, z, 1.0, 1.0) + _pressure(theta, z, -1.0, 0.7)) / 90e6
-    return coordinates, {"pressure": pressure, "wear_depth": worn}
+    return coordinates, {"pressure": pressure, "pressure_cycle": film, "wear_depth": worn}
 
 
 @pytest.fixture(scope="session")

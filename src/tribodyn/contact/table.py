@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.bounce import calibrating_scale
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
@@ -36,7 +37,8 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     -------
     ContactTable
         P_k and C times the smoothstep of the onset. Slopes are sixth-order differences of the law, so that a
-        law needs to supply no derivative.
+        law needs to supply no derivative. The damping of ``calibrated`` is scaled so that the design impact
+        of the law returns its restitution.
     """
     _check_onset(onset, smoothing_width)
     step = (H_LAST - H_FIRST) / INTERVALS
@@ -46,9 +48,18 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     damping, damping_rise = _values_and_rises(law.damping_pressure(h_star))
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
     smoothed_rise = share * damping_rise + step * share_slope * damping
-    nodes = np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise])
+    nodes = np.ascontiguousarray(np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise]))
     energy = _energy_from_above(pressure, pressure_rise, step)
-    return ContactTable(H_FIRST, H_LAST, 1.0 / step, np.ascontiguousarray(nodes), energy)
+    table = ContactTable(H_FIRST, H_LAST, 1.0 / step, nodes, energy)
+    if law.damping_factor == "calibrated":
+        nodes[:, 2:] *= _scale(law, table, onset)
+    return table
+
+
+def _scale(law: ContactLaw, table: ContactTable, onset: float) -> float:
+    """Return the factor on the damping of ``calibrated`` that makes it hold on this surface."""
+    wanted = float(law.meant_restitution(np.array([law.design_separation()]))[0])
+    return calibrating_scale(table, wanted, onset=onset, design_pressure=law.design_pressure)
 
 
 def onset_share(h_star: FloatArray, onset: float, width: float) -> tuple[FloatArray, FloatArray]:

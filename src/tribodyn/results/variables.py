@@ -13,6 +13,7 @@ from typing import Final
 
 TIME: Final = ("time",)
 SNAPSHOT: Final = ("snapshot",)
+FRAME: Final = ("frame",)
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,8 @@ COORDINATES: Final[dict[str, Variable]] = {
     "snapshot_time": Variable("s", "simulated time of the snapshot", SNAPSHOT),
     "snapshot_theta_v": Variable("rad", "vane angle of the snapshot", SNAPSHOT),
     "snapshot_direction": Variable("1", "direction of vane rotation at the snapshot, +1 or -1", SNAPSHOT),
+    "frame": Variable("1", "number of the pressure frame, over the last cycle", FRAME),
+    "frame_time": Variable("s", "simulated time of the pressure frame", FRAME),
     "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
@@ -141,6 +144,7 @@ _ENERGY: Final[dict[str, Variable]] = {
 
 _FIELDS: Final[dict[str, Variable]] = {
     "pressure": Variable("Pa", "contact pressure", ("snapshot", "theta", "z")),
+    "pressure_cycle": Variable("Pa", "contact pressure over one drive cycle", ("frame", "theta", "z")),
     "wear_depth": Variable("m", "wear depth of the bushing after this run", ("theta", "z")),
 }
 

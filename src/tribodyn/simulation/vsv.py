@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.contact import law, tabulate
@@ -16,8 +18,10 @@ from tribodyn.integrate import integrate
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
+from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
+from tribodyn.simulation.frames import frame_times, merged, shown
 from tribodyn.simulation.ledger import ledger_columns, residual_fractions
 from tribodyn.simulation.provenance import provenance
 from tribodyn.simulation.times import output_times, snapshots
@@ -41,13 +45,15 @@ def simulate_vsv(
         start=case.run.start,
         atol=(atol.position, atol.tilt, atol.velocity, atol.tilt_rate),
     )
-    pictures = snapshots(vsv, case.duration)
+    frames = frame_times(
+        case.duration, vsv.drive.period, np.array(reversals(vsv, case.duration)), case.run.impact_window
+    )
     solution = integrate(
         problem,
         solver=case.solver.name,
         rtol=case.solver.rtol,
         output_times=output_times(case, vsv),
-        picture_times=pictures,
+        picture_times=merged(snapshots(vsv, case.duration), frames, case.duration),
         progress=progress,
         stop=stop,
     )
@@ -121,12 +127,15 @@ class _Gathered:
         )
 
     def _coordinates(self) -> dict[str, FloatArray]:
-        times = self.solution.picture_times
+        times = self.solution.picture_times[self._is_snapshot()]
         theta_a = self._crank_angle(times)
+        frames = self.solution.picture_times[self._film()]
         return {
             "time": self.solution.t,
             "snapshot": np.arange(times.size, dtype=np.float64),
             "snapshot_time": times,
+            "frame": np.arange(frames.size, dtype=np.float64),
+            "frame_time": frames,
             "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, theta_a),
             "snapshot_direction": np.sign(np.sin(self.vsv.drive.angular_frequency * times)),
             "theta": self.vsv.joint.theta,
@@ -137,11 +146,22 @@ class _Gathered:
         drive = self.vsv.drive
         return drive.start_angle + 0.5 * drive.swing * (1.0 - np.cos(drive.angular_frequency * times))
 
-    def _fields(self) -> dict[str, FloatArray]:
+    def _is_snapshot(self) -> NDArray[np.bool_]:
+        """Tell of each picture whether it is a snapshot, shape (n_pictures,)."""
+        return np.isin(self.solution.picture_times, snapshots(self.vsv, self.case.duration))
+
+    def _film(self) -> slice:
+        """Return which pictures are the frames of the animation."""
+        return shown(self.solution.picture_times, self.case.duration, self.vsv.drive.period)
+
+    def _fields(self) -> dict[str, NDArray[np.floating[Any]]]:
+        pressure = self.solution.pictures[:, 0].transpose(0, 2, 1)
         wear = self.case.wear
         rate = wear.specific_wear_rate / (wear.paper_hardness_divisor or 1.0)
         return {
-            "pressure": self.solution.pictures[:, 0].transpose(0, 2, 1),
+            "pressure": pressure[self._is_snapshot()],
+            # Half the size, and more digits than an animation needs.
+            "pressure_cycle": pressure[self._film()].astype(np.float32),
             "wear_depth": rate * self.problem.memory.sliding_load.T,
         }
 

@@ -7,6 +7,8 @@ from typing import Final
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear, copy
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.bushing.names import REPORTED as JOINT
+from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
@@ -25,7 +27,6 @@ from tribodyn.kernels.vsv.layout import (
 )
 from tribodyn.kernels.vsv.motion import fill_rods
 
-STATES: Final = ("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot")
 MOTION: Final = (
     "theta_a",
     "theta_b",
@@ -35,26 +36,6 @@ MOTION: Final = (
     "omega_v",
     "omega_v_ideal",
     "h_1",
-)
-JOINT: Final = (
-    "F_cx",
-    "F_cy",
-    "M_jcx",
-    "M_jcy",
-    "F_kx",
-    "F_ky",
-    "F_fx",
-    "F_fy",
-    "M_fx",
-    "M_fy",
-    "M_jf",
-    "damping_power",
-    "friction_power",
-    "energy_contact",
-    "p_max",
-    "separation_min",
-    "tensile_clip_share",
-    "contact_fraction",
 )
 COLLAR: Final = ("M_tcx", "M_tcy", "M_tf")
 REACTIONS: Final = (

@@ -7,6 +7,7 @@ while crank, ring and vane move as the ideal mechanism does at that time.
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -15,11 +16,11 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.functions import kinetostatic_residual
+from tribodyn.mechanisms.balance import damped_newton
 
 FULLY_SLIDING: Final = 1.0e3
 """Vane speed [rad/s] at which the traction is saturated for any slip velocity that makes sense."""
 
-_MAX_ITERATIONS: Final = 200
 _START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)
 """Separations over σ tried for the first guess."""
 
@@ -53,13 +54,14 @@ def equilibrium(
     InputError
         If no equilibrium is found: the loads are more than the contact law can carry.
     """
+    scale = np.array([1.0, 1.0, 1.0 / data.half_length, 1.0 / data.half_length])
     regime = memory.regime.copy()
     memory.regime[0] = direction
     memory.regime[1] = direction * FULLY_SLIDING if slip_speed is None else slip_speed
     try:
         starts = _starts(data, memory, t) if guess is None else [guess]
         for start in starts:
-            q = _damped_newton(data, memory, t, start)
+            q = damped_newton(partial(_residual, data, memory, t), start, scale, 0.5 * data.joint.roughness)
             if q is not None:
                 return q
     finally:
@@ -86,45 +88,3 @@ def _starts(data: VsvData, memory: VsvMemory, t: float) -> list[FloatArray]:
         e = max(data.joint.clearance - depth * data.joint.roughness, 0.1 * data.joint.clearance)
         starts.append(np.array([e * math.cos(angle), e * math.sin(angle), 0.0, 0.0]))
     return starts
-
-
-def _damped_newton(data: VsvData, memory: VsvMemory, t: float, start: FloatArray) -> FloatArray | None:
-    """Solve residual = 0 by Newton's method with steps bounded by the roughness and a line search.
-
-    The stiffness of rough contact changes by e every third of σ, so a step may not pass much more.
-    """
-    half = data.half_length
-    scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])
-    q = start.copy()
-    residual, jacobian = _residual(data, memory, t, q)
-    for _ in range(_MAX_ITERATIONS):
-        # A little stiffness where there is none lets the trunnion move to where there is some.
-        floor = 1.0e-6 * np.abs(jacobian[:2, :2]).max(initial=1.0)
-        damped = jacobian - np.diag(floor / scale**2)
-        step = np.asarray(np.linalg.solve(damped, -residual), dtype=np.float64)
-        longest = np.abs(step / scale).max()
-        step *= min(1.0, 0.5 * data.joint.roughness / longest)
-        q, residual, jacobian = _line_search(data, memory, t, q, step, residual, scale)
-        if longest < 1.0e-13:
-            return q
-    return None
-
-
-def _line_search(
-    data: VsvData,
-    memory: VsvMemory,
-    t: float,
-    q: FloatArray,
-    step: FloatArray,
-    residual: FloatArray,
-    scale: FloatArray,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Halve the step up to five times until the residual is smaller; then take it all the same."""
-    size = float(np.linalg.norm(residual * scale))
-    share = 1.0
-    for _ in range(5):
-        trial, gradient = _residual(data, memory, t, q + share * step)
-        if np.linalg.norm(trial * scale) < size:
-            break
-        share *= 0.5
-    return q + share * step, trial, gradient

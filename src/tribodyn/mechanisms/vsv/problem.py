@@ -11,12 +11,13 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.kernels.bushing.memory import update_entry_velocity
+from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.bushing.report import N_REPORT
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory
 from tribodyn.kernels.vsv.ledger import CLEARANCE_INERTIA, LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
 from tribodyn.kernels.vsv.newton_euler import N_UNKNOWNS
-from tribodyn.kernels.vsv.observe import OBSERVED, STATES, observe
+from tribodyn.kernels.vsv.observe import OBSERVED, observe
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
 from tribodyn.mechanisms.vsv.reach import ideal_table

@@ -1,0 +1,91 @@
+"""Equations of motion of the journal: Newton for its centre, Euler for small tilts of its axis.
+
+The states are (e_x, e_y) and their rates, or (e_x, e_y, φ_x, φ_y) and their rates. With φ_x right-handed and
+φ_y left-handed, as everywhere in the joint, a journal that spins about Z turns gyroscopically by
+
+    J φ̈_x = Q_x + J_z ω φ̇_y,    J φ̈_y = Q_y − J_z ω φ̇_x,
+
+and the moments of the joint act on the tilts as Q_x = M_x sec²φ_x, Q_y = M_y sec²φ_y, because a point of the
+axis at height z moves by −z sec²φ dφ.
+"""
+
+from __future__ import annotations
+
+import math
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.journal.data import JournalData, JournalMemory
+
+
+@kernel
+def spread(y: FloatArray, state: FloatArray) -> None:
+    """Fill the eight states of the joint from ``y`` (4,) or (8,); without tilt the journal stays parallel."""
+    n = y.size // 2
+    for i in range(4):
+        state[i] = y[i] if i < n else 0.0
+        state[4 + i] = y[n + i] if i < n else 0.0
+
+
+@kernel
+def least_gap(joint: BushingData, state: FloatArray) -> float:
+    """Return the smallest gap between the mean planes of the unworn bushing [m]; it lies on an edge."""
+    tan_x, tan_y = math.tan(state[2]), math.tan(state[3])
+    half = joint.z[joint.z.size - 1]
+    low = math.hypot(state[0] + half * tan_y, state[1] + half * tan_x)
+    high = math.hypot(state[0] - half * tan_y, state[1] - half * tan_x)
+    return joint.clearance - max(low, high)
+
+
+@kernel
+def gather(data: JournalData, state: FloatArray, force: FloatArray, total: FloatArray) -> None:
+    """Fill ``total`` (4,) with loads, gyroscopic moments and the wrench ``force`` (5,) on the journal."""
+    sec2_x = 1.0 + math.tan(state[2]) ** 2
+    sec2_y = 1.0 + math.tan(state[3]) ** 2
+    spin = data.spin_inertia * data.speed
+    total[0] = data.load[0] + force[0]
+    total[1] = data.load[1] + force[1]
+    total[2] = data.load[2] + sec2_x * force[2] + spin * state[7]
+    total[3] = data.load[3] + sec2_y * force[3] - spin * state[6]
+
+
+@kernel
+def forces(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
+    """Fill ``scratch.total``; not a number once an accepted step has left the range of the contact law."""
+    scratch = memory.scratch
+    spread(y, scratch.state)
+    if memory.beyond[0] > 0.0:
+        scratch.total[:] = math.nan
+        return
+    wrench(data.joint, memory.entry_velocity, scratch.state, data.speed, data.sign, scratch.wrench)
+    gather(data, scratch.state, scratch.wrench, scratch.total)
+
+
+@kernel
+def forces_and_gradient(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
+    """Fill ``scratch.total`` and turn ``scratch.wrench_jacobian`` (4 rows) into its derivative."""
+    scratch = memory.scratch
+    spread(y, scratch.state)
+    jacobian = scratch.wrench_jacobian
+    wrench_and_jacobian(
+        data.joint,
+        memory.entry_velocity,
+        scratch.state,
+        data.speed,
+        data.sign,
+        scratch.wrench,
+        jacobian,
+        scratch.gradient,
+    )
+    gather(data, scratch.state, scratch.wrench, scratch.total)
+    spin = data.spin_inertia * data.speed
+    for i in (2, 3):
+        tangent = math.tan(scratch.state[i])
+        sec2 = 1.0 + tangent * tangent
+        for k in range(8):
+            jacobian[i, k] *= sec2
+        jacobian[i, i] += 2.0 * sec2 * tangent * scratch.wrench[i]
+    jacobian[2, 7] += spin
+    jacobian[3, 6] -= spin

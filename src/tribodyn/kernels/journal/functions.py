@@ -1,0 +1,100 @@
+"""The compiled functions of the journal problem, as the protocol in ``core/problem.py`` asks for them."""
+
+from __future__ import annotations
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
+from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.journal import ledger
+from tribodyn.kernels.journal.data import JournalData, JournalMemory
+from tribodyn.kernels.journal.equations import forces, forces_and_gradient, least_gap, spread
+
+
+@entry
+def rhs(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, f: FloatArray) -> None:
+    """Fill ``f`` (n,) with the time derivative of the state."""
+    forces(data, y, memory)
+    n = y.size // 2
+    for i in range(n):
+        f[i] = y[n + i]
+        f[n + i] = memory.scratch.total[i] / data.inertia[i]
+
+
+@entry
+def jac(
+    t: float, y: FloatArray, data: JournalData, memory: JournalMemory, f: FloatArray, jacobian: FloatArray
+) -> None:
+    """Fill ``f`` (n,) and its derivative ``jacobian`` (n, n)."""
+    forces_and_gradient(data, y, memory)
+    gradient = memory.scratch.wrench_jacobian
+    clear(jacobian)
+    n = y.size // 2
+    for i in range(n):
+        f[i] = y[n + i]
+        f[n + i] = memory.scratch.total[i] / data.inertia[i]
+        jacobian[i, n + i] = 1.0
+        for k in range(n):
+            jacobian[n + i, k] = gradient[i, k] / data.inertia[i]
+            jacobian[n + i, n + k] = gradient[i, 4 + k] / data.inertia[i]
+
+
+@entry
+def enter(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) -> None:
+    """Begin a segment: nothing changes but the mark of the ledger."""
+    ledger.begin(data, t, y, memory)
+
+
+@entry
+def advance(
+    t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: JournalData, memory: JournalMemory
+) -> None:
+    """Add the path integrals of the energy ledger over ``[t_a, t_b]``."""
+    ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
+
+
+@entry
+def accept(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) -> None:
+    """Update entry velocities, count rebounds and watch the range of the law at the end of a step."""
+    spread(y, memory.scratch.state)
+    gap = least_gap(data.joint, memory.scratch.state)
+    ledger.count_rebound(data, gap, memory)
+    if gap < data.deepest:
+        memory.beyond[0] = 1.0
+    update_entry_velocity(data.joint, memory.scratch.state, memory.entry_velocity, 0.0)
+
+
+@entry
+def picture(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, fields: FloatArray) -> None:
+    """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
+    spread(y, memory.scratch.state)
+    pressure_field(data.joint, memory.entry_velocity, memory.scratch.state, fields[0])
+
+
+@kernel
+def static_residual(
+    q: FloatArray, data: JournalData, memory: JournalMemory, residual: FloatArray, jacobian: FloatArray
+) -> None:
+    """Fill the generalised load on a journal whose axis is at rest, and its derivative.
+
+    Parameters
+    ----------
+    q
+        Attitude, (e_x, e_y) or (e_x, e_y, φ_x, φ_y), shape (n,).
+    data, memory
+        As for ``rhs``.
+    residual
+        Generalised loads [N, N m], shape (n,).
+    jacobian
+        Derivative in ``q``, shape (n, n).
+    """
+    n = q.size
+    y = memory.scratch.rest[: 2 * n]
+    for i in range(n):
+        y[i] = q[i]
+        y[n + i] = 0.0
+    forces_and_gradient(data, y, memory)
+    for i in range(n):
+        residual[i] = memory.scratch.total[i]
+        for k in range(n):
+            jacobian[i, k] = memory.scratch.wrench_jacobian[i, k]

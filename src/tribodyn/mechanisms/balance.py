@@ -1,0 +1,71 @@
+"""Where the loads on a journal balance: Newton's method for rough contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+
+_MAX_ITERATIONS: Final = 200
+_CONVERGED: Final = 1.0e-13
+"""Length of a step that changes nothing any more [m]."""
+
+Residual: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+"""Returns the generalised loads at an attitude, shape (n,), and their derivative, shape (n, n)."""
+
+
+def damped_newton(
+    residual: Residual, start: FloatArray, scale: FloatArray, longest: float
+) -> FloatArray | None:
+    """Solve residual = 0 by Newton's method with bounded steps and a line search.
+
+    The stiffness of rough contact changes by e every third of σ, so a step may not pass much more.
+
+    Parameters
+    ----------
+    residual
+        Loads and their derivative, see :data:`Residual`.
+    start
+        First guess, shape (n,).
+    scale
+        Size of a unit of each unknown as a length of one metre counts, shape (n,).
+    longest
+        Longest step [m].
+
+    Returns
+    -------
+    numpy.ndarray or None
+        The solution, or None where the iteration does not settle.
+    """
+    q = start.copy()
+    load, jacobian = residual(q)
+    for _ in range(_MAX_ITERATIONS):
+        # A little stiffness where there is none lets the journal move to where there is some.
+        floor = 1.0e-6 * np.abs(jacobian[:2, :2]).max(initial=1.0)
+        damped = jacobian - np.diag(floor / scale**2)
+        step = np.asarray(np.linalg.solve(damped, -load), dtype=np.float64)
+        length = float(np.abs(step / scale).max())
+        if not np.isfinite(length):
+            return None
+        step *= min(1.0, longest / length) if length > 0.0 else 1.0
+        q, load, jacobian = _line_search(residual, q, step, load, scale)
+        if length < _CONVERGED:
+            return q
+    return None
+
+
+def _line_search(
+    residual: Residual, q: FloatArray, step: FloatArray, load: FloatArray, scale: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Halve the step up to five times until the residual is smaller; then take it all the same."""
+    size = float(np.linalg.norm(load * scale))
+    share = 1.0
+    for _ in range(5):
+        trial, gradient = residual(q + share * step)
+        if np.linalg.norm(trial * scale) < size:
+            break
+        share *= 0.5
+    return q + share * step, trial, gradient

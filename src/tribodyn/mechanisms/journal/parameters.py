@@ -1,0 +1,75 @@
+"""Parameters of a journal in a bushing, SI units."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints import BushingJoint
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What acts on the centre of the journal.
+
+    Attributes
+    ----------
+    force_x, force_y
+        W_x and W_y [N].
+    moment_x, moment_y
+        About X (right-handed) and Y (left-handed, as φ_y) [N m]; they matter with tilt only.
+    """
+
+    force_x: float
+    force_y: float
+    moment_x: float = 0.0
+    moment_y: float = 0.0
+
+    @property
+    def force(self) -> float:
+        """Size of the force [N]."""
+        return math.hypot(self.force_x, self.force_y)
+
+    @property
+    def direction(self) -> FloatArray:
+        """Unit vector along the force, shape (2,); along X where there is none."""
+        if self.force == 0.0:
+            return np.array([1.0, 0.0])
+        return np.array([self.force_x, self.force_y]) / self.force
+
+
+@dataclass(frozen=True)
+class Journal:
+    """A rigid journal in a bushing under stated loads.
+
+    Attributes
+    ----------
+    mass
+        Mass [kg].
+    transverse_inertia, spin_inertia
+        Moments of inertia about the centre, across and along the axis [kg m²].
+    tilts
+        Whether the journal can tilt; otherwise it stays parallel to the bushing.
+    speed
+        Speed of rotation ω about Z, right-handed, kept by a drive [rad/s].
+    loads
+        Loads, constant in time.
+    joint
+        The bushing.
+    """
+
+    mass: float
+    transverse_inertia: float
+    spin_inertia: float
+    tilts: bool
+    speed: float
+    loads: Loads
+    joint: BushingJoint
+
+    @property
+    def freedoms(self) -> int:
+        """Number of degrees of freedom: 2, with tilt 4."""
+        return 4 if self.tilts else 2
