@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
-from tribodyn.cli import cases, check, report, run, show
+from tribodyn.cli import cases, check, report, reproduce, run, show
 from tribodyn.cli.console import complain, forgive_encodings
 from tribodyn.cli.interrupt import termination_as_interrupt
 from tribodyn.core.errors import InputError, TribodynError
@@ -35,6 +35,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "show": show,
     "check": check,
     "report": report,
+    "reproduce": reproduce,
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
 
