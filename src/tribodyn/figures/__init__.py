@@ -12,6 +12,7 @@ from tribodyn.figures import (
     energy,
     motion,
     pressure,
+    sweep,
     tilt,
     trajectory,
     vane_error,
@@ -25,9 +26,14 @@ FIGURES: Final[dict[str, Family]] = {
     module.FAMILY.name: module.FAMILY
     for module in (motion, vane_error, contact_force, trajectory, tilt, pressure, wear, energy)
 }
-"""Every figure, in the order in which one reads them."""
+"""Every figure of a run, in the order in which one reads them."""
 
-__all__ = ["FIGURES", "Family", "draw_all"]
+__all__ = ["FIGURES", "Family", "draw_all", "figures_of"]
+
+
+def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
+    """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
+    return sweep.families(dataset) if dataset.attrs.get("kind") == "sweep" else FIGURES
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
@@ -49,7 +55,7 @@ def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for family in FIGURES.values():
+    for family in figures_of(dataset).values():
         path = folder / f"{family.name}.png"
         if not family.drawable(dataset):
             path.unlink(missing_ok=True)
