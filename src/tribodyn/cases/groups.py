@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal
 
 from tribodyn.cases.base import Group, demand
-from tribodyn.cases.keys import ASSUMED, choice, count, number, quantity, switch
+from tribodyn.cases.keys import ASSUMED, Value, choice, count, number, quantity, switch
+
+if TYPE_CHECKING:
+    from tribodyn.contact import ContactLaw, SurfacePair
 
 TABLE_1 = "paper, Table 1"
+MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
+"""Damping factors that use ``contact.design_pressure``."""
 
 
 class Trunnion(Group):
@@ -55,9 +61,32 @@ class Contact(Group):
     law: str = choice("rsdc", "contact law", "paper, section 2", family="tribodyn.contact:LAWS")
     damping_factor: str = choice(
         "lankarani-nikravesh",
-        "how damping follows from restitution in the law rsdc",
+        "how damping follows from restitution; by default none for a law that has no restitution",
         "paper, Eq. 9",
         family="tribodyn.contact:DAMPING_FACTORS",
+    )
+    restitution: float | None = number(
+        None,
+        "restitution meant; rsdc has its own without it",
+        "paper, Eq. 8",
+        gt=0,
+        le=1,
+        example="0.7",
+    )
+    design_pressure: float = quantity(
+        "50 MPa",
+        "peak pressure of the undamped impact that the factors calibrated and kelvin-voigt are made for",
+        ASSUMED,
+        gt=0,
+    )
+    separation_from: str = choice(
+        "asperities",
+        "mean plane from which asperity laws count separations",
+        "paper, section 2",
+        family="tribodyn.contact:SEPARATIONS",
+    )
+    penalty_stiffness: float = quantity(
+        "50 MPa/um", "pressure per penetration of the law linear", ASSUMED, gt=0
     )
     onset_separation: float = number(
         4.0,
@@ -78,6 +107,46 @@ class Contact(Group):
     )
     tensile_clip: bool = switch(True, "whether the total pressure is kept from becoming tensile", ASSUMED)
 
+    @staticmethod
+    def resolve(given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the damping factor of a law that has no restitution of its own and is given none."""
+        name = given.get("contact.law")
+        if name is None or given.get("contact.restitution") is not None:
+            return {}
+        from tribodyn.contact import LAWS
+
+        if name not in LAWS or LAWS[str(name)].knows_restitution:
+            return {}
+        demand(
+            given.get("contact.damping_factor", "none") == "none",
+            "contact.restitution",
+            f"the law {name} has no restitution of its own, and the damping factor needs one, such as 0.7",
+        )
+        return {"contact.damping_factor": "none"}
+
+    def law_of(self, surfaces: SurfacePair, name: str | None = None) -> ContactLaw:
+        """Return the contact law, or another one with the same options, for a pair of surfaces.
+
+        A law without any restitution is left undamped.
+        """
+        from tribodyn.contact import law
+
+        return law(
+            name or self.law,
+            surfaces,
+            damping_factor=self.damping_factor,
+            restitution=self.restitution,
+            design_pressure=self.design_pressure,
+            separation_from=self.separation_from,
+            penalty_stiffness=self.penalty_stiffness,
+        )
+
+    def check(self, surfaces: SurfacePair) -> None:
+        """Refuse options that these surfaces cannot have; the plain law has none to refuse."""
+        if self.damping_factor in MADE_FOR_AN_IMPACT or self.separation_from != "asperities":
+            chosen = self.law_of(surfaces)
+            if chosen.damping_factor in MADE_FOR_AN_IMPACT:
+                chosen.design_separation()
 
 class Joint(Group):
     """The clearance joint: a trunnion in a bushing, with a thrust collar."""

@@ -111,8 +111,8 @@ class Vsv(Case):
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the defaults that follow from the formulation, and the length of the run."""
-        defaults: dict[str, Value] = {}
+        """Return the defaults that follow from the contact law and the formulation, and the length."""
+        defaults = Contact.resolve(given)
         if given.get("mechanism.formulation") == "paper":
             defaults |= {"joint.friction": "moment", "run.start": "centred"}
         if "run.duration" not in given:
@@ -178,6 +178,7 @@ class Vsv(Case):
         self._check_run()
         self._check_inertias()
         self._check_reach()
+        self.contact.check(self.surface_pair)
 
     def _check_run(self) -> None:
         demand(

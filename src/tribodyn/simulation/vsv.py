@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.cases.vsv import Vsv as VsvCase
-from tribodyn.contact import law, tabulate
+from tribodyn.contact import tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
@@ -63,7 +63,7 @@ def simulate_vsv(
 def joint(case: VsvCase) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
     contact = case.contact
-    chosen = law(contact.law, case, damping_factor=contact.damping_factor)
+    chosen = contact.law_of(case.surface_pair)
     table = tabulate(chosen, onset=contact.onset_separation, smoothing_width=contact.smoothing_width)
     return BushingJoint(
         geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
