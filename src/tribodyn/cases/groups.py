@@ -154,7 +154,12 @@ class Joint(Group):
     clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
     length: float = quantity("20 mm", "length of the bushing l_z", TABLE_1, gt=0)
-    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
+    contact: str = choice(
+        "surface",
+        "contact over the surface, or at one point of the clearance circle at each end",
+        "paper, Eq. 44",
+        family="tribodyn.joints:CONTACTS",
+    )
     friction_coefficient: float = number(0.1, "coefficient of friction mu_f", ASSUMED, ge=0, le=2)
     friction: Literal["traction", "moment"] = choice(
         "traction",

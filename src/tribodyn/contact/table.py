@@ -49,7 +49,7 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
     smoothed_rise = share * damping_rise + step * share_slope * damping
     nodes = np.ascontiguousarray(np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise]))
-    energy = _energy_from_above(pressure, pressure_rise, step)
+    energy = energy_from_above(pressure, pressure_rise, step)
     table = ContactTable(H_FIRST, H_LAST, 1.0 / step, nodes, energy)
     if law.damping_factor == "calibrated":
         nodes[:, 2:] *= _scale(law, table, onset)
@@ -87,7 +87,7 @@ def _values_and_rises(values: FloatArray) -> tuple[FloatArray, FloatArray]:
     return values[beyond:-beyond], np.correlate(values, _CENTRAL_DIFFERENCE, mode="valid")
 
 
-def _energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> FloatArray:
+def energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> FloatArray:
     """Return the integral of the Hermite interpolant from each node to the last, shape (n + 1,) [Pa]."""
     interval = step * (0.5 * (pressure[:-1] + pressure[1:]) + (rise[:-1] - rise[1:]) / 12.0)
     return np.append(np.cumsum(interval[::-1])[::-1], 0.0)

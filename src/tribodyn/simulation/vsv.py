@@ -11,11 +11,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.cases.vsv import Vsv as VsvCase
-from tribodyn.contact import tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
@@ -63,15 +62,21 @@ def simulate_vsv(
 def joint(case: VsvCase) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
     contact = case.contact
-    chosen = contact.law_of(case.surface_pair)
-    table = tabulate(chosen, onset=contact.onset_separation, smoothing_width=contact.smoothing_width)
+    geometry = BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length)
     return BushingJoint(
-        geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
+        geometry=geometry,
         friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
         entry=EntryMemory(contact.onset_separation, contact.minimum_entry_velocity, contact.tensile_clip),
         grid=Grid(case.solver.grid.theta, case.solver.grid.z),
         roughness=case.surface_pair.roughness_rms,
-        table=table,
+        table=contact_table(
+            case.joint.contact,
+            contact.law_of(case.surface_pair),
+            geometry,
+            onset=contact.onset_separation,
+            smoothing_width=contact.smoothing_width,
+        ),
+        contact=case.joint.contact,
     )
 
 
