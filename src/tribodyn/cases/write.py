@@ -53,7 +53,7 @@ def _lines(case: Case, key: Key, comments: bool) -> Iterator[str]:
 
 def _example(key: Key) -> str:
     """Return a value for a key that is not in force, where its alternative is."""
-    return f'"{key.example}"' if key.unit else key.example
+    return f'"{key.example}"' if key.unit or key.kind in ("file", "choice") else key.example
 
 
 def comment(key: Key) -> str:

@@ -111,7 +111,7 @@ def _check_spikes(scan: Scan) -> list[str]:
         raise _refused(
             scan,
             f"the height {scan.heights[worst]:.4g} m at point ({place}) stands {off[worst] / scale:.3g} "
-            "times the roughness away from the others; if it marks a missing height or is an error of measurement, "
+            "times the roughness away from the others; if it marks a missing height or is an error, "
             "leave it empty or write nan",
         )
     count = int(np.sum(off > _SPIKE * scale))

@@ -28,6 +28,16 @@ class Spectrum:
     density: FloatArray
 
 
+def in_bands(spectrum: Spectrum, per_decade: int = 16) -> Spectrum:
+    """Return the mean density in bands of equal ratio: that of a single profile is noise otherwise."""
+    band = np.floor(np.log10(spectrum.frequency / spectrum.frequency[0]) * per_decade).astype(np.int64)
+    used, place, count = np.unique(band, return_inverse=True, return_counts=True)
+    frequency, density = (
+        np.bincount(place, values, used.size) / count for values in (spectrum.frequency, spectrum.density)
+    )
+    return Spectrum(frequency, density)
+
+
 def spectra(scan: Scan) -> dict[str, Spectrum]:
     """Return the mean density of the profiles along ``x``, and of those along ``y`` in a map.
 
