@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 from typing import Final
 
+from tribodyn.core.errors import InputError
 from tribodyn.results.atomic import replacing, write_text
 from tribodyn.results.store import CASE, RESULT, SUMMARY
 from tribodyn.studies.plan import Point
@@ -24,10 +25,17 @@ class Archive:
     ----------
     directory
         Folder of the sweep; ``points/`` in it is made when the first point is kept.
+
+    Raises
+    ------
+    InputError
+        Something else has the name of that folder.
     """
 
     def __init__(self, directory: Path) -> None:
         self.folder = directory / POINTS
+        if self.folder.exists() and not self.folder.is_dir():
+            raise InputError(f"{self.folder} is a file; choose another directory", key="--output")
 
     def find(self, point: Point) -> Numbers | None:
         """Return the summary of a point that is done, None where there is none that can be read."""

@@ -10,7 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cases import Case, load_case
+from tribodyn.cases import Case, keys_of, load_case
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.results.atomic import replacing, write_text
 from tribodyn.results.store import prepare_directory
@@ -19,7 +19,7 @@ from tribodyn.studies.archive import Archive
 from tribodyn.studies.merge import NOT_COMPUTED, merge
 from tribodyn.studies.plan import Plan, Point, Sampling, make_plan
 from tribodyn.studies.statistics import statistics
-from tribodyn.studies.variation import Asked
+from tribodyn.studies.variation import Asked, written
 from tribodyn.studies.work import Numbers
 
 if TYPE_CHECKING:
@@ -209,18 +209,22 @@ def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -
 
 
 def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the sweep as JSON holds it: one entry a point, flat, and the statistics of samples."""
+    """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
+    keys = keys_of(type(plan.case))
     nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
     return {
         "title": plan.case.title,
         "tribodyn_version": version("tribodyn"),
         "points": [
-            {"point": point.name, **point.changes, **summaries.get(point.name, nothing)}
+            {"point": point.name, "changes": dict(point.changes), **summaries.get(point.name, nothing)}
             for point in plan.points
         ],
         "statistics": [
-            {"at": values, **{name: _finite(numbers) for name, numbers in found.items()}}
-            for values, found in statistics(dataset)
+            {
+                "at": {path: written(keys[path], value) for path, value in at.items()},
+                "numbers": {name: _finite(numbers) for name, numbers in found.items()},
+            }
+            for at, found in statistics(dataset)
         ],
     }
 
