@@ -148,6 +148,7 @@ class Contact(Group):
             if chosen.damping_factor in MADE_FOR_AN_IMPACT:
                 chosen.design_separation()
 
+
 class Joint(Group):
     """The clearance joint: a trunnion in a bushing, with a thrust collar."""
 
@@ -160,6 +161,7 @@ class Joint(Group):
         "paper, Eq. 44",
         family="tribodyn.joints:CONTACTS",
     )
+    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
     friction_coefficient: float = number(0.1, "coefficient of friction mu_f", ASSUMED, ge=0, le=2)
     friction: Literal["traction", "moment"] = choice(
         "traction",
