@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal
 
 from tribodyn.cases.base import Group, demand
-from tribodyn.cases.keys import ASSUMED, Value, choice, count, number, quantity, switch
+from tribodyn.cases.keys import ASSUMED, Value, choice, count, file, number, quantity, switch, text
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair
@@ -22,6 +22,7 @@ class Trunnion(Group):
     young_modulus: float = quantity("203 GPa", "Young's modulus E_1", TABLE_1, gt=0)
     poisson_ratio: float = number(0.27, "Poisson's ratio nu_1", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity("0.392 um", "root mean square roughness sigma_1", TABLE_1, ge=0)
+    surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
 
 class Bushing(Group):
@@ -31,6 +32,7 @@ class Bushing(Group):
     poisson_ratio: float = number(0.34, "Poisson's ratio nu_2", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity("1.586 um", "root mean square roughness sigma_2", TABLE_1, ge=0)
     hardness: float = quantity("492 MPa", "hardness H", TABLE_1, gt=0)
+    surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
 
 
 class Surfaces(Group):
@@ -53,6 +55,20 @@ class Asperities(Group):
 
     density: float = quantity("0.038 1/um^2", "asperities per area xi", TABLE_1, gt=0)
     radius: float = quantity("8.17 um", "radius of the asperity tips beta", TABLE_1, gt=0)
+    origin: str = text("", "where these and the roughness come from, if not from the paper")
+    surface: str | None = file("scan that gives these and the roughness, instead of them", "scan.csv")
+    level: str | None = choice(
+        None, "what is taken off a scan", "", family="tribodyn.surfaces:LEVELS", example="plane"
+    )
+    filter: str | None = choice(
+        None, "filter of the cut-offs", "", family="tribodyn.surfaces:FILTERS", example="gaussian"
+    )
+    short_cutoff: float | None = quantity(
+        None, "shortest wavelength kept of a scan; all without it", "", gt=0, example="2.5 um"
+    )
+    long_cutoff: float | None = quantity(
+        None, "longest wavelength kept of a scan; all without it", "", gt=0, example="0.8 mm"
+    )
 
 
 class Contact(Group):
