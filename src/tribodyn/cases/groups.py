@@ -165,8 +165,8 @@ class Contact(Group):
                 chosen.design_separation()
 
 
-class Joint(Group):
-    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
+class PlainJoint(Group):
+    """The clearance joint: a journal in a bushing."""
 
     clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
@@ -177,7 +177,6 @@ class Joint(Group):
         "paper, Eq. 44",
         family="tribodyn.joints:CONTACTS",
     )
-    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
     friction_coefficient: float = number(0.1, "coefficient of friction mu_f", ASSUMED, ge=0, le=2)
     friction: Literal["traction", "moment"] = choice(
         "traction",
@@ -193,6 +192,12 @@ class Joint(Group):
             "joint.clearance",
             "the clearance must not exceed a tenth of joint.radius",
         )
+
+
+class Joint(PlainJoint):
+    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
+
+    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
 
 
 class Wear(Group):
