@@ -15,7 +15,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
 

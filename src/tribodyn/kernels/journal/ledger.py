@@ -12,6 +12,7 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.bushing.joint import report
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
 from tribodyn.kernels.journal.equations import spread
@@ -34,7 +35,7 @@ def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory, with_energ
     """Fill ``scratch.state`` and ``scratch.report`` of one instant."""
     scratch = memory.scratch
     spread(y, scratch.state)
-    joint_report.report(
+    report(
         data.joint,
         memory.entry_velocity,
         scratch.state,
