@@ -19,7 +19,7 @@ from tribodyn.kernels.jit import kernel
 
 @kernel
 def friction_load(memory: FilmMemory, i: int, j: int) -> float:
-    """Return ∂M_z/∂π of a node [1], in units of the force scale: the pressure part of the fluid friction.
+    """Return ∂M_z/∂π of a node [m], in units of the force scale: the pressure part of the fluid friction.
 
     −½ ∫ h φ_fp ∂p/∂θ dA, summed by parts.
     """

@@ -124,13 +124,13 @@ class FilmFields(NamedTuple):
     wedge
         (h_T + σ φ_s)/c on θ faces times the row weight, shape (n, m).
     drag
-        h φ_fp/c on θ faces times the row weight, shape (n, m).
+        h φ_fp [m] on θ faces times the row weight, shape (n, m).
     couette
         c φ_f/h on z faces, shape (n, m + 1).
     contact
         φ_c times the row weight at nodes, shape (n, m).
     dk_theta, dk_z, d_wedge, d_drag, d_couette, d_contact
-        Their derivatives by h [1/m].
+        Their derivatives by h.
     source
         Right-hand side of the equation for the pressure [1/s], shape (n, m).
     """

@@ -5,8 +5,8 @@ Finite volumes around the nodes. With ζ = z/r, h̄ = h/c and π = p/(6 η r²/c
     Σ_faces K (π − π_neighbour) = −ω [wedge]_θ Δζ − 2 φ_c (∂h̄/∂t) Δθ Δζ,
 
 K = φ_θ h̄³ Δζ/Δθ or φ_z h̄³ Δθ/Δζ at the faces, wedge = (h_T + σ φ_s)/c, with the journal as the moving
-surface 1. φ_c ∂h/∂θ is written as ∂h_T/∂θ, which it is, so that what leaves one cell enters the next. Gaps are
-taken where they are needed, at nodes and at faces, not averaged.
+surface 1. φ_c ∂h/∂θ is written as ∂h_T/∂θ, which it is, so that what leaves one cell enters the next. Gaps
+are taken where they are needed, at nodes and at faces, not averaged.
 """
 
 from __future__ import annotations
@@ -95,11 +95,11 @@ def pressure_conductance(film: FilmData, gap: float, member: int) -> tuple[float
 
 @kernel
 def shear_terms(film: FilmData, gap: float) -> tuple[float, float, float, float]:
-    """Return (h_T + σ φ_s)/c and h φ_fp/c at a θ face, each with its derivative by h [1/m]."""
+    """Return (h_T + σ φ_s)/c [1] and h φ_fp [m] at a θ face, each with its derivative by h."""
     sigma = film.roughness
     inverse = 1.0 / film.clearance
     if sigma == 0.0:
-        return gap * inverse, inverse, gap * inverse, inverse
+        return gap * inverse, inverse, gap, 1.0
     mean, slope, _ = mean_gap(film.table, sigma, gap)
     least = LEAST_SEPARATION * sigma
     h = max(gap, least)
@@ -109,9 +109,9 @@ def shear_terms(film: FilmData, gap: float) -> tuple[float, float, float, float]
     phi = cubic(friction, x)
     wedge = (mean + sigma * cubic(shear, x)) * inverse
     if gap < least:
-        return wedge, slope * inverse, h * phi * inverse, 0.0
+        return wedge, slope * inverse, h * phi, 0.0
     d_wedge = (slope + sigma * cubic_slope(shear, x) * dx) * inverse
-    return wedge, d_wedge, h * phi * inverse, (phi + h * cubic_slope(friction, x) * dx) * inverse
+    return wedge, d_wedge, h * phi, phi + h * cubic_slope(friction, x) * dx
 
 
 @kernel

@@ -36,16 +36,23 @@ def film_pressure(film: FilmData, memory: FilmMemory, pressure: FloatArray) -> N
 def film_leakage(film: FilmData, memory: FilmMemory) -> float:
     """Return the volume that leaves both ends per second [m³/s]: −∮ φ_z h³/(12 η) ∂p/∂z r dθ, outward."""
     n, m = memory.pressure.shape
-    fields, rows = memory.fields, memory.effort[1]
-    half = rows < m
+    half = memory.effort[1] < m
     total = 0.0
     for i in range(n):
-        first, last = memory.pressure[i, 0], memory.pressure[i, m - 1]
-        if film.cavitation == HALF_SOMMERFELD:
-            first, last = max(first, 0.0), max(last, 0.0)
-        total += fields.k_z[i, 0] * first
-        total += (fields.k_z[i, 0] if half else fields.k_z[i, rows]) * last
+        total += _outflow(film, memory, i, 0, 1)
+        total += _outflow(film, memory, i, 0, 1) if half else _outflow(film, memory, i, m - 1, -1)
     return 0.5 * film.radius * film.radius * film.clearance * total
+
+
+@kernel
+def _outflow(film: FilmData, memory: FilmMemory, i: int, j: int, inward: int) -> float:
+    """Return what leaves the end next to row ``j``: slope of a parabola, conductance carried on to it."""
+    first, second = memory.pressure[i, j], memory.pressure[i, j + inward]
+    if film.cavitation == HALF_SOMMERFELD:
+        first, second = max(first, 0.0), max(second, 0.0)
+    face = j if inward > 0 else j + 1
+    k_z = memory.fields.k_z
+    return (1.5 * k_z[i, face] - 0.5 * k_z[i, face + inward]) * (2.0 * first - 0.5 * second)
 
 
 @entry
