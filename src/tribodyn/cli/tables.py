@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
-_COLUMN: Final = 11
+_COLUMN: Final = 13
 _LONGEST: Final = 22
 _MOST_ROWS: Final = 40
 _LEFT_OUT: Final = ("Trust", "Effort")
