@@ -156,6 +156,7 @@ class Film:
     def memory(self) -> FilmMemory:
         """Return the cache of one thread: cavitation of the last evaluation, and scratch."""
         n, m = self.grid.theta, self.grid.z - 1
+        unknowns = (n - 1) * m if self.cavitation == "jfo" else 0
         return FilmMemory(
             active=np.ones((n, m), dtype=np.int8),
             pressure=np.zeros((n, m)),
@@ -166,6 +167,8 @@ class Film:
             chart=np.zeros((5, 9)),
             fields=_fields(n, m),
             system=_system(n, m),
+            transport=np.zeros((unknowns, 2 * m + 1)),
+            amount=np.zeros(unknowns),
             effort=np.zeros(2, dtype=np.int64),
         )
 

@@ -13,7 +13,8 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve
-from tribodyn.kernels.film.data import HALF_SOMMERFELD, FilmData, FilmMemory
+from tribodyn.kernels.film.data import HALF_SOMMERFELD, JFO, FilmData, FilmMemory
+from tribodyn.kernels.film.jfo import couette_by_fill, filled_column, transport_adjoint
 from tribodyn.kernels.jit import kernel
 
 
@@ -30,11 +31,14 @@ def friction_load(memory: FilmMemory, i: int, j: int) -> float:
 
 
 @kernel
-def solve_adjoints(film: FilmData, memory: FilmMemory, rows: int, half: bool) -> None:
+def solve_adjoints(film: FilmData, memory: FilmMemory, omega: float, rows: int, half: bool) -> None:
     """Fill ``memory.adjoint``; the factors of the film must be in ``memory.system``.
 
     A symmetric film answers tilts with odd fields, which vanish in the middle row: a system of its own.
     """
+    if film.cavitation == JFO:
+        _solve_transport(film, memory, omega)
+        return
     if not half:
         _solve_for(film, memory, rows, rows, 0, 5)
         return
@@ -60,16 +64,35 @@ def _solve_for(film: FilmData, memory: FilmMemory, rows: int, solved: int, first
             weight = fields.weight[j]
             z = film.z_node[j + 1]
             share = 0.0 if positive_only and memory.pressure[i, j] <= 0.0 else 1.0
-            loads = (weight * c, weight * s, friction_load(memory, i, j), -weight * z * s, -weight * z * c)
+            loads = (c, s, friction_load(memory, i, j) / weight, -z * s, -z * c)
             for m in range(5):
                 if first <= m < first + count:
-                    system.right[k, m - first] = share * loads[m]
+                    system.right[k, m - first] = share * weight * loads[m]
     solve(system, count)
     for i in range(active.shape[0]):
         for j in range(rows):
             k = system.number[i, j] if j < solved and active[i, j] == 1 else -1
             for m in range(count):
                 memory.adjoint[first + m, i, j] = system.right[k, m] if k >= 0 else 0.0
+
+
+@kernel
+def _solve_transport(film: FilmData, memory: FilmMemory, omega: float) -> None:
+    """Solve for all members with ``jfo``: cavitated nodes count by the friction of their oil."""
+    fields, active = memory.fields, memory.active
+    n, rows = active.shape
+    friction = couette_scale(film) * omega / force_scale(film)
+    for m in range(5):
+        for i in range(1, n):
+            c, s = fields.cos_node[i], fields.sin_node[i]
+            for j in range(rows):
+                k = (i - 1) * rows + j
+                z = film.z_node[j + 1]
+                if active[i, j] == 1:
+                    memory.amount[k] = (c, s, friction_load(memory, i, j), -z * s, -z * c)[m]
+                else:
+                    memory.amount[k] = friction * couette_by_fill(fields.couette, i, j) if m == 2 else 0.0
+        transport_adjoint(memory, m)
 
 
 @kernel
@@ -143,8 +166,9 @@ def _theta_sums(
     fields, sums, adjoint, pressure = memory.fields, memory.gradient[m], memory.adjoint[m], memory.pressure
     n = pressure.shape[0]
     squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.clearance
+    if film.cavitation == JFO:
+        squeeze = 0.0
     friction = explicit * n / (4.0 * math.pi)
-    wedge = omega * d_zeta
     positive_only = film.cavitation == HALF_SOMMERFELD
     speed = 0.0
     for i in range(n):
@@ -153,12 +177,14 @@ def _theta_sums(
         c, s = fields.cos_node[i], fields.sin_node[i]
         for j in range(rows):
             rise = adjoint[i, j] - adjoint[after, j]
+            filled = memory.fill[i, j] if omega > 0.0 else memory.fill[after, j]
+            flow = d_zeta * filled * rise
             here, there = pressure[i, j], pressure[after, j]
-            face = -rise * (fields.dk_theta[i, j] * (here - there) + wedge * fields.d_wedge[i, j])
+            face = -rise * fields.dk_theta[i, j] * (here - there) - omega * flow * fields.d_wedge[i, j]
             if positive_only:
                 here, there = max(here, 0.0), max(there, 0.0)
             face += friction * fields.d_drag[i, j] * (here - there)
-            speed -= d_zeta * rise * fields.wedge[i, j]
+            speed -= flow * fields.wedge[i, j]
             rate = fields.offset[2, j] * c + fields.offset[3, j] * s
             node = -squeeze * adjoint[i, j]
             bend = node * fields.d_contact[i, j] * rate
@@ -202,8 +228,9 @@ def _couette_sums(memory: FilmMemory, omega: float, share: float, rows: int, hal
     for i in range(memory.pressure.shape[0]):
         c, s = fields.cos_node[i], fields.sin_node[i]
         for j in range(faces):
-            slope = share * omega * fields.d_couette[i, j]
+            filled = share * filled_column(memory.fill, i, j)
+            slope = omega * filled * fields.d_couette[i, j]
             sums[4, j] += slope * c
             sums[5, j] += slope * s
-            total += share * fields.couette[i, j]
+            total += filled * fields.couette[i, j]
     return total

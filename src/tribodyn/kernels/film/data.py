@@ -199,7 +199,7 @@ class FilmMemory(NamedTuple):
     pressure
         p/(6 η r²/c²) [1/s]; with ``half-sommerfeld`` before negative values are left out.
     fill
-        Fraction of the gap that holds oil.
+        Fraction of the gap that holds oil; 1 but with ``jfo``.
     adjoint
         Derivatives of the wrench by the source, shape (5, n_theta, n_z − 1).
     gradient
@@ -210,6 +210,9 @@ class FilmMemory(NamedTuple):
         Derivatives of the wrench in these and ω, shape (5, 9).
     fields, system
         The film at one state, and the linear system for its pressure.
+    transport, amount
+        Matrix and unknowns (π or f) of ``jfo``, behind the groove, shapes (N, 2 n_z − 1) and (N,), N =
+        (n_theta − 1)(n_z − 1); empty for the other models.
     effort
         Factorisations of the last evaluation, and the number of rows it used, shape (2,).
     """
@@ -223,4 +226,6 @@ class FilmMemory(NamedTuple):
     chart: FloatArray
     fields: FilmFields
     system: BandSystem
+    transport: FloatArray
+    amount: FloatArray
     effort: IntArray

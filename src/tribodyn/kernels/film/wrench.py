@@ -18,8 +18,9 @@ from tribodyn.kernels.film.adjoint import (
 )
 from tribodyn.kernels.film.attitude import chart_of, from_chart, turn_with_groove
 from tribodyn.kernels.film.cavitation import solve_pressure
-from tribodyn.kernels.film.data import CONVERGED, HALF_SOMMERFELD, FilmData, FilmMemory
+from tribodyn.kernels.film.data import CONVERGED, HALF_SOMMERFELD, JFO, FilmData, FilmMemory
 from tribodyn.kernels.film.gap import evaluate_gap
+from tribodyn.kernels.film.jfo import filled_column, solve_transport
 from tribodyn.kernels.jit import entry, kernel
 
 
@@ -42,7 +43,7 @@ def film_wrench_and_jacobian(
         return status
     rows = memory.effort[1]
     half = rows < memory.pressure.shape[1]
-    solve_adjoints(film, memory, rows, half)
+    solve_adjoints(film, memory, omega, rows, half)
     fill_chart(film, memory, omega, rows, half)
     if film.groove == 1:
         turn_with_groove(u, out, memory.chart)
@@ -55,12 +56,22 @@ def _solve(film: FilmData, memory: FilmMemory, omega: float, out: FloatArray) ->
     """Solve for the pressure at ``memory.state`` and integrate it."""
     u = memory.state
     n_z = film.z_face.size
-    half = film.mirror == 1 and u[2] == 0.0 and u[3] == 0.0 and u[6] == 0.0 and u[7] == 0.0
+    half = (
+        film.mirror == 1
+        and film.cavitation != JFO
+        and u[2] == 0.0
+        and u[3] == 0.0
+        and u[6] == 0.0
+        and u[7] == 0.0
+    )
     rows = n_z // 2 if half else n_z - 1
     memory.effort[1] = rows
     status = evaluate_gap(film, memory.fields, u, omega, rows, half)
     if status == CONVERGED:
-        status = solve_pressure(film, memory, rows)
+        if film.cavitation == JFO:
+            status = solve_transport(film, memory, omega)
+        else:
+            status = solve_pressure(film, memory, rows)
     if status != CONVERGED:
         for k in range(5):
             out[k] = math.nan
@@ -104,7 +115,7 @@ def _integrate(
     couette = 0.0
     for i in range(memory.pressure.shape[0]):
         for j in range(faces):
-            couette += fields.couette[i, j]
+            couette += fields.couette[i, j] * filled_column(memory.fill, i, j)
     scale = force_scale(film)
     both = 2.0 if half else 1.0
     out[0] = both * scale * f_x
