@@ -10,6 +10,7 @@ import xarray as xr
 from tribodyn.figures import (
     contact_force,
     energy,
+    mechanism,
     motion,
     pressure,
     sweep,
@@ -19,12 +20,21 @@ from tribodyn.figures import (
     wear,
 )
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import DPI
-from tribodyn.results.atomic import replacing
+from tribodyn.figures.save import remove, save
 
 FIGURES: Final[dict[str, Family]] = {
     module.FAMILY.name: module.FAMILY
-    for module in (motion, vane_error, contact_force, trajectory, tilt, pressure, wear, energy)
+    for module in (
+        motion,
+        vane_error,
+        contact_force,
+        trajectory,
+        tilt,
+        pressure,
+        wear,
+        energy,
+        mechanism,
+    )
 }
 """Every figure of a run, in the order in which one reads them."""
 
@@ -37,7 +47,7 @@ def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
-    """Draw every figure that the result holds the data for, as PNG.
+    """Draw every figure that the result holds the data for, as PNG and as PDF.
 
     Parameters
     ----------
@@ -50,17 +60,14 @@ def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     Returns
     -------
     list of pathlib.Path
-        The files written, in reading order.
+        The PNG files written, in reading order; the PDF of each stands beside it.
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for family in figures_of(dataset).values():
-        path = folder / f"{family.name}.png"
-        if not family.drawable(dataset):
-            path.unlink(missing_ok=True)
-            continue
-        with replacing(path) as part:
-            family.draw(dataset).savefig(part, format="png", dpi=DPI)
-        written.append(path)
+        if family.drawable(dataset):
+            written.append(save(family.draw(dataset), folder, family.name))
+        else:
+            remove(folder, family.name)
     return written

@@ -7,21 +7,18 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.cases import Vsv, parse_case
-from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
+from tribodyn.figures.mechanism import MM, case_of, crank_pivot, crank_tip
 from tribodyn.report.base import Payload, Section
 from tribodyn.report.encode import packed
 from tribodyn.report.film import at_frames, film_times
 
-MM: Final = 1e3
 _SHOWN_CLEARANCE: Final = 0.35
 """Share of the trunnion radius as which the clearance is first shown."""
 
 
 def data(dataset: xr.Dataset) -> Payload | None:
     """Return points [mm], angles [rad] and the attitude of the trunnion [mm, rad] at the frames."""
-    case = _case(dataset)
+    case = case_of(dataset)
     if case is None or film_times(dataset).size < 2:
         return None
     joint = case.joint
@@ -37,20 +34,11 @@ def data(dataset: xr.Dataset) -> Payload | None:
             "clearance": joint.clearance * MM,
         },
         "magnification": _magnification(joint.radius / joint.clearance),
-        "pivot": [float(value) for value in _pivot(case)],
-        "crank_tip": packed(_crank_tip(case, at_frames(dataset, "theta_a"))),
+        "pivot": [float(value) for value in crank_pivot(case)],
+        "crank_tip": packed(crank_tip(case, at_frames(dataset, "theta_a"))),
         **{name: packed(at_frames(dataset, name)) for name in ("theta_b", "theta_v", "phi_x", "phi_y")},
         **{name: packed(at_frames(dataset, name, MM)) for name in ("h_1", "e_x", "e_y")},
     }
-
-
-def _case(dataset: xr.Dataset) -> Vsv | None:
-    """Return the case of a result; nothing where its text is not (or no longer) one."""
-    try:
-        case = parse_case(str(dataset.attrs.get("case", "")), "case of the result")
-    except InputError:
-        return None
-    return case if isinstance(case, Vsv) else None
 
 
 def _magnification(ratio: float) -> dict[str, Any]:
@@ -67,19 +55,6 @@ def _magnification(ratio: float) -> dict[str, Any]:
     return {"value": value, "most": 2.0 * value}
 
 
-def _pivot(case: Vsv) -> FloatArray:
-    """Return the crank pivot A [mm], shape (3,)."""
-    m = case.mechanism
-    reach, gamma = m.pivot_distance, m.pivot_angle
-    return MM * np.array([reach * np.cos(gamma), m.lever_length, reach * np.sin(gamma)])
-
-
-def _crank_tip(case: Vsv, theta_a: FloatArray) -> FloatArray:
-    """Return S1 = A + l_1 (−sin θ_a, 0, cos θ_a) [mm], shape (n, 3)."""
-    arm = np.stack([-np.sin(theta_a), np.zeros_like(theta_a), np.cos(theta_a)], axis=1)
-    return _pivot(case) + MM * case.mechanism.crank_length * arm
-
-
 SECTION: Final = Section(
     name="mechanism",
     title="The mechanism",
@@ -90,4 +65,5 @@ SECTION: Final = Section(
     needs=("theta_a", "theta_b", "theta_v", "h_1", "e_x", "e_y", "phi_x", "phi_y"),
     widget="scene",
     data=data,
+    still="mechanism",
 )
