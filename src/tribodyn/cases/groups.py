@@ -49,6 +49,19 @@ class Surfaces(Group):
             "one of the two surfaces must be rough: a roughness above 0 is needed here or for the trunnion",
         )
 
+    def pair(self, asperities: Asperities) -> SurfacePair:
+        """Return the two surfaces in contact, as contact laws take them."""
+        from tribodyn.contact import SurfacePair
+
+        return SurfacePair(
+            young_modulus=(self.trunnion.young_modulus, self.bushing.young_modulus),
+            poisson_ratio=(self.trunnion.poisson_ratio, self.bushing.poisson_ratio),
+            roughness=(self.trunnion.roughness, self.bushing.roughness),
+            hardness=self.bushing.hardness,
+            asperity_density=asperities.density,
+            asperity_radius=asperities.radius,
+        )
+
 
 class Asperities(Group):
     """The asperities of the equivalent rough surface."""

@@ -122,17 +122,7 @@ class Vsv(Case):
     @property
     def surface_pair(self) -> SurfacePair:
         """The two surfaces in contact, as contact laws take them."""
-        from tribodyn.contact import SurfacePair
-
-        trunnion, bushing = self.surfaces.trunnion, self.surfaces.bushing
-        return SurfacePair(
-            young_modulus=(trunnion.young_modulus, bushing.young_modulus),
-            poisson_ratio=(trunnion.poisson_ratio, bushing.poisson_ratio),
-            roughness=(trunnion.roughness, bushing.roughness),
-            hardness=bushing.hardness,
-            asperity_density=self.asperities.density,
-            asperity_radius=self.asperities.radius,
-        )
+        return self.surfaces.pair(self.asperities)
 
     @property
     def period(self) -> float:

@@ -14,13 +14,13 @@ from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
 from tribodyn.simulation.frames import frame_times, merged, shown
+from tribodyn.simulation.joint import joint
 from tribodyn.simulation.ledger import ledger_columns, residual_fractions
 from tribodyn.simulation.provenance import provenance
 from tribodyn.simulation.times import output_times, snapshots
@@ -57,27 +57,6 @@ def simulate_vsv(
         stop=stop,
     )
     return _Gathered(case, vsv, problem, solution).dataset()
-
-
-def joint(case: VsvCase) -> BushingJoint:
-    """Return the clearance joint of a case with its tabulated contact law."""
-    contact = case.contact
-    geometry = BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length)
-    return BushingJoint(
-        geometry=geometry,
-        friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
-        entry=EntryMemory(contact.onset_separation, contact.minimum_entry_velocity, contact.tensile_clip),
-        grid=Grid(case.solver.grid.theta, case.solver.grid.z),
-        roughness=case.surface_pair.roughness_rms,
-        table=contact_table(
-            case.joint.contact,
-            contact.law_of(case.surface_pair),
-            geometry,
-            onset=contact.onset_separation,
-            smoothing_width=contact.smoothing_width,
-        ),
-        contact=case.joint.contact,
-    )
 
 
 def mechanism(case: VsvCase) -> Vsv:
