@@ -305,7 +305,7 @@ def _distributions(axes: Axes, groups: list[tuple[FloatArray, str]]) -> None:
                 values, bins="auto", orientation="horizontal", color=colour, alpha=0.35, label=label or "_"
             )
             axes.axhline(float(np.median(values)), color=colour, lw=1.2, ls=dash)
-    if len(groups) > 1:
+    if len(groups) > 1 and any(values.size for values, _ in groups):
         legend(axes, 2)
     elif groups[0][0].size:
         _mark_quantiles(axes, groups[0][0])
