@@ -101,55 +101,30 @@ def assemble(system: BandSystem, fields: FilmFields, rows: int) -> None:
 
 @kernel
 def factorise(system: BandSystem) -> None:
-    """Replace the matrix by its factors; pivots are kept inverted.
-
-    Two pivots at a time, so that every row below is fetched and stored half as often.
-    """
+    """Replace the matrix by its factors; pivots are kept inverted."""
     inner, edge = system.size[0], system.size[1]
     band, border, corner = system.band, system.border, system.corner
-    for k in range(0, inner, 2):
+    for k in range(inner):
         inverse = 1.0 / band[k, 0]
-        if k + 1 == inner:
-            _corner_update(corner, border, k, inverse, edge)
-            _scale(band, border, k, inverse, system.reach[k] - k, edge)
-            break
-        factor = band[k, 1] * inverse
-        for e in range(system.reach[k] - k):
-            band[k + 1, e] -= factor * band[k, 1 + e]
-        for e in range(edge):
-            border[k + 1, e] -= factor * border[k, e]
-        second = 1.0 / band[k + 1, 0]
-        last = system.reach[k + 1] - k
-        for d in range(2, last + 1):
+        width = system.reach[k] - k
+        for d in range(1, width + 1):
             factor = band[k, d] * inverse
-            other = band[k + 1, d - 1] * second
-            for e in range(last + 1 - d):
-                band[k + d, e] -= factor * band[k, d + e] + other * band[k + 1, d - 1 + e]
-            for e in range(edge):
-                border[k + d, e] -= factor * border[k, e] + other * border[k + 1, e]
-        _corner_update(corner, border, k, inverse, edge)
-        _corner_update(corner, border, k + 1, second, edge)
-        _scale(band, border, k, inverse, last, edge)
-        _scale(band, border, k + 1, second, last - 1, edge)
+            if factor != 0.0:
+                for e in range(width + 1 - d):
+                    band[k + d, e] -= factor * band[k, d + e]
+                for e in range(edge):
+                    border[k + d, e] -= factor * border[k, e]
+        for e in range(edge):
+            factor = border[k, e] * inverse
+            if factor != 0.0:
+                for f in range(e + 1):
+                    corner[e, f] -= factor * border[k, f]
+        band[k, 0] = inverse
+        for d in range(1, width + 1):
+            band[k, d] *= inverse
+        for e in range(edge):
+            border[k, e] *= inverse
     _factorise_corner(corner, edge)
-
-
-@kernel
-def _corner_update(corner: FloatArray, border: FloatArray, k: int, inverse: float, edge: int) -> None:
-    for e in range(edge):
-        factor = border[k, e] * inverse
-        if factor != 0.0:
-            for f in range(e + 1):
-                corner[e, f] -= factor * border[k, f]
-
-
-@kernel
-def _scale(band: FloatArray, border: FloatArray, k: int, inverse: float, width: int, edge: int) -> None:
-    band[k, 0] = inverse
-    for d in range(1, width + 1):
-        band[k, d] *= inverse
-    for e in range(edge):
-        border[k, e] *= inverse
 
 
 @kernel
@@ -171,12 +146,8 @@ def solve(system: BandSystem) -> None:
     inner, edge = system.size[0], system.size[1]
     band, border, corner, right = system.band, system.border, system.corner, system.right
     for k in range(inner):
-        for d in range(1, system.reach[k] - k + 1):
-            for c in range(SIDES):
-                right[k + d, c] -= band[k, d] * right[k, c]
-        for e in range(edge):
-            for c in range(SIDES):
-                right[inner + e, c] -= border[k, e] * right[k, c]
+        _forward(right, k, k + 1, band[k, 1:], system.reach[k] - k)
+        _forward(right, k, inner, border[k], edge)
     for k in range(edge):
         for i in range(k + 1, edge):
             for c in range(SIDES):
@@ -190,12 +161,39 @@ def solve(system: BandSystem) -> None:
     for k in range(inner - 1, -1, -1):
         for c in range(SIDES):
             right[k, c] *= band[k, 0]
-        for d in range(1, system.reach[k] - k + 1):
-            for c in range(SIDES):
-                right[k, c] -= band[k, d] * right[k + d, c]
-        for e in range(edge):
-            for c in range(SIDES):
-                right[k, c] -= border[k, e] * right[inner + e, c]
+        _backward(right, k, k + 1, band[k, 1:], system.reach[k] - k)
+        _backward(right, k, inner, border[k], edge)
+
+
+@kernel
+def _forward(right: FloatArray, k: int, first: int, factors: FloatArray, count: int) -> None:
+    """Subtract row ``k`` times the factors from the rows from ``first`` on."""
+    a, b, c, d, e = right[k, 0], right[k, 1], right[k, 2], right[k, 3], right[k, 4]
+    for i in range(count):
+        factor = factors[i]
+        right[first + i, 0] -= factor * a
+        right[first + i, 1] -= factor * b
+        right[first + i, 2] -= factor * c
+        right[first + i, 3] -= factor * d
+        right[first + i, 4] -= factor * e
+
+
+@kernel
+def _backward(right: FloatArray, k: int, first: int, factors: FloatArray, count: int) -> None:
+    """Subtract the rows from ``first`` on times the factors from row ``k``."""
+    a = b = c = d = e = 0.0
+    for i in range(count):
+        factor = factors[i]
+        a += factor * right[first + i, 0]
+        b += factor * right[first + i, 1]
+        c += factor * right[first + i, 2]
+        d += factor * right[first + i, 3]
+        e += factor * right[first + i, 4]
+    right[k, 0] -= a
+    right[k, 1] -= b
+    right[k, 2] -= c
+    right[k, 3] -= d
+    right[k, 4] -= e
 
 
 @kernel
