@@ -118,8 +118,8 @@ def test_the_theory_counts_the_summits_there_are() -> None:
     summits = np.all([inside > other for other in around], axis=0)
     laplacian = sum(around[k] for k in (1, 3, 4, 6)) - 4.0 * inside
     expected = asperities(spectrum.moments(2))
-    # Some thousand summits: a scatter of 3 % of their number and of 2 % of their spread. The grid, with sixteen
-    # points to the shortest wave, takes 1 % of the curvature.
+    # Some thousand summits: a scatter of 3 % of their number and of 2 % of their spread. The grid, with
+    # sixteen points to the shortest wave, takes 1 % of the curvature.
     assert summits.sum() / (1022e-6) ** 2 == pytest.approx(expected.density, rel=0.05)
     assert -2.0 * STEP**2 / laplacian[summits].mean() == pytest.approx(expected.radius, rel=0.05)
     assert inside[summits].std() == pytest.approx(expected.summit_rms, rel=0.05)
