@@ -81,7 +81,7 @@ def execute(args: Namespace) -> int:
     _tell(directory.path, console)
     lost = int(dataset.attrs["points_failed"])
     if lost:
-        complain(_lost(dataset, lost, stopped=interruption.requested))
+        complain(_lost(dataset, lost))
     return 0 if drawn and not lost else 1
 
 
@@ -160,8 +160,10 @@ def _tell(path: Path, console: Console) -> None:
         show_json(record)
 
 
-def _lost(dataset: xr.Dataset, lost: int, *, stopped: bool) -> str:
+def _lost(dataset: xr.Dataset, lost: int) -> str:
     """Say how many points have no result, and how to get them."""
     reason = next(text for text in dataset["failure"].values.ravel().tolist() if text)
-    again = "the same command computes them" if stopped else "--retry computes failed points again"
-    return f"{lost} of {dataset.attrs['points_in_all']} points have no result ({reason}); {again}"
+    return (
+        f"{lost} of {dataset.attrs['points_in_all']} points have no result ({reason}); the same command goes "
+        "on where this one ended, with --retry it also computes again what failed"
+    )
