@@ -27,6 +27,7 @@ extensions = [
     "sphinx.ext.mathjax",
     "numpydoc",
     "case_keys",
+    "contact_laws",
 ]
 exclude_patterns = ["_build"]
 templates_path = ["_templates"]
