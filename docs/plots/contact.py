@@ -31,16 +31,13 @@ def style(k: int) -> dict[str, object]:
     return {"color": COLOURS[k % len(COLOURS)], "linestyle": STYLES[k % len(STYLES)]}
 
 
-def plain_laws() -> list[str]:
-    """Return the names of the laws of different stiffness: that of ``rsdc`` is the one of ``ke``."""
-    return [name for name in LAWS if name != RSDC.name]
-
-
 def draw_laws(case: Vsv, target: Path) -> None:
     """Pressure, real contact area and number of contacts over the separation."""
     h_star = np.linspace(-1.0, 4.0, 251)
     figure, panels = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
-    for k, name in enumerate(plain_laws()):
+    for k, name in enumerate(LAWS):
+        if name == RSDC.name:
+            continue  # its stiffness is that of ke
         chosen = law(name, case)
         curves = (
             chosen.stiffness_pressure(h_star) / 1e6,
