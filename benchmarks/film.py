@@ -4,8 +4,8 @@ python -m benchmarks.film
 
 A call gives the wrench with its 45 derivatives on 128 × 32 cells, for a journal on a small orbit. The general
 solver is handed the conductances and sources for nothing; it builds its matrix, finds the same cavitated
-nodes from the same first guess with SuperLU, and solves for as many adjoints. Times are of the thread, medians
-over the orbit, so that a busy machine counts little.
+nodes from the same first guess with SuperLU, and solves for as many adjoints. Times are of the thread,
+medians over the orbit, so that a busy machine counts little.
 """
 
 from __future__ import annotations
