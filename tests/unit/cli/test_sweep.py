@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 
 import tribodyn.figures
+import tribodyn.report
 from tribodyn.cli.main import main
 
 SWEEP = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,25 um"]
@@ -22,6 +23,10 @@ def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, simulate
     def draw_all(dataset: xr.Dataset, directory: Path) -> None:
         directory.mkdir(exist_ok=True)
 
+    def write(dataset: xr.Dataset, path: Path) -> None:
+        path.write_text("made up", encoding="utf-8")
+
+    monkeypatch.setattr(tribodyn.report, "write", write)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
     return tmp_path
@@ -35,9 +40,11 @@ def test_a_sweep_leaves_everything_and_says_where(
     assert sorted(path.name for path in Path("sweep-vsv").iterdir()) == [
         "figures",
         "points",
+        "report.html",
         "sweep.json",
         "sweep.nc",
     ]
+    assert len(list(Path("sweep-vsv/points").glob("*/report.html"))) == 2
     assert "computing 2 of 2 points" in err
     assert "100 %  2 of 2 points" in err
     rows = [line.split() for line in out.splitlines() if line.startswith("2")]
