@@ -21,7 +21,7 @@ from tribodyn.studies.work import Outcome
 POINTS = 7
 # The seconds of a point are those in which it can be killed.
 SWEEP = [
-    *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "-o", "out", "--workers", "2"),
+    *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "-o", "out", "--workers", "2", "--summary-only"),
     *("--vary", "joint.clearance=20:38:3 um", "--set", "run.duration=0.3 s"),
 ]
 
