@@ -240,6 +240,22 @@ def test_without_scripts_it_still_says_everything(browser: Any, report: Path) ->
     context.close()
 
 
+def test_worn_shapes_have_a_slider_of_their_own(opened: Opened, result: xr.Dataset, tmp_path: Path) -> None:
+    final = result["wear_depth"].values
+    stages = {"stage_depth": (("stage_cycles", "theta", "z"), np.stack([0.25 * final, 0.5 * final, final]))}
+    campaign = result.assign(stages).assign_coords(stage_cycles=[100.0, 200.0, 400.0])
+    reader = opened(write(campaign, tmp_path))
+    reader.look_at("wear-stages")
+    first = np.max(reader.plot("wear-stages", "plot.data[0].z.map(row => [...row])"))
+    slider = reader.page.locator("#wear-stages input")
+    slider.focus()
+    reader.page.keyboard.press("End")
+    reader.settle()
+    assert slider.get_attribute("aria-valuetext") == "after 400 cycles"
+    last = np.max(reader.plot("wear-stages", "plot.data[0].z.map(row => [...row])"))
+    assert last == pytest.approx(4.0 * first, rel=1e-5)  # single precision
+
+
 def test_a_comparison_shows_directory_names_as_text(
     opened: Opened, result: xr.Dataset, tmp_path: Path
 ) -> None:

@@ -20,6 +20,7 @@ from tribodyn.report.sections import (
     tilt,
     vane_error,
     wear,
+    wear_stages,
 )
 from tribodyn.results.law_headlines import named
 
@@ -44,7 +45,9 @@ _TIME: Final = Chapter(
         energy.CLEARANCE_LEDGER,
     ),
 )
-_WEAR: Final = Chapter("worn", "Wear", "What the run would take off the bushing.", (wear.SECTION,))
+_WEAR: Final = Chapter(
+    "worn", "Wear", "What the run would take off the bushing.", (wear.SECTION, wear_stages.SECTION)
+)
 
 _JOURNAL: Final = (
     Chapter("film", "The run", "Move the slider, or press play.", (journal_path.SECTION,), film=True),

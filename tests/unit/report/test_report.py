@@ -3,9 +3,11 @@ from __future__ import annotations
 import base64
 import gzip
 import hashlib
+import json
 import re
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 from tribodyn.figures import draw_all
@@ -101,10 +103,12 @@ def test_every_figure_names_its_data(report):
     page = _page(path)
     anchors = {attrs["id"] for _, attrs in page.tags if "id" in attrs}
     links = {attrs["href"] for tag, attrs in page.tags if tag == "a"}
-    for chapter in CHAPTERS["vsv"]:
-        for section in chapter.sections:
-            assert section.name in anchors
-            assert {f"#v-{name}" for name in section.needs} <= links
+    sections = [section for chapter in CHAPTERS["vsv"] for section in chapter.sections]
+    drawn = [section for section in sections if section.payload(result)]
+    assert len(drawn) >= 11
+    for section in drawn:
+        assert section.name in anchors
+        assert {f"#v-{name}" for name in section.needs} <= links
     assert {f"v-{name}" for name in result.variables} <= anchors
     assert {link[1:] for link in links if link.startswith("#")} <= anchors
 
@@ -142,6 +146,14 @@ def test_hostile_texts_are_escaped(make_result, tmp_path):
 @pytest.mark.parametrize("end", [0.0, 0.005])
 def test_a_run_that_hardly_began(make_result, tmp_path, end):
     assert "did not reach its end" in _page(write(make_result(end, failure="at once"), tmp_path)).words
+
+
+def test_a_run_of_nothing_but_nan_has_a_page(make_result, tmp_path):
+    for name, result in {"tail": make_result(2.0), "all": make_result(0.3)}.items():
+        for variable in result.data_vars.values():
+            variable.values[... if name == "all" else slice(-5, None)] = np.nan
+        data = json.loads(_page(write(result, tmp_path / name)).scripts[0])
+        assert "motion" in data["figures"]
 
 
 def test_a_result_with_next_to_nothing(tmp_path):

@@ -67,7 +67,7 @@ def scripts() -> Scripts:
     library = get_plotlyjs()
     ours = "\n".join(_text(name) for name in SCRIPTS)
     wrapped = f'"use strict";\n(() => {{\n{ours}\n}})();'
-    packed = base64.b64encode(gzip.compress(library.encode("utf-8"), mtime=0)).decode("ascii")
+    packed = base64.b64encode(gzip.compress(library.encode("utf-8"), 6, mtime=0)).decode("ascii")
     return Scripts(
         wrapped, packed, _POLICY.format(f"'sha256-{_digest(wrapped)}' 'sha256-{_digest(library)}'")
     )

@@ -1,12 +1,14 @@
-// A field on the unrolled bushing: one picture, or one for each frame of the film.
+// A field on the unrolled bushing: one picture, one for each frame of the film, or stages with a slider of their own.
 
 widgets.field = (box, data) => {
-  const filmed = data.peaks.length > 1;
+  const staged = data.stages.length > 1;
+  const filmed = !staged && data.peaks.length > 1;
   const area = plotArea(box, isNarrow() ? 360 : 300, {}, filmed ? "Follows the time slider." : "A map.");
   const readout = element("p", { class: "readout" });
   box.append(readout);
   let ownScale = false;
   let shown = 0;
+  if (staged) tools(box, stager(data.stages, (stage) => show(stage)));
   if (filmed) {
     const toggle = button(
       "Scale colours to this moment",
@@ -22,7 +24,7 @@ widgets.field = (box, data) => {
   const top = (frame) => (ownScale ? data.peaks[frame] : data.usual) || 1;
   const paint = () => react(area, [fieldTrace(data, shown, top(shown))], fieldLayout(data));
   const show = (frame) => {
-    shown = filmed ? frame : 0;
+    shown = frame;
     const { rows, where } = fieldRows(data, shown);
     Plotly.restyle(area, { z: [rows], zmax: top(shown) }, [0]);
     readout.textContent = where;
@@ -30,6 +32,18 @@ widgets.field = (box, data) => {
   if (!filmed) readout.textContent = fieldRows(data, 0).where;
   return { paint, show: filmed ? show : null };
 };
+
+/** Make the slider through stages; it begins at the first. */
+function stager(stages, changed) {
+  const output = element("output", {}, stages[0]);
+  const slider = element("input", { type: "range", min: 0, max: stages.length - 1, step: 1, value: 0 });
+  slider.addEventListener("input", () => {
+    output.textContent = stages[slider.value];
+    slider.setAttribute("aria-valuetext", stages[slider.value]);
+    changed(Number(slider.value));
+  });
+  return element("label", { class: "magnifier" }, "Stage", slider, output);
+}
 
 /** Return the rows of a picture, and in words where its peak is. */
 function fieldRows(data, frame) {

@@ -25,6 +25,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
     return {
         **places.axes(),
         "unit": "MPa",
+        "stages": [],
         "label": "contact pressure [MPa]",
         "largest": float(peaks.max()),
         "usual": float(np.median(peaks)) * 1.6,

@@ -29,6 +29,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
     return {
         **places.axes(),
         "unit": unit,
+        "stages": [],
         "label": f"wear depth [{unit}]",
         "largest": float(peaks[0]),
         "usual": float(peaks[0]),
