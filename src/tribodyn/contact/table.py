@@ -48,7 +48,8 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     smoothed_rise = share * damping_rise + step * share_slope * damping
     nodes = np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise])
     energy = _energy_from_above(pressure, pressure_rise, step)
-    return ContactTable(H_FIRST, H_LAST, 1.0 / step, np.ascontiguousarray(nodes), energy)
+    cubics = np.hstack([_power_form(*nodes[:, :2].T), _power_form(*nodes[:, 2:].T)]).reshape(-1)
+    return ContactTable(H_FIRST, H_LAST, 1.0 / step, np.ascontiguousarray(nodes), energy, cubics)
 
 
 def onset_share(h_star: FloatArray, onset: float, width: float) -> tuple[FloatArray, FloatArray]:
@@ -80,3 +81,12 @@ def _energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> F
     """Return the integral of the Hermite interpolant from each node to the last, shape (n + 1,) [Pa]."""
     interval = step * (0.5 * (pressure[:-1] + pressure[1:]) + (rise[:-1] - rise[1:]) / 12.0)
     return np.append(np.cumsum(interval[::-1])[::-1], 0.0)
+
+
+def _power_form(values: FloatArray, rises: FloatArray) -> FloatArray:
+    """Return the Hermite cubics by their coefficients, what lies below and above included, (n + 2, 4)."""
+    rise = np.diff(values)
+    third = rises[:-1] + rises[1:] - 2.0 * rise
+    inside = np.column_stack([values[:-1], rises[:-1], rise - rises[:-1] - third, third])
+    below = [values[0] - rises[0], rises[0], 0.0, 0.0]
+    return np.vstack([below, inside, np.zeros(4)])

@@ -11,6 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
 from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.nodes import N_WORK
 from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
 
 FRICTION_MODELS: Final = ("traction", "moment")
@@ -167,6 +168,8 @@ class BushingJoint:
             z=self.z,
             area=self.node_area,
             wear=depth,
+            work=np.zeros(N_WORK),
+            cursor=np.zeros(2, dtype=np.int64),
         )
 
     def no_memory(self) -> FloatArray:

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import add_scaled, clear
-from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
+from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.bushing.memory import add_sliding_load, pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import drive
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
-from tribodyn.kernels.vsv.equations import (
-    accelerations,
-    accelerations_and_gradient,
-    set_up,
-)
+from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
 from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
+from tribodyn.kernels.vsv.motion import fill_motion
 
 
 @entry
@@ -66,24 +63,14 @@ def advance(
 @entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Update entry velocities and sliding load at the end of an accepted step."""
-    add_sliding_load(t, y, data, memory)
-    update_entry_velocity(data.joint, y, memory.entry_velocity, 0.0)
-
-
-@kernel
-def add_sliding_load(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Add P_c |u|, u = ω_v r_j, over the step by the trapezoidal rule (Eq. 47 and the text below it)."""
+    motion = memory.scratch.motion
+    if memory.last_time[0] != t:  # else `advance` has left it
+        fill_motion(data, t, y, motion)
+    speed = abs(motion[THETA_V, VELOCITY]) * data.joint.journal_radius
+    step, memory.last_time[1] = t - memory.last_time[1], t
     load, rate = memory.sliding_load, memory.sliding_rate
-    half_step = 0.5 * (t - memory.last_time[1])
-    add_scaled(half_step, rate, load)
-    set_up(data, t, y, memory)
-    slip = abs(memory.scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
-    pressure_field(data.joint, memory.entry_velocity, y, rate)
-    for j in range(rate.shape[0]):
-        for i in range(rate.shape[1]):
-            rate[j, i] *= slip
-    add_scaled(half_step, rate, load)
-    memory.last_time[1] = t
+    add_sliding_load(data.joint, memory.entry_velocity, y, speed, step, rate, load)
+    update_entry_velocity(data.joint, y, memory.entry_velocity, 0.0)
 
 
 @entry
