@@ -5,6 +5,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 DEMO := out/demo
 DOCS := docs/_build/html
+# Every script that draws for the manual; demo.py draws for the README, on demand.
+PLOTS := $(filter-out docs/plots/demo.py,$(wildcard docs/plots/*.py))
 PYTEST := $(BIN)/python -m pytest -n 2
 
 .DELETE_ON_ERROR:
@@ -40,7 +42,7 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 docs: $(VENV)/.docs
-	$(BIN)/python docs/plots/convergence.py docs/_static/generated
+	for plot in $(PLOTS); do $(BIN)/python $$plot docs/_static/generated || exit 1; done
 	$(BIN)/sphinx-build -W --keep-going -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 

@@ -13,11 +13,11 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tribodyn import contact, integrate
+    from tribodyn import contact, integrate, studies
     from tribodyn.cases import load_case
     from tribodyn.simulation import simulate
 
-__all__ = ["__version__", "contact", "integrate", "load_case", "simulate"]
+__all__ = ["__version__", "contact", "integrate", "load_case", "simulate", "studies"]
 
 _HOME = {"load_case": "tribodyn.cases", "simulate": "tribodyn.simulation"}
 

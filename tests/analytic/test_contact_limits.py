@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.special import erfc, gamma, pbdv
 
-from tribodyn.contact import RSDC, KogutEtsion, SurfacePair
+from tribodyn.contact import LAWS, RSDC, GreenwoodTripp, KogutEtsion, Linear, SurfacePair, law
 from tribodyn.core.arrays import FloatArray
 
 H_STAR = np.linspace(-4.0, 8.0, 25)
@@ -47,6 +47,49 @@ def test_hard_surfaces_are_elastic(elastic: SurfacePair) -> None:
     )
 
 
+ONE_ROUGH_SURFACE = [name for name in LAWS if name not in (GreenwoodTripp.name, Linear.name)]
+"""Laws of Hertzian asperities against a plane; the others count pairs of asperities, or none."""
+
+
+@pytest.mark.parametrize("name", ONE_ROUGH_SURFACE)
+def test_all_laws_are_that_of_greenwood_and_williamson_when_nothing_yields(
+    elastic: SurfacePair, name: str
+) -> None:
+    found, gw = law(name, elastic), law("gw", elastic)
+    # scipy's D in `elastic_pressure` is off by 1e-9 near h* = 6; the laws differ by rounding.
+    np.testing.assert_allclose(found.stiffness_pressure(H_STAR), elastic_pressure(elastic), rtol=2e-9)
+    np.testing.assert_allclose(found.stiffness_pressure(H_STAR), gw.stiffness_pressure(H_STAR), rtol=1e-12)
+    np.testing.assert_allclose(found.real_area_fraction(H_STAR), gw.real_area_fraction(H_STAR), rtol=1e-12)
+    np.testing.assert_array_equal(found.contact_count(H_STAR), gw.contact_count(H_STAR))
+
+
+@pytest.mark.parametrize("name", ONE_ROUGH_SURFACE)
+def test_laws_tend_to_the_elastic_one_as_the_plasticity_index_falls(
+    table_1_pair: SurfacePair, name: str
+) -> None:
+    h_star = np.array([0.0, 1.0, 2.0, 3.0])
+    off = []
+    for index in (1.0, 0.7, 0.5, 0.35):
+        # ψ = 1/√δ_c*, and δ_c* grows with the square of the hardness.
+        hardness = table_1_pair.hardness / (index * table_1_pair.critical_interference_star**0.5)
+        pair = dataclasses.replace(table_1_pair, hardness=hardness)
+        elastic = law("gw", pair).stiffness_pressure(h_star)
+        off.append(np.abs(law(name, pair).stiffness_pressure(h_star) / elastic - 1.0).max())
+    assert off == sorted(off, reverse=True)
+    # At ψ = 0.35 an asperity must stick out by 8 σ more than the separation to yield.
+    assert off[-1] < 1e-9
+
+
+def test_two_rough_surfaces_stay_elastic(table_1_pair: SurfacePair, elastic: SurfacePair) -> None:
+    found = GreenwoodTripp(table_1_pair).stiffness_pressure(H_STAR)
+    np.testing.assert_array_equal(found, GreenwoodTripp(elastic).stiffness_pressure(H_STAR))
+    product = table_1_pair.asperity_parameter
+    ratio = greenwood_williamson(2.5, H_STAR) / greenwood_williamson(1.5, H_STAR)
+    expected = 0.8 * math.sqrt(2.0) * math.pi * product * ratio * elastic_pressure(table_1_pair)
+    # The tolerance is that of scipy's D.
+    np.testing.assert_allclose(found, expected, rtol=5e-9)
+
+
 def test_hard_surfaces_lose_nothing(elastic: SurfacePair) -> None:
     law = RSDC(elastic)
     np.testing.assert_array_equal(law.loss_factor(H_STAR), 0.0)
@@ -65,7 +108,7 @@ def test_soft_surfaces_are_plastic(plastic: SurfacePair) -> None:
 
 def test_soft_surfaces_lose_everything(plastic: SurfacePair) -> None:
     law = RSDC(plastic)
-    np.testing.assert_allclose(law.restitution(H_STAR), 0.0, atol=1e-12)
+    np.testing.assert_allclose(law.meant_restitution(H_STAR), 0.0, atol=1e-12)
     # μ/(μ + 1) = 1, and C is then 3/4 of the elastic pressure; the tolerance is that of scipy's D.
     np.testing.assert_allclose(law.damping_pressure(H_STAR), 0.75 * elastic_pressure(plastic), rtol=2e-9)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -26,9 +27,8 @@ TABLE_1_PRESSURE = [
     (4.0, 0.006889e6, 0.0000005e6),
 ]
 
-# Dimensionless load F/(A_n H) by plasticity index, after Kogut and Etsion (2003), ηRσ = 0.04, ν = 0.3.
-# The separation there is measured from the mean of surface heights, here from that of asperity heights.
-# The area fractions A* of the same source are left out: no law here has an area.
+# Dimensionless load F/(A_n H) and real area A/A_n by plasticity index, after Kogut and Etsion (2003), with
+# ηRσ = 0.04 and ν = 0.3. The separation is measured from the mean of surface heights.
 SEPARATIONS = np.array([0.0, 0.5, 1.0, 1.5, 2.0, 3.0])
 DIMENSIONLESS_LOAD = {
     0.5: [3.94187e-02, 2.28604e-02, 1.15229e-02, 4.89120e-03, 1.69827e-03, 1.01883e-04],
@@ -37,6 +37,15 @@ DIMENSIONLESS_LOAD = {
     2.5: [1.51768e-01, 9.17302e-02, 4.79933e-02, 2.10316e-02, 7.49584e-03, 4.66965e-04],
     4.0: [1.95403e-01, 1.18844e-01, 6.27714e-02, 2.78467e-02, 1.00650e-02, 6.45480e-04],
     8.0: [2.78207e-01, 1.71272e-01, 9.09959e-02, 4.04893e-02, 1.46740e-02, 9.49146e-04],
+}
+
+REAL_AREA = {
+    0.5: [1.49132e-01, 9.61759e-02, 5.38902e-02, 2.53318e-02, 9.67809e-03, 6.86942e-04],
+    1.0: [1.52563e-01, 9.68017e-02, 5.36984e-02, 2.51229e-02, 9.58798e-03, 6.82277e-04],
+    2.0: [1.86151e-01, 1.15843e-01, 6.27249e-02, 2.85858e-02, 1.06346e-02, 7.25303e-04],
+    2.5: [1.99505e-01, 1.24291e-01, 6.72833e-02, 3.06046e-02, 1.13470e-02, 7.66703e-04],
+    4.0: [2.29282e-01, 1.43054e-01, 7.75629e-02, 3.53202e-02, 1.30980e-02, 8.82219e-04],
+    8.0: [2.83786e-01, 1.77337e-01, 9.59945e-02, 4.36066e-02, 1.61400e-02, 1.08570e-03],
 }
 
 
@@ -58,22 +67,37 @@ def test_pressure_of_table_1(
 
 
 @pytest.mark.parametrize("plasticity_index", DIMENSIONLESS_LOAD)
-def test_dimensionless_load(plasticity_index: float) -> None:
+def test_dimensionless_load_and_real_area(plasticity_index: float) -> None:
     beta, radius, roughness = 0.04, 10e-6, 1e-6
-    summit_ratio = math.sqrt(1.0 - 3.717e-4 / beta**2)  # σ_s/σ
-    law = KogutEtsion(
-        pair_of(plasticity_index, beta / (radius * roughness), radius, summit_ratio * roughness)
-    )
-    h_star = (SEPARATIONS - 0.045944 / beta) / summit_ratio
-    load = law.stiffness_pressure(h_star) / law.pair.hardness
+    pair = pair_of(plasticity_index, beta / (radius * roughness), radius, roughness)
+    law = KogutEtsion(pair, separation_from="surface")
     # Six printed digits: half a unit of the last is at most 5e-6 of the smallest leading digits here.
+    load = law.stiffness_pressure(SEPARATIONS) / pair.hardness
     np.testing.assert_allclose(load, DIMENSIONLESS_LOAD[plasticity_index], rtol=6e-6)
+    area = law.real_area_fraction(SEPARATIONS)
+    np.testing.assert_allclose(area, REAL_AREA[plasticity_index], rtol=6e-6)
 
 
-def pair_of(plasticity_index: float, density: float, radius: float, summit_rms: float) -> SurfacePair:
-    """Return surfaces whose critical interference is ``summit_rms``/ψ², with ν = 0.3."""
+def test_separation_from_the_asperities_is_the_default() -> None:
+    pair = pair_of(2.0, 4e9, 10e-6, 1e-6)
+    law, other = KogutEtsion(pair), KogutEtsion(pair, separation_from="surface")
+    spread = math.sqrt(1.0 - 3.717e-4 / 0.04**2)
+    narrow = KogutEtsion(dataclasses.replace(pair, roughness=(0.0, spread * 1e-6)))
+    above = (SEPARATIONS - 0.045944 / 0.04) / spread
+    np.testing.assert_allclose(
+        other.stiffness_pressure(SEPARATIONS), narrow.stiffness_pressure(above), rtol=1e-13
+    )
+    assert np.all(other.stiffness_pressure(SEPARATIONS) > law.stiffness_pressure(SEPARATIONS))
+
+
+def pair_of(plasticity_index: float, density: float, radius: float, roughness: float) -> SurfacePair:
+    """Return surfaces whose critical interference is σ/ψ², with ν = 0.3.
+
+    ψ of the source is made with the spread of the asperities, σ_s; ψ² δ_c = σ_s.
+    """
     hardness, nu = 1e9, 0.3
-    slope = math.sqrt(summit_rms / radius) / plasticity_index
+    spread = roughness * math.sqrt(1.0 - 3.717e-4 / (density * radius * roughness) ** 2)
+    slope = math.sqrt(spread / radius) / plasticity_index
     modulus = math.pi * (0.454 + 0.41 * nu) * hardness / (2.0 * slope)
     young = 2.0 * (1.0 - nu**2) * modulus
-    return SurfacePair((young, young), (nu, nu), (0.0, summit_rms), hardness, density, radius)
+    return SurfacePair((young, young), (nu, nu), (0.0, roughness), hardness, density, radius)

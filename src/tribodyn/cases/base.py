@@ -42,6 +42,7 @@ class Case(Group):
     title: str = text("", "heading of figures and report")
 
     _given: dict[str, Any] = PrivateAttr(default_factory=dict)
+    _scans: dict[str, Any] = PrivateAttr(default_factory=dict)
 
     @classmethod
     def kind(cls) -> str:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from tribodyn.cases import scans
 from tribodyn.cases.base import Case
 from tribodyn.cases.keys import Key, Value, ValueProblem, keys_of, shown
 from tribodyn.core.errors import InputError
@@ -28,11 +30,14 @@ class Entry:
         File or option that holds it.
     text
         Whether numbers and switches may be spelled as text.
+    folder
+        Where the names of files begin; None is the current directory.
     """
 
     value: object
     source: str
     text: bool = False
+    folder: Path | None = None
 
 
 def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> AnyCase:
@@ -53,7 +58,9 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
         if path not in keys:
             raise InputError(_unknown(path, keys), key=path, source=entry.source)
     _one_of_each(model, entries)
-    values = {path: _read(keys[path], entry) for path, entry in entries.items()}
+    named = scans.scan_entries(entries)
+    entries = scans.with_scans_read(entries, keys)
+    values = {path: read_entry(keys[path], entry) for path, entry in entries.items()}
     try:
         case = model.model_validate(_nested(model.resolve(values) | values))
     except ValidationError as error:
@@ -61,18 +68,22 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
     except InputError as error:
         raise _located(error, keys, entries, source) from None
     case._given.update(entries)
+    case._scans.update(named)
     return case
 
 
 def changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCase:
     """Return a copy of `case` with `changes` made; see :meth:`Case.replace`."""
     new = {path: Entry(value, source, text=True) for path, value in changes.items()}
-    kept = dict(case._given)
-    for pair in case.ALTERNATIVES:
+    kept = scans.entries_kept(case._given, case._scans, new)
+    for pair in _alternatives(type(case)):
         if any(path in new for path in pair):
             for path in pair:
                 kept.pop(path, None)
-    return build(type(case), kept | new, source)
+    result = build(type(case), kept | new, source)
+    if not result._scans and not any(path in new for path in scans.FOLLOWING):
+        result._scans.update(case._scans)
+    return result
 
 
 def closest(word: str, words: Iterable[str]) -> str | None:
@@ -81,7 +92,8 @@ def closest(word: str, words: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
-def _read(key: Key, entry: Entry) -> Value:
+def read_entry(key: Key, entry: Entry) -> Value:
+    """Return the value of a key, or raise an error that says what it may hold."""
     try:
         return key.read(entry.value, text=entry.text)
     except ValueProblem as problem:
@@ -127,11 +139,15 @@ def _empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:
 
 
 def _one_of_each(model: type[Case], entries: Mapping[str, Entry]) -> None:
-    for first, second in model.ALTERNATIVES:
+    for first, second in _alternatives(model):
         if first in entries and second in entries:
             raise InputError(
                 f"give either {first} or {second}, not both", key=second, source=entries[second].source
             )
+
+
+def _alternatives(model: type[Case]) -> tuple[tuple[str, str], ...]:
+    return (*model.ALTERNATIVES, *scans.ALTERNATIVES)
 
 
 def _nested(values: Mapping[str, Value]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from tribodyn.cases.base import Case
+from tribodyn.cases.journal import Journal
 from tribodyn.cases.vsv import Vsv
 
 
@@ -32,6 +33,13 @@ class BuiltIn:
 CASES: Final[dict[str, BuiltIn]] = {
     "vsv": BuiltIn(
         Vsv, "variable stator vane mechanism, dry rough trunnion joint, 20 um clearance, two drive cycles"
+    ),
+    "journal-dry": BuiltIn(
+        Journal,
+        "journal under a constant load falling into its dry bushing, contact with and without damping",
+    ),
+    "journal-oil": BuiltIn(
+        Journal, "the same in oil: the film alone is enough damping", {"film.lubricated": True}
     ),
 }
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal
 
 from tribodyn.cases.base import Group, demand
-from tribodyn.cases.keys import ASSUMED, choice, count, number, quantity, switch
+from tribodyn.cases.keys import ASSUMED, Value, choice, count, file, number, quantity, switch, text
+
+if TYPE_CHECKING:
+    from tribodyn.contact import ContactLaw, SurfacePair
 
 TABLE_1 = "paper, Table 1"
+MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
+"""Damping factors that use ``contact.design_pressure``."""
 
 
 class Trunnion(Group):
@@ -16,6 +22,7 @@ class Trunnion(Group):
     young_modulus: float = quantity("203 GPa", "Young's modulus E_1", TABLE_1, gt=0)
     poisson_ratio: float = number(0.27, "Poisson's ratio nu_1", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity("0.392 um", "root mean square roughness sigma_1", TABLE_1, ge=0)
+    surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
 
 class Bushing(Group):
@@ -25,6 +32,7 @@ class Bushing(Group):
     poisson_ratio: float = number(0.34, "Poisson's ratio nu_2", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity("1.586 um", "root mean square roughness sigma_2", TABLE_1, ge=0)
     hardness: float = quantity("492 MPa", "hardness H", TABLE_1, gt=0)
+    surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
 
 
 class Surfaces(Group):
@@ -41,12 +49,39 @@ class Surfaces(Group):
             "one of the two surfaces must be rough: a roughness above 0 is needed here or for the trunnion",
         )
 
+    def pair(self, asperities: Asperities) -> SurfacePair:
+        """Return the two surfaces in contact, as contact laws take them."""
+        from tribodyn.contact import SurfacePair
+
+        return SurfacePair(
+            young_modulus=(self.trunnion.young_modulus, self.bushing.young_modulus),
+            poisson_ratio=(self.trunnion.poisson_ratio, self.bushing.poisson_ratio),
+            roughness=(self.trunnion.roughness, self.bushing.roughness),
+            hardness=self.bushing.hardness,
+            asperity_density=asperities.density,
+            asperity_radius=asperities.radius,
+        )
+
 
 class Asperities(Group):
     """The asperities of the equivalent rough surface."""
 
     density: float = quantity("0.038 1/um^2", "asperities per area xi", TABLE_1, gt=0)
     radius: float = quantity("8.17 um", "radius of the asperity tips beta", TABLE_1, gt=0)
+    origin: str = text("", "where these and the roughness come from, if not from the paper")
+    surface: str | None = file("scan that gives these and the roughness, instead of them", "scan.csv")
+    level: str | None = choice(
+        None, "what is taken off a scan", "", family="tribodyn.surfaces:LEVELS", example="plane"
+    )
+    filter: str | None = choice(
+        None, "filter of the cut-offs", "", family="tribodyn.surfaces:FILTERS", example="gaussian"
+    )
+    short_cutoff: float | None = quantity(
+        None, "shortest wavelength kept of a scan; all without it", "", gt=0, example="2.5 um"
+    )
+    long_cutoff: float | None = quantity(
+        None, "longest wavelength kept of a scan; all without it", "", gt=0, example="0.8 mm"
+    )
 
 
 class Contact(Group):
@@ -55,9 +90,32 @@ class Contact(Group):
     law: str = choice("rsdc", "contact law", "paper, section 2", family="tribodyn.contact:LAWS")
     damping_factor: str = choice(
         "lankarani-nikravesh",
-        "how damping follows from restitution in the law rsdc",
+        "how damping follows from restitution; by default none for a law that has no restitution",
         "paper, Eq. 9",
         family="tribodyn.contact:DAMPING_FACTORS",
+    )
+    restitution: float | None = number(
+        None,
+        "restitution meant; rsdc has its own without it",
+        "paper, Eq. 8",
+        gt=0,
+        le=1,
+        example="0.7",
+    )
+    design_pressure: float = quantity(
+        "50 MPa",
+        "peak pressure of the undamped impact that the factors calibrated and kelvin-voigt are made for",
+        ASSUMED,
+        gt=0,
+    )
+    separation_from: str = choice(
+        "asperities",
+        "mean plane from which asperity laws count separations",
+        "paper, section 2",
+        family="tribodyn.contact:SEPARATIONS",
+    )
+    penalty_stiffness: float = quantity(
+        "50 MPa/um", "pressure per penetration of the law linear", ASSUMED, gt=0
     )
     onset_separation: float = number(
         4.0,
@@ -78,14 +136,60 @@ class Contact(Group):
     )
     tensile_clip: bool = switch(True, "whether the total pressure is kept from becoming tensile", ASSUMED)
 
+    @staticmethod
+    def resolve(given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the damping factor of a law that has no restitution of its own and is given none."""
+        name = given.get("contact.law")
+        if name is None or given.get("contact.restitution") is not None:
+            return {}
+        from tribodyn.contact import LAWS
 
-class Joint(Group):
-    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
+        if name not in LAWS or LAWS[str(name)].knows_restitution:
+            return {}
+        demand(
+            given.get("contact.damping_factor", "none") == "none",
+            "contact.restitution",
+            f"the law {name} has no restitution of its own, and the damping factor needs one, such as 0.7",
+        )
+        return {"contact.damping_factor": "none"}
+
+    def law_of(self, surfaces: SurfacePair, name: str | None = None) -> ContactLaw:
+        """Return the contact law, or another one with the same options, for a pair of surfaces.
+
+        A law without any restitution is left undamped.
+        """
+        from tribodyn.contact import law
+
+        return law(
+            name or self.law,
+            surfaces,
+            damping_factor=self.damping_factor,
+            restitution=self.restitution,
+            design_pressure=self.design_pressure,
+            separation_from=self.separation_from,
+            penalty_stiffness=self.penalty_stiffness,
+        )
+
+    def check(self, surfaces: SurfacePair) -> None:
+        """Refuse options that these surfaces cannot have; the plain law has none to refuse."""
+        if self.damping_factor in MADE_FOR_AN_IMPACT or self.separation_from != "asperities":
+            chosen = self.law_of(surfaces)
+            if chosen.damping_factor in MADE_FOR_AN_IMPACT:
+                chosen.design_separation()
+
+
+class PlainJoint(Group):
+    """The clearance joint: a journal in a bushing."""
 
     clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
     length: float = quantity("20 mm", "length of the bushing l_z", TABLE_1, gt=0)
-    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
+    contact: str = choice(
+        "surface",
+        "contact over the surface, or at one point of the clearance circle at each end",
+        "paper, Eq. 44",
+        family="tribodyn.joints:CONTACTS",
+    )
     friction_coefficient: float = number(0.1, "coefficient of friction mu_f", ASSUMED, ge=0, le=2)
     friction: Literal["traction", "moment"] = choice(
         "traction",
@@ -101,6 +205,12 @@ class Joint(Group):
             "joint.clearance",
             "the clearance must not exceed a tenth of joint.radius",
         )
+
+
+class Joint(PlainJoint):
+    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
+
+    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
 
 
 class Wear(Group):

@@ -30,6 +30,7 @@ ASSUMED = "assumed"
 
 _SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 _LONGEST_SHOWN = 60
+_LONGEST_FILE_NAME = 4096
 
 
 class ValueProblem(ValueError):
@@ -45,7 +46,7 @@ class Key:
     path
         Dotted path, such as ``joint.clearance``.
     kind
-        ``quantity``, ``number``, ``count``, ``switch``, ``choice`` or ``text``.
+        ``quantity``, ``number``, ``count``, ``switch``, ``choice``, ``file`` or ``text``.
     description, source
         One line each; where the default comes from.
     default
@@ -91,6 +92,7 @@ class Key:
             "count": "a whole number",
             "switch": "true or false",
             "choice": "one of " + ", ".join(self.choices),
+            "file": "the name of a file",
             "text": "one line of text of at most 200 characters",
         }
         return words[self.kind] + (f", {self.limits}" if self.limits else "")
@@ -113,6 +115,8 @@ class Key:
             return _read_number(value, self.kind)
         expected = bool if self.kind == "switch" else str
         if not isinstance(value, expected):
+            raise ValueProblem("")
+        if self.kind == "file" and not _is_file_name(value):
             raise ValueProblem("")
         return value
 
@@ -200,7 +204,7 @@ def switch(default: bool, description: str, source: str) -> Any:
     return _field(default, description, source, {}, {}, kind="switch")
 
 
-def choice(default: str, description: str, source: str, *, family: str = "") -> Any:
+def choice(default: str | None, description: str, source: str, *, family: str = "", example: str = "") -> Any:
     """Declare a key that takes a name.
 
     Parameters
@@ -208,10 +212,16 @@ def choice(default: str, description: str, source: str, *, family: str = "") -> 
     default, description, source
         As for the other kinds.
     family
-        Where the allowed names are listed, as ``module:ATTRIBUTE`` (a mapping). It is imported only
-        when a value is checked. Empty when the annotation is a ``Literal``, which lists them itself.
+        Where the allowed names are listed, as ``module:ATTRIBUTE`` (a mapping); ``module:ATTRIBUTE+none``
+        also allows the name ``none``. It is imported only when a value is checked. Empty when the
+        annotation is a ``Literal``, which lists them itself.
     """
-    return _field(default, description, source, {}, {}, kind="choice", family=family)
+    return _field(default, description, source, {}, {}, kind="choice", family=family, example=example)
+
+
+def file(description: str, example: str) -> Any:
+    """Declare a key that names a file, relative to the case file; what it holds takes its place."""
+    return _field(None, description, "", {}, {}, kind="file", example=example)
 
 
 def text(default: str, description: str) -> Any:
@@ -247,9 +257,10 @@ def _field(
 
 @cache
 def family_names(family: str) -> tuple[str, ...]:
-    """Return the member names of a family given as ``module:ATTRIBUTE``."""
+    """Return the member names of a family given as ``module:ATTRIBUTE``, and what follows a ``+``."""
     module, _, attribute = family.partition(":")
-    return tuple(getattr(importlib.import_module(module), attribute))
+    attribute, *others = attribute.split("+")
+    return (*getattr(importlib.import_module(module), attribute), *others)
 
 
 @cache
@@ -315,6 +326,10 @@ def toml_string(value: str) -> str:
     return '"' + "".join(characters) + '"'
 
 
+def _is_file_name(value: object) -> bool:
+    return isinstance(value, str) and 0 < len(value) <= _LONGEST_FILE_NAME and "\0" not in value
+
+
 def _finite(value: float) -> bool:
     """Tell whether a number fits into a finite float."""
     try:
@@ -356,6 +371,7 @@ __all__ = [
     "choice",
     "count",
     "family_names",
+    "file",
     "keys_of",
     "number",
     "quantity",

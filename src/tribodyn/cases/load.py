@@ -38,10 +38,10 @@ def load_case(case: str | os.PathLike[str]) -> Case:
         return build(entry.model, given, source)
     name = os.fspath(case)
     source = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}..."
-    return parse_case(_text(Path(name), source), source)
+    return parse_case(_text(Path(name), source), source, Path(name).parent)
 
 
-def parse_case(text: str, source: str) -> Case:
+def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
     """Return the case that a TOML text describes.
 
     Parameters
@@ -50,8 +50,10 @@ def parse_case(text: str, source: str) -> Case:
         Content of a case file.
     source
         Where it comes from, for messages.
+    folder
+        Where the names of files in it begin; None is the current directory.
     """
-    entries = {path: Entry(value, source) for path, value in _flat(_tables(text, source))}
+    entries = {path: Entry(value, source, folder=folder) for path, value in _flat(_tables(text, source))}
     if not entries:
         raise InputError("the file is empty; `tribodyn show vsv` prints a complete one", source=source)
     return build(_kind(entries, source), entries, source)

@@ -49,6 +49,7 @@ _DIMENSIONS: Final = {
     "1/m^2": "number per area",
     "m^2/N": "wear volume per work",
     "Pa s": "viscosity",
+    "Pa/m": "pressure per length",
 }
 """The SI units that tribodyn works in, and what each of them measures."""
 

@@ -111,8 +111,8 @@ class Vsv(Case):
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the defaults that follow from the formulation, and the length of the run."""
-        defaults: dict[str, Value] = {}
+        """Return the defaults that follow from the contact law and the formulation, and the length."""
+        defaults = Contact.resolve(given)
         if given.get("mechanism.formulation") == "paper":
             defaults |= {"joint.friction": "moment", "run.start": "centred"}
         if "run.duration" not in given:
@@ -122,17 +122,7 @@ class Vsv(Case):
     @property
     def surface_pair(self) -> SurfacePair:
         """The two surfaces in contact, as contact laws take them."""
-        from tribodyn.contact import SurfacePair
-
-        trunnion, bushing = self.surfaces.trunnion, self.surfaces.bushing
-        return SurfacePair(
-            young_modulus=(trunnion.young_modulus, bushing.young_modulus),
-            poisson_ratio=(trunnion.poisson_ratio, bushing.poisson_ratio),
-            roughness=(trunnion.roughness, bushing.roughness),
-            hardness=bushing.hardness,
-            asperity_density=self.asperities.density,
-            asperity_radius=self.asperities.radius,
-        )
+        return self.surfaces.pair(self.asperities)
 
     @property
     def period(self) -> float:
@@ -178,6 +168,7 @@ class Vsv(Case):
         self._check_run()
         self._check_inertias()
         self._check_reach()
+        self.contact.check(self.surface_pair)
 
     def _check_run(self) -> None:
         demand(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
+from textwrap import wrap
 
 from tribodyn.cases.base import Case
 from tribodyn.cases.keys import ASSUMED, Key, keys_of
@@ -37,12 +38,22 @@ def _lines(case: Case, key: Key, comments: bool) -> Iterator[str]:
         yield from [] if value is None else [line]
         return
     together = f"{line:<{_COMMENT_COLUMN}}  # {comment(key)}"
-    yield from [together] if len(together) <= _LONGEST_LINE else [f"# {comment(key)}:", line]
+    if len(together) <= _LONGEST_LINE:
+        yield together
+    else:
+        yield from wrap(
+            f"{comment(key)}:",
+            _LONGEST_LINE,
+            initial_indent="# ",
+            subsequent_indent="#   ",
+            break_on_hyphens=False,
+        )
+        yield line
 
 
 def _example(key: Key) -> str:
     """Return a value for a key that is not in force, where its alternative is."""
-    return f'"{key.example}"' if key.unit else key.example
+    return f'"{key.example}"' if key.unit or key.kind in ("file", "choice") else key.example
 
 
 def comment(key: Key) -> str:

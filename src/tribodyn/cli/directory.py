@@ -68,7 +68,8 @@ class OutputDirectory:
 
     def drop_pictures(self) -> None:
         """Remove figures and report of an earlier run, which would contradict the new result."""
-        for path in (self.path / REPORT, *(self.path / FIGURES).glob("*.png")):
+        figures = self.path / FIGURES
+        for path in (self.path / REPORT, *figures.glob("*.png"), *figures.glob("*.pdf")):
             path.unlink(missing_ok=True)
 
 

@@ -15,10 +15,17 @@ _MESSAGE: Final = b"\ntribodyn: stopping after the step under way, then saving; 
 
 
 class Interruption:
-    """Whether the user asked to stop, as a context manager that listens while it is open."""
+    """Whether the user asked to stop, as a context manager that listens while it is open.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    message
+        Written to stderr when the user asks.
+    """
+
+    def __init__(self, message: bytes = _MESSAGE) -> None:
         self.requested = False
+        self._message = message
         self._previous: dict[signal.Signals, Any] = {}
 
     def __call__(self) -> bool:
@@ -38,7 +45,7 @@ class Interruption:
             raise KeyboardInterrupt
         self.requested = True
         # Not print: the signal may have come in the middle of one.
-        os.write(_STANDARD_ERROR, _MESSAGE)
+        os.write(_STANDARD_ERROR, self._message)
 
 
 @contextmanager

@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
-from tribodyn.cli import cases, check, report, run, show
+from tribodyn.cli import cases, check, report, reproduce, run, show, surface, sweep
 from tribodyn.cli.console import complain, forgive_encodings
 from tribodyn.cli.interrupt import termination_as_interrupt
 from tribodyn.core.errors import InputError, TribodynError
@@ -34,7 +34,10 @@ COMMANDS: Final[dict[str, Command]] = {
     "cases": cases,
     "show": show,
     "check": check,
+    "sweep": sweep,
     "report": report,
+    "reproduce": reproduce,
+    "surface": surface,
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
 
@@ -43,6 +46,7 @@ examples:
   tribodyn run vsv
   tribodyn run vsv --set joint.clearance="25 um" -o wide
   tribodyn show vsv > mine.toml && tribodyn run mine.toml
+  tribodyn sweep vsv --vary joint.clearance="20 um:40 um:5 um" --vary mechanism.formulation=exact,paper
 
 exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, nothing is written
 """

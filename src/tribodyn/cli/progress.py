@@ -6,20 +6,40 @@ import shutil
 import sys
 import time
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from types import TracebackType
 from typing import Final, Protocol
 
 from tribodyn.cli.console import Console, is_terminal
 
 _PARTS: Final = 10
-_BAR: Final = "{percentage:3.0f}%|{bar}| {n:.2f} of {total:.2f} s simulated [{elapsed}, {remaining} to go]"
+
+
+@dataclass(frozen=True)
+class Measure:
+    """What is counted.
+
+    Attributes
+    ----------
+    bar
+        How far the work is, for a bar (fields ``n`` and ``total``).
+    line
+        The same for a line (fields ``reached`` and ``total``).
+    """
+
+    bar: str
+    line: str
+
+
+SIMULATED: Final = Measure("{n:.2f} of {total:.2f} s simulated", "{reached:.4g} of {total:.4g} s simulated")
+POINTS: Final = Measure("{n:.0f} of {total:.0f} points", "{reached:.0f} of {total:.0f} points")
 
 
 class Progress(AbstractContextManager["Progress"], Protocol):
-    """Called with the simulated time [s]; also prints notes without spoiling a bar."""
+    """Called with how far the work is; also prints notes without spoiling a bar."""
 
     def __call__(self, reached: float, /) -> None:
-        """Show that the simulation has reached a time [s]."""
+        """Show that the work has come so far."""
 
     def note(self, text: str, /) -> None:
         """Print a line about the work."""
@@ -28,8 +48,9 @@ class Progress(AbstractContextManager["Progress"], Protocol):
 class Lines:
     """Progress as plain lines, for logs and pipes."""
 
-    def __init__(self, total: float, console: Console) -> None:
+    def __init__(self, total: float, console: Console, measure: Measure) -> None:
         self._total = total
+        self._measure = measure
         self._console = console
         self._shown = 0
         self._began = time.monotonic()
@@ -46,10 +67,10 @@ class Lines:
         if part > self._shown:
             self._shown = part
             elapsed = time.monotonic() - self._began
+            left = elapsed * max(self._total / reached - 1.0, 0.0)
+            done = self._measure.line.format(reached=reached, total=self._total)
             share = 100 * part // _PARTS
-            self.note(
-                f"{share:3d} %  {reached:.4g} of {self._total:.4g} s simulated, {elapsed:.0f} s elapsed"
-            )
+            self.note(f"{share:3d} %  {done}, {elapsed:.0f} s elapsed, about {left:.0f} s to go")
 
     def note(self, text: str) -> None:
         """Print a line about the work."""
@@ -59,7 +80,7 @@ class Lines:
 class Bar:
     """Progress as a bar that is redrawn in place; it appears with the first step."""
 
-    def __init__(self, total: float, console: Console) -> None:
+    def __init__(self, total: float, console: Console, measure: Measure) -> None:
         from tqdm import tqdm
 
         self._console = console
@@ -67,7 +88,13 @@ class Bar:
         # Not tqdm's own measure: 0 by 0 where a terminal does not tell its size, and then no bar is drawn.
         columns, rows = shutil.get_terminal_size()
         self._bar = tqdm(
-            total=total, bar_format=_BAR, file=sys.stderr, leave=False, delay=1e-3, ncols=columns, nrows=rows
+            total=total,
+            bar_format=f"{{percentage:3.0f}}%|{{bar}}| {measure.bar} [{{elapsed}}, {{remaining}} to go]",
+            file=sys.stderr,
+            leave=False,
+            delay=1e-3,
+            ncols=columns,
+            nrows=rows,
         )
 
     def __enter__(self) -> Bar:
@@ -88,16 +115,18 @@ class Bar:
             self._write(text, file=sys.stderr)
 
 
-def progress(total: float, console: Console) -> Progress:
+def progress(total: float, console: Console, measure: Measure = SIMULATED) -> Progress:
     """Return what shows progress here.
 
     Parameters
     ----------
     total
-        Simulated time at the end [s].
+        How far the work goes: by default the simulated time at the end [s].
     console
         When quiet, nothing is shown.
+    measure
+        What is counted.
     """
     if console.quiet or not is_terminal(sys.stderr):
-        return Lines(total, console)
-    return Bar(total, console)
+        return Lines(total, console, measure)
+    return Bar(total, console, measure)

@@ -3,38 +3,137 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import KW_ONLY, dataclass
+from typing import ClassVar, Final
 
 import numpy as np
+from scipy.optimize import brentq
 
+from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor
+from tribodyn.contact.quadrature import exceedance
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+
+DESIGN_PRESSURE: Final = 50.0e6
+"""Default peak pressure of the impact that ``calibrated`` and ``kelvin-voigt`` are made for [Pa]."""
+
+DESIGN_RANGE: Final = (-4.0, 4.0)
+"""Separations h* between which the peak pressure of that impact must lie [1]."""
 
 
 @dataclass(frozen=True)
 class ContactLaw(ABC):
     """Two functions of the separation h* = h/σ; nothing else is asked of a law.
 
-    Both take an array of any shape and return an array of that shape. A law is evaluated when it is
-    tabulated and where a user plots it, never inside a simulation.
+    All functions take an array of any shape and return an array of that shape. A law is evaluated when it is
+    tabulated and where a user plots it, never inside a simulation. A new law gives ``stiffness_pressure``;
+    its damping follows from the named factor.
 
     Parameters
     ----------
     pair
         The surfaces in contact.
+    damping_factor
+        Name of the factor that turns a restitution into damping, one of ``DAMPING_FACTORS``.
+    restitution
+        Restitution e that the factor is given [1]; a law that knows its own may leave it out.
+    design_pressure
+        Peak pressure that an undamped impact would reach [Pa], for which ``calibrated`` and
+        ``kelvin-voigt`` are made; the other factors do not need it.
     """
 
     name: ClassVar[str]
+    title: ClassVar[str]
+    """One line for people."""
+    source: ClassVar[str]
+    validity: ClassVar[str]
+    """Where the law holds, one sentence."""
+    knows_restitution: ClassVar[bool] = False
+    """Whether the law has a restitution of its own when none is asked for."""
+
     pair: SurfacePair
+    damping_factor: str = "none"
+    _: KW_ONLY
+    restitution: float | None = None
+    design_pressure: float = DESIGN_PRESSURE
+
+    def __post_init__(self) -> None:
+        """Refuse damping that does not exist or lacks its restitution."""
+        if self.damping_factor not in DAMPING_FACTORS:
+            raise InputError(
+                f"no damping factor {self.damping_factor!r}; there is {', '.join(DAMPING_FACTORS)}",
+                key="contact.damping_factor",
+            )
+        if self.restitution is None:
+            if self.damping_factor != "none" and not self.knows_restitution:
+                raise InputError(
+                    f"the law {self.name} has no restitution of its own: the damping factor "
+                    f"{self.damping_factor} needs one, such as 0.7",
+                    key="contact.restitution",
+                )
+        elif not 0.0 < self.restitution <= 1.0:
+            raise InputError(f"must lie in (0, 1], not {self.restitution}", key="contact.restitution")
+        if not self.design_pressure > 0.0:
+            raise InputError(f"must be positive, not {self.design_pressure}", key="contact.design_pressure")
 
     @abstractmethod
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
         """Return the pressure P_k(h*) [Pa] of the surfaces at rest."""
 
-    @abstractmethod
+    def real_area_fraction(self, h_star: FloatArray) -> FloatArray:
+        """Return the real contact area over the nominal one [1]; NaN where the theory gives none."""
+        return np.full(np.shape(h_star), np.nan)
+
+    def contact_count(self, h_star: FloatArray) -> FloatArray:
+        """Return the number of contacts per nominal area [1/m²]; NaN where the theory gives none."""
+        return np.full(np.shape(h_star), np.nan)
+
+    def touching_share(self, h_star: FloatArray) -> FloatArray:
+        """Return the share of asperities that touch, on which ``kelvin-voigt`` puts its dashpots [1]."""
+        return exceedance(np.asarray(h_star, dtype=np.float64))
+
+    @property
+    def factor(self) -> DampingFactor:
+        """The damping factor."""
+        return DAMPING_FACTORS[self.damping_factor]
+
+    def meant_restitution(self, h_star: FloatArray) -> FloatArray:
+        """Return the restitution e given to the factor at each separation [1]."""
+        return np.full(np.shape(h_star), 1.0 if self.restitution is None else self.restitution)
+
     def damping_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return the coefficient C(h*) [Pa] of the damping pressure P_d = C·δ̇/δ̇₋, zeros for no damping."""
+        """Return the coefficient C(h*) [Pa] of the damping pressure P_d = C·δ̇/δ̇₋, zeros for no damping.
+
+        For ``calibrated`` it is that of a point contact; :func:`tabulate` scales it to the surface.
+        """
+        if self.damping_factor == "none":
+            return np.zeros(np.shape(h_star))
+        ratio = self.factor(self.meant_restitution(h_star))
+        if self.factor.dashpot:
+            share = self.touching_share(np.append(np.ravel(h_star), self.design_separation()))
+            strength = self.design_pressure / share[-1]
+            return np.asarray(ratio * strength * share[:-1].reshape(np.shape(h_star)))
+        return self.damping_for(ratio, h_star)
+
+    def design_separation(self) -> float:
+        """Return the separation h* at which the stiffness pressure is the design pressure [1]."""
+
+        def excess(h_star: float) -> float:
+            return float(self.stiffness_pressure(np.array([h_star]))[0]) - self.design_pressure
+
+        first, last = DESIGN_RANGE
+        if not excess(first) > 0.0 > excess(last):
+            raise InputError(
+                f"the law {self.name} carries at most {excess(first) + self.design_pressure:.3g} Pa on these "
+                f"surfaces, not {self.design_pressure:g}",
+                key="contact.design_pressure",
+            )
+        return float(brentq(excess, first, last, xtol=1.0e-13))
+
+    def damping_for(self, ratio: FloatArray, h_star: FloatArray) -> FloatArray:
+        """Return the coefficient C [Pa] for a ratio of damping to stiffness [1], shape of ``h_star``."""
+        return ratio * self.stiffness_pressure(h_star)
 
     def pressure(self, gap: FloatArray) -> FloatArray:
         """Return the pressure P_k [Pa] of the surfaces at rest, shape of ``gap`` [m]."""

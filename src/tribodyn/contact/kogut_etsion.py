@@ -13,30 +13,10 @@ an asperity jumps by up to 8 % from one regime to the next; the pressure, an int
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
-import numpy as np
-
-from tribodyn.contact.base import ContactLaw
-from tribodyn.contact.quadrature import asperity_integral, density
-from tribodyn.core.arrays import FloatArray
-
-
-class Regime(NamedTuple):
-    """Pressure ``stress``·∫_lower^upper s^power Φ(h* + s) ds of the asperities in one regime."""
-
-    stress: float
-    power: float
-    lower: float
-    upper: float
-
-    def integral(
-        self, h_star: FloatArray, weight: Callable[[FloatArray], FloatArray] = density
-    ) -> FloatArray:
-        """Return the regime's pressure [Pa], or with another weight its integral, shape of ``h_star``."""
-        return self.stress * asperity_integral(h_star, self.power, self.lower, self.upper, weight)
+from tribodyn.contact.asperities import AsperityLaw, Regime
 
 
 class Regimes(NamedTuple):
@@ -49,15 +29,18 @@ class Regimes(NamedTuple):
 
 
 @dataclass(frozen=True)
-class KogutEtsion(ContactLaw):
-    """The Kogut-Etsion law; it stores and returns all energy, so its damping is zero."""
+class KogutEtsion(AsperityLaw):
+    """The Kogut-Etsion law; without a damping factor it stores and returns all energy."""
 
     name: ClassVar[str] = "ke"
+    title: ClassVar[str] = "Kogut-Etsion: elastic to plastic asperities, fitted to finite elements"
+    source: ClassVar[str] = "Kogut and Etsion, Tribology Transactions 46 (2003) 383-390"
+    validity: ClassVar[str] = "plasticity index 0.5 to 8; real area below a few percent"
 
     @property
     def regimes(self) -> Regimes:
         """The four integrals of Eqs. 2-4."""
-        pair, d = self.pair, self.pair.critical_interference_star
+        pair, d = self.summits, self.summits.critical_interference_star
         plastic = 2.0 * math.pi * pair.hardness * pair.asperity_parameter
         yielding = plastic * pair.hardness_coefficient / 3.0
         return Regimes(
@@ -67,10 +50,14 @@ class KogutEtsion(ContactLaw):
             Regime(plastic, 1.0, 110.0 * d, math.inf),
         )
 
-    def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return P_k = P_e + P_ep1 + P_ep2 + P_p [Pa], shape of ``h_star`` [1]."""
-        return np.asarray(np.sum([regime.integral(h_star) for regime in self.regimes], axis=0))
-
-    def damping_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return zeros [Pa], shape of ``h_star`` [1]."""
-        return np.zeros(np.shape(h_star))
+    @property
+    def area_regimes(self) -> Regimes:
+        """Areas over πβδ_c: w, 0.93 w^1.136, 0.94 w^1.146 and 2w of an asperity with w = δ/δ_c."""
+        pair, d = self.summits, self.summits.critical_interference_star
+        flat = math.pi * pair.asperity_parameter
+        return Regimes(
+            Regime(flat, 1.0, 0.0, d),
+            Regime(0.93 * flat * d**-0.136, 1.136, d, 6.0 * d),
+            Regime(0.94 * flat * d**-0.146, 1.146, 6.0 * d, 110.0 * d),
+            Regime(2.0 * flat, 1.0, 110.0 * d, math.inf),
+        )

@@ -41,10 +41,27 @@ def asperity_integral(
     Gauss–Legendre in t = √s, which makes the integrand smooth at s = 0 for the powers 1 and 1.5; the
     upper limit is cut where the density has died away.
     """
+    h, t, half = _nodes(h_star, lower, upper)
+    integrand = 2.0 * t ** (2.0 * power + 1.0) * weight(h + t**2)
+    return np.asarray(half[..., 0] * (integrand @ _WEIGHTS))
+
+
+def height_integral(
+    h_star: FloatArray, load: Callable[[FloatArray], FloatArray], lower: float, upper: float
+) -> FloatArray:
+    """Return ∫_lower^upper load(s) · Φ(h* + s) ds for every separation, shape of ``h_star`` [1].
+
+    For the loads of asperities that are not powers of the interference s; nodes as above.
+    """
+    h, t, half = _nodes(h_star, lower, upper)
+    s = t**2
+    return np.asarray(half[..., 0] * ((2.0 * t * load(s) * density(h + s)) @ _WEIGHTS))
+
+
+def _nodes(h_star: FloatArray, lower: float, upper: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return h*, the nodes t and half the length of the interval, shapes (..., 1), (..., n), (..., 1)."""
     h = np.asarray(h_star, dtype=np.float64)[..., np.newaxis]
     reach = np.sqrt(np.maximum(h + lower, 0.0) ** 2 + 2.0 * _DECAY) - h
     t_first = math.sqrt(lower)
     half = 0.5 * (np.sqrt(np.minimum(upper, reach)) - t_first)
-    t = t_first + half * (1.0 + _NODES)
-    integrand = 2.0 * t ** (2.0 * power + 1.0) * weight(h + t**2)
-    return np.asarray(half[..., 0] * (integrand @ _WEIGHTS))
+    return h, t_first + half * (1.0 + _NODES), half

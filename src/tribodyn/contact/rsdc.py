@@ -13,11 +13,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.quadrature import asperity_integral, exceedance
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -26,29 +24,26 @@ class RSDC(KogutEtsion):
 
     Parameters
     ----------
-    pair
-        The surfaces in contact.
+    pair, restitution, design_pressure, separation_from
+        See the classes above; without a ``restitution`` the law takes that of its own energy balance.
     damping_factor
         Name of the factor that turns the restitution into damping, one of ``DAMPING_FACTORS``.
     """
 
     name: ClassVar[str] = "rsdc"
-    damping_factor: str = "lankarani-nikravesh"
+    title: ClassVar[str] = "the paper's: Kogut-Etsion with damping by the energy lost in plastic asperities"
+    source: ClassVar[str] = "the source paper, Eqs. 2-10"
+    knows_restitution: ClassVar[bool] = True
 
-    def __post_init__(self) -> None:
-        """Refuse a factor that does not exist."""
-        if self.damping_factor not in DAMPING_FACTORS:
-            raise InputError(
-                f"no damping factor {self.damping_factor!r}; there is {', '.join(DAMPING_FACTORS)}",
-                key="contact.damping_factor",
-            )
+    damping_factor: str = "lankarani-nikravesh"
 
     def works(self, h_star: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return W_e/σ and W_p/σ [Pa], works per area on closing from far apart.
 
-        Both have the shape of ``h_star`` [1].
+        Both have the shape of ``h_star`` [1]; σ is the spread of the asperities.
         """
-        parts = [regime.integral(h_star, exceedance) for regime in self.regimes]
+        h = self.above_summits(h_star)
+        parts = [regime.integral(h, exceedance) for regime in self.regimes]
         elastic, elastic_plastic_1, elastic_plastic_2, plastic = parts
         both = elastic_plastic_1 + elastic_plastic_2
         return elastic + both, plastic + both
@@ -61,17 +56,19 @@ class RSDC(KogutEtsion):
         elastic, plastic = self.works(h_star)
         return np.divide(plastic, elastic, out=np.zeros_like(plastic), where=plastic > 0.0)
 
-    def restitution(self, h_star: FloatArray) -> FloatArray:
-        """Return e = 1/√(μ + 1) [1], shape of ``h_star``."""
+    def meant_restitution(self, h_star: FloatArray) -> FloatArray:
+        """Return e = 1/√(μ + 1) [1], or the restitution asked for, shape of ``h_star``."""
+        if self.restitution is not None:
+            return super().meant_restitution(h_star)
         return np.asarray(1.0 / np.sqrt(self.loss_factor(h_star) + 1.0))
 
-    def damping_pressure(self, h_star: FloatArray) -> FloatArray:
+    def damping_for(self, ratio: FloatArray, h_star: FloatArray) -> FloatArray:
         """Return C = (4/3)a·Eξ√β σ^1.5 ∫_0^∞ s^1.5 Φ(h* + s) ds [Pa], shape of ``h_star`` [1].
 
         With the Lankarani-Nikravesh factor (4/3)a = 1 − e² = μ/(μ + 1), which is Eq. 10.
         """
-        pair = self.pair
+        pair = self.summits
         stress = pair.composite_modulus * pair.asperity_parameter
         stress *= math.sqrt(pair.roughness_rms / pair.asperity_radius)
-        ratio = DAMPING_FACTORS[self.damping_factor](self.restitution(h_star))
-        return 4.0 / 3.0 * stress * ratio * asperity_integral(h_star, 1.5, 0.0, math.inf)
+        h = self.above_summits(h_star)
+        return 4.0 / 3.0 * stress * ratio * asperity_integral(h, 1.5, 0.0, math.inf)

@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.bounce import calibrating_scale
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
@@ -36,7 +37,8 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     -------
     ContactTable
         P_k and C times the smoothstep of the onset. Slopes are sixth-order differences of the law, so that a
-        law needs to supply no derivative.
+        law needs to supply no derivative. The damping of ``calibrated`` is scaled so that the design impact
+        of the law returns its restitution.
     """
     _check_onset(onset, smoothing_width)
     step = (H_LAST - H_FIRST) / INTERVALS
@@ -47,9 +49,25 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
     smoothed_rise = share * damping_rise + step * share_slope * damping
     nodes = np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise])
-    energy = _energy_from_above(pressure, pressure_rise, step)
+    table = table_of_nodes(H_FIRST, step, nodes)
+    if law.damping_factor == "calibrated":
+        nodes[:, 2:] *= _scale(law, table, onset)
+        table = table_of_nodes(H_FIRST, step, nodes)
+    return table
+
+
+def table_of_nodes(first: float, step: float, nodes: FloatArray) -> ContactTable:
+    """Return the table with the given node values and rises, shape (n + 1, 4); see :class:`ContactTable`."""
+    energy = _energy_from_above(nodes[:, 0], nodes[:, 1], step)
     cubics = np.hstack([_power_form(*nodes[:, :2].T), _power_form(*nodes[:, 2:].T)]).reshape(-1)
-    return ContactTable(H_FIRST, H_LAST, 1.0 / step, np.ascontiguousarray(nodes), energy, cubics)
+    last = first + step * (len(nodes) - 1)
+    return ContactTable(first, last, 1.0 / step, np.array(nodes, order="C"), energy, cubics)
+
+
+def _scale(law: ContactLaw, table: ContactTable, onset: float) -> float:
+    """Return the factor on the damping of ``calibrated`` that makes it hold on this surface."""
+    wanted = float(law.meant_restitution(np.array([law.design_separation()]))[0])
+    return calibrating_scale(table, wanted, onset=onset, design_pressure=law.design_pressure)
 
 
 def onset_share(h_star: FloatArray, onset: float, width: float) -> tuple[FloatArray, FloatArray]:

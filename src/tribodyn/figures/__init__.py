@@ -10,28 +10,44 @@ import xarray as xr
 from tribodyn.figures import (
     contact_force,
     energy,
+    mechanism,
     motion,
     pressure,
+    sweep,
     tilt,
     trajectory,
     vane_error,
     wear,
 )
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import DPI
-from tribodyn.results.atomic import replacing
+from tribodyn.figures.save import remove, save
 
 FIGURES: Final[dict[str, Family]] = {
     module.FAMILY.name: module.FAMILY
-    for module in (motion, vane_error, contact_force, trajectory, tilt, pressure, wear, energy)
+    for module in (
+        motion,
+        vane_error,
+        contact_force,
+        trajectory,
+        tilt,
+        pressure,
+        wear,
+        energy,
+        mechanism,
+    )
 }
-"""Every figure, in the order in which one reads them."""
+"""Every figure of a run, in the order in which one reads them."""
 
-__all__ = ["FIGURES", "Family", "draw_all"]
+__all__ = ["FIGURES", "Family", "draw_all", "figures_of"]
+
+
+def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
+    """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
+    return sweep.families(dataset) if dataset.attrs.get("kind") == "sweep" else FIGURES
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
-    """Draw every figure that the result holds the data for, as PNG.
+    """Draw every figure that the result holds the data for, as PNG and as PDF.
 
     Parameters
     ----------
@@ -44,17 +60,14 @@ def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     Returns
     -------
     list of pathlib.Path
-        The files written, in reading order.
+        The PNG files written, in reading order; the PDF of each stands beside it.
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for family in FIGURES.values():
-        path = folder / f"{family.name}.png"
-        if not family.drawable(dataset):
-            path.unlink(missing_ok=True)
-            continue
-        with replacing(path) as part:
-            family.draw(dataset).savefig(part, format="png", dpi=DPI)
-        written.append(path)
+    for family in figures_of(dataset).values():
+        if family.drawable(dataset):
+            written.append(save(family.draw(dataset), folder, family.name))
+        else:
+            remove(folder, family.name)
     return written

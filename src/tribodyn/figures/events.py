@@ -63,12 +63,31 @@ def limit_to_smooth(axes: Axes, time: FloatArray, values: FloatArray, turns: Flo
     unit
         Unit of the values.
     """
+    limits = smooth_limits(time, values, turns)
+    if not limits:
+        return
+    axes.set_ylim(*limits)
+    loud = peak(values)
+    text = f"cut off: impacts reach {loud:.3g} {unit}"
+    axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
+
+
+def smooth_limits(time: FloatArray, values: FloatArray, turns: FloatArray) -> tuple[float, float] | None:
+    """Return an ordinate that fits the smooth motion, where impacts would flatten it; otherwise nothing.
+
+    Parameters
+    ----------
+    time
+        Times [s], shape (n_t,).
+    values
+        What is drawn, shape (..., n_t).
+    turns
+        Reversal times [s].
+    """
     smooth = np.ones(time.shape, dtype=bool)
     for turn in (0.0, *turns):
         smooth &= ~((time >= turn) & (time <= turn + SETTLING))
-    quiet, loud = peak(values[..., smooth]), peak(values)
-    if not 0.0 < quiet < 0.5 * loud:
-        return
-    axes.set_ylim(-1.6 * quiet if np.nanmin(values) < 0.0 else 0.0, 1.6 * quiet)
-    text = f"cut off: impacts reach {loud:.3g} {unit}"
-    axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
+    quiet = peak(values[..., smooth])
+    if not 0.0 < quiet < 0.5 * peak(values):
+        return None
+    return (-1.6 * quiet if np.nanmin(values) < 0.0 else 0.0), 1.6 * quiet

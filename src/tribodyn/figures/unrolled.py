@@ -124,13 +124,36 @@ def draw_map(
     return mesh
 
 
+def shortened(z: FloatArray, empty: float, half: float) -> FloatArray:
+    """Return where heights are drawn when the middle ``|z| < empty`` gets an eighth of the room.
+
+    Parameters
+    ----------
+    z
+        Heights, any shape.
+    empty, half
+        Where the middle ends and where the bushing ends, in the unit of ``z``; an ``empty`` of 0 leaves the
+        heights as they are.
+    """
+    bend = (half - empty) / 7.0 if empty else 0.0
+    near = z * (bend / empty) if empty else z
+    return np.where(np.abs(z) < empty, near, np.sign(z) * (bend + np.abs(z) - empty))
+
+
+def height_marks(half: float, empty: float) -> FloatArray:
+    """Return round heights to label outside the middle, and both edges, increasing, in the unit given."""
+    steps = np.asarray(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]).tick_values(empty, half))
+    marks = np.union1d(steps[(steps >= empty) & (steps < half)], [half])
+    return np.asarray(np.union1d(-marks, marks) + 0.0)  # makes a minus zero a plain one
+
+
 def _shorten_middle(axes: Axes, empty: float, half: float) -> None:
     """Give the middle ``|z| < empty`` an eighth of the height, and the two edge bands the rest."""
     bend = (half - empty) / 7.0
     shrink = bend / empty
 
     def forward(z: FloatArray) -> FloatArray:
-        return np.where(np.abs(z) < empty, z * shrink, np.sign(z) * (bend + np.abs(z) - empty))
+        return shortened(z, empty, half)
 
     def backward(y: FloatArray) -> FloatArray:
         return np.where(np.abs(y) < bend, y / shrink, np.sign(y) * (empty + np.abs(y) - bend))
@@ -156,9 +179,7 @@ def _heights(axes: Axes, z: FloatArray, empty: float) -> None:
     """Give the map its axial axis, with room beyond the bushing's edges so that what lies on them is seen."""
     half = float(z[-1])
     room = 0.2 * (half - empty)
-    steps = np.asarray(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]).tick_values(empty, half))
-    marks = np.union1d(steps[(steps >= empty) & (steps < half)], [half])
-    ticks = np.union1d(-marks, marks) + 0.0  # makes a minus zero a plain one
+    ticks = height_marks(half, empty)
     axes.set_ylim(-half - room, half + room)
     axes.set_yticks(ticks, [f"{tick:.3g}".replace("-", "−") for tick in ticks])
     axes.set_yticks([], minor=True)

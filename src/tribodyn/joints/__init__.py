@@ -3,5 +3,16 @@
 from __future__ import annotations
 
 from tribodyn.joints.bushing import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.point_contact import CONTACTS, SURFACE, contact_table, point_table
 
-__all__ = ["BushingGeometry", "BushingJoint", "EntryMemory", "Friction", "Grid"]
+__all__ = [
+    "CONTACTS",
+    "SURFACE",
+    "BushingGeometry",
+    "BushingJoint",
+    "EntryMemory",
+    "Friction",
+    "Grid",
+    "contact_table",
+    "point_table",
+]

@@ -10,9 +10,10 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
+from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.bushing.nodes import N_WORK
-from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -106,7 +107,9 @@ class BushingJoint:
     roughness
         Combined rms roughness σ [m].
     table
-        Tabulated contact law.
+        Tabulated contact law, or the force of a point contact.
+    contact
+        One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
     """
 
     geometry: BushingGeometry
@@ -115,6 +118,7 @@ class BushingJoint:
     grid: Grid
     roughness: float
     table: ContactTable
+    contact: str = SURFACE
 
     @property
     def theta(self) -> FloatArray:
@@ -163,6 +167,7 @@ class BushingJoint:
             minimum_entry_velocity=float(self.entry.minimum_velocity),
             clip=1.0 if self.entry.tensile_clip else 0.0,
             table=self.table,
+            point=0.0 if self.contact == SURFACE else 1.0,
             cos_theta=np.cos(self.theta),
             sin_theta=np.sin(self.theta),
             z=self.z,

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import numba
 from llvmlite import ir
-from numba import config, float64
+from numba import float64
 from numba.extending import intrinsic
 
 
@@ -30,5 +31,6 @@ def _builtin(name: str) -> Any:
     return function
 
 
-larger: Any = max if config.DISABLE_JIT else _builtin("llvm.maximum")
-smaller: Any = min if config.DISABLE_JIT else _builtin("llvm.minimum")
+_uncompiled: bool = vars(numba.config)["DISABLE_JIT"]
+larger: Any = max if _uncompiled else _builtin("llvm.maximum")
+smaller: Any = min if _uncompiled else _builtin("llvm.minimum")

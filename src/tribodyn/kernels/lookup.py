@@ -7,6 +7,8 @@ nodes are to take four at once.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
@@ -32,14 +34,14 @@ def interval(position: float, last: float) -> tuple[float, float]:
 
 
 @inlined
-def offset(number: float) -> int:
-    """Return where the coefficients of an interval begin; unsigned, so that no index is taken from the end."""
-    first: int = np.uint64(8) * np.uint64(np.int32(number))
+def offset(number: float) -> Any:
+    """Return where the coefficients of an interval begin, unsigned: no index is taken from the end."""
+    first: Any = np.uint64(8) * np.uint64(np.int32(number))
     return first
 
 
 @inlined
-def cubic(cubics: FloatArray, first: int, x: float) -> float:
+def cubic(cubics: FloatArray, first: Any, x: float) -> float:
     """Return the polynomial with the four coefficients from ``first`` on at ``x``."""
     c_1, c_2, c_3 = cubics[first + np.uint64(1)], cubics[first + np.uint64(2)], cubics[first + np.uint64(3)]
     value: float = cubics[first] + x * (c_1 + x * (c_2 + x * c_3))
@@ -47,7 +49,7 @@ def cubic(cubics: FloatArray, first: int, x: float) -> float:
 
 
 @inlined
-def cubic_slope(cubics: FloatArray, first: int, x: float) -> float:
+def cubic_slope(cubics: FloatArray, first: Any, x: float) -> float:
     """Return the derivative of :func:`cubic` in ``x``."""
     c_1, c_2, c_3 = cubics[first + np.uint64(1)], cubics[first + np.uint64(2)], cubics[first + np.uint64(3)]
     slope: float = c_1 + x * (2.0 * c_2 + 3.0 * x * c_3)

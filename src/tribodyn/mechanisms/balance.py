@@ -9,7 +9,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 
-_MAX_ITERATIONS: Final = 200
+_MAX_ITERATIONS: Final = 4000
+"""A step passes less than σ, and the way through the widest clearances is some hundreds of that."""
 _CONVERGED: Final = 1.0e-13
 """Length of a step that changes nothing any more [m]."""
 

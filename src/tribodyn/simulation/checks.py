@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints import BushingJoint, Grid
+from tribodyn.joints import SURFACE, BushingJoint, Grid
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.kernels.vsv import ledger
 from tribodyn.mechanisms.vsv import Vsv
@@ -72,6 +72,7 @@ def warnings(
         Simulated time reached [s].
     """
     depth = found["separation_least"] / vsv.joint.roughness
+    surface = vsv.joint.contact == SURFACE
     messages = [
         _energy_message(vsv, whole, clearance),
         f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
@@ -79,8 +80,11 @@ def warnings(
         else "",
         f"The mean planes of the surfaces came within {depth:.2g} sigma of each other: below 0 the "
         "statistical contact law is outside its range."
-        if depth < 0.0
+        if depth < 0.0 and surface
         else "",
+        ""
+        if surface
+        else "The contact is at a point of each end of the bushing: there is no pressure field and no wear.",
         f"The thrust collar carried nothing for {1e3 * found['collar_lift_off_time']:.3g} ms: "
         "lift-off of the vane is not modelled."
         if found["collar_lift_off_time"] > 0.0

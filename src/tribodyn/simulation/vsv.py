@@ -11,17 +11,16 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.cases.vsv import Vsv as VsvCase
-from tribodyn.contact import law, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
 from tribodyn.simulation.frames import frame_times, merged, shown
+from tribodyn.simulation.joint import joint
 from tribodyn.simulation.ledger import ledger_columns, residual_fractions
 from tribodyn.simulation.provenance import provenance
 from tribodyn.simulation.times import output_times, snapshots
@@ -58,21 +57,6 @@ def simulate_vsv(
         stop=stop,
     )
     return _Gathered(case, vsv, problem, solution).dataset()
-
-
-def joint(case: VsvCase) -> BushingJoint:
-    """Return the clearance joint of a case with its tabulated contact law."""
-    contact = case.contact
-    chosen = law(contact.law, case, damping_factor=contact.damping_factor)
-    table = tabulate(chosen, onset=contact.onset_separation, smoothing_width=contact.smoothing_width)
-    return BushingJoint(
-        geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
-        friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
-        entry=EntryMemory(contact.onset_separation, contact.minimum_entry_velocity, contact.tensile_clip),
-        grid=Grid(case.solver.grid.theta, case.solver.grid.z),
-        roughness=case.surface_pair.roughness_rms,
-        table=table,
-    )
 
 
 def mechanism(case: VsvCase) -> Vsv:

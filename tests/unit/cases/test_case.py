@@ -32,10 +32,13 @@ def _near(key: Key, scale: float) -> object:
 
 
 SCALES = st.floats(-1.0, 1.0)
+# The cut-offs are allowed beside a scan only.
 CHANGEABLE = {
     path: key
     for path, key in keys_of(type(CASE)).items()
-    if key.kind in {"quantity", "number", "count"} and not path.startswith("run.")
+    if key.kind in {"quantity", "number", "count"}
+    and not path.startswith("run.")
+    and path not in {"asperities.short_cutoff", "asperities.long_cutoff"}
 }
 
 

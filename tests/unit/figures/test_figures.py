@@ -78,7 +78,7 @@ def test_lines_are_told_apart_in_grey(name, runs):
         assert all(_told_apart_in_grey(*pair) for pair in itertools.combinations(named, 2))
 
 
-def test_draw_all_writes_png_of_sensible_size(make_result, tmp_path):
+def test_draw_all_writes_png_of_sensible_size_and_pdf(make_result, tmp_path):
     paths = draw_all(make_result(0.4), tmp_path / "figures")
     assert [path.stem for path in paths] == list(FIGURES)
     for path in paths:
@@ -87,7 +87,9 @@ def test_draw_all_writes_png_of_sensible_size(make_result, tmp_path):
         width, height = struct.unpack(">II", head[16:])
         assert 1000 <= width <= 1600
         assert 450 <= height <= 1200
-    assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == sorted(p.name for p in paths)
+        assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
+    expected = [f"{path.stem}{ending}" for path in paths for ending in (".pdf", ".png")]
+    assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == sorted(expected)
 
 
 def test_what_a_result_does_not_hold_is_not_drawn_and_not_left_over(tmp_path):

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import re
 from html.parser import HTMLParser
 
@@ -8,6 +9,7 @@ import pytest
 
 from tribodyn.figures import draw_all
 from tribodyn.report import write
+from tribodyn.report.kinds import CHAPTERS
 from tribodyn.report.numbers import in_words
 from tribodyn.results import HEADLINES, build
 
@@ -17,11 +19,11 @@ HOSTILE = '<script>alert("x")</script> & "quotes" \' </title></style>{{ 7*7 }} Ã
 class _Page(HTMLParser):
     """Tags, attributes and text of a page; complains about tags that do not nest."""
 
-    void = frozenset({"meta", "img", "br", "link"})
+    void = frozenset({"meta", "img", "br", "link", "input"})
 
     def __init__(self, text):
         super().__init__()
-        self.open, self.tags, self.text = [], [], []
+        self.open, self.tags, self.text, self.scripts = [], [], [], []
         self.feed(text)
         self.close()
         assert not self.open
@@ -35,7 +37,11 @@ class _Page(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data):
-        self.text.append(data)
+        inside = self.open[-1] if self.open else ""
+        if inside == "script":
+            self.scripts.append(data)
+        elif inside != "style":
+            self.text.append(data)
 
     @property
     def words(self):
@@ -61,19 +67,44 @@ def test_it_shows_every_headline_with_its_meaning(report):
     assert "0.1 (assumed)" in words
 
 
-def test_figures_are_embedded_whole(report):
+def test_stills_are_embedded_whole(report):
     sources = [attrs["src"] for tag, attrs in _page(report[2]).tags if tag == "img"]
-    data = [base64.b64decode(source.removeprefix("data:image/png;base64,")) for source in sources]
-    assert data == [path.read_bytes() for path in report[1]]
+    data = {base64.b64decode(source.removeprefix("data:image/png;base64,")) for source in sources}
+    assert data == {path.read_bytes() for path in report[1]}
+    assert len(sources) == len(report[1])
 
 
-def test_nothing_is_fetched_and_nothing_runs(report):
+def test_nothing_is_fetched_and_only_our_scripts_run(report):
+    page = _page(report[2])
     text = report[2].read_text(encoding="utf-8")
+    for script in page.scripts:
+        text = text.replace(script, "")
     assert not re.search(r"https?://|//cdn|@import|url\(", text)
-    tags = _page(report[2]).tags
-    assert {tag for tag, _ in tags}.isdisjoint({"script", "link", "iframe", "object", "embed"})
-    policies = [attrs["content"] for tag, attrs in tags if attrs.get("http-equiv")]
-    assert policies[0].startswith("default-src 'none'")
+    assert {tag for tag, _ in page.tags}.isdisjoint({"link", "iframe", "object", "embed", "base"})
+    policy = next(attrs["content"] for _, attrs in page.tags if attrs.get("http-equiv"))
+    assert policy.startswith("default-src 'none'; script-src 'sha256-")
+    assert "unsafe-eval" not in policy
+    digests = [hashlib.sha256(script.encode()).digest() for script in page.scripts[1:]]
+    assert [base64.b64encode(digest).decode() in policy for digest in digests] == [True, True]
+    assert not [attrs for tag, attrs in page.tags if tag == "script" and "src" in attrs]
+    assert not [name for _, attrs in page.tags for name in attrs if name.startswith("on")]
+
+
+def test_the_default_case_stays_below_8_mb(report):
+    assert report[2].stat().st_size < 8e6
+
+
+def test_every_figure_names_its_data(report):
+    result, _, path = report
+    page = _page(path)
+    anchors = {attrs["id"] for _, attrs in page.tags if "id" in attrs}
+    links = {attrs["href"] for tag, attrs in page.tags if tag == "a"}
+    for chapter in CHAPTERS["vsv"]:
+        for section in chapter.sections:
+            assert section.name in anchors
+            assert {f"#v-{name}" for name in section.needs} <= links
+    assert {f"v-{name}" for name in result.variables} <= anchors
+    assert {link[1:] for link in links if link.startswith("#")} <= anchors
 
 
 def test_warnings_come_before_numbers(report):
@@ -100,10 +131,10 @@ def test_hostile_texts_are_escaped(make_result, tmp_path):
         tribodyn_version=HOSTILE,
     )
     page = _page(write(result, tmp_path))
-    assert "script" not in {tag for tag, _ in page.tags}
     assert "{{ 7*7 }}" in page.words
-    # Title (head and page), law, formulation, failure, warning, solver name and value, version, case.
-    assert page.words.count("<script>alert(") == 10
+    # Title (head and page), law, formulation, failure, warning, solver name and value, version (table, foot).
+    assert page.words.count("<script>alert(") == 11
+    assert len(page.scripts) == 3
 
 
 @pytest.mark.parametrize("end", [0.0, 0.005])

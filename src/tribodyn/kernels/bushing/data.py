@@ -37,6 +37,8 @@ class BushingData(NamedTuple):
         1 if the total pressure must not be tensile, 0 otherwise.
     table
         Tabulated contact law.
+    point
+        1 for contact at a point of each end, whose force [N] the table then holds, 0 over the surface.
     cos_theta, sin_theta
         Cosine and sine of the node angles, shape (n_theta,).
     z
@@ -61,6 +63,7 @@ class BushingData(NamedTuple):
     minimum_entry_velocity: float
     clip: float
     table: ContactTable
+    point: float
     cos_theta: FloatArray
     sin_theta: FloatArray
     z: FloatArray

@@ -66,7 +66,7 @@ def _load(
     v_b: float,
     slip: float,
 ) -> None:
-    """Write ``size`` nodes of a row into the list from place ``at`` on; offset and velocity of the row given."""
+    """Write ``size`` nodes of a row with given offset and velocity into the list, from place ``at`` on."""
     work, cos, sin, wear = joint.work, joint.cos_theta, joint.sin_theta, joint.wear
     area = joint.area[row]
     moment = area * joint.z[row]

@@ -11,7 +11,7 @@ from tribodyn.kernels.bushing import nodes
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.nodes import gather, rewind, row_motion
 from tribodyn.kernels.bushing.pressure import reference_velocity, total_pressure
-from tribodyn.kernels.bushing.wrench import friction_law
+from tribodyn.kernels.bushing.wrench import friction_law, ratio_at
 from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel, summing
 from tribodyn.kernels.lookup import cubic, offset, stored_energy
@@ -65,9 +65,9 @@ def report(
 
 @summing
 def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: FloatArray) -> None:
-    """Add the sums over the ``n`` nodes in the list to ``out``; the separation in places of the contact table."""
+    """Add the sums over the ``n`` nodes in the list to ``out``; separations are places in the table."""
     work, cubics = joint.work, joint.table.cubics
-    kappa, square, constant = friction_law(joint, sign)
+    law = friction_law(joint, sign)
     v_min, clip = joint.minimum_entry_velocity, joint.clip
     tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
     onset = (joint.onset - joint.table.h_first) * joint.table.inverse_step + 1.0
@@ -83,7 +83,8 @@ def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: Float
         reference = reference_velocity(work[nodes.ENTRY + k], approach, v_min)
         rigid, damping = cubic(cubics, first, x), cubic(cubics, first + np.uint64(4), x)
         p = total_pressure(rigid, damping, approach / reference, clip)
-        tau = p * (constant - kappa * slip / math.sqrt(slip * slip + square))
+        ratio, _ = ratio_at(law, slip)
+        tau = ratio * p
         highest = larger(highest, p)
         nearest = smaller(nearest, number + x)
         p_c, p_s = p * c, p * s

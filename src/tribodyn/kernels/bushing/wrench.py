@@ -12,7 +12,6 @@ carried to the nine arguments once a row.
 from __future__ import annotations
 
 import math
-
 from typing import Final
 
 import numpy as np
@@ -46,18 +45,30 @@ LEAST_SQUARE: Final = 1.0e-300
 
 @inlined
 def friction_law(joint: BushingData, sign: float) -> tuple[float, float, float]:
-    """Return the coefficients (κ, u_s², r) of the friction ratio τ/P_c = r − κ u/√(u² + u_s²).
+    """Return (r, κ, u_s²) of the friction ratio τ/P_c = r − κ u/√(u² + u_s²).
 
-    Traction: κ = μ_f, r = 0. Friction moment: κ = 0, r = s' μ_f r_b/r_j, so that both give their moment
-    with the arm r_j.
+    Traction: κ = μ_f, r = 0. Friction moment: κ = 0, r = s' μ_f r_b/r_j, so that both give their
+    moment with the arm r_j.
     """
-    u_s = joint.slip_velocity
-    ratio = sign * joint.friction_coefficient * joint.bore_radius / joint.journal_radius
-    return (
-        joint.tangential * joint.friction_coefficient,
-        max(u_s * u_s, LEAST_SQUARE),
-        (1.0 - joint.tangential) * ratio,
-    )
+    steady = (1.0 - joint.tangential) * sign * joint.friction_coefficient
+    steady *= joint.bore_radius / joint.journal_radius
+    steepness = joint.tangential * joint.friction_coefficient
+    return steady, steepness, max(joint.slip_velocity * joint.slip_velocity, LEAST_SQUARE)
+
+
+@inlined
+def ratio_at(law: tuple[float, float, float], slip: float) -> tuple[float, float]:
+    """Return friction per normal pressure and its derivative with respect to slip [s/m]."""
+    steady, steepness, square = law
+    norm_square = slip * slip + square
+    slope = steepness / math.sqrt(norm_square)
+    return steady - slope * slip, -slope * square / norm_square
+
+
+@inlined
+def friction_ratio(joint: BushingData, slip: float, sign: float) -> tuple[float, float]:
+    """Return the same for a single point."""
+    return ratio_at(friction_law(joint, sign), slip)
 
 
 @kernel
@@ -99,7 +110,7 @@ def wrench(
 def _add_nodes(joint: BushingData, sign: float, n: int, out: FloatArray) -> None:
     """Add the wrench of the ``n`` nodes in the list."""
     work, cubics = joint.work, joint.table.cubics
-    kappa, square, constant = friction_law(joint, sign)
+    law = friction_law(joint, sign)
     v_min, clip, tangential = joint.minimum_entry_velocity, joint.clip, joint.tangential
     f_x = f_y = m_x = m_y = torque = 0.0
     for k in range(min(n, PART)):
@@ -110,7 +121,8 @@ def _add_nodes(joint: BushingData, sign: float, n: int, out: FloatArray) -> None
         reference = reference_velocity(work[ENTRY + k], approach, v_min)
         rigid, damping = cubic(cubics, first, x), cubic(cubics, first + np.uint64(4), x)
         p = total_pressure(rigid, damping, approach / reference, clip)
-        tau = p * (constant - kappa * slip / math.sqrt(slip * slip + square))
+        ratio, _ = ratio_at(law, slip)
+        tau = ratio * p
         push_x, push_y = p * c + tangential * tau * s, p * s - tangential * tau * c
         f_x += area * push_x
         f_y += area * push_y
@@ -222,7 +234,7 @@ def _add_piece(
     """
     a, b, v_a, v_b, speed = motion
     cos, sin, wear = joint.cos_theta, joint.sin_theta, joint.wear
-    kappa_0, square, constant = friction_law(joint, sign)
+    law = friction_law(joint, sign)
     tangential, r_j = joint.tangential, joint.journal_radius
     f_x = f_y = torque = 0.0
     # Stiffness k = ∂P/∂h and damping d = ∂P/∂δ̇, summed with products of cos θ and sin θ.
@@ -244,9 +256,7 @@ def _add_piece(
             entry_velocity[j, i],
         )
         slip = speed + v_a * s - v_b * c
-        norm_square = slip * slip + square
-        steepness = kappa_0 / math.sqrt(norm_square)
-        ratio = constant - steepness * slip
+        ratio, d_ratio = ratio_at(law, slip)
         tau = ratio * p
         f_x += p * c + tangential * tau * s
         f_y += p * s - tangential * tau * c
@@ -270,7 +280,7 @@ def _add_piece(
         lambda_ss += lam * ss
         lambda_c += lam * c
         lambda_s += lam * s
-        slope = -p * steepness * square / norm_square
+        slope = d_ratio * p
         rho_cc += slope * cc
         rho_cs += slope * cs
         rho_ss += slope * ss

@@ -12,7 +12,8 @@ What a mechanism calls, with ``film`` and ``memory`` from ``lubrication.Film(...
     Volume that leaves both ends per second [m³/s], of the last evaluation with this memory.
 
 Arguments and signs are those of ``kernels.bushing.wrench``: y = (e_x, e_y, φ_x, φ_y and their rates), ω
-right-handed about Z, M_x right-handed, M_y left-handed, M_z about the journal axis (fluid friction, opposed to ω).
+right-handed about Z, M_x right-handed, M_y left-handed, M_z about the journal axis (fluid friction, which
+opposes ω).
 
 Each returns a status, listed in ``kernels.film.data``: ``CONVERGED`` (0), or why there is no answer;
 ``out`` is then NaN. ``lubrication.explain(status)`` puts it into words.

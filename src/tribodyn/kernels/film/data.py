@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,15 +39,14 @@ class FlowTable(NamedTuple):
         Intervals per unit of 1/H, H = h/σ, of the factors.
     factors
         φ_θ, φ_z, φ_s, φ_f, φ_fp over 1/H from 0 to 2, shape (intervals, 5, 4).
-    gap_first, gap_step
-        First h/σ and interval of ``mean_gap``.
+    gap_step
+        Interval of h/σ of ``mean_gap``, which begins at 0.
     mean_gap
         Mean gap h_T/σ, whose slope is the contact factor φ_c, shape (intervals, 4); equal to h/σ above.
     """
 
     inverse_step: float
     factors: FloatArray
-    gap_first: float
     gap_step: float
     mean_gap: FloatArray
 
@@ -105,22 +104,128 @@ class FilmData(NamedTuple):
     table: FlowTable
 
 
+class FilmFields(NamedTuple):
+    """The film at one state: conductances, sources and their derivatives by the gap.
+
+    Shapes: n = n_theta columns, m = n_z − 1 rows. Without tilt only the rows up to the middle are filled.
+
+    Attributes
+    ----------
+    cos_node, sin_node, cos_face, sin_face
+        Of the grid, turned to the groove if there is one, shape (n,).
+    offset
+        a, b [m] and v_a, v_b [m/s] of the journal axis at the rows, shape (4, m).
+    face_offset
+        a, b [m] at the z faces, shape (2, m + 1).
+    weight
+        1 for a row, ½ for the one in the middle of a symmetric film, shape (m,).
+    k_theta, k_z
+        Conductance of the faces [1], shapes (n, m) and (n, m + 1).
+    wedge
+        (h_T + σ φ_s)/c on θ faces times the row weight, shape (n, m).
+    drag
+        h φ_fp [m] on θ faces times the row weight, shape (n, m).
+    couette
+        c φ_f/h on z faces, shape (n, m + 1).
+    contact
+        φ_c times the row weight at nodes, shape (n, m).
+    dk_theta, dk_z, d_wedge, d_drag, d_couette, d_contact
+        Their derivatives by h.
+    source
+        Right-hand side of the equation for the pressure [1/s], shape (n, m).
+    """
+
+    cos_node: FloatArray
+    sin_node: FloatArray
+    cos_face: FloatArray
+    sin_face: FloatArray
+    offset: FloatArray
+    face_offset: FloatArray
+    weight: FloatArray
+    k_theta: FloatArray
+    k_z: FloatArray
+    wedge: FloatArray
+    drag: FloatArray
+    couette: FloatArray
+    contact: FloatArray
+    dk_theta: FloatArray
+    dk_z: FloatArray
+    d_wedge: FloatArray
+    d_drag: FloatArray
+    d_couette: FloatArray
+    d_contact: FloatArray
+    source: FloatArray
+
+
+class BandSystem(NamedTuple):
+    """A symmetric system over some of the nodes, column after column, with the last column as a border.
+
+    Attributes
+    ----------
+    number
+        Unknown at a node or −1, shape (n, m).
+    reach
+        Last unknown that the elimination of each one touches, shape (n m,).
+    band
+        Pivot and the entries below it, shape (n m, m + 1).
+    border
+        Rows of the border, transposed, shape (n m, m).
+    corner
+        Border against itself, shape (m, m).
+    right
+        Right-hand sides, one row an unknown, shape (n m, 5).
+    size
+        Unknowns of the band, of the border, and the column where the numbering starts, shape (3,).
+    """
+
+    number: IntArray
+    reach: IntArray
+    band: FloatArray
+    border: FloatArray
+    corner: FloatArray
+    right: FloatArray
+    size: IntArray
+
+
 class FilmMemory(NamedTuple):
     """Cavitation of the last evaluation, as a first guess, and scratch.
 
-    Fields have one row a column of nodes (fixed θ) and leave the ends out: shape (n_theta, n_z − 1) unless said.
+    Fields have one row a column of nodes (fixed θ) and leave the ends out: shape (n_theta, n_z − 1).
 
     Attributes
     ----------
     active
         1 where the film is full, 0 where it cavitates.
     pressure
-        p/(6 η r²/c²) [1/s].
+        p/(6 η r²/c²) [1/s]; with ``half-sommerfeld`` before negative values are left out.
     fill
-        Fraction of the gap that holds oil.
+        Fraction of the gap that holds oil; 1 but with ``jfo``.
+    adjoint
+        Derivatives of the wrench by the source, shape (5, n_theta, n_z − 1).
+    gradient
+        Sums over rows of nodes (4) and of faces (2), shape (5, 6, n_z).
+    state
+        The state in the linear coordinates of ``kernels.film.attitude``, shape (8,).
+    chart
+        Derivatives of the wrench in these and ω, shape (5, 9).
+    fields, system
+        The film at one state, and the linear system for its pressure.
+    transport, amount
+        Matrix and unknowns (π or f) of ``jfo``, behind the groove, shapes (N, 2 n_z − 1) and (N,), N =
+        (n_theta − 1)(n_z − 1); empty for the other models.
+    effort
+        Factorisations of the last evaluation, and the number of rows it used, shape (2,).
     """
 
     active: FlagArray
     pressure: FloatArray
     fill: FloatArray
-    scratch: Any
+    adjoint: FloatArray
+    gradient: FloatArray
+    state: FloatArray
+    chart: FloatArray
+    fields: FilmFields
+    system: BandSystem
+    transport: FloatArray
+    amount: FloatArray
+    effort: IntArray

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.film.data import FilmData, FilmMemory
 
 
 class JournalData(NamedTuple):
@@ -28,6 +29,10 @@ class JournalData(NamedTuple):
         Smallest separation that the contact law reaches [m]; negative.
     joint
         The bushing.
+    lubricated
+        1 with oil in the clearance, 0 without; the film is then not looked at.
+    film
+        The oil film.
     """
 
     inertia: FloatArray
@@ -37,6 +42,8 @@ class JournalData(NamedTuple):
     sign: float
     deepest: float
     joint: BushingData
+    lubricated: float
+    film: FilmData
 
 
 class Scratch(NamedTuple):
@@ -50,6 +57,10 @@ class Scratch(NamedTuple):
         Generalised load on (e_x, e_y, φ_x, φ_y) [N, N m], shape (4,).
     wrench, wrench_jacobian, gradient
         Of the bushing kernels.
+    film, film_jacobian
+        Wrench of the film (5,), zero without oil, and its derivatives (5, 9).
+    film_status
+        Why the film last had no answer, 0 if it always had, shape (1,); for messages.
     report
         Of ``kernels/bushing/report.py``.
     rates
@@ -63,6 +74,9 @@ class Scratch(NamedTuple):
     wrench: FloatArray
     wrench_jacobian: FloatArray
     gradient: FloatArray
+    film: FloatArray
+    film_jacobian: FloatArray
+    film_status: FloatArray
     report: FloatArray
     rates: FloatArray
     rest: FloatArray
@@ -86,6 +100,8 @@ class JournalMemory(NamedTuple):
     beyond
         1 once an accepted step has left the range of the contact law, shape (1,). From then on no force is
         a number, which stops every integrator. Trial states may lie there: the law goes on linearly.
+    film
+        Cache of the film.
     scratch
         Work arrays.
     """
@@ -96,4 +112,5 @@ class JournalMemory(NamedTuple):
     rates: FloatArray
     extremes: FloatArray
     beyond: FloatArray
+    film: FilmMemory
     scratch: Scratch

@@ -15,7 +15,9 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
+from tribodyn.kernels.film.data import CONVERGED
+from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
 
@@ -40,15 +42,31 @@ def least_gap(joint: BushingData, state: FloatArray) -> float:
 
 
 @kernel
-def gather(data: JournalData, state: FloatArray, force: FloatArray, total: FloatArray) -> None:
-    """Fill ``total`` (4,) with loads, gyroscopic moments and the wrench ``force`` (5,) on the journal."""
+def film_force(data: JournalData, memory: JournalMemory, with_jacobian: bool) -> None:
+    """Fill ``scratch.film`` at ``scratch.state``, and ``scratch.film_jacobian`` where asked."""
+    scratch = memory.scratch
+    if with_jacobian:
+        status = film_wrench_and_jacobian(
+            data.film, memory.film, scratch.state, data.speed, scratch.film, scratch.film_jacobian
+        )
+    else:
+        status = film_wrench(data.film, memory.film, scratch.state, data.speed, scratch.film)
+    if status != CONVERGED:
+        scratch.film_status[0] = status
+
+
+@kernel
+def gather(data: JournalData, memory: JournalMemory) -> None:
+    """Fill ``scratch.total`` (4,) with loads, gyroscopic moments and the wrenches on the journal."""
+    scratch = memory.scratch
+    state, total, force, film = scratch.state, scratch.total, scratch.wrench, scratch.film
     sec2_x = 1.0 + math.tan(state[2]) ** 2
     sec2_y = 1.0 + math.tan(state[3]) ** 2
     spin = data.spin_inertia * data.speed
-    total[0] = data.load[0] + force[0]
-    total[1] = data.load[1] + force[1]
-    total[2] = data.load[2] + sec2_x * force[2] + spin * state[7]
-    total[3] = data.load[3] + sec2_y * force[3] - spin * state[6]
+    total[0] = data.load[0] + force[0] + film[0]
+    total[1] = data.load[1] + force[1] + film[1]
+    total[2] = data.load[2] + sec2_x * (force[2] + film[2]) + spin * state[7]
+    total[3] = data.load[3] + sec2_y * (force[3] + film[3]) - spin * state[6]
 
 
 @kernel
@@ -60,7 +78,9 @@ def forces(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
         scratch.total[:] = math.nan
         return
     wrench(data.joint, memory.entry_velocity, scratch.state, data.speed, data.sign, scratch.wrench)
-    gather(data, scratch.state, scratch.wrench, scratch.total)
+    if data.lubricated > 0.0:
+        film_force(data, memory, False)
+    gather(data, memory)
 
 
 @kernel
@@ -79,13 +99,18 @@ def forces_and_gradient(data: JournalData, y: FloatArray, memory: JournalMemory)
         jacobian,
         scratch.gradient,
     )
-    gather(data, scratch.state, scratch.wrench, scratch.total)
+    if data.lubricated > 0.0:
+        film_force(data, memory, True)
+        for i in range(4):
+            for k in range(8):
+                jacobian[i, k] += scratch.film_jacobian[i, k]
+    gather(data, memory)
     spin = data.spin_inertia * data.speed
     for i in (2, 3):
         tangent = math.tan(scratch.state[i])
         sec2 = 1.0 + tangent * tangent
         for k in range(8):
             jacobian[i, k] *= sec2
-        jacobian[i, i] += 2.0 * sec2 * tangent * scratch.wrench[i]
+        jacobian[i, i] += 2.0 * sec2 * tangent * (scratch.wrench[i] + scratch.film[i])
     jacobian[2, 7] += spin
     jacobian[3, 6] -= spin

@@ -12,9 +12,10 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.bushing.joint import report
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
-from tribodyn.kernels.journal.equations import spread
+from tribodyn.kernels.journal.equations import film_force, spread
 
 LOADS, FRICTION, DAMPING, DRIVE, FILM = 0, 1, 2, 3, 4
 """Work of the loads, of joint friction; damping heat; work of the drive that keeps ω; work of the film."""
@@ -26,15 +27,17 @@ LEAST_SEPARATION, CLIPPED = 4, 5
 """Smallest gap between mean planes [m]; time integral of the share of the contact where the clip acts [s]."""
 TOUCHING, REBOUNDS = 6, 7
 """1 while any point is in contact; how often all points have left contact again."""
-N_EXTREMES = 8
+PEAK_FILM_FORCE, PEAK_FILM_FORCE_TIME = 8, 9
+"""Largest film force [N] at any mark, and when [s]."""
+N_EXTREMES = 10
 
 
 @kernel
 def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory, with_energy: bool) -> None:
-    """Fill ``scratch.state`` and ``scratch.report`` of one instant."""
+    """Fill ``scratch.state``, ``scratch.report`` and ``scratch.film`` of one instant."""
     scratch = memory.scratch
     spread(y, scratch.state)
-    joint_report.report(
+    report(
         data.joint,
         memory.entry_velocity,
         scratch.state,
@@ -43,6 +46,8 @@ def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory, with_energ
         with_energy,
         scratch.report,
     )
+    if data.lubricated > 0.0:
+        film_force(data, memory, False)
 
 
 @kernel
@@ -56,8 +61,15 @@ def fill_rates(data: JournalData, memory: JournalMemory) -> None:
     rates[LOADS] = load_power
     rates[FRICTION] = out[joint_report.POWER_FRICTION]
     rates[DAMPING] = out[joint_report.HEAT_DAMPING]
-    rates[DRIVE] = -out[joint_report.M_JF] * data.speed
-    rates[FILM] = 0.0
+    film = scratch.film
+    rates[DRIVE] = -(out[joint_report.M_JF] + film[4]) * data.speed
+    rates[FILM] = (
+        film[0] * state[4]
+        + film[1] * state[5]
+        + (1.0 + math.tan(state[2]) ** 2) * film[2] * state[6]
+        + (1.0 + math.tan(state[3]) ** 2) * film[3] * state[7]
+        + film[4] * data.speed
+    )
 
 
 @kernel
@@ -76,6 +88,9 @@ def note_extremes(t: float, h: float, memory: JournalMemory) -> None:
     force = math.hypot(out[joint_report.F_CX], out[joint_report.F_CY])
     if force > extremes[PEAK_FORCE]:
         extremes[PEAK_FORCE], extremes[PEAK_FORCE_TIME] = force, t
+    carried = math.hypot(memory.scratch.film[0], memory.scratch.film[1])
+    if carried > extremes[PEAK_FILM_FORCE]:
+        extremes[PEAK_FILM_FORCE], extremes[PEAK_FILM_FORCE_TIME] = carried, t
     if out[joint_report.P_MAX] > extremes[PEAK_PRESSURE]:
         extremes[PEAK_PRESSURE], extremes[PEAK_PRESSURE_TIME] = out[joint_report.P_MAX], t
     extremes[LEAST_SEPARATION] = min(extremes[LEAST_SEPARATION], out[joint_report.SEPARATION_MIN])

@@ -33,7 +33,7 @@ def observe(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, r
     for k in range(joint_report.N_REPORT):
         row[_JOINT + k] = scratch.report[k]
     for k in range(5):
-        row[_FILM + k] = 0.0
+        row[_FILM + k] = scratch.film[k]
     row[_ENERGIES] = ledger.kinetic_energy(data, scratch.state)
     for k in range(ledger.N_INTEGRALS):
         row[_INTEGRALS + k] = memory.integrals[k]

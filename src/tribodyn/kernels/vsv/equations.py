@@ -13,7 +13,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.memory import add_sliding_load, pressure_field, update_entry_velocity
+from tribodyn.kernels.bushing.joint import add_sliding_load, pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import drive

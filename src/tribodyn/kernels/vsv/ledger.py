@@ -14,6 +14,7 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.bushing.joint import report
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
@@ -57,7 +58,7 @@ def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, with_ene
     scratch = memory.scratch
     omega = set_up(data, t, y, memory)
     out = scratch.report
-    joint_report.report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], with_energy, out)
+    report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], with_energy, out)
     scratch.wrench[0] = out[joint_report.F_CX] + out[joint_report.F_FX]
     scratch.wrench[1] = out[joint_report.F_CY] + out[joint_report.F_FY]
     scratch.wrench[2] = out[joint_report.M_JCX] + out[joint_report.M_FX]

@@ -92,7 +92,7 @@ def equilibrium(
     """
     turning = journal if speed is None else replace(journal, speed=speed)
     data = journal_data(turning)
-    memory = journal_memory(data)
+    memory = journal_memory(turning, data)
     starts = _starts(turning) if guess is None else [np.asarray(guess, dtype=np.float64)]
     half = data.joint.z[-1]
     scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])[: journal.freedoms]
@@ -126,4 +126,4 @@ def _described(journal: Journal, data: JournalData, memory: JournalMemory, q: Fl
     _residual(data, memory, q)
     attitude = np.zeros(4)
     attitude[: q.size] = q
-    return Equilibrium(journal, attitude, memory.scratch.wrench.copy(), np.zeros(5))
+    return Equilibrium(journal, attitude, memory.scratch.wrench.copy(), memory.scratch.film.copy())

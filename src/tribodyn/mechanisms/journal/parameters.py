@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
+from tribodyn.lubrication.film import Film
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,13 @@ class Journal:
         Loads, constant in time.
     joint
         The bushing.
+    film
+        The oil film; none by default.
+
+    Raises
+    ------
+    InputError
+        If bushing and film are not of one size.
     """
 
     mass: float
@@ -68,6 +77,16 @@ class Journal:
     speed: float
     loads: Loads
     joint: BushingJoint
+    film: Film | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse a film of another size than the bushing."""
+        size, film = self.joint.geometry, self.film
+        if film is None:
+            return
+        given = (film.clearance, film.radius, film.length)
+        if not np.allclose(given, (size.clearance, size.radius, size.length), rtol=1e-9, atol=0.0):
+            raise InputError("the film has another clearance, radius or length than the joint", key="film")
 
     @property
     def freedoms(self) -> int:

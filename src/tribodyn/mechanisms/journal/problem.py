@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
-from tribodyn.kernels.bushing.memory import update_entry_velocity
+from tribodyn.kernels.bushing.joint import update_entry_velocity
 from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.bushing.report import N_REPORT
 from tribodyn.kernels.journal import functions
@@ -17,6 +17,7 @@ from tribodyn.kernels.journal.data import JournalData, JournalMemory, Scratch
 from tribodyn.kernels.journal.equations import spread
 from tribodyn.kernels.journal.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
 from tribodyn.kernels.journal.observe import OBSERVED, observe
+from tribodyn.lubrication.film import Film, FilmGrid
 from tribodyn.mechanisms.journal.parameters import Journal
 
 FUNCTIONS: Final = CompiledFunctions(
@@ -41,10 +42,20 @@ def journal_data(journal: Journal) -> JournalData:
         sign=-float(np.sign(journal.speed)),
         deepest=float(joint.table.h_first * joint.roughness),
         joint=joint.data(),
+        lubricated=0.0 if journal.film is None else 1.0,
+        film=_film(journal).data(),
     )
 
 
-def journal_memory(data: JournalData) -> JournalMemory:
+def _film(journal: Journal) -> Film:
+    """Return the film, or for a dry journal the smallest one there is, which nobody looks at."""
+    if journal.film is not None:
+        return journal.film
+    size = journal.joint.geometry
+    return Film(1.0, size.clearance, size.radius, size.length, grid=FilmGrid(8, 4))
+
+
+def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
     """Return an empty memory: no contact, no work done yet."""
     scratch = Scratch(
         state=np.zeros(8),
@@ -52,6 +63,9 @@ def journal_memory(data: JournalData) -> JournalMemory:
         wrench=np.zeros(5),
         wrench_jacobian=np.zeros((5, 9)),
         gradient=np.zeros((3, 5)),
+        film=np.zeros(5),
+        film_jacobian=np.zeros((5, 9)),
+        film_status=np.zeros(1),
         report=np.zeros(N_REPORT),
         rates=np.zeros(N_INTEGRALS),
         rest=np.zeros(8),
@@ -65,6 +79,7 @@ def journal_memory(data: JournalData) -> JournalMemory:
         rates=np.zeros(N_INTEGRALS),
         extremes=extremes,
         beyond=np.zeros(1),
+        film=_film(journal).memory(),
         scratch=scratch,
     )
 
@@ -95,7 +110,7 @@ def journal_problem(
         If the journal does not start inside the bushing.
     """
     data = journal_data(journal)
-    memory = journal_memory(data)
+    memory = journal_memory(journal, data)
     n = journal.freedoms
     y0 = np.zeros(2 * n)
     if start is not None:

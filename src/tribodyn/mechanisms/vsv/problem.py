@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
-from tribodyn.kernels.bushing.memory import update_entry_velocity
+from tribodyn.kernels.bushing.joint import update_entry_velocity
 from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.bushing.report import N_REPORT
 from tribodyn.kernels.vsv import functions, layout

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -70,6 +71,8 @@ def reachable(lengths: Lengths, first: float, last: float) -> tuple[float, float
     return float(angles[low]), float(angles[high])
 
 
+# Asked for every case of a sweep, most of which share lengths and drive.
+@lru_cache(maxsize=64)
 def check_reach(lengths: Lengths, first: float, last: float) -> None:
     """Refuse a drive that takes the crank beyond its reach.
 

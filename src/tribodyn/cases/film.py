@@ -1,0 +1,44 @@
+"""The oil film between two rough surfaces: its keys."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from tribodyn.cases.base import Group, demand
+from tribodyn.cases.keys import ASSUMED, choice, count, number, quantity, switch
+
+SECTION_4 = "paper, section 4.2"
+
+
+class FilmGrid(Group):
+    """Cells of the film."""
+
+    theta: int = count(96, "cells around the bushing", ASSUMED, ge=8, le=4096)
+    z: int = count(16, "cells along the bushing, an even number", ASSUMED, ge=4, le=1024)
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that there is a middle row of nodes."""
+        demand(self.z % 2 == 0, "film.grid.z", "the film needs an even number of cells along the bushing")
+
+
+class Film(Group):
+    """The oil film: average Reynolds equation."""
+
+    lubricated: bool = switch(False, "whether there is oil in the clearance", SECTION_4)
+    viscosity: float = quantity("0.01 Pa s", "viscosity eta", SECTION_4, gt=0)
+    cavitation: Literal["reynolds", "half-sommerfeld", "none"] = choice(
+        "reynolds", "p >= 0 solved as such, negative pressures cut off, or negative pressures kept", SECTION_4
+    )
+    boundary: Literal["periodic", "groove"] = choice(
+        "periodic", "film unbroken around the bushing, or p = 0 on the line of maximum gap", ASSUMED
+    )
+    peklenik_journal: float = number(
+        1.0, "Peklenik number gamma_1 of the journal's surface; 1 is isotropic", ASSUMED, ge=1 / 9, le=9
+    )
+    peklenik_bushing: float = number(
+        1.0, "Peklenik number gamma_2 of the bushing's surface", ASSUMED, ge=1 / 9, le=9
+    )
+    rough_flow: bool = switch(
+        True, "whether flow, shear and contact factors of rough surfaces act", "paper, Eq. 52"
+    )
+    grid: FilmGrid = FilmGrid()

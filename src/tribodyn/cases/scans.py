@@ -1,0 +1,193 @@
+"""Scans of surfaces in a case: from the file that a key names to the numbers that the case holds.
+
+A scan is read when the case is built, and its numbers take its place: what is simulated, stored and
+shown never depends on the file again. Of the equivalent rough surface only the sum of both counts, so
+``asperities.surface`` names the scan of that sum, or of the one surface that is rough, and makes the
+trunnion smooth; with a scan of each surface their spectral moments add up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from tribodyn.cases.keys import Key, shown, toml_string
+from tribodyn.cases.units import from_si, to_si
+from tribodyn.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tribodyn.cases.build import Entry
+    from tribodyn.surfaces import Roughness, Treatment
+
+COMBINED: Final = "asperities.surface"
+EACH: Final = ("surfaces.trunnion.surface", "surfaces.bushing.surface")
+_ROUGHNESS: Final = ("surfaces.trunnion.roughness", "surfaces.bushing.roughness")
+_OPTIONS: Final = ("level", "filter", "short_cutoff", "long_cutoff")
+_OPTION_PATHS: Final = tuple(f"asperities.{name}" for name in _OPTIONS)
+ORIGIN: Final = "asperities.origin"
+FOLLOWING: Final = (*_ROUGHNESS, "asperities.density", "asperities.radius")
+"""Keys that a scan gives values to."""
+
+ALTERNATIVES: Final = (
+    *((COMBINED, path) for path in (*EACH, *FOLLOWING, ORIGIN)),
+    *((scan, path) for scan in EACH for path in (*FOLLOWING, ORIGIN)),
+)
+"""Pairs of keys of which only one may be given."""
+
+length: Final = partial(to_si, like="m")
+"""Reads a length with its unit as metres, for :func:`tribodyn.surfaces.read_scan`."""
+_LONGEST_ORIGIN: Final = 200
+
+
+@dataclass(frozen=True)
+class Equivalent:
+    """What a case needs of one rough surface or two, with where it comes from.
+
+    Attributes
+    ----------
+    roughness
+        σ of trunnion and bushing [m].
+    density, radius
+        Asperities of the equivalent rough surface [1/m², m].
+    origin
+        Files and treatment, on one line.
+    """
+
+    roughness: tuple[float, float]
+    density: float
+    radius: float
+    origin: str
+
+    def values(self) -> dict[str, str]:
+        """Return the values of keys as a case file writes them; they read back to the bit."""
+        trunnion, bushing = (from_si(sigma, "um") for sigma in self.roughness)
+        numbers = (trunnion, bushing, from_si(self.density, "1/um^2"), from_si(self.radius, "um"))
+        return {**dict(zip(FOLLOWING, numbers, strict=True)), ORIGIN: self.origin}
+
+    def block(self) -> str:
+        """Return the values as tables of a case file."""
+        tables: dict[str, list[str]] = {}
+        for path, value in self.values().items():
+            table, _, name = path.rpartition(".")
+            tables.setdefault(table, []).append(f"{name} = {toml_string(value)}")
+        return "\n".join("\n".join([f"[{table}]", *lines, ""]) for table, lines in tables.items())
+
+
+def equivalent(*surfaces: Roughness) -> Equivalent:
+    """Return the equivalent rough surface of one that is rough against a smooth trunnion, or of two."""
+    from tribodyn.surfaces import asperities
+
+    moments = surfaces[0].moments if len(surfaces) == 1 else surfaces[0].moments + surfaces[1].moments
+    found = asperities(moments)
+    sigmas = [surface.sigma for surface in surfaces]
+    names = " and ".join(Path(surface.surface.source).name for surface in surfaces)
+    origin = f"{names}: {_in_words(surfaces[0].treatment)}"
+    return Equivalent(
+        (0.0, sigmas[0]) if len(sigmas) == 1 else (sigmas[0], sigmas[1]),
+        found.density,
+        found.radius,
+        "".join(c for c in origin if c.isprintable())[-_LONGEST_ORIGIN:],
+    )
+
+
+def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
+    """Return what was given with the numbers of scans in the place of their files.
+
+    Parameters
+    ----------
+    entries
+        What was given, by dotted path.
+    keys
+        The keys of the kind of case.
+    """
+    given = [path for path in (COMBINED, *EACH) if path in entries]
+    options = [path for path in _OPTION_PATHS if path in entries]
+    if not given:
+        if options:
+            where = entries[options[0]].source
+            raise InputError(f"this belongs to a scan; {COMBINED} is not given", key=options[0], source=where)
+        return dict(entries)
+    for path in EACH:
+        if given != [COMBINED] and path not in given:
+            entry = entries[given[0]]
+            hint = f"{path} is needed too; a scan of the one rough surface is given as {COMBINED}"
+            raise InputError(hint, key=given[0], source=entry.source)
+    treatment = _treatment({path: _read(keys[path], entries[path]) for path in options}, entries)
+    found = equivalent(*(_measured(path, keys[path], entries[path], treatment) for path in given))
+    kept = {path: entry for path, entry in entries.items() if path not in (*given, *options)}
+    first = entries[given[0]]
+    return kept | {path: _like(first, value) for path, value in found.values().items() if path in keys}
+
+
+def scan_entries(entries: Mapping[str, Entry]) -> dict[str, Entry]:
+    """Return those entries that name scans and how they are treated."""
+    return {path: entry for path, entry in entries.items() if path in (COMBINED, *EACH, *_OPTION_PATHS)}
+
+
+def entries_kept(
+    given: Mapping[str, Entry], scans: Mapping[str, Entry], new: Mapping[str, Entry]
+) -> dict[str, Entry]:
+    """Return the entries of a case to which new ones are added.
+
+    Parameters
+    ----------
+    given
+        Entries of the case, with the numbers of its scans.
+    scans
+        Entries that named these scans.
+    new
+        What changes. Another treatment brings the scans back; other numbers leave their origin behind.
+    """
+    again = bool(scan_entries(new)) and bool(scans)
+    dropped = (*FOLLOWING, ORIGIN) if again else (ORIGIN,) if any(path in new for path in FOLLOWING) else ()
+    kept = {path: entry for path, entry in given.items() if path not in dropped}
+    return kept | dict(scans) if again else kept
+
+
+def _measured(path: str, key: Key, entry: Entry, treatment: Treatment) -> Roughness:
+    """Return the surface in the file that a key names, relative to the case file."""
+    from tribodyn.surfaces import analyse, read_scan
+
+    name = str(_read(key, entry))
+    file = (entry.folder or Path()) / name
+    try:
+        return analyse(read_scan(file, length), treatment)
+    except InputError as error:
+        if error.key in _OPTIONS:
+            raise InputError(error.reason, key=f"asperities.{error.key}", source=entry.source) from None
+        hint = "; a case needs a file that says it itself" if error.key in ("unit", "spacing") else ""
+        reason = f"{error.key}: {error.reason}" if error.key else error.reason
+        raise InputError(f"given {shown(name)}: {reason}{hint}", key=path, source=entry.source) from None
+
+
+def _treatment(values: dict[str, Any], entries: Mapping[str, Entry]) -> Treatment:
+    from tribodyn.surfaces import Treatment
+
+    try:
+        return Treatment(**{path.rpartition(".")[2]: value for path, value in values.items()})
+    except InputError as error:
+        path = f"asperities.{error.key}"
+        raise InputError(error.reason, key=path, source=entries[path].source) from None
+
+
+def _read(key: Key, entry: Entry) -> Any:
+    from tribodyn.cases.build import read_entry
+
+    return read_entry(key, entry)
+
+
+def _like(entry: Entry, value: str) -> Entry:
+    from dataclasses import replace
+
+    return replace(entry, value=value)
+
+
+def _in_words(treatment: Treatment) -> str:
+    """Return how a scan was treated, which is half of what its numbers mean."""
+    ends = (("from", treatment.short_cutoff), ("to", treatment.long_cutoff))
+    waves = [f"{word} {from_si(cutoff, 'um')}" for word, cutoff in ends if cutoff is not None]
+    kept = f"{treatment.filter} filter, wavelengths {' '.join(waves)}" if waves else "all wavelengths"
+    return f"{treatment.level} level, {kept}"

@@ -1,0 +1,86 @@
+"""``tribodyn reproduce``: the figures of the source paper from our own runs, and its claims judged."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from tribodyn.cli.compiling import announced_compilation
+from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.directory import OutputDirectory
+from tribodyn.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tribodyn.reproduction import PaperFigure, Runs
+
+HELP = "make the figures of the source paper, and judge its claims"
+CLAIMS: Final = "claims"
+ALL: Final = "all"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``reproduce``."""
+    parser.add_argument(
+        "what", nargs="*", metavar="WHAT", help="fig8 ... fig19, claims or all (default: all)"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", default="results-reproduction", help="where files go"
+    )
+    parser.add_argument(
+        "--formulation",
+        metavar="NAME",
+        default="paper",
+        help="formulation that the figures show: paper (the default) or exact",
+    )
+
+
+def execute(args: Namespace) -> int:
+    """Make what is asked for."""
+    from tribodyn.reproduction import FIGURES, FORMULATIONS, Runs
+
+    wanted = _wanted(args.what or [ALL], list(FIGURES))
+    if args.formulation not in FORMULATIONS:
+        raise InputError(
+            f'given "{args.formulation}"; allowed: {", ".join(FORMULATIONS)}', key="--formulation"
+        )
+    console = Console.of(args)
+    directory = OutputDirectory(args.output)
+    with announced_compilation(console.note):
+        runs = Runs(note=console.note)
+        for name in wanted:
+            if name == CLAIMS:
+                _claims(runs, directory.path, console)
+            else:
+                _figure(FIGURES[name], runs, args.formulation, directory.path, console)
+    console.say(f"everything is in {directory.path}/")
+    return 0
+
+
+def _wanted(given: list[str], figures: list[str]) -> list[str]:
+    """Return what to make, each once, in the order of the paper."""
+    names = [*figures, CLAIMS]
+    for name in given:
+        if name not in (*names, ALL):
+            raise InputError(f'given "{name}"; allowed: {", ".join(names)}, {ALL}', key="WHAT")
+    return names if ALL in given else [name for name in names if name in given]
+
+
+def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, console: Console) -> None:
+    from tribodyn.reproduction.save import save_figure
+
+    data = figure.data(runs, formulation)
+    console.note(f"drawing {figure.name}: {figure.title}")
+    save_figure(figure, data, folder)
+
+
+def _claims(runs: Runs, folder: Path, console: Console) -> None:
+    from tribodyn.reproduction import claims
+    from tribodyn.reproduction.save import save_claims
+
+    console.note("measuring the claims of the paper")
+    rows = claims.judge(runs, claims.CLAIMS)
+    save_claims(rows, folder)
+    console.say(claims.as_text(rows))
+    if console.json:
+        show_json(claims.as_json(rows))

@@ -1,0 +1,167 @@
+"""``tribodyn sweep``: simulate a case at many values of its parameters."""
+
+from __future__ import annotations
+
+import json
+import os
+import traceback
+from argparse import ArgumentParser, Namespace
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.compiling import announced_compilation
+from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.directory import FIGURES, OutputDirectory
+from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.progress import POINTS, Progress, progress
+from tribodyn.cli.tables import sweep_in_words
+from tribodyn.core.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from tribodyn.studies import Arrival, Means, Plan
+
+HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
+
+_STOPPING: Final = b"\ntribodyn: stopping; finished points are kept; interrupt again to abort\n"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``sweep``."""
+    add_case_arguments(parser)
+    parser.add_argument(
+        "--vary",
+        metavar="PATH=VALUES",
+        action="append",
+        required=True,
+        help='a list "20 um,30 um", a range "10 um:50 um:10 um" or a distribution "normal(20 um, 2 um)"; '
+        "may be repeated: lists and ranges form a grid",
+    )
+    parser.add_argument(
+        "--samples", metavar="N", type=int, help="how many samples are drawn from distributions"
+    )
+    parser.add_argument("--method", metavar="NAME", default="lhs", help="lhs (Latin hypercube) or sobol")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="equal seeds give equal samples")
+    parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: sweep-CASE)")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--workers", metavar="N", type=int, help="processes (default: one a processor; 0: this one alone)"
+    )
+    where.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://10.0.0.1:8786")
+    again = parser.add_mutually_exclusive_group()
+    again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
+    again.add_argument("--fresh", action="store_true", help="compute all points again")
+    parser.add_argument(
+        "--summary-only",
+        action="store_true",
+        help="keep headline numbers of each point, not its whole result",
+    )
+
+
+def execute(args: Namespace) -> int:
+    """Run the sweep; 0 when every point has a result and everything is written, else 1."""
+    from tribodyn.studies import Means, Sampling, make_plan
+
+    console = Console.of(args)
+    plan = make_plan(
+        chosen_case(args), _variations(args.vary), Sampling(args.samples, args.method, args.seed)
+    )
+    means = Means(args.workers, args.scheduler, args.retry, args.fresh, not args.summary_only)
+    directory = OutputDirectory(f"sweep-{Path(args.case).stem}" if args.output is None else args.output)
+    try:
+        with Interruption(_STOPPING) as interruption:
+            dataset = _computed(plan, directory.path, means, console, interruption)
+    except BaseException:
+        directory.forget()
+        raise
+    drawn = not interruption.requested and _draw(dataset, directory.path, console, args.debug)
+    _tell(directory.path, console)
+    lost = int(dataset.attrs["points_failed"])
+    if lost:
+        complain(_lost(dataset, lost, stopped=interruption.requested))
+    return 0 if drawn and not lost else 1
+
+
+def _variations(texts: list[str]) -> dict[str, str]:
+    """Return what varies, by path."""
+    variations: dict[str, str] = {}
+    for text in texts:
+        path, equals, values = (part.strip() for part in text.partition("="))
+        if not (equals and path and values):
+            raise InputError(
+                f'given "{text}"; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"', key="--vary"
+            )
+        if path in variations:
+            raise InputError("this parameter is varied twice", key=path, source="--vary")
+        variations[path] = values
+    return variations
+
+
+def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
+    from tribodyn.studies import run
+
+    with ExitStack() as stack:
+        return run(plan, path, means, _Watch(plan, console, stack), stop)
+
+
+class _Watch:
+    """Shows the arrival of points; the bar opens when it is known how many there are to compute."""
+
+    def __init__(self, plan: Plan, console: Console, stack: ExitStack) -> None:
+        self._n_points = len(plan.points)
+        self._console = console
+        self._stack = stack
+        self._shown: Progress
+
+    def __call__(self, arrival: Arrival) -> None:
+        """Show one arrival."""
+        if arrival.point is None:
+            self._begin(arrival.to_do)
+            return
+        if arrival.failure:
+            self._shown.note(f"no result at {arrival.point.label}: {arrival.failure}")
+        self._shown(arrival.done)
+
+    def _begin(self, to_do: int) -> None:
+        here = f", {self._n_points - to_do} are there already" if to_do < self._n_points else ""
+        self._console.note(f"computing {to_do} of {self._n_points} points{here}")
+        self._shown = self._stack.enter_context(progress(max(to_do, 1), self._console, POINTS))
+        self._stack.enter_context(announced_compilation(self._shown.note))
+
+
+def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool) -> bool:
+    """Draw all figures; the results are safe whatever happens here. Tell whether all were drawn."""
+    from tribodyn import figures
+
+    console.note("drawing figures")
+    try:
+        figures.draw_all(dataset, path / FIGURES)
+    except KeyboardInterrupt:
+        complain(f"interrupted while drawing; the results are saved in {path}")
+        return False
+    except Exception as error:
+        if debug:
+            traceback.print_exc()
+        complain(f"figures could not be made ({error}); the results are saved in {path}")
+        return False
+    return True
+
+
+def _tell(path: Path, console: Console) -> None:
+    """Print the table, and where to look."""
+    record: dict[str, Any] = json.loads((path / "sweep.json").read_text(encoding="utf-8"))
+    for line in ("", record["title"], *sweep_in_words(record), ""):
+        console.say(line)
+    console.say(f"look at {path / FIGURES}{os.sep}; everything is in {path}{os.sep}")
+    if console.json:
+        show_json(record)
+
+
+def _lost(dataset: xr.Dataset, lost: int, *, stopped: bool) -> str:
+    """Say how many points have no result, and how to get them."""
+    reason = next(text for text in dataset["failure"].values.ravel().tolist() if text)
+    again = "the same command computes them" if stopped else "--retry computes failed points again"
+    return f"{lost} of {dataset.attrs['points_in_all']} points have no result ({reason}); {again}"

@@ -1,0 +1,93 @@
+"""The end of a sweep in words: one line for each point, or the statistics of samples."""
+
+from __future__ import annotations
+
+import shutil
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Final
+
+_COLUMN: Final = 13
+_LONGEST: Final = 22
+_MOST_ROWS: Final = 40
+_LEFT_OUT: Final = ("Trust", "Effort")
+"""Groups of headline numbers that say nothing about the machine."""
+
+
+def sweep_in_words(record: Mapping[str, Any]) -> Iterator[str]:
+    """Give the lines of a table.
+
+    Parameters
+    ----------
+    record
+        Content of ``sweep.json``.
+    """
+    if record["statistics"]:
+        yield from _statistics(record["statistics"])
+    else:
+        yield from _points(record["points"])
+
+
+def _headlines(given: Sequence[str]) -> dict[str, str]:
+    """Return the headings of the numbers that a user wants to see, by name."""
+    from tribodyn.results import HEADLINES
+
+    known = {name: HEADLINES[name] for name in HEADLINES if name in given}
+    wanted = {name: entry for name, entry in known.items() if entry.group not in _LEFT_OUT}
+    return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}
+
+
+def _points(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    numbers = _headlines([name for point in points for name in point])
+    widths = {name: _width(name, points) for name in points[0]["changes"]}
+    room = shutil.get_terminal_size((120, 40)).columns - sum(widths.values()) - 2 * len(widths)
+    shown = dict(list(numbers.items())[: max(room // (_COLUMN + 2), 1)])
+    yield from _heading({name: (name.replace(".", " "), width) for name, width in widths.items()}, shown)
+    for point in points[:_MOST_ROWS]:
+        changes = (f"{point['changes'][name]:<{width}.{width}}" for name, width in widths.items())
+        yield "  ".join([*changes, *_cells(point, shown)])
+    if len(points) > _MOST_ROWS:
+        yield f"... {len(points) - _MOST_ROWS} more points"
+
+
+def _width(name: str, points: Sequence[Mapping[str, Any]]) -> int:
+    """Return the width of the column of a parameter: its heading is broken at dots, its values are cut."""
+    values = [point["changes"][name] for point in points]
+    return max(min(max(map(len, values)), _LONGEST), *map(len, name.split(".")))
+
+
+def _cells(point: Mapping[str, Any], shown: Mapping[str, str]) -> Iterator[str]:
+    if point["failure"]:
+        yield f"no result: {point['failure']}"[: (_COLUMN + 2) * len(shown)]
+        return
+    yield from (_number(point.get(name)) for name in shown)
+
+
+def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) -> Iterator[str]:
+    """Give the headings, broken into lines that fit above their columns."""
+    columns = [(textwrap.wrap(text, width), f"<{width}") for text, width in varied.values()]
+    columns += [(textwrap.wrap(text, _COLUMN), f">{_COLUMN}") for text in shown.values()]
+    for line in range(max(len(words) for words, _ in columns)):
+        cells = (f"{words[line] if line < len(words) else '':{place}}" for words, place in columns)
+        yield "  ".join(cells).rstrip()
+
+
+def _statistics(records: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    for record in records:
+        at = ", ".join(f"{path} = {value}" for path, value in record["at"].items())
+        yield from [at] if at else []
+        yield from _one_statistic(record["numbers"])
+
+
+def _one_statistic(record: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
+    labels = _headlines(list(record))
+    names = list(next(iter(record.values()), {}))
+    width = max((len(label) for label in labels.values()), default=0)
+    yield "  ".join([" " * (width + 2), *(f"{name:>{_COLUMN}}" for name in names)])
+    for name, label in labels.items():
+        cells = (_number(record[name].get(statistic)) for statistic in names)
+        yield "  ".join([f"  {label:<{width}}", *cells])
+
+
+def _number(value: object) -> str:
+    return f"{value:>{_COLUMN}.4g}" if isinstance(value, (int, float)) else f"{'–':>{_COLUMN}}"

@@ -1,0 +1,64 @@
+"""Linear contact pressure (penalty), the baseline of multibody programs.
+
+The surfaces are taken as smooth: P = κ·(penetration of the mean planes), nothing before they meet at h = 0.
+The corner there is rounded over a tenth of σ, as if the roughness were that small:
+
+    P = κσw F_1(h*/w),   w = 0.1,   F_1(x) = ∫_0^∞ s Φ(x + s) ds → −x for x ≪ 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from typing import ClassVar, Final
+
+import numpy as np
+
+from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.quadrature import asperity_integral, exceedance
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+
+CORNER: Final = 0.1
+"""w, in units of σ; the table of the law has 13 nodes on it."""
+
+
+@dataclass(frozen=True)
+class Linear(ContactLaw):
+    """A bed of equal springs.
+
+    Parameters
+    ----------
+    pair, damping_factor, restitution, design_pressure
+        See :class:`ContactLaw`.
+    penalty_stiffness
+        Pressure per penetration κ [Pa/m].
+    """
+
+    name: ClassVar[str] = "linear"
+    title: ClassVar[str] = "linear (penalty): smooth surfaces on springs"
+    source: ClassVar[str] = "common in multibody programs; its stiffness is a choice"
+    validity: ClassVar[str] = "none: a baseline that knows nothing of the roughness"
+
+    _: KW_ONLY
+    penalty_stiffness: float = 5.0e13
+
+    def __post_init__(self) -> None:
+        """Refuse a stiffness that is none."""
+        super().__post_init__()
+        if not 0.0 < self.penalty_stiffness < math.inf:
+            raise InputError(
+                f"must be positive, not {self.penalty_stiffness}", key="contact.penalty_stiffness"
+            )
+
+    def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
+        """Return the pressure [Pa], shape of ``h_star`` [1]."""
+        x = np.asarray(h_star, dtype=np.float64) / CORNER
+        stress = self.penalty_stiffness * self.pair.roughness_rms * CORNER
+        # Far inside the integral is −x to rounding, and its quadrature is not made for that.
+        inside = np.maximum(-x, 0.0)
+        return np.asarray(stress * np.where(x < -8.0, inside, asperity_integral(x, 1.0, 0.0, math.inf)))
+
+    def touching_share(self, h_star: FloatArray) -> FloatArray:
+        """Return the share of springs that touch [1]: a rounded step at h* = 0, shape of ``h_star``."""
+        return exceedance(np.asarray(h_star, dtype=np.float64) / CORNER)

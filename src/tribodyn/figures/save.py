@@ -1,0 +1,46 @@
+"""A figure on disk: PNG to look at, PDF for a paper."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from tribodyn.figures.style import DPI
+from tribodyn.results.atomic import replacing
+
+FORMATS = (".png", ".pdf")
+
+
+def save(figure: Figure, folder: Path, name: str) -> Path:
+    """Write a figure as PNG and as PDF with its text as text.
+
+    Parameters
+    ----------
+    figure
+        Drawn; its layout is fixed by saving it.
+    folder
+        Where to write; must exist.
+    name
+        File name without ending.
+
+    Returns
+    -------
+    pathlib.Path
+        The PNG file; the PDF stands beside it.
+    """
+    path = folder / f"{name}.png"
+    with replacing(path) as part:
+        figure.savefig(part, format="png", dpi=DPI)
+    # Arranging the parts of a figure takes longer than drawing it: once is enough.
+    figure.set_layout_engine("none")
+    with replacing(path.with_suffix(".pdf")) as part:
+        # Without a date the same result gives the same file.
+        figure.savefig(part, format="pdf", metadata={"CreationDate": None})
+    return path
+
+
+def remove(folder: Path, name: str) -> None:
+    """Remove the files of a figure, as far as there are any."""
+    for ending in FORMATS:
+        (folder / f"{name}{ending}").unlink(missing_ok=True)

@@ -1,0 +1,138 @@
+"""Point contact of a trunnion in its bushing: force over penetration of the clearance circle.
+
+Smooth bodies and one contact at each end of the bushing, which carries half the line load. With the composite
+modulus E, radii r_j and r_b = r_j + c and the penetration δ = ρ − c:
+
+- Lankarani and Nikravesh (1990), the sphere of Hertz: F = K δ^1.5, K = (4/3) E √(r_j r_b/c).
+- Johnson (1985), cylinders: δ = f/(πE) [ln(4πE c/f) − 1] with the load per length f; it has no
+  solution beyond δ = 4c/e², and goes on as a straight line from δ = 8c/e³.
+
+Both are multiplied by 1 + a δ̇/δ̇₋ with the damping factor a of the case.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Final, Protocol
+
+import numpy as np
+from scipy.special import lambertw
+
+from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.table import table_of_nodes, tabulate
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.tables import ContactTable
+
+INTERVALS: Final = 4096
+
+
+class Cylinders(Protocol):
+    """What a point contact asks of the geometry of a bushing."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance c [m]."""
+
+    @property
+    def radius(self) -> float:
+        """Radius r_j of the trunnion [m]."""
+
+    @property
+    def bore_radius(self) -> float:
+        """Radius r_b of the bushing [m]."""
+
+    @property
+    def length(self) -> float:
+        """Length l_z of the bushing [m]."""
+
+
+Curve = tuple[FloatArray, FloatArray]
+"""Force of the whole bushing [N] and its slope [N/m] over penetration."""
+
+
+def lankarani_nikravesh(depth: FloatArray, modulus: float, cylinders: Cylinders) -> Curve:
+    """Return force and slope at penetrations ``depth`` [m], shape (n,); ``modulus`` is composite [Pa]."""
+    radius = cylinders.radius * cylinders.bore_radius / cylinders.clearance
+    stiffness = 4.0 / 3.0 * modulus * math.sqrt(radius)
+    return stiffness * depth**1.5, 1.5 * stiffness * depth**0.5
+
+
+def johnson(depth: FloatArray, modulus: float, cylinders: Cylinders) -> Curve:
+    """Return force and slope at penetrations ``depth`` [m], shape (n,); ``modulus`` is composite [Pa].
+
+    With x = f/(4πEc) the formula is x ln(ex) = −δ/4c, solved by the Lambert W function: ln(ex) = W₋₁(−eδ/4c).
+    """
+    compliance = 1.0 / (math.pi * modulus)
+    straight = 8.0 * cylinders.clearance * math.exp(-3.0)
+    curved = np.clip(depth, 1e-300, straight)
+    logarithm = lambertw(-math.e * curved / (4.0 * cylinders.clearance), k=-1).real
+    load = 4.0 * cylinders.clearance / compliance * np.exp(logarithm - 1.0)
+    slope = 1.0 / (compliance * (-1.0 - logarithm))
+    load = load + slope * np.maximum(depth - straight, 0.0)
+    touching = depth > 0.0
+    return cylinders.length * load * touching, cylinders.length * slope * touching
+
+
+POINT_CONTACTS: dict[str, Callable[[FloatArray, float, Cylinders], Curve]] = {
+    "point-lankarani-nikravesh": lankarani_nikravesh,
+    "point-johnson": johnson,
+}
+SURFACE: Final = "surface"
+CONTACTS: Final = (SURFACE, *POINT_CONTACTS)
+"""How a trunnion can touch its bushing."""
+
+
+def contact_table(
+    contact: str, law: ContactLaw, cylinders: Cylinders, *, onset: float, smoothing_width: float
+) -> ContactTable:
+    """Return what the kernels of a joint read of a contact law.
+
+    Parameters
+    ----------
+    contact
+        One of :data:`CONTACTS`.
+    law, cylinders
+        As for :func:`point_table`.
+    onset, smoothing_width
+        As for :func:`tribodyn.contact.tabulate`; a point contact has neither.
+    """
+    if contact == SURFACE:
+        return tabulate(law, onset=onset, smoothing_width=smoothing_width)
+    return point_table(contact, law, cylinders)
+
+
+def point_table(name: str, law: ContactLaw, cylinders: Cylinders) -> ContactTable:
+    """Tabulate the force of one end over (c − ρ)/σ, from a penetration by the whole clearance to none.
+
+    Parameters
+    ----------
+    name
+        One of :data:`POINT_CONTACTS`.
+    law
+        Gives the materials, the damping factor and, at its design pressure, the restitution.
+    cylinders
+        Dimensions of the joint.
+    """
+    if law.factor.dashpot:
+        raise InputError(
+            f"{law.damping_factor} is not for a point contact: its dashpot would push at the touch",
+            key="contact.damping_factor",
+        )
+    sigma = law.pair.roughness_rms
+    depth = np.linspace(cylinders.clearance, 0.0, INTERVALS + 1)
+    force, slope = POINT_CONTACTS[name](depth, law.pair.composite_modulus, cylinders)
+    step = cylinders.clearance / (sigma * INTERVALS)
+    force, rise = 0.5 * force, -0.5 * slope * sigma * step
+    ratio = point_damping(law)
+    nodes = np.column_stack([force, rise, ratio * force, ratio * rise])
+    return table_of_nodes(-cylinders.clearance / sigma, step, nodes)
+
+
+def point_damping(law: ContactLaw) -> float:
+    """Return the ratio a of damping to stiffness of a point contact with the restitution of a law [1]."""
+    if law.damping_factor == "none":
+        return 0.0
+    where = np.array([0.0 if law.restitution is not None else law.design_separation()])
+    return float(law.factor(law.meant_restitution(where))[0])

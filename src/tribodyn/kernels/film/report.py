@@ -1,0 +1,61 @@
+"""What is told about the last evaluation of a film besides its wrench."""
+
+from __future__ import annotations
+
+import math
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.film.data import HALF_SOMMERFELD, FilmData, FilmMemory
+from tribodyn.kernels.jit import entry, kernel
+
+
+@kernel
+def pressure_unit(film: FilmData) -> float:
+    """Return the pressure of π = 1/s: 6 η r²/c² [Pa s]."""
+    slender = film.radius / film.clearance
+    return 6.0 * film.viscosity * slender * slender
+
+
+@entry
+def film_pressure(film: FilmData, memory: FilmMemory, pressure: FloatArray) -> None:
+    """Fill ``pressure`` (n_z + 1, n_theta) [Pa] with the field of the last evaluation.
+
+    With a groove, columns count from the groove.
+    """
+    n, m = memory.pressure.shape
+    unit = pressure_unit(film)
+    for i in range(n):
+        pressure[0, i] = 0.0
+        pressure[m + 1, i] = 0.0
+        for j in range(m):
+            p = unit * memory.pressure[i, j]
+            pressure[j + 1, i] = max(p, 0.0) if film.cavitation == HALF_SOMMERFELD else p
+
+
+@entry
+def film_leakage(film: FilmData, memory: FilmMemory) -> float:
+    """Return the volume that leaves both ends per second [m³/s]: −∮ φ_z h³/(12 η) ∂p/∂z r dθ, outward."""
+    n, m = memory.pressure.shape
+    half = memory.effort[1] < m
+    total = 0.0
+    for i in range(n):
+        total += _outflow(film, memory, i, 0, 1)
+        total += _outflow(film, memory, i, 0, 1) if half else _outflow(film, memory, i, m - 1, -1)
+    return 0.5 * film.radius * film.radius * film.clearance * total
+
+
+@kernel
+def _outflow(film: FilmData, memory: FilmMemory, i: int, j: int, inward: int) -> float:
+    """Return what leaves the end next to row ``j``: slope of a parabola, conductance carried on to it."""
+    first, second = memory.pressure[i, j], memory.pressure[i, j + inward]
+    if film.cavitation == HALF_SOMMERFELD:
+        first, second = max(first, 0.0), max(second, 0.0)
+    face = j if inward > 0 else j + 1
+    k_z = memory.fields.k_z
+    return (1.5 * k_z[i, face] - 0.5 * k_z[i, face + inward]) * (2.0 * first - 0.5 * second)
+
+
+@entry
+def groove_angle(film: FilmData, memory: FilmMemory) -> float:
+    """Return the angle of the first column of nodes [rad]; 0 without a groove."""
+    return math.atan2(memory.fields.sin_node[0], memory.fields.cos_node[0])

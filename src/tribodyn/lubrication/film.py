@@ -1,0 +1,204 @@
+"""An oil film between journal and bushing, made into what the kernels read."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.kernels.film.data import (
+    HALF_SOMMERFELD,
+    JFO,
+    NO_CAVITATION,
+    REYNOLDS,
+    BandSystem,
+    FilmData,
+    FilmFields,
+    FilmMemory,
+)
+from tribodyn.lubrication.roughness import Roughness
+from tribodyn.lubrication.tables import flow_table
+
+CAVITATION: Final = {
+    "reynolds": REYNOLDS,
+    "half-sommerfeld": HALF_SOMMERFELD,
+    "none": NO_CAVITATION,
+    "jfo": JFO,
+}
+"""Cavitation models by name."""
+
+BOUNDARIES: Final = ("periodic", "groove")
+"""In θ: periodic, or p = 0 on the line of maximum gap."""
+
+
+@dataclass(frozen=True)
+class FilmGrid:
+    """Cells of the film: ``theta`` around the circumference, ``z`` (even) along the axis."""
+
+    theta: int = 128
+    z: int = 32
+
+    def __post_init__(self) -> None:
+        """Refuse grids without a middle row or too coarse to hold a film."""
+        if self.theta < 8:
+            raise InputError(f"{self.theta} cells around the film; give 8 or more", key="film.grid.theta")
+        if self.z < 4 or self.z % 2:
+            raise InputError(f"{self.z} cells along the film; give an even number from 4", key="film.grid.z")
+
+
+@dataclass(frozen=True)
+class Film:
+    """A film of oil in a bushing.
+
+    Attributes
+    ----------
+    viscosity
+        η [Pa s].
+    clearance, radius, length
+        Radial clearance c, journal radius r_j and length l_z [m].
+    roughness
+        Of both surfaces; smooth by default.
+    cavitation
+        A key of :data:`CAVITATION`. ``jfo`` conserves mass, and is for steady films with a groove.
+    boundary
+        One of :data:`BOUNDARIES`.
+    grid
+        Cells in θ and z.
+    """
+
+    viscosity: float
+    clearance: float
+    radius: float
+    length: float
+    roughness: Roughness = field(default_factory=Roughness)
+    cavitation: str = "reynolds"
+    boundary: str = "periodic"
+    grid: FilmGrid = field(default_factory=FilmGrid)
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be a film."""
+        for name in ("viscosity", "clearance", "radius", "length"):
+            value = getattr(self, name)
+            if not 0.0 < value < math.inf:
+                raise InputError(f"given {value:g}; a film needs a positive value", key=f"film.{name}")
+        _require(self.cavitation, tuple(CAVITATION), "film.cavitation")
+        _require(self.boundary, BOUNDARIES, "film.boundary")
+        if self.cavitation == "jfo" and self.boundary != "groove":
+            raise InputError(
+                "jfo needs film.boundary = 'groove': a periodic film with p = 0 at its ends loses oil there "
+                "and has no supply, so that its steady state is dry",
+                key="film.cavitation",
+            )
+
+    @property
+    def theta(self) -> FloatArray:
+        """Angles of the nodes [rad], shape (n_theta,); counted from the groove if there is one."""
+        return 2.0 * np.pi * np.arange(self.grid.theta) / self.grid.theta
+
+    @property
+    def z(self) -> FloatArray:
+        """Axial positions of the nodes, ends included [m], shape (n_z + 1,)."""
+        return self.length * (np.arange(self.grid.z + 1) / self.grid.z - 0.5)
+
+    @property
+    def field_shape(self) -> tuple[int, int]:
+        """Shape (n_z + 1, n_theta) of a field over the nodes."""
+        return self.grid.z + 1, self.grid.theta
+
+    def data(self, wear: FloatArray | None = None) -> FilmData:
+        """Return what the kernels read.
+
+        Parameters
+        ----------
+        wear
+            Wear depth at the nodes [m], shape :attr:`field_shape`; none by default.
+        """
+        depth = self._wear(wear)
+        z_face = 0.5 * (self.z[1:] + self.z[:-1])
+        half_step = np.pi / self.grid.theta
+        return FilmData(
+            viscosity=float(self.viscosity),
+            clearance=float(self.clearance),
+            radius=float(self.radius),
+            length=float(self.length),
+            roughness=self.roughness.combined,
+            cavitation=CAVITATION[self.cavitation],
+            groove=int(self.boundary == "groove"),
+            uniform=int(np.ptp(depth, axis=0).max() == 0.0),
+            mirror=int(np.array_equal(depth, depth[::-1])),
+            cos_node=np.cos(self.theta),
+            sin_node=np.sin(self.theta),
+            cos_face=np.cos(self.theta + half_step),
+            sin_face=np.sin(self.theta + half_step),
+            z_node=self.z,
+            z_face=z_face,
+            wear_node=np.ascontiguousarray(depth.T),
+            wear_theta=np.ascontiguousarray((0.5 * (depth + np.roll(depth, -1, axis=1))).T),
+            wear_z=np.ascontiguousarray((0.5 * (depth[1:] + depth[:-1])).T),
+            table=flow_table(self.roughness),
+        )
+
+    def _wear(self, wear: FloatArray | None) -> FloatArray:
+        depth = np.zeros(self.field_shape) if wear is None else np.asarray(wear, dtype=np.float64)
+        if depth.shape != self.field_shape:
+            raise InputError(f"wear depth has shape {depth.shape}, the film {self.field_shape}")
+        if self.boundary == "groove" and depth.any():
+            raise InputError(
+                "a worn bushing needs 'periodic': with 'groove' the grid turns with the line of centres",
+                key="film.boundary",
+            )
+        return depth
+
+    def memory(self) -> FilmMemory:
+        """Return the cache of one thread: cavitation of the last evaluation, and scratch."""
+        n, m = self.grid.theta, self.grid.z - 1
+        unknowns = (n - 1) * m if self.cavitation == "jfo" else 0
+        return FilmMemory(
+            active=np.ones((n, m), dtype=np.int8),
+            pressure=np.zeros((n, m)),
+            fill=np.ones((n, m)),
+            adjoint=np.zeros((5, n, m)),
+            gradient=np.zeros((5, 6, m + 1)),
+            state=np.zeros(8),
+            chart=np.zeros((5, 9)),
+            fields=_fields(n, m),
+            system=_system(n, m),
+            transport=np.zeros((unknowns, 2 * m + 1)),
+            amount=np.zeros(unknowns),
+            effort=np.zeros(2, dtype=np.int64),
+        )
+
+
+def _require(value: str, allowed: tuple[str, ...], key: str) -> None:
+    if value not in allowed:
+        raise InputError(f"given {value!r}; allowed: {', '.join(allowed)}", key=key)
+
+
+def _fields(n: int, m: int) -> FilmFields:
+    on_theta = ("k_theta", "wedge", "drag", "contact", "dk_theta", "d_wedge", "d_drag", "d_contact", "source")
+    on_z = ("k_z", "couette", "dk_z", "d_couette")
+    columns = ("cos_node", "sin_node", "cos_face", "sin_face")
+    return FilmFields(
+        **{name: np.zeros(n) for name in columns},
+        **{name: np.zeros((n, m)) for name in on_theta},
+        **{name: np.zeros((n, m + 1)) for name in on_z},
+        offset=np.zeros((4, m)),
+        face_offset=np.zeros((2, m + 1)),
+        weight=np.ones(m),
+    )
+
+
+def _system(n: int, m: int) -> BandSystem:
+    return BandSystem(
+        number=np.full((n, m), -1, dtype=np.int64),
+        reach=np.zeros(n * m, dtype=np.int64),
+        band=np.zeros((n * m, m + 1)),
+        border=np.zeros((n * m, m)),
+        corner=np.zeros((m, m)),
+        right=np.zeros((n * m, 5)),
+        size=np.zeros(3, dtype=np.int64),
+    )

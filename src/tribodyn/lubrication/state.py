@@ -1,0 +1,95 @@
+"""A film at one state, evaluated from Python."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
+from tribodyn.kernels.film.report import film_leakage, film_pressure
+from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
+from tribodyn.lubrication.film import Film
+from tribodyn.lubrication.status import explain
+
+
+@dataclass(frozen=True)
+class FilmState:
+    """What a film does at one state.
+
+    Attributes
+    ----------
+    force
+        (F_x, F_y) on the journal [N].
+    moment
+        (M_x, M_y) on the journal [N m], right- and left-handed.
+    torque
+        Fluid friction on the journal about its axis [N m].
+    leakage
+        Volume that leaves both ends [m³/s].
+    attitude_angle
+        From the load that the film carries to the line of centres, in the direction of θ [rad].
+    pressure
+        At the nodes [Pa], shape (n_z + 1, n_theta).
+    jacobian
+        Derivatives of force, moment and torque in the eight states and ω, shape (5, 9).
+    """
+
+    force: tuple[float, float]
+    moment: tuple[float, float]
+    torque: float
+    leakage: float
+    attitude_angle: float
+    pressure: FloatArray
+    jacobian: FloatArray
+
+
+def film_state(
+    film: Film | FilmData, y: FloatArray, *, omega: float = 0.0, memory: FilmMemory | None = None
+) -> FilmState:
+    """Evaluate a film.
+
+    Parameters
+    ----------
+    film
+        The film, or its data with a wear field; data need a ``memory``.
+    y
+        Attitude and rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), shape (8,), SI units.
+    omega
+        Speed of the journal [rad/s].
+    memory
+        From ``Film.memory``, to be reused; a new one by default.
+
+    Raises
+    ------
+    InputError
+        If there is no film at this state.
+    """
+    data = film.data() if isinstance(film, Film) else film
+    cache = film.memory() if memory is None and isinstance(film, Film) else memory
+    if cache is None:
+        raise InputError("film data need the memory of their film")
+    out, jacobian, pressure = np.empty(5), np.empty((5, 9)), np.empty(data.wear_node.T.shape)
+    state = np.array(y, dtype=np.float64)
+    status = film_wrench_and_jacobian(data, cache, state, float(omega), out, jacobian)
+    if status != CONVERGED:
+        raise InputError(explain(status), key="film")
+    film_pressure(data, cache, pressure)
+    return FilmState(
+        force=(float(out[0]), float(out[1])),
+        moment=(float(out[2]), float(out[3])),
+        torque=float(out[4]),
+        leakage=float(film_leakage(data, cache)),
+        attitude_angle=_attitude_angle(out, state),
+        pressure=pressure,
+        jacobian=jacobian,
+    )
+
+
+def _attitude_angle(out: FloatArray, y: FloatArray) -> float:
+    along = -(out[0] * y[0] + out[1] * y[1])
+    across = -(out[0] * y[1] - out[1] * y[0])
+    return math.atan2(across, along)

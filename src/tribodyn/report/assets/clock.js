@@ -1,0 +1,82 @@
+// The one time slider: every figure that follows time hears of it.
+
+const FRAME_MS = 40;
+const MOST_LEFT_OUT = 6;
+
+const clock = {
+  frame: 0,
+  frames: page.clock ? page.clock.time.length : 0,
+  playing: false,
+  due: false,
+
+  /** Return the simulated time now [s]. */
+  now() {
+    return page.clock.time[clock.frame];
+  },
+
+  /** Go to a frame; the figures follow with the next picture of the screen. */
+  go(frame) {
+    clock.frame = Math.max(0, Math.min(clock.frames - 1, frame));
+    clock.tell();
+    if (clock.due) return;
+    clock.due = true;
+    requestAnimationFrame(() => {
+      clock.due = false;
+      figures.forEach((figure) => figure.show(clock.frame));
+    });
+  },
+
+  /** Go to the frame nearest to a time [s]. */
+  goTo(time) {
+    let best = 0;
+    page.clock.time.forEach((t, k) => {
+      if (Math.abs(t - time) < Math.abs(page.clock.time[best] - time)) best = k;
+    });
+    clock.go(best);
+  },
+
+  /** Say on the slider what moment it is. */
+  tell() {
+    const { time, notes } = page.clock;
+    const text = `t = ${clock.now().toFixed(3)} s`;
+    const step = 1000 * (time[Math.min(clock.frame + 1, clock.frames - 1)] - clock.now());
+    const slow = step > 0 && step < 0.25 * FRAME_MS ? "slow motion" : "";
+    const parts = [notes[clock.frame], slow].filter(Boolean);
+    clock.slider.value = clock.frame;
+    clock.slider.setAttribute("aria-valuetext", [text, ...parts].join(", "));
+    clock.output.replaceChildren(
+      element("strong", {}, text),
+      element("span", {}, parts.join(" · ")),
+    );
+  },
+
+  /** Start or stop playing. */
+  toggle() {
+    clock.playing = !clock.playing;
+    clock.button.textContent = clock.playing ? "Pause" : "Play";
+    if (clock.playing) clock.step(performance.now());
+  },
+
+  /** Show the next frame when it is time for it; a slow machine leaves frames out. */
+  step(last) {
+    requestAnimationFrame((now) => {
+      if (!clock.playing) return;
+      const passed = Math.min(Math.floor((now - last) / FRAME_MS), MOST_LEFT_OUT);
+      if (passed > 0) clock.go((clock.frame + passed) % clock.frames);
+      clock.step(passed > 0 ? now : last);
+    });
+  },
+
+  /** Connect the slider of the page, where there is one. */
+  start() {
+    const bar = document.querySelector(".clock");
+    if (!bar || !clock.frames) return;
+    clock.slider = bar.querySelector("input");
+    clock.output = bar.querySelector("output");
+    clock.button = bar.querySelector("button");
+    clock.slider.max = clock.frames - 1;
+    clock.slider.addEventListener("input", () => clock.go(Number(clock.slider.value)));
+    clock.button.addEventListener("click", clock.toggle);
+    clock.go(0);
+  },
+};

@@ -1,0 +1,88 @@
+// Simple bodies as triangles with a colour for each corner.
+
+class Solid {
+  constructor() {
+    Object.assign(this, { x: [], y: [], z: [], i: [], j: [], k: [], vertexcolor: [] });
+  }
+
+  /** Add a corner and return its number. */
+  corner([x, y, z], colour) {
+    this.x.push(x);
+    this.y.push(y);
+    this.z.push(z);
+    this.vertexcolor.push(colour);
+    return this.x.length - 1;
+  }
+
+  /** Add a triangle or a convex polygon by the numbers of its corners. */
+  face(...corners) {
+    for (let n = 1; n + 1 < corners.length; n++) {
+      this.i.push(corners[0]);
+      this.j.push(corners[n]);
+      this.k.push(corners[n + 1]);
+    }
+  }
+
+  /** Add the skin between loops of equally many points, each loop closed, with lids unless told otherwise. */
+  loft(loops, colour, lids = true) {
+    const rings = loops.map((loop) => loop.map((point) => this.corner(point, colour)));
+    for (let n = 0; n + 1 < rings.length; n++) {
+      const [a, b] = [rings[n], rings[n + 1]];
+      a.forEach((_, m) => this.face(a[m], a[(m + 1) % a.length], b[(m + 1) % a.length], b[m]));
+    }
+    if (!lids) return;
+    for (const loop of [loops[0], loops[loops.length - 1]]) {
+      this.face(...loop.map((point) => this.corner(point, colour)));
+    }
+  }
+
+  /** Add a round rod between two points. */
+  rod(from, to, radius, colour, sides = 16) {
+    const [u, v] = across(from, to);
+    const loop = (centre) =>
+      circle(sides).map(([c, s]) => centre.map((value, n) => value + radius * (c * u[n] + s * v[n])));
+    this.loft([loop(from), loop(to)], colour);
+  }
+
+  /** Add a flat bar between two points, wide across `up`. */
+  bar(from, to, up, width, thickness, colour) {
+    const along = unit(minus(to, from));
+    const side = unit(cross(up, along));
+    const high = cross(along, side);
+    const corners = [[1, 1], [1, -1], [-1, -1], [-1, 1]];
+    const loop = (centre) =>
+      corners.map(([a, b]) =>
+        centre.map((value, n) => value + 0.5 * (a * width * side[n] + b * thickness * high[n])),
+      );
+    this.loft([loop(from), loop(to)], colour);
+  }
+}
+
+/** Return `sides` points on the unit circle. */
+function circle(sides) {
+  return Array.from({ length: sides }, (_, n) => {
+    const angle = (2 * Math.PI * n) / sides;
+    return [Math.cos(angle), Math.sin(angle)];
+  });
+}
+
+function minus(a, b) {
+  return a.map((value, n) => value - b[n]);
+}
+
+function cross(a, b) {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+function unit(a) {
+  const size = Math.hypot(...a) || 1;
+  return a.map((value) => value / size);
+}
+
+/** Return two unit vectors across the line between two points, and across each other. */
+function across(from, to) {
+  const along = unit(minus(to, from));
+  const helper = Math.abs(along[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0];
+  const u = unit(cross(along, helper));
+  return [u, cross(along, u)];
+}

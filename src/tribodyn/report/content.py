@@ -1,0 +1,118 @@
+"""Chapters of a page as its template takes them, and the data of its scripts."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from tribodyn.figures import FIGURES
+from tribodyn.report.base import Chapter, Section
+
+Shown = dict[str, Any]
+
+
+def chapters(
+    dataset: xr.Dataset, planned: Iterable[Chapter], stills: Sequence[Path]
+) -> tuple[list[Shown], dict[str, Any]]:
+    """Return the chapters that a result has data for, and what their scripts read.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+    planned
+        Chapters of its kind.
+    stills
+        PNG files. One that no section stands for gets a place at the end: no figure is lost.
+
+    Returns
+    -------
+    shown, payloads
+        Chapters for the template; data by name of the section.
+    """
+    pictures = {path.stem: path for path in stills}
+    shown: list[Shown] = []
+    payloads: dict[str, Any] = {}
+    for chapter in planned:
+        found = {section: section.payload(dataset) for section in chapter.sections}
+        drawn = {section: payload for section, payload in found.items() if payload is not None}
+        payloads |= {section.name: payload for section, payload in drawn.items()}
+        still = [section for section in found if section in drawn or section.still in pictures]
+        sections = [_section(section, section in drawn, pictures) for section in still]
+        if sections:
+            shown.append(_chapter(chapter, sections))
+    used = {section.still for chapter in planned for section in chapter.sections}
+    others = [_still(path) for name, path in pictures.items() if name not in used]
+    if others:
+        lead = "Also in the folder figures."
+        shown.append({"name": "figures", "title": "Figures", "lead": lead, "film": False, "sections": others})
+    return shown, payloads
+
+
+def _chapter(chapter: Chapter, sections: list[Shown]) -> Shown:
+    return {
+        "name": chapter.name,
+        "title": chapter.title,
+        "lead": chapter.lead,
+        "film": chapter.film and any(section["widget"] for section in sections),
+        "sections": sections,
+    }
+
+
+def _section(section: Section, drawn: bool, pictures: dict[str, Path]) -> Shown:
+    """Return a section for the template; one that cannot be drawn is shown as its picture."""
+    return {
+        "name": section.name,
+        "title": section.title,
+        "caption": section.caption,
+        "widget": section.widget if drawn else "",
+        "still": embedded(pictures[section.still]) if section.still in pictures else "",
+        "needs": section.needs,
+        "code": reading(section.needs),
+    }
+
+
+def _still(path: Path) -> Shown:
+    """Return a figure that is a picture only."""
+    family = FIGURES.get(path.stem)
+    return {
+        "name": f"figure-{path.stem}",
+        "title": family.title if family else path.stem,
+        "caption": family.caption if family else "",
+        "widget": "",
+        "still": embedded(path),
+        "needs": family.needs if family else (),
+        "code": reading(family.needs if family else ()),
+    }
+
+
+def embedded(path: Path) -> str:
+    """Return a PNG file as a data address."""
+    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def reading(names: Iterable[str]) -> str:
+    """Return the lines of Python that read variables from ``result.nc``."""
+    listed = ", ".join(f'"{name}"' for name in names)
+    lines = [
+        "import xarray as xr",
+        'result = xr.open_dataset("result.nc", engine="h5netcdf", decode_timedelta=False)',
+    ]
+    return "\n".join([*lines, f"result[[{listed}]]"] if listed else lines)
+
+
+def variables(dataset: xr.Dataset) -> list[dict[str, str]]:
+    """Return name, unit, dimensions and meaning of every variable of a result."""
+    return [
+        {
+            "name": str(name),
+            "unit": str(variable.attrs.get("units", "")),
+            "dims": ", ".join(map(str, variable.dims)) or "—",
+            "meaning": str(variable.attrs.get("long_name", "")),
+        }
+        for name, variable in dataset.variables.items()
+    ]

@@ -1,0 +1,65 @@
+"""The headline numbers and facts of a run, as the page shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import groupby
+from typing import Any
+
+import xarray as xr
+
+from tribodyn.report.numbers import in_words
+from tribodyn.results import HEADLINES
+
+Number = dict[str, str]
+"""A headline number with ``label``, ``value``, ``unit`` and ``meaning``."""
+
+
+def number(name: str, value: object) -> Number:
+    """Return a headline number in words."""
+    headline = HEADLINES[name]
+    return {
+        "label": headline.label,
+        "value": in_words(value),
+        "unit": headline.unit,
+        "meaning": headline.meaning,
+    }
+
+
+def chosen(summary: Mapping[str, Any], names: Iterable[str]) -> list[Number]:
+    """Return those of the named numbers that a summary holds."""
+    return [number(name, summary[name]) for name in names if name in summary]
+
+
+def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return all headline numbers of a summary in their groups."""
+    known = [(name, headline.group) for name, headline in HEADLINES.items() if name in summary]
+    return [
+        {"name": group, "numbers": [number(name, summary[name]) for name, _ in members]}
+        for group, members in groupby(known, key=lambda entry: entry[1])
+    ]
+
+
+def facts(dataset: xr.Dataset) -> dict[str, str]:
+    """Return what kind of run it was, in a few words."""
+    attributes, shown = dataset.attrs, {}
+    if "clearance" in attributes:
+        shown["clearance"] = f"{in_words(attributes['clearance'] * 1e6)} µm"
+    if "contact_law" in attributes:
+        shown["contact law"] = str(attributes["contact_law"])
+    if "formulation" in attributes:
+        shown["formulation"] = str(attributes["formulation"])
+    if "friction_coefficient" in attributes:
+        # The source paper gives no value; a reader must not take the number for a measured one.
+        shown["friction coefficient"] = f"{in_words(attributes['friction_coefficient'])} (assumed)"
+    return shown
+
+
+def versions(dataset: xr.Dataset) -> dict[str, str]:
+    """Return the versions of what made the result."""
+    ending = "_version"
+    return {
+        name.removesuffix(ending): str(value)
+        for name, value in dataset.attrs.items()
+        if isinstance(name, str) and name.endswith(ending)
+    }

@@ -1,0 +1,138 @@
+"""Curves over time, as the script ``lines`` reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.events import reversal_times, smooth_limits
+from tribodyn.figures.style import peak, series
+from tribodyn.report.encode import packed
+from tribodyn.report.thinning import thinned
+
+LOOKS: Final = (
+    ("ink", "solid"),
+    ("blue", "dash"),
+    ("vermilion", "dashdot"),
+    ("green", "dot"),
+    ("orange", "solid"),
+    ("purple", "dash"),
+    ("grey", "longdash"),
+)
+"""Colour and dash of curves that have no look of their own; told apart in grey by the dash."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One curve.
+
+    Attributes
+    ----------
+    name
+        For the legend.
+    values
+        What is drawn, in the unit of its panel, shape (n,).
+    colour
+        Name of a colour of the page's style sheet.
+    dash
+        Dash pattern as Plotly names it.
+    width
+        Line width [px].
+    x
+        Its own abscissa, shape (n,); by default that of the figure.
+    """
+
+    name: str
+    values: FloatArray
+    colour: str = "ink"
+    dash: str = "solid"
+    width: float = 1.6
+    x: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves with a common ordinate.
+
+    Attributes
+    ----------
+    label
+        Quantity and unit.
+    curves
+        Drawn in this order.
+    smooth
+        Whether the panel opens on the smooth motion, where impacts would flatten it.
+    unit
+        Unit for the note that says so.
+    """
+
+    label: str
+    curves: Sequence[Curve]
+    smooth: bool = False
+    unit: str = ""
+
+
+def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | None:
+    """Return panels above each other over the simulated time; nothing where nothing was computed."""
+    time = series(dataset, "time")
+    if time.size < 2:
+        return None
+    turns = reversal_times(dataset) if "omega_v_ideal" in dataset else np.empty(0)
+    return {
+        "x_label": "time [s]",
+        "time": True,
+        "turns": [float(turn) for turn in turns],
+        "x": packed(time, "float64"),
+        "panels": [_panel(panel, time, turns) for panel in panels],
+    }
+
+
+def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]:
+    """Return panels over something other than time."""
+    none = np.empty(0)
+    return {
+        "x_label": x_label,
+        "time": False,
+        "turns": [],
+        "x": packed(x, "float64"),
+        "panels": [_panel(panel, x, none) for panel in panels],
+    }
+
+
+def _panel(panel: Panel, x: FloatArray, turns: FloatArray) -> dict[str, Any]:
+    """Return a panel as the script reads it."""
+    limits, note = _limits(panel, x, turns) if panel.smooth else ([], "")
+    return {
+        "label": panel.label,
+        "limits": limits,
+        "note": note,
+        "curves": [_curve(curve, x) for curve in panel.curves],
+    }
+
+
+def _curve(curve: Curve, common: FloatArray) -> dict[str, Any]:
+    """Return a curve as the script reads it; its abscissa only where it is not the common one."""
+    x = common if curve.x is None else curve.x
+    x, y = thinned(x, curve.values) if np.all(np.diff(x) > 0.0) else (x, curve.values)
+    return {
+        "name": curve.name,
+        "colour": curve.colour,
+        "dash": curve.dash,
+        "width": curve.width,
+        "x": None if x is common else packed(x, "float64"),
+        "y": packed(y),
+    }
+
+
+def _limits(panel: Panel, time: FloatArray, turns: FloatArray) -> tuple[list[float], str]:
+    """Return the ordinate of the smooth motion and a note on what lies beyond; nothing where all fits."""
+    values = np.array([curve.values for curve in panel.curves])
+    limits = smooth_limits(time, values, turns)
+    if limits is None:
+        return [], ""
+    return list(limits), f"impacts reach {peak(values):.3g} {panel.unit}: “Whole” shows them"

@@ -1,0 +1,27 @@
+"""The paper reproduced: its figures 8 to 19 from our own runs, and its claims judged."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.reproduction import clearance, drive, pressure, trunnion
+from tribodyn.reproduction.base import PaperFigure
+from tribodyn.reproduction.runs import FORMULATIONS, Runs
+
+FIGURES: Final[dict[str, PaperFigure]] = {
+    figure.name: figure
+    for figure in (
+        drive.CRANK,
+        drive.VANE,
+        trunnion.FORCES,
+        trunnion.PATH,
+        trunnion.VELOCITIES,
+        pressure.PRESSURE,
+        clearance.MOTION,
+        clearance.FORCES,
+        clearance.ATTITUDE,
+    )
+}
+"""Every figure of the paper that shows results, by name."""
+
+__all__ = ["FIGURES", "FORMULATIONS", "PaperFigure", "Runs"]

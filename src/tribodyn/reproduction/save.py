@@ -1,0 +1,38 @@
+"""Reproduced figures and claims on disk."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import xarray as xr
+
+from tribodyn.figures.style import DPI
+from tribodyn.reproduction.base import PaperFigure
+from tribodyn.reproduction.claims.table import Row, as_json, as_markdown
+from tribodyn.results.atomic import replacing, write_text
+
+
+def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
+    """Write ``fig12.png`` and its data, ``fig12.nc``.
+
+    Parameters
+    ----------
+    figure
+        What to draw.
+    data
+        From ``figure.data``.
+    folder
+        Where to; must exist.
+    """
+    with replacing(folder / f"{figure.name}.nc") as part:
+        data.to_netcdf(part, engine="h5netcdf")
+    with replacing(folder / f"{figure.name}.png") as part:
+        figure.draw(data).savefig(part, format="png", dpi=DPI)
+
+
+def save_claims(rows: list[Row], folder: Path) -> None:
+    """Write ``claims.md`` and ``claims.json``."""
+    write_text(folder / "claims.md", as_markdown(rows))
+    text = json.dumps(as_json(rows), indent=2, ensure_ascii=False, allow_nan=False)
+    write_text(folder / "claims.json", text + "\n")

@@ -1,0 +1,22 @@
+"""Studies: one case at many values of its parameters, on processes of this machine or on a cluster."""
+
+from __future__ import annotations
+
+from tribodyn.studies.distributions import DISTRIBUTIONS
+from tribodyn.studies.plan import Plan, Sampling, make_plan
+from tribodyn.studies.samplers import SAMPLERS
+from tribodyn.studies.statistics import statistics
+from tribodyn.studies.sweep import Arrival, Means, run, sweep
+
+__all__ = [
+    "DISTRIBUTIONS",
+    "SAMPLERS",
+    "Arrival",
+    "Means",
+    "Plan",
+    "Sampling",
+    "make_plan",
+    "run",
+    "statistics",
+    "sweep",
+]

@@ -1,0 +1,59 @@
+"""The points of a sweep on disk, each in a folder named by its hash.
+
+``summary.json`` is written last, and it is the mark of a point that is done.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Final
+
+from tribodyn.core.errors import InputError
+from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.store import CASE, RESULT, SUMMARY
+from tribodyn.studies.plan import Point
+from tribodyn.studies.work import Numbers, Outcome
+
+POINTS: Final = "points"
+
+
+class Archive:
+    """Where points are kept.
+
+    Parameters
+    ----------
+    directory
+        Folder of the sweep; ``points/`` in it is made when the first point is kept.
+
+    Raises
+    ------
+    InputError
+        Something else has the name of that folder.
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self.folder = directory / POINTS
+        if self.folder.exists() and not self.folder.is_dir():
+            raise InputError(f"{self.folder} is a file; choose another directory", key="--output")
+
+    def find(self, point: Point) -> Numbers | None:
+        """Return the summary of a point that is done, None where there is none that can be read."""
+        try:
+            content = json.loads((self.folder / point.name / SUMMARY).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        return content if isinstance(content, dict) and "status" in content else None
+
+    def keep(self, point: Point, outcome: Outcome) -> None:
+        """Write a point, each file whole or not at all."""
+        folder = self.folder / point.name
+        folder.mkdir(parents=True, exist_ok=True)
+        for part in folder.glob(".*.part"):
+            part.unlink(missing_ok=True)
+        write_text(folder / CASE, point.toml)
+        if outcome.result:
+            with replacing(folder / RESULT) as part:
+                part.write_bytes(outcome.result)
+        text = json.dumps(outcome.summary, indent=2, ensure_ascii=False, allow_nan=False)
+        write_text(folder / SUMMARY, text + "\n")

@@ -1,0 +1,110 @@
+"""Distributions that a parameter may be drawn from, listed once.
+
+All arguments are values of the parameter itself, in its unit: ``lognormal(20 um, 2 um)`` has a mean of 20 µm
+and a standard deviation of 2 µm. Formulas of the underlying laws: scipy.stats.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from scipy import stats
+
+from tribodyn.core.arrays import FloatArray
+
+_EDGE: Final = 1e-12
+"""Least distance of a probability from 0 and 1, where an unbounded distribution is infinite."""
+
+
+class DistributionProblem(ValueError):
+    """The arguments give no distribution; the message says why."""
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """One family of distributions.
+
+    Attributes
+    ----------
+    arguments
+        Names of the arguments, in order.
+    optional
+        Names of further arguments, given all or not at all.
+    frozen
+        Returns the distribution with its arguments, as SciPy has it.
+    """
+
+    arguments: tuple[str, ...]
+    optional: tuple[str, ...]
+    frozen: Callable[..., Any]
+
+    @property
+    def usage(self) -> str:
+        """The arguments as a person writes them."""
+        required = ", ".join(self.arguments)
+        return f"({required}[, {', '.join(self.optional)}])" if self.optional else f"({required})"
+
+    def quantiles(self, arguments: tuple[float, ...], probabilities: FloatArray) -> FloatArray:
+        """Return the values below which the given shares of a population lie.
+
+        Parameters
+        ----------
+        arguments
+            As many as :attr:`arguments`, or with all :attr:`optional` ones.
+        probabilities
+            Between 0 and 1, any shape.
+
+        Raises
+        ------
+        DistributionProblem
+            There is no such distribution.
+        """
+        counts = {len(self.arguments), len(self.arguments) + len(self.optional)}
+        if len(arguments) not in counts:
+            raise DistributionProblem(f"{len(arguments)} arguments are given")
+        law = self.frozen(*arguments)
+        return np.asarray(law.ppf(np.clip(probabilities, _EDGE, 1.0 - _EDGE)))
+
+
+def _demand(condition: bool, message: str) -> None:
+    if not condition:
+        raise DistributionProblem(message)
+
+
+def _normal(mean: float, deviation: float, least: float = -math.inf, most: float = math.inf) -> Any:
+    _demand(deviation > 0.0, "the standard deviation must be above 0")
+    _demand(least < most, "the least value must be below the largest")
+    if math.isinf(least) and math.isinf(most):
+        return stats.norm(mean, deviation)
+    low, high = (least - mean) / deviation, (most - mean) / deviation
+    return stats.truncnorm(low, high, loc=mean, scale=deviation)
+
+
+def _lognormal(mean: float, deviation: float) -> Any:
+    _demand(mean > 0.0 and deviation > 0.0, "mean and standard deviation must be above 0")
+    spread = math.log1p((deviation / mean) ** 2)
+    return stats.lognorm(math.sqrt(spread), scale=mean * math.exp(-0.5 * spread))
+
+
+def _uniform(least: float, most: float) -> Any:
+    _demand(least < most, "the least value must be below the largest")
+    return stats.uniform(least, most - least)
+
+
+def _triangular(least: float, likeliest: float, most: float) -> Any:
+    _demand(least < most, "the least value must be below the largest")
+    _demand(least <= likeliest <= most, "the likeliest value must lie between the least and the largest")
+    return stats.triang((likeliest - least) / (most - least), loc=least, scale=most - least)
+
+
+DISTRIBUTIONS: Final[dict[str, Distribution]] = {
+    "normal": Distribution(("mean", "deviation"), ("least", "most"), _normal),
+    "lognormal": Distribution(("mean", "deviation"), (), _lognormal),
+    "uniform": Distribution(("least", "most"), (), _uniform),
+    "triangular": Distribution(("least", "likeliest", "most"), (), _triangular),
+}
+"""Every distribution by the name it has after ``--vary PATH=``."""

@@ -1,0 +1,115 @@
+"""From the summaries of all points to one dataset."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases import Key
+from tribodyn.cases.units import si_unit, to_si
+from tribodyn.results import HEADLINES
+from tribodyn.studies.plan import POINT, Plan
+from tribodyn.studies.work import Numbers
+
+NOT_COMPUTED: Final = "not computed: the sweep was stopped before"
+_TEXTS: Final = {
+    "failure": "why there are no numbers; empty where there are",
+    "warnings": "what the run says about its own trustworthiness",
+    "points": "name of the folder of the point below points/",
+}
+
+
+def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
+    """Return the dataset of a sweep.
+
+    Parameters
+    ----------
+    plan
+        Its points.
+    summaries
+        Headline numbers of those that were computed, by name of the point.
+
+    Returns
+    -------
+    xarray.Dataset
+        One dimension for each parameter of a grid, named by its dotted path, and ``point`` for samples. The
+        values of the parameters are coordinates (SI; ``shown_unit`` and ``shown_scale`` say how to print
+        them). One variable for each headline number, NaN where a point failed or was not reached, with
+        ``units`` and ``long_name``; the texts ``failure``, ``warnings`` and ``points`` of each point.
+    """
+    rows = [summaries.get(point.name, {"failure": NOT_COMPUTED}) for point in plan.points]
+    shape = tuple(axis.size for axis in plan.axes)
+    dims = tuple(axis.name for axis in plan.axes)
+
+    def laid_out(values: Sequence[Any], dtype: Any, about: dict[str, str]) -> xr.Variable:
+        return xr.Variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
+
+    texts = {name: [str(row.get(name, "")) for row in rows] for name in ("failure", "warnings")}
+    texts["points"] = [point.name for point in plan.points]
+    return xr.Dataset(
+        data_vars={name: laid_out(*_column(name, rows)) for name in _numbers(rows)}
+        | {name: laid_out(values, object, {"long_name": _TEXTS[name]}) for name, values in texts.items()},
+        coords=_coordinates(plan),
+        attrs=_attributes(plan, rows),
+    )
+
+
+def _numbers(rows: Sequence[Numbers]) -> list[str]:
+    """Return the names of all numbers that any point gave, the known ones first and in their order."""
+    given = {name: None for row in rows for name, value in row.items() if not isinstance(value, str)}
+    return [
+        *(name for name in HEADLINES if name in given),
+        *(name for name in given if name not in HEADLINES),
+    ]
+
+
+def _column(name: str, rows: Sequence[Numbers]) -> tuple[list[float], type, dict[str, str]]:
+    """Return the values of a headline number over all points; a point that failed has none."""
+    known = HEADLINES.get(name)
+    about = {"units": known.unit or "1", "long_name": known.label} if known else {"long_name": name}
+    values = [math.nan if row.get("failure") else float(row.get(name, math.nan)) for row in rows]
+    return values, float, about | ({"group": known.group, "comment": known.meaning} if known else {})
+
+
+def _coordinates(plan: Plan) -> dict[str, xr.Variable]:
+    coordinates = {}
+    for axis in plan.axes:
+        if axis.name == POINT:
+            numbers = np.arange(axis.size)
+            coordinates[POINT] = xr.Variable((POINT,), numbers, {"long_name": "number of the sample"})
+        for key, values in axis.columns.items():
+            coordinates[key.path] = xr.Variable((axis.name,), np.asarray(values), _about(key))
+    return coordinates
+
+
+def _about(key: Key) -> dict[str, Any]:
+    about: dict[str, Any] = {"long_name": key.description}
+    if key.kind == "quantity":
+        scale = to_si(f"1 {key.unit}", key.unit)
+        about |= {"units": si_unit(key.unit), "shown_unit": key.unit, "shown_scale": scale}
+    elif key.kind in {"number", "count"}:
+        about["units"] = "1"
+    return about
+
+
+def _attributes(plan: Plan, rows: Sequence[Numbers]) -> dict[str, Any]:
+    sampling: dict[str, Any] = {}
+    if plan.sampled:
+        s = plan.sampling
+        sampling = {"samples": s.samples, "sampling_method": s.method, "sampling_seed": s.seed}
+    return {
+        "kind": "sweep",
+        "title": plan.case.title,
+        "case": plan.case.to_toml(),
+        "tribodyn_version": version("tribodyn"),
+        "varied": json.dumps([key.path for axis in plan.axes for key in axis.columns]),
+        "points_in_all": len(rows),
+        "points_failed": sum(bool(row.get("failure")) for row in rows),
+        **sampling,
+    }

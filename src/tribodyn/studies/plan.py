@@ -1,0 +1,206 @@
+"""The plan of a sweep: every point with its validated case, before anything runs."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from typing import Final
+
+from tribodyn.cases import Case, Key, keys_of
+from tribodyn.cases.keys import Value
+from tribodyn.core.errors import InputError
+from tribodyn.studies.samplers import SAMPLERS
+from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
+
+MOST_POINTS: Final = 100_000
+POINT: Final = "point"
+"""Dimension of samples."""
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How distributions are sampled.
+
+    Attributes
+    ----------
+    samples
+        How many; None where nothing is drawn.
+    method
+        A key of :data:`~tribodyn.studies.samplers.SAMPLERS`.
+    seed
+        Equal seeds give equal samples.
+    """
+
+    samples: int | None = None
+    method: str = "lhs"
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Point:
+    """One simulation of a sweep.
+
+    Attributes
+    ----------
+    changes
+        What differs from the base case, by dotted path, as a user writes it.
+    toml
+        The whole resolved case.
+    name
+        Hash of that case and of the version of tribodyn: equal names have equal results.
+    """
+
+    changes: Mapping[str, str]
+    toml: str = field(repr=False)
+    name: str
+
+    @property
+    def label(self) -> str:
+        """The changes on one line."""
+        return ", ".join(f"{path} = {value}" for path, value in self.changes.items())
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A dimension of the sweep and the parameters that vary along it.
+
+    Attributes
+    ----------
+    name
+        Dotted path of the parameter, or ``point`` for samples.
+    columns
+        Values of each parameter along the dimension, equally many.
+    """
+
+    name: str
+    columns: Mapping[Key, tuple[Value, ...]]
+
+    @property
+    def size(self) -> int:
+        """How many values there are."""
+        return len(next(iter(self.columns.values())))
+
+    def changes(self, i: int) -> dict[str, str]:
+        """Return what is set at place ``i``."""
+        return {key.path: written(key, values[i]) for key, values in self.columns.items()}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All points of a sweep.
+
+    Attributes
+    ----------
+    case
+        What is swept.
+    axes
+        Dimensions, the samples last.
+    points
+        One for each combination, the last axis running fastest.
+    sampling
+        How samples were drawn.
+    """
+
+    case: Case
+    axes: tuple[Axis, ...]
+    points: tuple[Point, ...]
+    sampling: Sampling
+
+    @property
+    def sampled(self) -> bool:
+        """Whether one of the dimensions holds samples."""
+        return self.axes[-1].name == POINT
+
+
+def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampling()) -> Plan:
+    """Return the plan of a sweep; the cases of all its points are valid.
+
+    Parameters
+    ----------
+    case
+        What is swept.
+    vary
+        What each dotted path is to be, see :func:`~tribodyn.studies.variation.variation`.
+    sampling
+        How distributions are sampled.
+
+    Raises
+    ------
+    InputError
+        A path or value is wrong, or a combination of values cannot be; the message names the key.
+    """
+    if not vary:
+        raise InputError("nothing varies; give PATH=VALUES at least once", key=SOURCE)
+    wanted = [variation(_key(case, path), asked) for path, asked in vary.items()]
+    levels = [entry for entry in wanted if isinstance(entry, Levels)]
+    scatters = [entry for entry in wanted if isinstance(entry, Scatter)]
+    axes = [Axis(entry.key.path, {entry.key: entry.values}) for entry in levels]
+    _check_sampling(sampling, scatters)
+    n_points = math.prod(axis.size for axis in axes) * (sampling.samples or 1)
+    if n_points > MOST_POINTS:
+        raise InputError(f"these are {n_points} points; at most {MOST_POINTS} are allowed", key=SOURCE)
+    if scatters:
+        axes.append(_drawn(scatters, sampling))
+    return Plan(case, tuple(axes), _points(case, axes, n_points), sampling)
+
+
+def _key(case: Case, path: str) -> Key:
+    keys = keys_of(type(case))
+    if path not in keys:
+        # Raises, and the message names the nearest valid key.
+        case.replace({path: ""}, source=SOURCE)
+    return keys[path]
+
+
+def _check_sampling(sampling: Sampling, scatters: Sequence[Scatter]) -> None:
+    if sampling.method not in SAMPLERS:
+        raise InputError(f'given "{sampling.method}"; allowed: {", ".join(SAMPLERS)}', key="--method")
+    if scatters and (sampling.samples is None or sampling.samples < 1):
+        raise InputError(
+            f"{scatters[0].key.path} is drawn from a distribution; say how many samples, 1 or more",
+            key="--samples",
+        )
+    if not scatters and sampling.samples is not None:
+        raise InputError(
+            f"nothing is drawn from a distribution; give one, such as {SOURCE} "
+            'joint.clearance="normal(20 um, 2 um)", or leave the samples out',
+            key="--samples",
+        )
+    if sampling.seed < 0:
+        raise InputError(f"given {sampling.seed}; allowed: 0 or more", key="--seed")
+
+
+def _drawn(scatters: Sequence[Scatter], sampling: Sampling) -> Axis:
+    assert sampling.samples is not None
+    cube = SAMPLERS[sampling.method](sampling.samples, len(scatters), sampling.seed)
+    columns = {scatter.key: tuple(scatter.values(cube[:, i]).tolist()) for i, scatter in enumerate(scatters)}
+    return Axis(POINT, columns)
+
+
+def _points(case: Case, axes: Sequence[Axis], n_points: int) -> tuple[Point, ...]:
+    places = itertools.product(*(range(axis.size) for axis in axes))
+    return tuple(
+        _point(case, _together(axes, place), f"point {number} of {n_points}")
+        for number, place in enumerate(places, 1)
+    )
+
+
+def _together(axes: Sequence[Axis], place: Sequence[int]) -> dict[str, str]:
+    changes: dict[str, str] = {}
+    for axis, i in zip(axes, place, strict=True):
+        changes |= axis.changes(i)
+    return changes
+
+
+def _point(case: Case, changes: dict[str, str], which: str) -> Point:
+    try:
+        toml = case.replace(changes, source=SOURCE).to_toml()
+    except InputError as error:
+        values = ", ".join(f"{path} = {value}" for path, value in changes.items())
+        raise InputError(f"{error.reason} ({which}: {values})", key=error.key, source=SOURCE) from None
+    digest = hashlib.sha256(f"tribodyn {version('tribodyn')}\n{toml}".encode()).hexdigest()
+    return Point(changes, toml, digest[:16])

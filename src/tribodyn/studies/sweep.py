@@ -1,0 +1,233 @@
+"""A sweep from its plan to the merged dataset and its files."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from tribodyn.cases import Case, keys_of, load_case
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.store import prepare_directory
+from tribodyn.studies import runners
+from tribodyn.studies.archive import Archive
+from tribodyn.studies.merge import NOT_COMPUTED, merge
+from tribodyn.studies.plan import Plan, Point, Sampling, make_plan
+from tribodyn.studies.statistics import statistics
+from tribodyn.studies.variation import Asked, written
+from tribodyn.studies.work import Numbers
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+DATASET: Final = "sweep.nc"
+RECORD: Final = "sweep.json"
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """How far a sweep has come.
+
+    Attributes
+    ----------
+    done, to_do
+        How many points were computed, and how many this sweep computes in all.
+    point
+        The one that has just arrived; None at the beginning.
+    failure
+        Why it gave no result, empty where it did.
+    """
+
+    done: int
+    to_do: int
+    point: Point | None = None
+    failure: str = ""
+
+
+@dataclass(frozen=True)
+class Means:
+    """How a sweep is computed; none of this changes a number.
+
+    Attributes
+    ----------
+    workers
+        Processes on this machine, by default one for each processor; 0 computes in this process.
+    scheduler
+        Address of a Dask scheduler to use instead.
+    retry
+        Whether points that failed before are computed again.
+    fresh
+        Whether all points are.
+    keep_results
+        Whether each point keeps its whole result beside its headline numbers.
+    """
+
+    workers: int | None = None
+    scheduler: str | None = None
+    retry: bool = False
+    fresh: bool = False
+    keep_results: bool = True
+
+
+def sweep(
+    case: Case | str | Path,
+    vary: Mapping[str, Asked],
+    *,
+    samples: int | None = None,
+    method: str = "lhs",
+    seed: int = 0,
+    directory: str | Path | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    retry: bool = False,
+    progress: Callable[[Arrival], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> xr.Dataset:
+    """Simulate a case at many values of its parameters.
+
+    Parameters
+    ----------
+    case
+        A case, the name of a built-in one, or a file.
+    vary
+        By dotted path, what each parameter is to be: values (``["20 um", "30 um"]``), or text as on the
+        command line: ``"20, 30, 40 um"``, ``"10 um:50 um:10 um"``, ``"normal(20 um, 2 um)"``. Lists and
+        ranges form a grid.
+    samples, method, seed
+        How many samples are drawn from distributions, by which sampler (``"lhs"`` or ``"sobol"``), and
+        from which seed.
+    directory
+        Where points and merged results are kept; what is there already is not computed again. By default
+        nothing is written.
+    workers
+        Processes on this machine, by default one for each processor; 0 computes in this process. A script
+        that uses processes needs ``if __name__ == "__main__":``, as with :mod:`multiprocessing`.
+    scheduler
+        Address of a Dask scheduler to use instead, such as ``"tcp://10.0.0.1:8786"``.
+    retry
+        Whether points that failed in an earlier sweep are computed again.
+    progress
+        Called at the beginning and after every point.
+    stop
+        Asked several times a second; when true, the sweep ends with the points it has.
+
+    Returns
+    -------
+    xarray.Dataset
+        See :func:`tribodyn.studies.merge.merge`.
+
+    Raises
+    ------
+    InputError
+        Something asked for cannot be; nothing has been computed.
+    """
+    chosen = case if isinstance(case, Case) else load_case(case)
+    plan = make_plan(chosen, vary, Sampling(samples, method, seed))
+    means = Means(workers, scheduler, retry)
+    return run(plan, None if directory is None else Path(directory), means, progress, stop)
+
+
+def run(
+    plan: Plan,
+    directory: Path | None,
+    means: Means = Means(),
+    progress: Callable[[Arrival], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> xr.Dataset:
+    """Compute what is missing of a plan and merge all of it; parameters as for :func:`sweep`."""
+    if means.workers is not None and means.workers < 0:
+        raise InputError(f"given {means.workers}; allowed: 0 or more", key="--workers")
+    archive = None if directory is None else Archive(prepare_directory(directory))
+    summaries = _kept(plan, archive, means)
+    try:
+        _compute(plan, archive, means, summaries, progress or (lambda _: None), stop or (lambda: False))
+    except InputError:
+        raise
+    except TribodynError:
+        _merged(plan, summaries, directory)
+        raise
+    return _merged(plan, summaries, directory)
+
+
+def _kept(plan: Plan, archive: Archive | None, means: Means) -> dict[str, Numbers]:
+    """Return the summaries of the points that need not be computed again."""
+    if archive is None or means.fresh:
+        return {}
+    found = {point.name: archive.find(point) for point in plan.points}
+    return {
+        name: summary
+        for name, summary in found.items()
+        if summary is not None and not (means.retry and summary.get("failure"))
+    }
+
+
+def _compute(
+    plan: Plan,
+    archive: Archive | None,
+    means: Means,
+    summaries: dict[str, Numbers],
+    progress: Callable[[Arrival], None],
+    stop: Callable[[], bool],
+) -> None:
+    """Compute the missing points, keep each when it arrives, and add their summaries."""
+    # By name: samples may coincide.
+    missing = list({point.name: point for point in plan.points if point.name not in summaries}.values())
+    progress(Arrival(0, len(missing)))
+    if not missing:
+        return
+    for done, (point, outcome) in enumerate(_finished(missing, archive, means, stop), 1):
+        if archive is not None and outcome.final:
+            archive.keep(point, outcome)
+        summaries[point.name] = outcome.summary
+        progress(Arrival(done, len(missing), point, outcome.failure))
+
+
+def _finished(
+    missing: list[Point], archive: Archive | None, means: Means, stop: Callable[[], bool]
+) -> runners.Finished:
+    keep_result = means.keep_results and archive is not None
+    if means.scheduler is not None:
+        return runners.cluster(missing, keep_result, stop, means.scheduler)
+    if means.workers == 0:
+        return runners.here(missing, keep_result, stop)
+    return runners.local(missing, keep_result, stop, means.workers)
+
+
+def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -> xr.Dataset:
+    dataset = merge(plan, summaries)
+    if directory is not None:
+        with replacing(directory / DATASET) as part:
+            dataset.to_netcdf(part, engine="h5netcdf")
+        record = json.dumps(_record(plan, summaries, dataset), indent=2, ensure_ascii=False, allow_nan=False)
+        write_text(directory / RECORD, record + "\n")
+    return dataset
+
+
+def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
+    keys = keys_of(type(plan.case))
+    nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
+    return {
+        "title": plan.case.title,
+        "tribodyn_version": version("tribodyn"),
+        "points": [
+            {"point": point.name, "changes": dict(point.changes), **summaries.get(point.name, nothing)}
+            for point in plan.points
+        ],
+        "statistics": [
+            {
+                "at": {path: written(keys[path], value) for path, value in at.items()},
+                "numbers": {name: _finite(numbers) for name, numbers in found.items()},
+            }
+            for at, found in statistics(dataset)
+        ],
+    }
+
+
+def _finite(numbers: dict[str, float]) -> dict[str, float]:
+    return {name: value for name, value in numbers.items() if math.isfinite(value)}

@@ -1,0 +1,115 @@
+"""What a worker does: one point, from the text of a case to bytes. It writes no file."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+from tribodyn.core.errors import TribodynError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Numbers: TypeAlias = dict[str, float | int | str]
+"""Headline numbers and texts of a point, as in ``summary.json``."""
+
+_ONE_AT_A_TIME: Final = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a point.
+
+    Attributes
+    ----------
+    summary
+        As :func:`tribodyn.results.summarise` gives it; of a point that could not be computed only texts.
+    result
+        The dataset as NetCDF; empty where there is none or none is wanted.
+    final
+        Whether computing it again would give the same. Not so where a worker died.
+    """
+
+    summary: Numbers
+    result: bytes = b""
+    final: bool = True
+
+    @property
+    def failure(self) -> str:
+        """Why there are no numbers, empty where there are."""
+        return str(self.summary.get("failure", ""))
+
+
+def failed(reason: str, *, final: bool) -> Outcome:
+    """Return what is known of a point that gave no result."""
+    return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": ""}, final=final)
+
+
+def compute(toml: str, made_by: str, keep_result: bool) -> Outcome:
+    """Simulate one case.
+
+    Parameters
+    ----------
+    toml
+        The resolved case.
+    made_by
+        Version of tribodyn that planned it; another one does not compute it.
+    keep_result
+        Whether the whole result is returned beside the headline numbers.
+
+    Returns
+    -------
+    Outcome
+        A point that fails is an outcome too: no exception leaves this function but those that end processes.
+    """
+    own = version("tribodyn")
+    if own != made_by:
+        return failed(f"the worker has tribodyn {own}, the sweep was planned by {made_by}", final=False)
+    try:
+        return _simulated(toml, keep_result)
+    except TribodynError as error:
+        return failed(str(error), final=True)
+    except MemoryError:
+        return failed("the worker has not enough memory", final=False)
+    except Exception as error:
+        return failed(f"internal error: {type(error).__name__}: {error}", final=True)
+
+
+def _simulated(toml: str, keep_result: bool) -> Outcome:
+    from tribodyn.cases import parse_case
+    from tribodyn.results import summarise
+    from tribodyn.simulation import simulate
+
+    dataset = simulate(parse_case(toml, "sweep"))
+    return Outcome(summarise(dataset), _netcdf(dataset) if keep_result else b"")
+
+
+def _netcdf(dataset: xr.Dataset) -> bytes:
+    """Return a dataset as the bytes of a NetCDF file."""
+    import dask
+
+    # On a worker xarray would ask the scheduler to lock the file, and a file in memory has no name to lock.
+    with _ONE_AT_A_TIME, dask.config.set(scheduler="synchronous"):
+        return bytes(dataset.to_netcdf(engine="h5netcdf"))
+
+
+def warm_up(toml: str) -> None:
+    """Compile what a case needs and leave it in numba's cache on disk: a few steps do.
+
+    A case that fails here fails again as a point, which then has the reason.
+    """
+    from tribodyn.cases import parse_case
+    from tribodyn.simulation import simulate
+
+    try:
+        simulate(parse_case(toml, "sweep"), stop=lambda: True)
+    except Exception:
+        return
+
+
+def dask_setup(worker: Any) -> None:
+    """Prepare a local worker, as Dask's preload: Ctrl-C is for the command, which ends its workers."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,0 +1,33 @@
+"""Measured surfaces: from a file to the roughness and asperities that contact laws need."""
+
+from __future__ import annotations
+
+from tribodyn.surfaces.analysis import Roughness, Treatment, analyse, dependence
+from tribodyn.surfaces.asperities import Asperities, asperities
+from tribodyn.surfaces.filters import FILTERS
+from tribodyn.surfaces.generate import SelfAffine, generate
+from tribodyn.surfaces.level import LEVELS
+from tribodyn.surfaces.moments import Moments, moments
+from tribodyn.surfaces.read import read_scan
+from tribodyn.surfaces.scan import Length, Scan
+from tribodyn.surfaces.text import Scale, write_text
+
+__all__ = [
+    "FILTERS",
+    "LEVELS",
+    "Asperities",
+    "Length",
+    "Moments",
+    "Roughness",
+    "Scale",
+    "Scan",
+    "SelfAffine",
+    "Treatment",
+    "analyse",
+    "asperities",
+    "dependence",
+    "generate",
+    "moments",
+    "read_scan",
+    "write_text",
+]

@@ -1,0 +1,212 @@
+"""From a scan to roughness parameters, and how they depend on the wavelengths that are let in."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.errors import InputError
+from tribodyn.surfaces.asperities import LEAST_BANDWIDTH, Asperities, asperities
+from tribodyn.surfaces.checks import FEWEST_POINTS, checked
+from tribodyn.surfaces.filters import FILTERS, filtered
+from tribodyn.surfaces.level import LEVELS, levelled
+from tribodyn.surfaces.moments import Moments, moments
+from tribodyn.surfaces.scan import Scan
+
+_POINTS_OF_A_WAVE: Final = 2.0
+_CUTOFFS: Final = 10
+_STEEPEST: Final = 10.0
+_UNRESOLVED: Final = 0.85
+_STRONG_LAY: Final = 0.5
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """What is done to a scan before it is measured.
+
+    Parameters
+    ----------
+    level
+        One of ``LEVELS``.
+    filter
+        One of ``FILTERS``.
+    short_cutoff, long_cutoff
+        Shortest and longest wavelength kept [m]; None keeps all that the scan holds.
+    """
+
+    level: str = "plane"
+    filter: str = "gaussian"
+    short_cutoff: float | None = None
+    long_cutoff: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse names that do not exist."""
+        for key, family in (("level", LEVELS), ("filter", FILTERS)):
+            if getattr(self, key) not in family:
+                raise InputError(f'given "{getattr(self, key)}"; allowed: {", ".join(family)}', key=key)
+
+
+@dataclass(frozen=True, eq=False)
+class Roughness:
+    """A surface as it was measured.
+
+    Attributes
+    ----------
+    surface
+        Heights after levelling and filtering, from which all numbers come; its mean is zero.
+    treatment
+        What was done.
+    skewness, kurtosis
+        Third and fourth moment of the heights over σ³ and σ⁴ [1]; 0 and 3 when Gaussian.
+    moments
+        Spectral moments; σ = √m0.
+    asperities
+        What contact laws need.
+    warnings
+        What a reader of the numbers should know.
+    """
+
+    surface: Scan
+    treatment: Treatment
+    skewness: float
+    kurtosis: float
+    moments: Moments
+    asperities: Asperities
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def sigma(self) -> float:
+        """Root-mean-square height σ [m]."""
+        return math.sqrt(self.moments.m0)
+
+
+_AS_MEASURED: Final = Treatment()
+
+
+def analyse(scan: Scan, treatment: Treatment = _AS_MEASURED) -> Roughness:
+    """Return the roughness of a scan.
+
+    Raises
+    ------
+    InputError
+        The scan or the cut-offs cannot be used.
+    """
+    scan, warnings = checked(scan)
+    check_cutoffs(scan, treatment)
+    roughness = _measured(levelled(scan, treatment.level), treatment)
+    if roughness.moments.m2 > _STEEPEST**2:
+        raise InputError(
+            f"the mean slope is {math.sqrt(roughness.moments.m2):.3g}; "
+            "are the units of height and spacing right?",
+            source=scan.source or None,
+        )
+    return replace(roughness, warnings=(*warnings, *_remarks(roughness)))
+
+
+def check_cutoffs(scan: Scan, treatment: Treatment) -> None:
+    """Refuse wavelengths that the scan does not hold."""
+    short, long = treatment.short_cutoff, treatment.long_cutoff
+    finest, longest = _POINTS_OF_A_WAVE * max(scan.spacing), min(scan.extent)
+    for key, cutoff in (("short_cutoff", short), ("long_cutoff", long)):
+        if cutoff is not None and not finest <= cutoff <= longest:
+            raise InputError(
+                f"given {cutoff * 1e6:.4g} um; the scan holds waves from {finest * 1e6:.4g} um (two points) "
+                f"to {longest * 1e6:.4g} um (its length)",
+                key=key,
+            )
+    if short is not None and long is not None and not short < long:
+        raise InputError("must be below the longest wavelength kept, long_cutoff", key="short_cutoff")
+    if short is not None and min(_border(scan, short)) < FEWEST_POINTS:
+        raise InputError(
+            f"waves of {short * 1e6:.4g} um leave too little of a scan of {longest * 1e6:.4g} um",
+            key="short_cutoff",
+        )
+
+
+def dependence(roughness: Roughness, scan: Scan) -> list[Roughness]:
+    """Return the roughness of a scan for other shortest and longest wavelengths.
+
+    Parameters
+    ----------
+    roughness
+        What :func:`analyse` returned.
+    scan
+        What it was given.
+
+    Returns
+    -------
+    list of Roughness
+        The shortest wavelength goes from the one of ``roughness``, or four points, up to a twentieth of the
+        scan; then the longest goes from a half of the scan down. The other stays.
+    """
+    scan, _ = checked(scan)
+    level = levelled(scan, roughness.treatment.level)
+    return [_measured(level, treatment) for treatment in _variations(scan, roughness.treatment)]
+
+
+def _variations(scan: Scan, treatment: Treatment) -> Iterator[Treatment]:
+    shortest = treatment.short_cutoff or 2.0 * _POINTS_OF_A_WAVE * max(scan.spacing)
+    longest = treatment.long_cutoff or min(scan.extent)
+    for cutoff in _between(shortest, longest / 20.0):
+        yield replace(treatment, short_cutoff=cutoff)
+    for cutoff in _between(longest / 2.0, max(5.0 * shortest, longest / 50.0)):
+        yield replace(treatment, long_cutoff=cutoff)
+
+
+def _between(first: float, last: float) -> list[float]:
+    """Return cut-offs at equal ratios; none when the scan leaves no room for any."""
+    low, high = min(first, last), max(first, last)
+    if high < 1.5 * low:
+        return []
+    return [float(value) for value in np.geomspace(first, last, _CUTOFFS)]
+
+
+def _measured(level: Scan, treatment: Treatment) -> Roughness:
+    """Return the roughness of a levelled scan."""
+    short = treatment.short_cutoff
+    surface = filtered(level, treatment.filter, short, treatment.long_cutoff)
+    if short is not None:
+        surface = _without_border(surface, short)
+    heights = surface.heights - np.nanmean(surface.heights)
+    surface = surface.with_heights(heights)
+    found = moments(surface)
+    skewness, kurtosis = (float(np.nanmean(heights**n)) / found.m0 ** (n / 2.0) for n in (3, 4))
+    return Roughness(surface, treatment, skewness, kurtosis, found, asperities(found))
+
+
+def _border(scan: Scan, cutoff: float) -> list[int]:
+    """Return how many points are left in each direction within half a wave from the border."""
+    widths = [math.ceil(0.5 * cutoff / step) for step in scan.spacing]
+    return [n - 2 * width for n, width in zip(scan.heights.shape, widths, strict=True)]
+
+
+def _without_border(scan: Scan, cutoff: float) -> Scan:
+    """Cut off half a wave at the border, where a filter sees one side only."""
+    left = _border(scan, cutoff)
+    parts = tuple(slice((n - k) // 2, (n + k) // 2) for n, k in zip(scan.heights.shape, left, strict=True))
+    return scan.with_heights(scan.heights[parts])
+
+
+def _remarks(roughness: Roughness) -> Iterator[str]:
+    """Give what makes the numbers doubtful."""
+    found, treatment = roughness.moments, roughness.treatment
+    if found.resolved < _UNRESOLVED:
+        yield (
+            "the points are too far apart for the curvature: density and radius are those of the sampling; "
+            f"give a short cut-off of at least {8e6 * max(roughness.surface.spacing):.3g} um"
+        )
+    elif treatment.short_cutoff is None:
+        yield "density and radius depend on the shortest wavelength: give a short cut-off, and state it"
+    if roughness.asperities.bandwidth < LEAST_BANDWIDTH:
+        yield (
+            f"alpha = {roughness.asperities.bandwidth:.3g} is below {LEAST_BANDWIDTH:g}, which no random "
+            "surface has: the formulas for asperities do not hold"
+        )
+    if abs(roughness.skewness) > 1.0 or abs(roughness.kurtosis - 3.0) > 2.0:
+        yield "the heights are far from Gaussian, which the contact laws assume"
+    if found.directional is not None and found.directional.texture < _STRONG_LAY:
+        yield "the surface has a lay; the formulas for asperities assume the same roughness in all directions"

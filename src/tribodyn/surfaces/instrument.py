@@ -1,0 +1,156 @@
+"""Files of instruments, through the package SurfaceTopography (extra ``surfaces``)."""
+
+from __future__ import annotations
+
+import importlib
+import warnings
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.core.errors import InputError
+from tribodyn.surfaces.scan import MOST_POINTS, Length, Scan, from_columns
+from tribodyn.surfaces.text import Scale, parse_spacing, unit_size
+
+_WITHOUT_MARK: Final = ("hgt", "nms")
+"""Formats whose files carry no mark: taken only from a file whose name ends so."""
+_LONGEST_REASON: Final = 160
+
+
+def read_instrument(path: Path, length: Length, given: Scale, file_format: str | None, channel: int) -> Scan:
+    """Return the heights in a file that SurfaceTopography reads.
+
+    Parameters
+    ----------
+    path
+        An existing regular file.
+    length
+        Reads a length with its unit.
+    given
+        Unit and spacing for files that carry none.
+    file_format
+        Name of the format in SurfaceTopography; by default it is found from the file.
+    channel
+        Which of the file's channels of heights, counted from 1.
+
+    Raises
+    ------
+    InputError
+        The extra is missing, the file cannot be read, or lacks or repeats what ``given`` says.
+    """
+    package = _package()
+    source = str(path)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return _scan(package, path, length, given, file_format, channel)
+    except (InputError, MemoryError):
+        raise
+    except Exception as error:
+        # Forty readers of other people's formats: whatever they raise means that the file is not good.
+        raise InputError(f"the file cannot be read: {_in_short(error)}", source=source) from None
+
+
+def _package() -> Any:
+    try:
+        return importlib.import_module("SurfaceTopography.IO")
+    except ImportError:
+        raise InputError(
+            "this format needs the extra `surfaces` (pip install 'tribodyn[surfaces]'); "
+            "plain CSV is read without it"
+        ) from None
+
+
+def _scan(
+    package: Any, path: Path, length: Length, given: Scale, file_format: str | None, channel: int
+) -> Scan:
+    source = str(path)
+    if file_format is not None and file_format not in package.lookup_reader_by_format:
+        known = ", ".join(["csv", *sorted(package.lookup_reader_by_format)])
+        raise InputError(f'given "{file_format}"; allowed: {known}', key="format", source=source)
+    try:
+        reader = package.open_topography(source, format=file_format)
+    except package.CannotDetectFileFormat:
+        raise InputError("this is in no format of a surface that is known here", source=source) from None
+    with reader:
+        if file_format is None and reader.format() in _WITHOUT_MARK and path.suffix[1:] != reader.format():
+            raise InputError("this is in no format of a surface that is known here", source=source)
+        heights = _channel(reader, channel, source)
+        if np.prod(heights.nb_grid_pts or 1, dtype=float) > MOST_POINTS:
+            raise InputError(f"the scan has more than {MOST_POINTS} points; cut out a part", source=source)
+        return _converted(_topography(heights, length, given, source), source)
+
+
+def _channel(reader: Any, channel: int, source: str) -> Any:
+    channels = reader.height_channels
+    if not 1 <= channel <= len(channels):
+        names = ", ".join(f"{k} {entry.name}" for k, entry in enumerate(channels, start=1)) or "none"
+        raise InputError(f"given {channel}; channels of heights: {names}", key="channel", source=source)
+    return channels[channel - 1]
+
+
+def _topography(channel: Any, length: Length, given: Scale, source: str) -> Any:
+    """Return the topography in metres."""
+    sizes = None
+    columns = channel.is_uniform is False
+    if channel.physical_sizes is None and not columns:
+        if given.spacing is None:
+            raise InputError("the file does not say it; give --spacing", key="spacing", source=source)
+        steps = parse_spacing(given.spacing, channel.dim, length)[::-1]
+        sizes = tuple(n * step for n, step in zip(channel.nb_grid_pts, steps, strict=True))
+    elif given.spacing is not None:
+        raise InputError("the file says it itself; leave it out", key="spacing", source=source)
+    if channel.unit is not None:
+        if given.unit is not None:
+            raise InputError("the file says it itself; leave it out", key="unit", source=source)
+        size = float(length(f"1 {channel.unit}")) if sizes is not None else 1.0
+        sizes = None if sizes is None else tuple(value / size for value in sizes)
+        return channel.topography(physical_sizes=sizes).to_unit("m")
+    if given.unit is None:
+        raise InputError("the file does not say it; give --unit", key="unit", source=source)
+    return _with_unit(channel, unit_size(given.unit, length), sizes)
+
+
+def _with_unit(channel: Any, size: float, sizes: tuple[float, ...] | None) -> Any:
+    """Return the topography of numbers without a unit, each ``size`` metres; sizes are metres already."""
+    if sizes is not None:
+        return channel.topography(physical_sizes=sizes, height_scale_factor=size, unit="m")
+    whole = channel.topography(unit="m")
+    return whole if size == 1.0 else _Scaled(whole, size)
+
+
+class _Scaled:
+    """A topography whose positions and heights are multiplied by one factor."""
+
+    def __init__(self, whole: Any, factor: float) -> None:
+        self._whole, self._factor = whole, factor
+        self.dim, self.is_uniform = whole.dim, whole.is_uniform
+        if self.is_uniform:
+            self.pixel_size = tuple(np.ravel(whole.pixel_size) * factor)
+
+    def heights(self) -> Any:
+        """Return the heights [m]."""
+        return self._whole.heights() * self._factor
+
+    def positions(self) -> Any:
+        """Return the positions [m]."""
+        return self._whole.positions() * self._factor
+
+
+def _converted(topography: Any, source: str) -> Scan:
+    """Return our surface; SurfaceTopography counts x first, we count lines first."""
+    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
+    if topography.dim == 1 and not topography.is_uniform:
+        return from_columns(np.asarray(topography.positions(), dtype=np.float64), heights, source)
+    spacing = tuple(float(step) for step in np.ravel(topography.pixel_size))
+    heights = np.ascontiguousarray(heights.T)
+    if heights.ndim == 2 and 1 in heights.shape:
+        return Scan(heights.ravel(), (spacing[0] if heights.shape[0] == 1 else spacing[1],), source)
+    return Scan(heights, spacing[::-1], source)
+
+
+def _in_short(error: Exception) -> str:
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    reason = lines[0] if lines else type(error).__name__
+    return reason if len(reason) <= _LONGEST_REASON else f"{reason[:_LONGEST_REASON]}..."

@@ -1,0 +1,113 @@
+"""Spectral moments: the variances of height, slope and curvature.
+
+m0 = ⟨z²⟩, m2 = ⟨(∂z/∂x)²⟩, m4 = ⟨(∂²z/∂x²)²⟩ of a profile, which for an isotropic surface are the same
+in all directions (Nayak 1971; McCool 1987). Of a map they are taken along x and y, and as the means over
+all directions, m2 = ½⟨|∇z|²⟩ and m4 = ⅜⟨(∇²z)²⟩, which do not change when the map is turned or its axes
+are swapped.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.surfaces.derivatives import REACH, coarse_curvature, curvature, slope
+from tribodyn.surfaces.scan import Scan
+
+
+@dataclass(frozen=True)
+class Directional:
+    """Second and fourth moments of a map that belong to directions.
+
+    Attributes
+    ----------
+    m2_x, m2_y
+        Along the axes [1].
+    m4_x, m4_y
+        Along the axes [1/m²].
+    m2_across, m2_along
+        Largest and smallest over all directions [1]: across and along the lay.
+    lay
+        Direction of the smallest, from x towards y [rad], in (-π/2, π/2].
+    """
+
+    m2_x: float
+    m2_y: float
+    m4_x: float
+    m4_y: float
+    m2_across: float
+    m2_along: float
+    lay: float
+
+    @property
+    def texture(self) -> float:
+        """Slope along over slope across the lay [1]: 1 when isotropic, 0 for straight grooves."""
+        return math.sqrt(max(self.m2_along, 0.0) / self.m2_across)
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Spectral moments in the sense of a profile of an isotropic surface.
+
+    Attributes
+    ----------
+    m0, m2, m4
+        Variance of height [m²], slope [1] and curvature [1/m²].
+    resolved
+        m4 by three points over m4 by seven [1]: near 1 when the grid resolves the curvature.
+    directional
+        What a map says of directions; None for a profile.
+    """
+
+    m0: float
+    m2: float
+    m4: float
+    resolved: float = 1.0
+    directional: Directional | None = None
+
+    def __add__(self, other: Moments) -> Moments:
+        """Return the moments of the sum of two independent surfaces, which is the gap between them."""
+        coarse = self.resolved * self.m4 + other.resolved * other.m4
+        m4 = self.m4 + other.m4
+        return Moments(self.m0 + other.m0, self.m2 + other.m2, m4, coarse / m4)
+
+
+def moments(scan: Scan) -> Moments:
+    """Return the moments of a surface that has been levelled and filtered."""
+    m0 = float(np.nanvar(scan.heights))
+    return _of_map(scan, m0) if scan.is_map else _of_profile(scan, m0)
+
+
+def _of_profile(scan: Scan, m0: float) -> Moments:
+    (step,) = scan.spacing
+    m4 = _mean_square(curvature(scan.heights, step))
+    coarse = _mean_square(coarse_curvature(scan.heights, step))
+    return Moments(m0, _mean_square(slope(scan.heights, step)), m4, coarse / m4)
+
+
+def _of_map(scan: Scan, m0: float) -> Moments:
+    z, (dy, dx) = scan.heights, scan.spacing
+    inside = slice(REACH, -REACH)
+    z_x, z_y = slope(z[inside], dx, 1), slope(z[:, inside], dy, 0)
+    z_xx, z_yy = curvature(z[inside], dx, 1), curvature(z[:, inside], dy, 0)
+    laplacian = coarse_curvature(z[inside], dx, 1) + coarse_curvature(z[:, inside], dy, 0)
+    m2_x, m2_y, m2_xy = _mean_square(z_x), _mean_square(z_y), float(np.nanmean(z_x * z_y))
+    m4 = 0.375 * _mean_square(z_xx + z_yy)
+    middle, spread = 0.5 * (m2_x + m2_y), math.hypot(0.5 * (m2_x - m2_y), m2_xy)
+    directional = Directional(
+        m2_x,
+        m2_y,
+        _mean_square(z_xx),
+        _mean_square(z_yy),
+        middle + spread,
+        middle - spread,
+        0.5 * math.atan2(-2.0 * m2_xy, m2_y - m2_x),
+    )
+    return Moments(m0, middle, m4, 0.375 * _mean_square(laplacian) / m4, directional)
+
+
+def _mean_square(values: FloatArray) -> float:
+    return float(np.nanmean(values**2))

@@ -1,0 +1,56 @@
+"""What the table ``[contact]`` makes of laws, damping factors and restitutions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import tribodyn as td
+from tribodyn.contact import LAWS
+from tribodyn.core.errors import InputError
+
+
+def changed(**changes: object) -> Any:
+    return td.load_case("vsv").replace({f"contact.{key}": value for key, value in changes.items()})
+
+
+def test_only_laws_with_a_restitution_are_damped_by_default() -> None:
+    factors = {name: changed(law=name).contact.damping_factor for name in LAWS}
+    damped = {name for name, factor in factors.items() if factor != "none"}
+    assert damped == {"rsdc"}
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_restitution_damps_any_law(name: str) -> None:
+    case = changed(law=name, restitution=0.6)
+    law = case.contact.law_of(case.surface_pair)
+    assert (law.name, law.damping_factor, law.restitution) == (name, "lankarani-nikravesh", 0.6)
+
+
+def test_a_factor_without_restitution_is_refused() -> None:
+    with pytest.raises(InputError, match="the law ceb has no restitution of its own") as caught:
+        changed(law="ceb", damping_factor="flores")
+    assert caught.value.key == "contact.restitution"
+
+
+def test_options_reach_the_law() -> None:
+    case = changed(law="linear", penalty_stiffness="7 MPa/um")
+    assert case.contact.law_of(case.surface_pair).penalty_stiffness == pytest.approx(7e12)
+    case = changed(law="gw", separation_from="surface")
+    assert case.contact.law_of(case.surface_pair).separation_from == "surface"
+
+
+def test_another_law_of_the_same_case_is_not_damped_without_a_restitution() -> None:
+    case = changed(law="rsdc")
+    assert case.contact.law_of(case.surface_pair, "ke").damping_factor == "none"
+
+
+def test_what_the_surfaces_cannot_have_is_found_before_a_run() -> None:
+    with pytest.raises(InputError) as caught:
+        changed(law="gw", damping_factor="calibrated", restitution=0.7, design_pressure="1 TPa")
+    assert caught.value.key == "contact.design_pressure"
+    smooth = {"asperities.density": "0.0001 1/um^2", "contact.separation_from": "surface"}
+    with pytest.raises(InputError) as caught:
+        td.load_case("vsv").replace(smooth)
+    assert caught.value.key == "contact.separation_from"

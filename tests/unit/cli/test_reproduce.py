@@ -1,0 +1,48 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+import xarray as xr
+
+from tribodyn.cli.main import main
+
+
+def test_one_run_gives_its_figures_with_their_data(tmp_path, capsys):
+    assert main(["reproduce", "fig13", "fig10", "-o", str(tmp_path), "--quiet"]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "fig10.nc",
+        "fig10.png",
+        "fig13.nc",
+        "fig13.png",
+    ]
+    with xr.open_dataset(tmp_path / "fig13.nc", engine="h5netcdf") as data:
+        assert set(data.data_vars) >= {"e_x", "e_y", "phi_x", "phi_y"}
+        assert data["e_x"].attrs["units"] == "m"
+        assert data.attrs["formulation"] == "paper"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "key"),
+    [(["fig7"], "WHAT"), (["claim"], "WHAT"), (["fig10", "--formulation", "best"], "--formulation")],
+)
+def test_what_does_not_exist_is_refused(arguments, key, tmp_path, capsys):
+    target = tmp_path / "out"
+    assert main(["reproduce", *arguments, "-o", str(target)]) == 2
+    message = capsys.readouterr().err
+    assert key in message
+    assert "allowed" in message
+    assert not target.exists()
+
+
+@pytest.mark.long
+def test_everything_is_reproduced(tmp_path, capsys):
+    assert main(["reproduce", "-o", str(tmp_path), "--json", "--quiet"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert {row["verdict"] for row in rows} <= {"reproduced", "differs", "contradicted"}
+    # What the smooth motion says is robust; numbers of impacts are not.
+    found = {row["claim"]: row["verdict"] for row in rows}
+    for claim in ("F_cx changes sign", "φ_x positive", "angle error, 20 µm", "angle error, 40 µm"):
+        assert found[claim] == "reproduced"
+    assert (tmp_path / "claims.md").exists()
+    assert len(list(tmp_path.glob("fig*.png"))) == len(list(tmp_path.glob("fig*.nc"))) >= 9

@@ -1,0 +1,114 @@
+"""What holds for every law, and for every damping factor of every law."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, GreenwoodWilliamson, Linear, SurfacePair, law
+from tribodyn.core.errors import InputError
+
+H_STAR = np.linspace(-4.0, 8.0, 121)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_pressure_falls_with_separation(table_1_pair: SurfacePair, name: str) -> None:
+    pressure = law(name, table_1_pair).stiffness_pressure(H_STAR)
+    assert np.all(pressure >= 0.0)
+    assert np.all(np.diff(pressure) <= 0.0)
+    assert pressure[0] > 0.0
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_area_and_count_fall_with_separation_where_the_theory_has_them(
+    table_1_pair: SurfacePair, name: str
+) -> None:
+    found = law(name, table_1_pair)
+    for values in (found.real_area_fraction(H_STAR), found.contact_count(H_STAR)):
+        assert values.shape == H_STAR.shape
+        if np.isfinite(values).any():
+            assert np.all(values > 0.0)
+            assert np.all(np.diff(values) < 0.0)
+        else:
+            assert name == Linear.name
+
+
+@pytest.mark.parametrize("kind", LAWS.values())
+def test_says_what_it_is(kind: type) -> None:
+    assert kind.title
+    assert kind.source
+    assert kind.validity
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("factor", DAMPING_FACTORS)
+def test_every_law_takes_every_damping_factor(table_1_pair: SurfacePair, name: str, factor: str) -> None:
+    h = H_STAR.reshape(11, 11)
+    damping = law(name, table_1_pair, damping_factor=factor, restitution=0.6).damping_pressure(h)
+    assert damping.shape == h.shape
+    assert np.all(damping >= 0.0)
+    assert damping.any() == (factor != "none")
+    lively = law(name, table_1_pair, damping_factor=factor, restitution=1.0).damping_pressure(h)
+    assert not lively.any()
+
+
+@pytest.mark.parametrize("name", set(LAWS) - {RSDC.name})
+def test_damping_is_proportional_to_the_stiffness(table_1_pair: SurfacePair, name: str) -> None:
+    found = law(name, table_1_pair, damping_factor="flores", restitution=0.6)
+    expected = 1.6 * 0.4 / 0.6 * found.stiffness_pressure(H_STAR)
+    np.testing.assert_allclose(found.damping_pressure(H_STAR), expected, rtol=1e-14)
+
+
+def test_dashpots_stand_where_asperities_touch(table_1_pair: SurfacePair) -> None:
+    found = GreenwoodWilliamson(table_1_pair, "kelvin-voigt", restitution=0.6)
+    h_design = found.design_separation()
+    assert found.stiffness_pressure(np.array([h_design]))[0] == pytest.approx(50e6, rel=1e-10)
+    count = found.contact_count(np.array([0.0, h_design]))
+    damping = found.damping_pressure(np.array([0.0, h_design]))
+    assert damping[0] / damping[1] == pytest.approx(count[0] / count[1], rel=1e-12)
+    zeta = -np.log(0.6) / np.hypot(np.pi, np.log(0.6))
+    assert damping[1] == pytest.approx(2.0 * zeta * 50e6, rel=1e-9)
+
+
+def test_a_given_restitution_replaces_that_of_the_paper(table_1_pair: SurfacePair) -> None:
+    given = RSDC(table_1_pair, restitution=0.5)
+    np.testing.assert_array_equal(given.meant_restitution(H_STAR), 0.5)
+    own = RSDC(table_1_pair)
+    ratio = (1.0 - 0.25) / (1.0 - own.meant_restitution(H_STAR) ** 2)
+    np.testing.assert_allclose(
+        given.damping_pressure(H_STAR), ratio * own.damping_pressure(H_STAR), rtol=1e-13
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "key"),
+    [
+        ("gw", {"damping_factor": "newton", "restitution": 0.5}, "contact.damping_factor"),
+        ("gw", {"damping_factor": "flores"}, "contact.restitution"),
+        ("rsdc", {"restitution": 0.0}, "contact.restitution"),
+        ("rsdc", {"restitution": 1.1}, "contact.restitution"),
+        ("ke", {"design_pressure": 0.0}, "contact.design_pressure"),
+        ("ke", {"separation_from": "below"}, "contact.separation_from"),
+        ("linear", {"penalty_stiffness": 0.0}, "contact.penalty_stiffness"),
+    ],
+)
+def test_impossible_options_are_refused_by_key(
+    table_1_pair: SurfacePair, name: str, options: dict[str, object], key: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        LAWS[name](table_1_pair, **options)  # type: ignore[arg-type]
+    assert caught.value.key == key
+
+
+def test_a_design_pressure_beyond_the_law_is_refused(table_1_pair: SurfacePair) -> None:
+    found = GreenwoodWilliamson(table_1_pair, "kelvin-voigt", restitution=0.6, design_pressure=1e12)
+    with pytest.raises(InputError, match=r"at most 1\.94e\+10 Pa"):
+        found.damping_pressure(H_STAR)
+
+
+def test_surfaces_too_smooth_for_a_spread_of_asperities_are_refused(table_1_pair: SurfacePair) -> None:
+    import dataclasses
+
+    sparse = dataclasses.replace(table_1_pair, asperity_density=1e9)
+    with pytest.raises(InputError, match=r"exceed 0\.0193"):
+        GreenwoodWilliamson(sparse, separation_from="surface")

@@ -1,0 +1,38 @@
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import Any
+
+import pytest
+
+from tribodyn.cases import load_case
+from tribodyn.studies import work
+
+TOML = load_case("vsv").to_toml()
+
+
+def test_another_version_computes_nothing_and_that_is_not_final(simulated: list[Any]) -> None:
+    outcome = work.compute(TOML, "99", True)
+    assert "the sweep was planned by 99" in outcome.failure
+    assert not outcome.final
+    assert simulated == []
+
+
+def test_lack_of_memory_is_the_fault_of_the_worker(monkeypatch: pytest.MonkeyPatch) -> None:
+    def exhausted(toml: str, keep: bool) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(work, "_simulated", exhausted)
+    assert not work.compute(TOML, version("tribodyn"), True).final
+
+
+def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
+    toml = load_case("vsv").replace({"joint.clearance": "30 um"}).to_toml()
+    outcome = work.compute(toml, version("tribodyn"), True)
+    assert outcome.failure
+    assert outcome.final
+    assert outcome.result
+
+
+def test_warming_up_never_fails() -> None:
+    work.warm_up("nonsense")
