@@ -26,10 +26,12 @@ demo: $(VENV)/.run
 	$(BIN)/tribodyn run vsv -o $(DEMO)
 
 test: $(VENV)/.dev
-	$(PYTEST) -m "not long and not browser"
+	@tools/ensure-browser
+	$(PYTEST) -m "not long"
 
 test-long: $(VENV)/.dev
-	$(PYTEST) -m "not browser"
+	@tools/ensure-browser
+	$(PYTEST)
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

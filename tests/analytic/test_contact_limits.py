@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from scipy.special import erfc, gamma, pbdv
 
-from tribodyn.contact import LAWS, RSDC, GreenwoodTripp, KogutEtsion, Linear, SurfacePair, law
+from tribodyn.contact import LAWS, RSDC, KogutEtsion, SurfacePair, law
+from tribodyn.contact.greenwood_tripp import GreenwoodTripp
+from tribodyn.contact.linear import Linear
 from tribodyn.core.arrays import FloatArray
 
 H_STAR = np.linspace(-4.0, 8.0, 25)

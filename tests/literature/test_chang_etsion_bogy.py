@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.contact import ChangEtsionBogy, SurfacePair
+from tribodyn.contact import SurfacePair
+from tribodyn.contact.chang_etsion_bogy import ChangEtsionBogy
 
 H_STAR = np.array([-2.0, -0.5, 0.0, 1.0, 2.0, 3.5, 5.0])
 

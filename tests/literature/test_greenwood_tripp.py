@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.contact import GreenwoodTripp, SurfacePair
+from tribodyn.contact import SurfacePair
+from tribodyn.contact.greenwood_tripp import GreenwoodTripp
 from tribodyn.contact.quadrature import asperity_integral
 
 # F_5/2 as printed by Greenwood and Tripp (1970), to five decimals, at h* = 0 (0.5) 3.5.

@@ -156,14 +156,16 @@ class Contact(Group):
     def law_of(self, surfaces: SurfacePair, name: str | None = None) -> ContactLaw:
         """Return the contact law, or another one with the same options, for a pair of surfaces.
 
-        A law without any restitution is left undamped.
+        A law that has no restitution of its own and is given none is left undamped.
         """
-        from tribodyn.contact import law
+        from tribodyn.contact import LAWS, law
 
+        chosen = name or self.law
+        damped = self.restitution is not None or LAWS[chosen].knows_restitution
         return law(
-            name or self.law,
+            chosen,
             surfaces,
-            damping_factor=self.damping_factor,
+            damping_factor=self.damping_factor if damped else "none",
             restitution=self.restitution,
             design_pressure=self.design_pressure,
             separation_from=self.separation_from,

@@ -13,11 +13,11 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     summary
         Content of ``summary.json``.
     """
-    from tribodyn.results.summary import HEADLINES
+    from tribodyn.results.summary import known
 
-    known = {name: headline for name, headline in HEADLINES.items() if name in summary}
-    width = max((len(headline.label) for headline in known.values()), default=0)
-    for name, headline in known.items():
+    headlines = known(summary)
+    width = max((len(headline.label) for headline in headlines.values()), default=0)
+    for name, headline in headlines.items():
         yield f"  {headline.label:<{width}}  {_number(summary[name])} {headline.unit}".rstrip()
 
 

@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
-from tribodyn.cli import cases, check, report, reproduce, run, show, surface, sweep
+from tribodyn.cli import bounce, cases, check, compare, report, reproduce, run, show, surface, sweep
 from tribodyn.cli.console import complain, forgive_encodings
 from tribodyn.cli.interrupt import termination_as_interrupt
 from tribodyn.core.errors import InputError, TribodynError
@@ -36,8 +36,10 @@ COMMANDS: Final[dict[str, Command]] = {
     "check": check,
     "sweep": sweep,
     "report": report,
+    "compare": compare,
     "reproduce": reproduce,
     "surface": surface,
+    "bounce": bounce,
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
 

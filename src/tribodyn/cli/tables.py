@@ -30,10 +30,9 @@ def sweep_in_words(record: Mapping[str, Any]) -> Iterator[str]:
 
 def _headlines(given: Sequence[str]) -> dict[str, str]:
     """Return the headings of the numbers that a user wants to see, by name."""
-    from tribodyn.results import HEADLINES
+    from tribodyn.results import known
 
-    known = {name: HEADLINES[name] for name in HEADLINES if name in given}
-    wanted = {name: entry for name, entry in known.items() if entry.group not in _LEFT_OUT}
+    wanted = {name: entry for name, entry in known(given).items() if entry.group not in _LEFT_OUT}
     return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}
 
 

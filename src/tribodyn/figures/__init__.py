@@ -10,6 +10,9 @@ import xarray as xr
 from tribodyn.figures import (
     contact_force,
     energy,
+    journal,
+    journal_energy,
+    journal_orbit,
     mechanism,
     motion,
     pressure,
@@ -36,14 +39,22 @@ FIGURES: Final[dict[str, Family]] = {
         mechanism,
     )
 }
-"""Every figure of a run, in the order in which one reads them."""
+"""Every figure of a run of the mechanism, in the order in which one reads them."""
 
-__all__ = ["FIGURES", "Family", "draw_all", "figures_of"]
+JOURNAL_FIGURES: Final[dict[str, Family]] = {
+    module.FAMILY.name: module.FAMILY for module in (journal, journal_orbit, journal_energy)
+}
+"""Every figure of a run of the journal."""
+
+__all__ = ["FIGURES", "JOURNAL_FIGURES", "Family", "draw_all", "figures_of"]
 
 
 def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
     """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
-    return sweep.families(dataset) if dataset.attrs.get("kind") == "sweep" else FIGURES
+    kind = dataset.attrs.get("kind")
+    if kind == "sweep":
+        return sweep.families(dataset)
+    return JOURNAL_FIGURES if kind == "journal" else FIGURES
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:

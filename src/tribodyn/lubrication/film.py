@@ -15,6 +15,7 @@ from tribodyn.kernels.film.data import (
     JFO,
     NO_CAVITATION,
     REYNOLDS,
+    SIDES,
     BandSystem,
     FilmData,
     FilmFields,
@@ -196,9 +197,10 @@ def _system(n: int, m: int) -> BandSystem:
     return BandSystem(
         number=np.full((n, m), -1, dtype=np.int64),
         reach=np.zeros(n * m, dtype=np.int64),
-        band=np.zeros((n * m, m + 1)),
+        band=np.zeros((n * m, m + 2)),
         border=np.zeros((n * m, m)),
         corner=np.zeros((m, m)),
-        right=np.zeros((n * m, 5)),
+        right=np.zeros((n * m, SIDES)),
+        single=np.zeros(n * m),
         size=np.zeros(3, dtype=np.int64),
     )

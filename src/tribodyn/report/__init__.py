@@ -1,7 +1,8 @@
-"""The report: one self-contained page about a run."""
+"""The report: one self-contained page about a run, or about several."""
 
 from __future__ import annotations
 
+from tribodyn.report.comparison import Run, write_comparison
 from tribodyn.report.page import write
 
-__all__ = ["write"]
+__all__ = ["Run", "write", "write_comparison"]

@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from tribodyn.figures import FIGURES
+from tribodyn.figures import Family, figures_of
 from tribodyn.report.base import Chapter, Section
 
 Shown = dict[str, Any]
@@ -46,7 +46,8 @@ def chapters(
         if sections:
             shown.append(_chapter(chapter, sections))
     used = {section.still for chapter in planned for section in chapter.sections}
-    others = [_still(path) for name, path in pictures.items() if name not in used]
+    families = figures_of(dataset)
+    others = [_still(path, families.get(name)) for name, path in pictures.items() if name not in used]
     if others:
         lead = "Also in the folder figures."
         shown.append({"name": "figures", "title": "Figures", "lead": lead, "film": False, "sections": others})
@@ -76,9 +77,8 @@ def _section(section: Section, drawn: bool, pictures: dict[str, Path]) -> Shown:
     }
 
 
-def _still(path: Path) -> Shown:
+def _still(path: Path, family: Family | None) -> Shown:
     """Return a figure that is a picture only."""
-    family = FIGURES.get(path.stem)
     return {
         "name": f"figure-{path.stem}",
         "title": family.title if family else path.stem,

@@ -9,15 +9,14 @@ from typing import Any
 import xarray as xr
 
 from tribodyn.report.numbers import in_words
-from tribodyn.results import HEADLINES
+from tribodyn.results import Headline, known
 
 Number = dict[str, str]
 """A headline number with ``label``, ``value``, ``unit`` and ``meaning``."""
 
 
-def number(name: str, value: object) -> Number:
+def number(headline: Headline, value: object) -> Number:
     """Return a headline number in words."""
-    headline = HEADLINES[name]
     return {
         "label": headline.label,
         "value": in_words(value),
@@ -28,15 +27,15 @@ def number(name: str, value: object) -> Number:
 
 def chosen(summary: Mapping[str, Any], names: Iterable[str]) -> list[Number]:
     """Return those of the named numbers that a summary holds."""
-    return [number(name, summary[name]) for name in names if name in summary]
+    found = known(summary)
+    return [number(found[name], summary[name]) for name in names if name in found]
 
 
 def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return all headline numbers of a summary in their groups."""
-    known = [(name, headline.group) for name, headline in HEADLINES.items() if name in summary]
     return [
-        {"name": group, "numbers": [number(name, summary[name]) for name, _ in members]}
-        for group, members in groupby(known, key=lambda entry: entry[1])
+        {"name": group, "numbers": [number(headline, summary[name]) for name, headline in members]}
+        for group, members in groupby(known(summary).items(), key=lambda entry: entry[1].group)
     ]
 
 

@@ -6,6 +6,7 @@ from typing import Final
 
 import xarray as xr
 
+from tribodyn.contact import LAWS
 from tribodyn.report.base import Chapter
 from tribodyn.report.sections import (
     contact_force,
@@ -18,6 +19,7 @@ from tribodyn.report.sections import (
     vane_error,
     wear,
 )
+from tribodyn.results.law_headlines import named
 
 _FILM: Final = Chapter(
     "film",
@@ -44,6 +46,7 @@ _WEAR: Final = Chapter("worn", "Wear", "What the run would take off the bushing.
 
 CHAPTERS: Final[dict[str, tuple[Chapter, ...]]] = {
     "vsv": (_FILM, _TIME, _WEAR),
+    "journal": (),
 }
 """Chapters of each kind of result, in reading order. A section that a result has no data for is left out."""
 
@@ -56,10 +59,16 @@ KEY_NUMBERS: Final[dict[str, tuple[str, ...]]] = {
         "wear_depth_rate_nm_per_1000_cycles",
         "clearance_energy_residual_percent",
     ),
+    "journal": tuple(
+        named(template, law)
+        for template in ("settling_time_{law}_ms", "rebounds_{law}", "contact_force_max_{law}_N")
+        for law in LAWS
+    ),
 }
 """Headline numbers that a reader of each kind of result wants first."""
 
 
 def kind_of(dataset: xr.Dataset) -> str:
     """Return the kind of a result: a key of :data:`CHAPTERS`."""
-    return "vsv"
+    kind = str(dataset.attrs.get("kind", "vsv"))
+    return kind if kind in CHAPTERS else "vsv"

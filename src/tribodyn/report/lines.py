@@ -135,4 +135,4 @@ def _limits(panel: Panel, time: FloatArray, turns: FloatArray) -> tuple[list[flo
     limits = smooth_limits(time, values, turns)
     if limits is None:
         return [], ""
-    return list(limits), f"impacts reach {peak(values):.3g} {panel.unit}: “Whole” shows them"
+    return list(limits), f"cut off, impacts reach {peak(values):.3g} {panel.unit}".rstrip()

@@ -9,7 +9,7 @@ from typing import Any, Final
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from tribodyn.figures import FIGURES
+from tribodyn.figures import figures_of
 from tribodyn.report import assets
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.encode import safe_json
@@ -44,14 +44,14 @@ def write(dataset: xr.Dataset, target: str | Path, figures: Sequence[str | Path]
     path = Path(target)
     path = path if path.suffix == ".html" else path / NAME
     path.parent.mkdir(parents=True, exist_ok=True)
-    stills = _beside(path) if figures is None else [Path(figure) for figure in figures]
+    stills = _beside(path, dataset) if figures is None else [Path(figure) for figure in figures]
     write_text(path, render(dataset, stills))
     return path
 
 
-def _beside(path: Path) -> list[Path]:
+def _beside(path: Path, dataset: xr.Dataset) -> list[Path]:
     """Return the figures in the folder of the report, in reading order."""
-    candidates = [path.parent / "figures" / f"{name}.png" for name in FIGURES]
+    candidates = [path.parent / "figures" / f"{name}.png" for name in figures_of(dataset)]
     return [figure for figure in candidates if figure.is_file()]
 
 

@@ -28,7 +28,8 @@ def build(
         Values of names in :data:`~tribodyn.results.variables.COORDINATES`, SI; ``time`` of shape (n_t,) at
         least.
     columns
-        Values over ``time``, each of shape (n_t,), SI.
+        Values over ``time``, each of shape (n_t,), SI. Where there is a coordinate ``law``, all values
+        that are no coordinates run over it first.
     fields
         Values over other dimensions, shaped as the variable table says, SI.
     attributes
@@ -41,22 +42,24 @@ def build(
         Each variable with ``units`` and ``long_name``.
     """
     data = {**columns, **(fields or {})}
+    first = ("law",) if "law" in coordinates else ()
     return xr.Dataset(
-        data_vars={name: _variable(name, values) for name, values in data.items()},
+        data_vars={name: _variable(name, values, first) for name, values in data.items()},
         coords={name: _variable(name, values) for name, values in coordinates.items()},
         attrs={name: plain_attribute(value) for name, value in (attributes or {}).items()},
     )
 
 
-def _variable(name: str, values: ArrayLike) -> xr.Variable:
-    """Return the values as a variable described by the table."""
+def _variable(name: str, values: ArrayLike, first: tuple[str, ...] = ()) -> xr.Variable:
+    """Return the values as a variable described by the table, with dimensions in front of its own."""
     if name not in VARIABLES:
         raise KeyError(f"{name!r} is not in tribodyn.results.variables.VARIABLES: add its line there")
     about = VARIABLES[name]
     array = np.asarray(values)
-    if array.ndim != len(about.dims):
-        raise ValueError(f"{name} has shape {array.shape} but the table says it runs over {about.dims}")
-    return xr.Variable(about.dims, array, {"units": about.units, "long_name": about.long_name})
+    dims = first + about.dims
+    if array.ndim != len(dims):
+        raise ValueError(f"{name} has shape {array.shape} but the table says it runs over {dims}")
+    return xr.Variable(dims, array, {"units": about.units, "long_name": about.long_name})
 
 
 def plain_attribute(value: object) -> str | int | float:

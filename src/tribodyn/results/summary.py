@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -12,31 +12,8 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.dataset import json_attribute
-
-
-@dataclass(frozen=True)
-class Headline:
-    """One headline number.
-
-    Attributes
-    ----------
-    label
-        What it is, for a table.
-    unit
-        Unit as printed.
-    group
-        What kind of question it answers.
-    meaning
-        Why an engineer cares, in a sentence.
-    compute
-        Returns the number, NaN or an error of lookup where the result does not hold it.
-    """
-
-    label: str
-    unit: str
-    group: str
-    meaning: str
-    compute: Callable[[xr.Dataset], float]
+from tribodyn.results.headline import Headline
+from tribodyn.results.law_headlines import LAW_HEADLINES, law_in, named
 
 
 def _values(dataset: xr.Dataset, name: str) -> FloatArray:
@@ -224,7 +201,26 @@ HEADLINES: Final[dict[str, Headline]] = {
 }
 """Every headline number, by its name in ``summary.json``."""
 
-_COUNTS: Final = frozenset({"steps", "rhs_evaluations"})
+_COUNTS: Final = ("steps", "rhs_evaluations", "rebounds_")
+"""What the names of whole numbers begin with."""
+
+
+def known(names: Iterable[str]) -> dict[str, Headline]:
+    """Return what is known of those of the names that are headline numbers, in reading order.
+
+    Parameters
+    ----------
+    names
+        Names of a summary. Those of runs with contact laws side by side hold the name of a law.
+    """
+    given = list(names)
+    found = {}
+    for template, headline in LAW_HEADLINES.items():
+        for name in given:
+            law = law_in(name, template)
+            if law is not None and name not in HEADLINES:
+                found[name] = replace(headline, label=f"{headline.label}, {law}")
+    return found | {name: headline for name, headline in HEADLINES.items() if name in given}
 
 
 def summarise(dataset: xr.Dataset) -> dict[str, float | int | str]:
@@ -250,9 +246,26 @@ def summarise(dataset: xr.Dataset) -> dict[str, float | int | str]:
         "failure": failure,
         "warnings": "; ".join(json_attribute(dataset, "warnings", [])),
     }
-    numbers = ((name, _number(headline, dataset)) for name, headline in HEADLINES.items())
+    numbers = _of_each_law(dataset)
+    # What runs over the laws has no number that holds for all of them.
+    common = dataset.drop_dims("law") if "law" in dataset.dims else dataset
+    numbers |= {name: _number(headline, common) for name, headline in HEADLINES.items()}
     return texts | {
-        name: int(value) if name in _COUNTS else value for name, value in numbers if math.isfinite(value)
+        name: int(value) if name.startswith(_COUNTS) else value
+        for name, value in numbers.items()
+        if math.isfinite(value)
+    }
+
+
+def _of_each_law(dataset: xr.Dataset) -> dict[str, float]:
+    """Return the headline numbers of each law of runs side by side."""
+    if "law" not in dataset.dims:
+        return {}
+    runs = {str(law): dataset.isel(law=i) for i, law in enumerate(dataset["law"].values)}
+    return {
+        named(template, law): _number(headline, run)
+        for template, headline in LAW_HEADLINES.items()
+        for law, run in runs.items()
     }
 
 

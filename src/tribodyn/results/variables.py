@@ -36,6 +36,7 @@ class Variable:
 
 
 COORDINATES: Final[dict[str, Variable]] = {
+    "law": Variable("1", "contact law, of runs side by side", ("law",)),
     "time": Variable("s", "simulated time"),
     "snapshot": Variable("1", "number of the field snapshot", SNAPSHOT),
     "snapshot_time": Variable("s", "simulated time of the snapshot", SNAPSHOT),
@@ -97,6 +98,32 @@ _JOINT: Final[dict[str, Variable]] = {
     "contact_fraction": Variable("1", "share of the bushing surface in contact"),
 }
 
+_FILM: Final[dict[str, Variable]] = {
+    "F_ox": Variable("N", "force of the oil film on the journal along X"),
+    "F_oy": Variable("N", "force of the oil film on the journal along Y"),
+    "M_ox": Variable("N m", "moment of the oil film about X"),
+    "M_oy": Variable("N m", "moment of the oil film about Y (left-handed)"),
+    "M_of": Variable("N m", "friction moment of the oil film about Z"),
+    "energy_film": Variable("J", "heat of the oil film"),
+}
+
+_JOURNAL: Final[dict[str, Variable]] = {
+    "settling_time": Variable(
+        "s", "time after which the centre stays within 1 % of the clearance of its static equilibrium", ()
+    ),
+    "contact_start": Variable("s", "first output time at which any point is in contact", ()),
+    "rebounds": Variable("1", "how often the journal left contact again", ()),
+    "contact_force_peak": Variable("N", "largest contact force at any accepted step", ()),
+    "contact_force_peak_time": Variable("s", "when the contact force was largest", ()),
+    "film_force_peak": Variable("N", "largest film force at any accepted step", ()),
+    "pressure_peak": Variable("Pa", "largest contact pressure at any accepted step", ()),
+    "separation_least": Variable("m", "smallest gap at any accepted step", ()),
+    "e_x_balance": Variable("m", "e_x of the static equilibrium", ()),
+    "e_y_balance": Variable("m", "e_y of the static equilibrium", ()),
+    "friction_coefficient_end": Variable("1", "friction moment over radius and load, at the end", ()),
+    "residual_fraction": Variable("1", "largest energy residual over the largest energy", ()),
+}
+
 _REACTIONS: Final[dict[str, Variable]] = {
     "F_ax": Variable("N", "force of the casing on the crank pivot along X"),
     "F_ay": Variable("N", "force of the casing on the crank pivot along Y"),
@@ -127,7 +154,7 @@ _ENERGY: Final[dict[str, Variable]] = {
     "energy_gravity": Variable("J", "gravity energy of all bodies, from the start"),
     "energy_contact": Variable("J", "energy stored in the contact"),
     "energy_drive": Variable("J", "work of the drive"),
-    "energy_loads": Variable("J", "work of the aerodynamic loads"),
+    "energy_loads": Variable("J", "work of the loads"),
     "energy_friction": Variable("J", "friction heat of the bushing"),
     "energy_collar_friction": Variable("J", "friction heat of the thrust collar"),
     "energy_collar_tilt": Variable("J", "work done against the thrust collar by tilting"),
@@ -153,6 +180,8 @@ VARIABLES: Final[dict[str, Variable]] = {
     **_ATTITUDE,
     **_MOTION,
     **_JOINT,
+    **_FILM,
+    **_JOURNAL,
     **_REACTIONS,
     **_ENERGY,
     **_FIELDS,

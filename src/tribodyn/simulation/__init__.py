@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError
+from tribodyn.simulation.journal import simulate_journal
 from tribodyn.simulation.vsv import simulate_vsv
 
 if TYPE_CHECKING:
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 
     from tribodyn.cases.base import Case
 
-SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv}
+SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv, "journal": simulate_journal}
 """What runs each kind of case."""
 
 

@@ -13,7 +13,7 @@ import xarray as xr
 
 from tribodyn.cases import Key
 from tribodyn.cases.units import si_unit, to_si
-from tribodyn.results import HEADLINES
+from tribodyn.results import known
 from tribodyn.studies.plan import POINT, Plan
 from tribodyn.studies.work import Numbers
 
@@ -63,18 +63,16 @@ def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
 def _numbers(rows: Sequence[Numbers]) -> list[str]:
     """Return the names of all numbers that any point gave, the known ones first and in their order."""
     given = {name: None for row in rows for name, value in row.items() if not isinstance(value, str)}
-    return [
-        *(name for name in HEADLINES if name in given),
-        *(name for name in given if name not in HEADLINES),
-    ]
+    first = known(given)
+    return [*first, *(name for name in given if name not in first)]
 
 
 def _column(name: str, rows: Sequence[Numbers]) -> tuple[list[float], type, dict[str, str]]:
     """Return the values of a headline number over all points; a point that failed has none."""
-    known = HEADLINES.get(name)
-    about = {"units": known.unit or "1", "long_name": known.label} if known else {"long_name": name}
+    told = known([name]).get(name)
+    about = {"units": told.unit or "1", "long_name": told.label} if told else {"long_name": name}
     values = [math.nan if row.get("failure") else float(row.get(name, math.nan)) for row in rows]
-    return values, float, about | ({"group": known.group, "comment": known.meaning} if known else {})
+    return values, float, about | ({"group": told.group, "comment": told.meaning} if told else {})
 
 
 def _coordinates(plan: Plan) -> dict[str, xr.Variable]:

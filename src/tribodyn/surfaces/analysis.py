@@ -19,6 +19,7 @@ from tribodyn.surfaces.scan import Scan
 
 _POINTS_OF_A_WAVE: Final = 2.0
 _CUTOFFS: Final = 10
+_LEAST_RANGE: Final = 1.5
 _STEEPEST: Final = 10.0
 _UNRESOLVED: Final = 0.85
 _STRONG_LAY: Final = 0.5
@@ -140,8 +141,8 @@ def dependence(roughness: Roughness, scan: Scan) -> list[Roughness]:
     Returns
     -------
     list of Roughness
-        The shortest wavelength goes from the one of ``roughness``, or four points, up to a twentieth of the
-        scan; then the longest goes from a half of the scan down. The other stays.
+        The shortest wavelength goes from the one of ``roughness``, or four points, up to a tenth of the
+        longest; then the longest goes down from a half of that of ``roughness``. The other stays.
     """
     scan, _ = checked(scan)
     level = levelled(scan, roughness.treatment.level)
@@ -151,16 +152,15 @@ def dependence(roughness: Roughness, scan: Scan) -> list[Roughness]:
 def _variations(scan: Scan, treatment: Treatment) -> Iterator[Treatment]:
     shortest = treatment.short_cutoff or 2.0 * _POINTS_OF_A_WAVE * max(scan.spacing)
     longest = treatment.long_cutoff or min(scan.extent)
-    for cutoff in _between(shortest, longest / 20.0):
+    for cutoff in _between(shortest, longest / 10.0):
         yield replace(treatment, short_cutoff=cutoff)
-    for cutoff in _between(longest / 2.0, max(5.0 * shortest, longest / 50.0)):
+    for cutoff in reversed(_between(max(3.0 * shortest, longest / 50.0), 0.5 * longest)):
         yield replace(treatment, long_cutoff=cutoff)
 
 
 def _between(first: float, last: float) -> list[float]:
     """Return cut-offs at equal ratios; none when the scan leaves no room for any."""
-    low, high = min(first, last), max(first, last)
-    if high < 1.5 * low:
+    if last < _LEAST_RANGE * first:
         return []
     return [float(value) for value in np.geomspace(first, last, _CUTOFFS)]
 

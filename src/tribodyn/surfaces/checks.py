@@ -150,7 +150,8 @@ def _step(line: FloatArray) -> tuple[float, float] | None:
     window = max(4, line.size // 8)
     before, after = line[max(0, place + 1 - window) : place + 1], line[place + 1 : place + 1 + window]
     change = float(np.median(after) - np.median(before))
-    return (float(place), change) if change * np.sign(rises[place]) > 0.5 * sizes[place] else None
+    stays = change * np.sign(rises[place]) > 0.5 * sizes[place]
+    return (float(place), float(rises[place])) if stays else None
 
 
 def _refused(scan: Scan, message: str) -> InputError:

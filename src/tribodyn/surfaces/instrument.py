@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import warnings
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, BinaryIO, Final
 
 import numpy as np
 
@@ -39,12 +39,12 @@ def read_instrument(path: Path, length: Length, given: Scale, file_format: str |
     InputError
         The extra is missing, the file cannot be read, or lacks or repeats what ``given`` says.
     """
-    package = _package()
     source = str(path)
     try:
-        with warnings.catch_warnings():
+        # What the package has to say about itself is not for a user of ours.
+        with warnings.catch_warnings(), path.open("rb") as stream:
             warnings.simplefilter("ignore")
-            return _scan(package, path, length, given, file_format, channel)
+            return _scan(_package(), path, stream, length, given, file_format, channel)
     except (InputError, MemoryError):
         raise
     except Exception as error:
@@ -63,19 +63,32 @@ def _package() -> Any:
 
 
 def _scan(
-    package: Any, path: Path, length: Length, given: Scale, file_format: str | None, channel: int
+    package: Any,
+    path: Path,
+    stream: BinaryIO,
+    length: Length,
+    given: Scale,
+    file_format: str | None,
+    channel: int,
 ) -> Scan:
     source = str(path)
     if file_format is not None and file_format not in package.lookup_reader_by_format:
         known = ", ".join(["csv", *sorted(package.lookup_reader_by_format)])
         raise InputError(f'given "{file_format}"; allowed: {known}', key="format", source=source)
     try:
-        reader = package.open_topography(source, format=file_format)
+        reader = package.open_topography(stream, format=file_format)
     except package.CannotDetectFileFormat:
-        raise InputError("this is in no format of a surface that is known here", source=source) from None
+        raise InputError(
+            "this is in no format of a surface that is known here, or cut short", source=source
+        ) from None
     with reader:
         if file_format is None and reader.format() in _WITHOUT_MARK and path.suffix[1:] != reader.format():
-            raise InputError("this is in no format of a surface that is known here", source=source)
+            raise InputError(
+                "this is in no format of a surface that is known here, or cut short", source=source
+            )
+        if reader.format() == "npy":
+            # Of a file cut short the package returns whatever the memory held; mapping it fails.
+            np.load(path, mmap_mode="r", allow_pickle=False)
         heights = _channel(reader, channel, source)
         if np.prod(heights.nb_grid_pts or 1, dtype=float) > MOST_POINTS:
             raise InputError(f"the scan has more than {MOST_POINTS} points; cut out a part", source=source)

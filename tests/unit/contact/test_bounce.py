@@ -3,8 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, Linear, SurfacePair, law, tabulate
+from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, law, tabulate
 from tribodyn.contact.bounce import bounce, calibrating_scale, undamped_depth
+from tribodyn.contact.linear import Linear
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import stored_energy
 

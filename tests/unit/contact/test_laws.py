@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, GreenwoodWilliamson, Linear, SurfacePair, law
+from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, law
+from tribodyn.contact.greenwood_williamson import GreenwoodWilliamson
+from tribodyn.contact.linear import Linear
 from tribodyn.core.errors import InputError
 
 H_STAR = np.linspace(-4.0, 8.0, 121)

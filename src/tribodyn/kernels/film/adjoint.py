@@ -68,7 +68,7 @@ def _solve_for(film: FilmData, memory: FilmMemory, rows: int, solved: int, first
             for m in range(5):
                 if first <= m < first + count:
                     system.right[k, m - first] = share * weight * loads[m]
-    solve(system, count)
+    solve(system)
     for i in range(active.shape[0]):
         for j in range(rows):
             k = system.number[i, j] if j < solved and active[i, j] == 1 else -1

@@ -9,7 +9,7 @@ definite and an M-matrix: no pivoting.
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.film.data import BandSystem, FilmFields, FlagArray
+from tribodyn.kernels.film.data import SIDES, BandSystem, FilmFields, FlagArray
 from tribodyn.kernels.jit import kernel
 
 
@@ -141,37 +141,89 @@ def _factorise_corner(corner: FloatArray, edge: int) -> None:
 
 
 @kernel
-def solve(system: BandSystem, columns: int) -> None:
-    """Replace the first ``columns`` right-hand sides by the solutions."""
+def solve(system: BandSystem) -> None:
+    """Replace all right-hand sides by the solutions."""
     inner, edge = system.size[0], system.size[1]
     band, border, corner, right = system.band, system.border, system.corner, system.right
     for k in range(inner):
-        for d in range(1, system.reach[k] - k + 1):
-            factor = band[k, d]
-            for c in range(columns):
-                right[k + d, c] -= factor * right[k, c]
-        for e in range(edge):
-            factor = border[k, e]
-            for c in range(columns):
-                right[inner + e, c] -= factor * right[k, c]
+        _forward(right, k, k + 1, band[k, 1:], system.reach[k] - k)
+        _forward(right, k, inner, border[k], edge)
     for k in range(edge):
         for i in range(k + 1, edge):
-            for c in range(columns):
+            for c in range(SIDES):
                 right[inner + i, c] -= corner[i, k] * right[inner + k, c]
     for k in range(edge - 1, -1, -1):
-        for c in range(columns):
+        for c in range(SIDES):
             right[inner + k, c] *= corner[k, k]
         for i in range(k + 1, edge):
-            for c in range(columns):
+            for c in range(SIDES):
                 right[inner + k, c] -= corner[i, k] * right[inner + i, c]
     for k in range(inner - 1, -1, -1):
-        for c in range(columns):
+        for c in range(SIDES):
             right[k, c] *= band[k, 0]
+        _backward(right, k, k + 1, band[k, 1:], system.reach[k] - k)
+        _backward(right, k, inner, border[k], edge)
+
+
+@kernel
+def _forward(right: FloatArray, k: int, first: int, factors: FloatArray, count: int) -> None:
+    """Subtract row ``k`` times the factors from the rows from ``first`` on."""
+    a, b, c, d, e = right[k, 0], right[k, 1], right[k, 2], right[k, 3], right[k, 4]
+    for i in range(count):
+        factor = factors[i]
+        right[first + i, 0] -= factor * a
+        right[first + i, 1] -= factor * b
+        right[first + i, 2] -= factor * c
+        right[first + i, 3] -= factor * d
+        right[first + i, 4] -= factor * e
+
+
+@kernel
+def _backward(right: FloatArray, k: int, first: int, factors: FloatArray, count: int) -> None:
+    """Subtract the rows from ``first`` on times the factors from row ``k``."""
+    a = b = c = d = e = 0.0
+    for i in range(count):
+        factor = factors[i]
+        a += factor * right[first + i, 0]
+        b += factor * right[first + i, 1]
+        c += factor * right[first + i, 2]
+        d += factor * right[first + i, 3]
+        e += factor * right[first + i, 4]
+    right[k, 0] -= a
+    right[k, 1] -= b
+    right[k, 2] -= c
+    right[k, 3] -= d
+    right[k, 4] -= e
+
+
+@kernel
+def solve_one(system: BandSystem) -> None:
+    """Replace the single right-hand side by the solution."""
+    inner, edge = system.size[0], system.size[1]
+    band, border, corner, x = system.band, system.border, system.corner, system.single
+    for k in range(inner):
+        value = x[k]
         for d in range(1, system.reach[k] - k + 1):
-            factor = band[k, d]
-            for c in range(columns):
-                right[k, c] -= factor * right[k + d, c]
+            x[k + d] -= band[k, d] * value
         for e in range(edge):
-            factor = border[k, e]
-            for c in range(columns):
-                right[k, c] -= factor * right[inner + e, c]
+            x[inner + e] -= border[k, e] * value
+    for k in range(edge):
+        for i in range(k + 1, edge):
+            x[inner + i] -= corner[i, k] * x[inner + k]
+    for k in range(edge - 1, -1, -1):
+        total = x[inner + k] * corner[k, k]
+        for i in range(k + 1, edge):
+            total -= corner[i, k] * x[inner + i]
+        x[inner + k] = total
+    for k in range(inner - 1, -1, -1):
+        # Two sums, so that one need not wait for the other.
+        total, other = x[k] * band[k, 0], 0.0
+        last = system.reach[k] - k
+        for d in range(2, last + 1, 2):
+            total -= band[k, d - 1] * x[k + d - 1]
+            other -= band[k, d] * x[k + d]
+        if last % 2 == 1:
+            total -= band[k, last] * x[k + last]
+        for e in range(edge):
+            other -= border[k, e] * x[inner + e]
+        x[k] = total + other

@@ -10,7 +10,7 @@ evaluation.
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve
+from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve_one
 from tribodyn.kernels.film.data import (
     CONVERGED,
     NO_CONVERGENCE,
@@ -72,11 +72,11 @@ def _solve_over(
     for i in range(active.shape[0]):
         for j in range(rows):
             if active[i, j] == 1:
-                system.right[system.number[i, j], 0] = fields.source[i, j]
-    solve(system, 1)
+                system.single[system.number[i, j]] = fields.source[i, j]
+    solve_one(system)
     for i in range(active.shape[0]):
         for j in range(rows):
-            pressure[i, j] = system.right[system.number[i, j], 0] if active[i, j] == 1 else 0.0
+            pressure[i, j] = system.single[system.number[i, j]] if active[i, j] == 1 else 0.0
 
 
 @kernel

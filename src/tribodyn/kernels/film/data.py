@@ -28,6 +28,10 @@ NO_CAVITATION: Final = 2
 JFO: Final = 3
 
 
+SIDES: Final = 5
+"""Right-hand sides solved at once: as many as the wrench has members."""
+
+
 class FlowTable(NamedTuple):
     """Flow, shear and contact factors of a pair of rough surfaces, as piecewise cubics.
 
@@ -167,13 +171,15 @@ class BandSystem(NamedTuple):
     reach
         Last unknown that the elimination of each one touches, shape (n m,).
     band
-        Pivot and the entries below it, shape (n m, m + 1).
+        Pivot and the entries below it, shape (n m, m + 2); the last column stays zero.
     border
         Rows of the border, transposed, shape (n m, m).
     corner
         Border against itself, shape (m, m).
     right
-        Right-hand sides, one row an unknown, shape (n m, 5).
+        Right-hand sides, one row an unknown, shape (n m, SIDES).
+    single
+        One more, for the pressure, shape (n m,).
     size
         Unknowns of the band, of the border, and the column where the numbering starts, shape (3,).
     """
@@ -184,6 +190,7 @@ class BandSystem(NamedTuple):
     border: FloatArray
     corner: FloatArray
     right: FloatArray
+    single: FloatArray
     size: IntArray
 
 

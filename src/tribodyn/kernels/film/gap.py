@@ -76,59 +76,41 @@ def _offsets(film: FilmData, fields: FilmFields, u: FloatArray, rows: int, half:
 
 
 @kernel
-def pressure_conductance(film: FilmData, gap: float, member: int) -> tuple[float, float]:
-    """Return φ h³/c³ and its derivative by h [1/m]; ``member`` 0 for φ_θ, 1 for φ_z."""
-    sigma = film.roughness
-    least = LEAST_SEPARATION * sigma
-    h = max(gap, least)
-    ratio = h / film.clearance
-    cube = ratio * ratio * ratio
+def theta_face(film: FilmData, gap: float) -> tuple[float, float, float, float, float, float]:
+    """Return φ_θ h³/c³ [1], (h_T + σ φ_s)/c [1] and h φ_fp [m], each followed by its derivative by h."""
+    sigma, inverse = film.roughness, 1.0 / film.clearance
     if sigma == 0.0:
-        return cube, 3.0 * cube / h
-    k, x, dx = place(film.table, sigma, h)
-    c = film.table.factors[k, member]
-    phi = cubic(c, x)
-    if gap < least:
-        return cube * phi, 0.0
-    return cube * phi, cube * (3.0 * phi / h + cubic_slope(c, x) * dx)
-
-
-@kernel
-def shear_terms(film: FilmData, gap: float) -> tuple[float, float, float, float]:
-    """Return (h_T + σ φ_s)/c [1] and h φ_fp [m] at a θ face, each with its derivative by h."""
-    sigma = film.roughness
-    inverse = 1.0 / film.clearance
-    if sigma == 0.0:
-        return gap * inverse, inverse, gap, 1.0
+        cube = (gap * inverse) ** 3
+        return cube, 3.0 * cube / gap, gap * inverse, inverse, gap, 1.0
     mean, slope, _ = mean_gap(film.table, sigma, gap)
-    least = LEAST_SEPARATION * sigma
-    h = max(gap, least)
+    h = max(gap, LEAST_SEPARATION * sigma)
     k, x, dx = place(film.table, sigma, h)
-    shear = film.table.factors[k, 2]
-    friction = film.table.factors[k, 4]
-    phi = cubic(friction, x)
+    pressure, shear, friction = film.table.factors[k, 0], film.table.factors[k, 2], film.table.factors[k, 4]
+    cube = (h * inverse) ** 3
+    phi, phi_fp = cubic(pressure, x), cubic(friction, x)
     wedge = (mean + sigma * cubic(shear, x)) * inverse
-    if gap < least:
-        return wedge, slope * inverse, h * phi, 0.0
+    if gap < h:
+        return cube * phi, 0.0, wedge, slope * inverse, h * phi_fp, 0.0
+    d_k = cube * (3.0 * phi / h + cubic_slope(pressure, x) * dx)
     d_wedge = (slope + sigma * cubic_slope(shear, x) * dx) * inverse
-    return wedge, d_wedge, h * phi, phi + h * cubic_slope(friction, x) * dx
+    return cube * phi, d_k, wedge, d_wedge, h * phi_fp, phi_fp + h * cubic_slope(friction, x) * dx
 
 
 @kernel
-def couette_term(film: FilmData, gap: float) -> tuple[float, float]:
-    """Return c φ_f/h and its derivative by h [1/m]."""
-    sigma = film.roughness
-    least = LEAST_SEPARATION * sigma
-    h = max(gap, least)
-    value = film.clearance / h
+def z_face(film: FilmData, gap: float) -> tuple[float, float, float, float]:
+    """Return φ_z h³/c³ and c φ_f/h, each followed by its derivative by h [1/m]."""
+    sigma, inverse = film.roughness, 1.0 / film.clearance
+    h = max(gap, LEAST_SEPARATION * sigma)
+    cube, thinness, per_gap = (h * inverse) ** 3, film.clearance / h, 1.0 / h
     if sigma == 0.0:
-        return value, -value / h
+        return cube, 3.0 * cube * per_gap, thinness, -thinness * per_gap
     k, x, dx = place(film.table, sigma, h)
-    c = film.table.factors[k, 3]
-    phi = cubic(c, x)
-    if gap < least:
-        return value * phi, 0.0
-    return value * phi, value * (cubic_slope(c, x) * dx - phi / h)
+    pressure, friction = film.table.factors[k, 1], film.table.factors[k, 3]
+    phi, phi_f = cubic(pressure, x), cubic(friction, x)
+    if gap < h:
+        return cube * phi, 0.0, thinness * phi_f, 0.0
+    d_k = cube * (3.0 * phi * per_gap + cubic_slope(pressure, x) * dx)
+    return cube * phi, d_k, thinness * phi_f, thinness * (cubic_slope(friction, x) * dx - phi_f * per_gap)
 
 
 @kernel
@@ -154,8 +136,7 @@ def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> 
                 film.clearance + fields.offset[0, j] * c + fields.offset[1, j] * s + film.wear_theta[i, j + 1]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
-            k, dk = pressure_conductance(film, gap, 0)
-            wedge, d_wedge, drag, d_drag = shear_terms(film, gap)
+            k, dk, wedge, d_wedge, drag, d_drag = theta_face(film, gap)
             fields.k_theta[i, j] = weight * shape * k
             fields.dk_theta[i, j] = weight * shape * dk
             fields.wedge[i, j] = weight * wedge
@@ -192,8 +173,7 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
                 + film.wear_z[i, j]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
-            k, dk = pressure_conductance(film, gap, 1)
-            couette, d_couette = couette_term(film, gap)
+            k, dk, couette, d_couette = z_face(film, gap)
             fields.k_z[i, j] = shape * k
             fields.dk_z[i, j] = shape * dk
             fields.couette[i, j] = couette

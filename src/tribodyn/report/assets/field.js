@@ -2,7 +2,7 @@
 
 widgets.field = (box, data) => {
   const filmed = data.peaks.length > 1;
-  const area = plotArea(box, 300, {}, filmed ? "Follows the time slider." : "A map.");
+  const area = plotArea(box, isNarrow() ? 360 : 300, {}, filmed ? "Follows the time slider." : "A map.");
   const readout = element("p", { class: "readout" });
   box.append(readout);
   let ownScale = false;
@@ -61,7 +61,6 @@ function fieldTrace(data, frame, top) {
   const texts = Array.from(data.z, (z) =>
     Array.from(data.angle, (angle) => `${(((angle % 360) + 360) % 360).toFixed(0)}°, z = ${number(z)} mm`),
   );
-  const narrow = document.documentElement.clientWidth < 600;
   return {
     type: "heatmap",
     x: data.angle,
@@ -75,12 +74,12 @@ function fieldTrace(data, frame, top) {
     text: texts,
     hovertemplate: `%{text}<br>%{z:.3~g} ${literal(data.unit)}<extra></extra>`,
     colorbar: {
-      orientation: narrow ? "h" : "v",
-      title: { text: literal(data.label), side: narrow ? "top" : "right", font: { size: 12 } },
+      orientation: isNarrow() ? "h" : "v",
+      title: { text: literal(data.label), side: isNarrow() ? "top" : "right", font: { size: 12 } },
       thickness: 10,
       outlinewidth: 0,
       tickfont: { size: 11, color: theme.colour("quiet") },
-      ...(narrow ? { y: -0.32, yanchor: "top", len: 0.9 } : { x: 1.01 }),
+      ...(isNarrow() ? { y: -0.32, yanchor: "top", len: 0.9 } : { x: 1.01 }),
     },
   };
 }
@@ -89,9 +88,7 @@ function fieldTrace(data, frame, top) {
 function fieldLayout(data) {
   const half = data.height[data.height.length - 1];
   const room = 0.06 * half;
-  const narrow = document.documentElement.clientWidth < 600;
   return {
-    height: narrow ? 360 : 300,
     xaxis: {
       ...theme.axis("bushing angle θ [°]"),
       tickvals: data.angle_ticks,
@@ -107,7 +104,7 @@ function fieldLayout(data) {
       showgrid: false,
     },
     shapes: data.empty.length ? [emptyMiddle(data)] : [],
-    margin: { l: 52, r: 12, t: 10, b: narrow ? 110 : 42 },
+    margin: { l: 52, r: 12, t: 10, b: isNarrow() ? 110 : 42 },
   };
 }
 

@@ -39,6 +39,8 @@ widgets.lines = (box, data) => {
     button("Zoom out", () => zoom(2)),
     button("Whole", whole),
   );
+  const notes = data.panels.filter((panel) => panel.note).map((panel) => `${panel.label}: ${panel.note}`);
+  if (notes.length) box.append(element("p", { class: "readout" }, notes.join(" · ")));
 
   const paint = () => {
     const first = !area.data;
@@ -162,25 +164,23 @@ function linesLayout(data, area, span, height, first) {
     const old = first ? null : area.layout[name];
     const limits = old ? (old.autorange ? [] : [...old.range]) : panel.limits;
     if (limits.length) layout[name].range = limits;
-    layout.annotations.push(heading(panel.label, 0, top, "left", "ink"));
-    if (panel.note) layout.annotations.push(heading(panel.note, 1, top, "right", "quiet"));
+    layout.annotations.push(heading(panel.label, top));
   });
   return layout;
 }
 
-/** Return a text above a panel. */
-function heading(text, x, y, side, colour) {
+/** Return the text above a panel. */
+function heading(text, y) {
   return {
     text: literal(text),
-    x,
+    x: 0,
     y,
     xref: "paper",
     yref: "paper",
-    xanchor: side,
+    xanchor: "left",
     yanchor: "bottom",
     yshift: 3,
     showarrow: false,
-    font: { size: colour === "quiet" ? 11 : 12, color: theme.colour(colour) },
   };
 }
 

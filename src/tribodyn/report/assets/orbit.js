@@ -9,7 +9,7 @@ const PLACES = [
 const AT_ONCE = { mode: "immediate", transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
 
 widgets.orbit = (box, data) => {
-  const area = plotArea(box, 380, {}, "Follows the time slider.");
+  const area = plotArea(box, isNarrow() ? 310 : 380, {}, "Follows the time slider.");
   const moving = data.at.length;
   tools(box, ...data.places.map((place, k) => element("span", { class: "key" }, swatch(k), place)));
   const readout = element("p", { class: "readout" });

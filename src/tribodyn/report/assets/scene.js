@@ -6,7 +6,7 @@ const BLADE = { chord: 34, thick: 6 };
 widgets.scene = (box, data) => {
   const area = plotArea(
     box,
-    innerWidth < 600 ? 320 : 430,
+    isNarrow() ? 320 : 430,
     {
       ArrowLeft: () => turn(-0.15, 0),
       ArrowRight: () => turn(0.15, 0),

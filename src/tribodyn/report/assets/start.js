@@ -5,6 +5,11 @@ const page = unpack(JSON.parse(document.getElementById("page-data").textContent)
 /** Draws one kind of figure: (box, data) => {paint(), show(frame)}. Each script adds its own. */
 const widgets = {};
 
+/** Tell whether the screen is that of a phone. */
+function isNarrow() {
+  return document.documentElement.clientWidth < 600;
+}
+
 /** Turn packed arrays back into typed arrays, everywhere in a document. */
 function unpack(node) {
   if (node === null || typeof node !== "object") return node;

@@ -1,0 +1,51 @@
+"""``tribodyn bounce``: the restitution that contact laws and damping factors really give."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from dataclasses import asdict
+from typing import TYPE_CHECKING, cast
+
+from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.console import Console, show_json
+from tribodyn.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tribodyn.simulation.bounce import HasContact
+
+HELP = "drop the journal on every contact law and damping factor, and show which restitution comes out"
+_COLUMNS = ("wanted", "point", "plate", "journal")
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``bounce``."""
+    add_case_arguments(parser)
+    parser.add_argument(
+        "--law",
+        metavar="NAME",
+        action="append",
+        help="a contact law to show; all without it; may be repeated",
+    )
+
+
+def execute(args: Namespace) -> int:
+    """Print one line for each law and factor."""
+    case = chosen_case(args)
+    from tribodyn.contact import LAWS
+    from tribodyn.simulation.bounce import bounces
+
+    names = args.law or list(LAWS)
+    unknown = [name for name in names if name not in LAWS]
+    if unknown:
+        raise InputError(f"given {unknown[0]!r}; allowed: {', '.join(LAWS)}", key="--law")
+    console = Console.of(args)
+    console.note("Restitution wanted, and realised by a point, a plate and a journal on these surfaces.")
+    console.say(f"{'law':<8}{'damping factor':<22}" + "".join(f"{name:>9}" for name in _COLUMNS))
+    rows = []
+    for row in bounces(cast("HasContact", case), names):
+        rows.append(asdict(row))
+        numbers = "".join(f"{rows[-1][name]:>9.4f}" for name in _COLUMNS)
+        console.say(f"{row.law:<8}{row.factor:<22}{numbers}")
+    if args.json:
+        show_json(rows)
+    return 0

@@ -1,0 +1,126 @@
+"""The bounce test on a bushing: a journal thrown against it, and the restitution that comes out.
+
+The journal flies along X, untilted, without friction and loads, from the onset of contact into the bushing
+and out again. Other than those of the plate of :mod:`tribodyn.contact.bounce`, its points enter contact one
+after the other, each with its own entry velocity.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from scipy.integrate import DOP853
+
+from tribodyn.contact.bounce import undamped_depth
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.joints.bushing import BushingJoint
+from tribodyn.joints.point_contact import SURFACE
+from tribodyn.kernels.bushing.joint import report, update_entry_velocity, wrench
+from tribodyn.kernels.bushing.report import N_REPORT, STORED
+
+_MOST_STEPS: Final = 20_000
+_LONGEST_STEP: Final = 0.05
+"""In σ at the first speed: points that enter contact take the speed at the end of a step."""
+
+
+@dataclass(frozen=True)
+class Drop:
+    """What one drop of a journal gave.
+
+    Attributes
+    ----------
+    restitution
+        Speed on leaving the onset over that on arriving [1]; 0 if the journal sticks.
+    peak_force
+        Largest contact force [N].
+    least_separation
+        Smallest gap between the mean planes [m].
+    """
+
+    restitution: float
+    peak_force: float
+    least_separation: float
+
+
+def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:
+    """Throw a journal against its bushing.
+
+    Parameters
+    ----------
+    joint
+        The bushing.
+    mass
+        Mass of the journal [kg].
+    speed
+        Speed at the onset of contact [m/s].
+    """
+    data = replace(joint, friction=replace(joint.friction, coefficient=0.0)).data()
+    memory, state, out = joint.no_memory(), np.zeros(8), np.empty(5)
+    onset = onset_eccentricity(joint)
+
+    def motion(_: float, y: FloatArray) -> FloatArray:
+        state[0], state[4] = y
+        wrench(data, memory, state, 0.0, 1.0, out)
+        return np.array([y[1], out[0] / mass])
+
+    sigma = joint.roughness
+    solver = DOP853(
+        motion,
+        0.0,
+        np.array([onset, speed]),
+        math.inf,
+        rtol=1e-8,
+        atol=np.array([1e-9 * sigma, 1e-9 * speed]),  # type: ignore[arg-type]
+        max_step=_LONGEST_STEP * sigma / speed,
+        first_step=1e-3 * sigma / speed,
+    )
+    deepest, force = onset, 0.0
+    for _ in range(_MOST_STEPS):
+        solver.step()
+        e, v = solver.y
+        if e <= onset:
+            # Out there is no force to speak of: the speed at the end of the step is that of leaving.
+            return Drop(-float(v) / speed, force, joint.geometry.clearance - deepest)
+        state[0], state[4] = e, v
+        update_entry_velocity(data, state, memory, 0.0)
+        deepest, force = max(deepest, float(e)), max(force, -float(motion(0.0, solver.y)[1]) * mass)
+    return Drop(0.0, force, joint.geometry.clearance - deepest)
+
+
+def onset_eccentricity(joint: BushingJoint) -> float:
+    """Return the eccentricity at which contact begins [m]."""
+    gap = joint.entry.onset * joint.roughness if joint.contact == SURFACE else 0.0
+    if gap >= joint.geometry.clearance:
+        raise InputError("in so small a clearance the journal always touches", key="joint.clearance")
+    return joint.geometry.clearance - gap
+
+
+def design_speed(joint: BushingJoint, *, mass: float, pressure: float) -> float:
+    """Return the speed at the onset with which a journal would reach a pressure without damping [m/s].
+
+    Parameters
+    ----------
+    joint
+        The bushing, touching over its surface.
+    mass
+        Mass of the journal [kg].
+    pressure
+        Pressure at the deepest line [Pa].
+    """
+    deepest = joint.geometry.clearance - undamped_depth(joint.table, pressure) * joint.roughness
+    energy = stored_energy(joint, deepest) - stored_energy(joint, onset_eccentricity(joint))
+    if energy <= 0.0:
+        raise InputError(f"{pressure:g} Pa are reached above the onset", key="contact.design_pressure")
+    return math.sqrt(2.0 * energy / mass)
+
+
+def stored_energy(joint: BushingJoint, eccentricity: float) -> float:
+    """Return the energy stored in the contact of an untilted journal [J]."""
+    out, y = np.empty(N_REPORT), np.zeros(8)
+    y[0] = eccentricity
+    report(joint.data(), joint.no_memory(), y, 0.0, 1.0, True, out)
+    return float(out[STORED])

@@ -1,0 +1,154 @@
+"""Several runs on one page: what differs on top, then their curves over each other."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import Any, Final
+
+import xarray as xr
+
+from tribodyn.report.base import Chapter
+from tribodyn.report.content import chapters, reading
+from tribodyn.report.numbers import in_words
+from tribodyn.report.page import page
+from tribodyn.report.sections.overlay import overlays
+from tribodyn.results import json_attribute, known, summarise
+from tribodyn.results.atomic import write_text
+
+NOTABLE: Final = 0.01
+"""Relative difference from the first run above which a number stands out."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run to compare.
+
+    Attributes
+    ----------
+    name
+        What it is called on the page.
+    dataset
+        Its result.
+    link
+        Address of its own report, empty where there is none.
+    """
+
+    name: str
+    dataset: xr.Dataset
+    link: str = ""
+
+
+def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
+    """Write the page that compares runs.
+
+    Parameters
+    ----------
+    runs
+        Two or more, each with its own name; differences are from the first.
+    target
+        File to write.
+
+    Returns
+    -------
+    pathlib.Path
+        The file written.
+    """
+    path = Path(target)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_text(path, render(runs))
+    return path
+
+
+def render(runs: Sequence[Run]) -> str:
+    """Return the page as text."""
+    lead = "Press the name of a run below a plot to hide or show it."
+    planned = [Chapter("curves", "Curves over each other", lead, overlays({r.name: r.dataset for r in runs}))]
+    shown, payloads = chapters(runs[0].dataset, planned, ())
+    summaries = [summarise(run.dataset) for run in runs]
+    return page(
+        "compare.html",
+        payload={"clock": None, "figures": payloads} if payloads else None,
+        title=f"Comparison of {len(runs)} runs",
+        version=runs[0].dataset.attrs.get("tribodyn_version", ""),
+        runs=[_about(run, summary) for run, summary in zip(runs, summaries, strict=True)],
+        groups=_numbers(summaries),
+        keys=_different_keys([run.dataset for run in runs]),
+        chapters=shown,
+        reading=reading(()),
+    )
+
+
+def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Return name, title and doubts of a run."""
+    failure = f"stopped at t = {in_words(summary.get('simulated_time_s', 0.0))} s: {summary['failure']}"
+    doubts = json_attribute(run.dataset, "warnings", [])
+    return {
+        "name": run.name,
+        "title": summary["title"],
+        "link": run.link,
+        "doubts": [failure, *doubts] if summary["failure"] else doubts,
+    }
+
+
+def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Return, in groups, every headline number that any run has, with the difference from the first run."""
+    names = {name: None for summary in summaries for name in summary}
+    rows = [
+        {
+            "label": headline.label,
+            "unit": headline.unit,
+            "group": headline.group,
+            "cells": [
+                _cell(summary.get(name), summaries[0].get(name), headline.group) for summary in summaries
+            ],
+        }
+        for name, headline in known(names).items()
+    ]
+    return [
+        {"name": name, "rows": list(members)} for name, members in groupby(rows, lambda row: row["group"])
+    ]
+
+
+def _cell(value: Any, first: Any, group: str) -> dict[str, Any]:
+    """Return a number, and in percent how far it is from that of the first run."""
+    if value is None:
+        return {"value": "—", "change": "", "notable": False}
+    if first is None or not first or value == first:
+        return {"value": in_words(value), "change": "", "notable": False}
+    share = (value - first) / abs(first)
+    change = f"{100.0 * share:+.3g} %" if abs(share) < 10.0 else f"× {value / first:.3g}"
+    return {
+        "value": in_words(value),
+        "change": change.replace("-", "−"),
+        # How much work it was depends on the machine: no result stands out by that.
+        "notable": abs(share) > NOTABLE and group != "Effort",
+    }
+
+
+def _different_keys(datasets: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
+    """Return the keys of the cases that are not the same in all runs."""
+    cases = [_flat(_case(dataset)) for dataset in datasets]
+    paths = {path: None for case in cases for path in case}
+    rows = [{"path": path, "values": [case.get(path, "—") for case in cases]} for path in paths]
+    return [row for row in rows if len(set(row["values"])) > 1]
+
+
+def _case(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the tables of a case; none where its text is not TOML."""
+    try:
+        return tomllib.loads(str(dataset.attrs.get("case", "")))
+    except tomllib.TOMLDecodeError:
+        return {}
+
+
+def _flat(tables: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
+    """Return nested tables as texts by dotted path."""
+    flat: dict[str, str] = {}
+    for name, value in tables.items():
+        path = prefix + name
+        flat |= _flat(value, f"{path}.") if isinstance(value, dict) else {path: str(value) or "(empty)"}
+    return flat

@@ -1,0 +1,109 @@
+"""The bounce test of a case: which restitution every law and damping factor really gives on its surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from tribodyn.cases import groups
+from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, tabulate
+from tribodyn.contact.bounce import bounce
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.drop import design_speed, drop
+
+
+class HasContact(Protocol):
+    """A case with one clearance joint."""
+
+    @property
+    def contact(self) -> groups.Contact:
+        """Its table ``[contact]``."""
+
+    @property
+    def joint(self) -> groups.PlainJoint:
+        """Its table ``[joint]``."""
+
+    @property
+    def solver(self) -> groups.Solver:
+        """Its table ``[solver]``."""
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The surfaces in contact."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """Restitution wanted and realised, of one law with one damping factor.
+
+    Attributes
+    ----------
+    law, factor
+        Their names.
+    wanted
+        Restitution given to the factor [1].
+    point
+        What one impact of a point gives, F = K δⁿ (1 + a δ̇/δ̇₋), or K δ + D δ̇ of ``kelvin-voigt`` [1].
+    plate, journal
+        What a plate and a journal give on these surfaces [1].
+    """
+
+    law: str
+    factor: str
+    wanted: float
+    point: float
+    plate: float
+    journal: float
+
+
+def bounces(case: HasContact, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
+    """Drop a plate and a journal on laws with every damping factor, on the surfaces of a case.
+
+    Both arrive with the energy that takes them to ``contact.design_pressure`` without damping.
+
+    Parameters
+    ----------
+    case
+        A case with one clearance joint. Without a ``contact.restitution`` that of ``rsdc`` at the design
+        pressure is given to all factors.
+    names
+        Names of the laws, all by default.
+    mass
+        Mass of the journal [kg]; it matters by its speed alone, which meets the least entry velocity.
+    """
+    wanted = case.contact.restitution or _own_restitution(case)
+    for name in names:
+        for factor in DAMPING_FACTORS:
+            yield _row(case, name, factor, wanted, mass)
+
+
+def _own_restitution(case: HasContact) -> float:
+    law = RSDC(case.surface_pair, design_pressure=case.contact.design_pressure)
+    return float(law.meant_restitution(np.array([law.design_separation()]))[0])
+
+
+def _row(case: HasContact, name: str, factor: str, wanted: float, mass: float) -> Row:
+    contact = case.contact.model_copy(update={"damping_factor": factor, "restitution": wanted})
+    onset, pressure = contact.onset_separation, contact.design_pressure
+    chosen = contact.law_of(case.surface_pair, name)
+    table = tabulate(chosen, onset=onset, smoothing_width=contact.smoothing_width)
+    joint = BushingJoint(
+        geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
+        friction=Friction(0.0, case.joint.friction, case.joint.slip_velocity),
+        entry=EntryMemory(onset, contact.minimum_entry_velocity, contact.tensile_clip),
+        grid=Grid(4 * case.solver.grid.theta, 2),
+        roughness=case.surface_pair.roughness_rms,
+        table=table,
+    )
+    speed = design_speed(joint, mass=mass, pressure=pressure)
+    return Row(
+        law=name,
+        factor=factor,
+        wanted=wanted,
+        point=float(DAMPING_FACTORS[factor].realised(np.array(wanted))),
+        plate=bounce(table, onset=onset, design_pressure=pressure, clip=contact.tensile_clip).restitution,
+        journal=drop(joint, mass=mass, speed=speed).restitution,
+    )

@@ -1,0 +1,164 @@
+"""A real browser, and pages of short runs for it to open.
+
+The browser is the system's Chromium, driven by Playwright. Where it is missing the tests are left out with a
+line that says so, except in continuous integration (CI=true), where that is a failure.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray as xr
+from playwright.sync_api import Browser, ConsoleMessage, Page, Request, sync_playwright
+
+import tribodyn as td
+from tribodyn.figures import FIGURES
+from tribodyn.figures.save import save
+from tribodyn.report import write
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+# WebGL in software: there is no graphics card where tests run.
+OPTIONS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+SCREENSHOTS = Path(os.environ.get("TRIBODYN_SCREENSHOTS", Path(__file__).parents[2] / "out" / "screenshots"))
+STILLS = ("motion", "trajectory")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if Path(__file__).parent in item.path.parents:
+            item.add_marker(pytest.mark.browser)
+
+
+def _executable() -> str:
+    named = os.environ.get("TRIBODYN_BROWSER")
+    found = next((path for path in [named, *map(shutil.which, NAMES)] if path), None)
+    if found is None:
+        message = f"NO BROWSER: none of {', '.join(NAMES)} is installed; see tools/ensure-browser"
+        if os.environ.get("CI") == "true":
+            pytest.fail(message)
+        pytest.skip(message)
+    return found
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """The system's Chromium, one for all tests."""
+    path = _executable()
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=path, args=OPTIONS)
+        yield launched
+        launched.close()
+
+
+class Watched:
+    """What a page said and asked for while it was open."""
+
+    def __init__(self, page: Page) -> None:
+        self.faults: list[str] = []
+        self.requests: list[str] = []
+        page.on("console", self._hear)
+        page.on("pageerror", lambda error: self.faults.append(str(error)))
+        page.on("request", self._note)
+
+    def _hear(self, message: ConsoleMessage) -> None:
+        if message.type == "error":
+            self.faults.append(message.text)
+
+    def _note(self, request: Request) -> None:
+        if not request.url.startswith(("data:", "blob:")):
+            self.requests.append(request.url)
+
+
+class Reader:
+    """A person who reads a page."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+
+    def draw_everything(self) -> None:
+        """Scroll through the page until every figure of it is drawn."""
+        page = self.page
+        for name in page.locator("[data-widget]").evaluate_all("all => all.map(one => one.dataset.name)"):
+            page.locator(f"#{name}").scroll_into_view_if_needed()
+            page.wait_for_function(
+                "name => document.querySelector(`#${name} .plot`)?.data", arg=name, timeout=30_000
+            )
+        page.evaluate("scrollTo(0, 0)")
+        self.settle()
+
+    def look_at(self, name: str) -> None:
+        """Scroll to a figure and wait until it is drawn."""
+        self.page.locator(f"#{name}").scroll_into_view_if_needed()
+        self.page.wait_for_function(
+            "name => document.querySelector(`#${name} .plot`)?.data", arg=name, timeout=30_000
+        )
+
+    def go_to_frame(self, frame: int) -> None:
+        """Move the time slider, and wait for the pictures that follow."""
+        move = "(slider, frame) => { slider.value = frame; slider.dispatchEvent(new Event('input')); }"
+        self.page.locator(".clock input").evaluate(move, frame)
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait until the figures have followed."""
+        self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => setTimeout(done, 200)))")
+
+    def plot(self, name: str, path: str) -> Any:
+        """Return what a plot holds: a JavaScript path below the element of the figure."""
+        text = f"name => {{ const plot = document.querySelector(`#${{name}} .plot`); return {path}; }}"
+        return self.page.evaluate(text, name)
+
+    def overflow(self) -> int:
+        """Return by how many pixels the page is wider than the window."""
+        wide = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+        return int(self.page.evaluate(wide))
+
+    def keep_picture(self, name: str) -> None:
+        """Keep a picture of the whole page where CI finds it."""
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
+
+
+@pytest.fixture
+def opened(browser: Browser) -> Iterator[Callable[..., Reader]]:
+    """Return an opener of pages; at the end no page may have complained or asked for anything but itself."""
+    contexts, watched = [], []
+
+    def open_page(path: Path, *, width: int = 1280, dark: bool = False, phone: bool = False) -> Reader:
+        context = browser.new_context(
+            viewport={"width": width, "height": 800},
+            color_scheme="dark" if dark else "light",
+            has_touch=phone,
+            is_mobile=phone,
+        )
+        contexts.append(context)
+        page = context.new_page()
+        watched.append((path, Watched(page)))
+        page.goto(path.as_uri())
+        return Reader(page)
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    for path, heard in watched:
+        assert heard.faults == []
+        assert {url.partition("#")[0] for url in heard.requests} == {path.as_uri()}
+
+
+@pytest.fixture(scope="session")
+def result() -> xr.Dataset:
+    """A run over the first reversal of the vane mechanism."""
+    return td.simulate(td.load_case("vsv").replace({"run.duration": "3.3 s"}))
+
+
+@pytest.fixture(scope="session")
+def report(result: xr.Dataset, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of that run."""
+    folder = tmp_path_factory.mktemp("run")
+    stills = [save(FIGURES[name].draw(result), folder, name) for name in STILLS]
+    return write(result, folder, stills)

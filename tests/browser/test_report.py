@@ -1,0 +1,235 @@
+"""The report in a real browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from axe_playwright_python.sync_playwright import Axe
+
+from tribodyn.figures.trajectory import centre
+from tribodyn.report import write
+from tribodyn.report.film import film_times
+
+Opened = Callable[..., Any]
+HOSTILE = '<img src=x onerror="alert(1)"><script>alert(2)</script> & </script> </title> {{ 7*7 }} \u2028 “µ”'
+SERIOUS = ("serious", "critical")
+
+
+def _faults(reader: Any) -> list[str]:
+    """Return what axe-core calls serious or worse."""
+    found = Axe().run(reader.page).response["violations"]
+    return [
+        f"{fault['id']}: {node['html'][:160]}"
+        for fault in found
+        if fault["impact"] in SERIOUS
+        for node in fault["nodes"]
+    ]
+
+
+def test_every_figure_is_drawn_without_a_word_to_the_network(opened: Opened, report: Path) -> None:
+    reader = opened(report)
+    reader.draw_everything()
+    assert reader.page.locator("[data-widget]").count() >= 10
+    assert reader.page.get_by_text("WebGL is not supported").count() == 0
+    assert reader.overflow() == 0
+    reader.keep_picture("report-light")
+
+
+def test_the_slider_moves_scene_circle_and_pressure_together(
+    opened: Opened, report: Path, result: xr.Dataset
+) -> None:
+    reader = opened(report)
+    for name in ("mechanism", "orbit", "pressure"):
+        reader.look_at(name)
+    times = film_times(result)
+    half = 0.5 * result.attrs["joint_length"]
+    for frame in (0, times.size // 3, times.size - 20):
+        reader.go_to_frame(frame)
+        now = result["time"], times[frame]
+        place = [[np.interp(now[1], now[0], x) for x in centre(result, z)] for z in (half, 0.0, -half)]
+        shown = reader.plot("orbit", "[[...plot.data[3].x], [...plot.data[3].y]]")
+        # Positions travel in single precision, 7 digits.
+        np.testing.assert_allclose(np.transpose(shown), place, rtol=1e-5, atol=1e-5)
+        field = reader.plot("pressure", "plot.data[0].z.map(row => [...row])")
+        expected = result["pressure_cycle"].values[frame] * 1e-6
+        # Pressures travel in 255 steps of the frame's peak; the first column comes again at the end.
+        step = float(expected.max()) / 255.0
+        drawn = np.array(field)[:, :-1]
+        np.testing.assert_allclose(np.sort(drawn, axis=None), np.sort(expected, axis=None), atol=0.51 * step)
+        assert f"t = {times[frame]:.3f} s" in reader.page.locator(".clock output").inner_text()
+        _check_scene(reader, result, times[frame])
+
+
+def _check_scene(reader: Any, result: xr.Dataset, time: float) -> None:
+    """Check that crank and ring stand where the result says."""
+    axes = "['x', 'y', 'z'].map(axis => [...plot.data[0][axis]])"
+    corners = np.array(reader.plot("mechanism", axes))
+    theta_a, h_1 = (np.interp(time, result["time"], result[name]) for name in ("theta_a", "h_1"))
+    pivot = 500.0 * np.cos(np.deg2rad(20.0)), 500.0 * np.sin(np.deg2rad(20.0))
+    tip = pivot[0] - 47.7 * np.sin(theta_a), pivot[1] + 47.7 * np.cos(theta_a)
+    # The joint at the crank's end is drawn as a pin with a radius of 5 mm.
+    distance = np.hypot(corners[0] - tip[0], corners[2] - tip[1])
+    assert np.sum(np.abs(distance - 5.0) < 1e-3) >= 32
+    # The ring is 10 mm wide about y = l_4 + h_1.
+    assert np.sum(np.abs(corners[1] - (50.0 + 1e3 * h_1 + 5.0)) < 1e-3) > 100
+
+
+def test_time_series_show_the_moment_too(opened: Opened, report: Path, result: xr.Dataset) -> None:
+    reader = opened(report)
+    reader.look_at("contact-force")
+    frame = film_times(result).size // 2
+    reader.go_to_frame(frame)
+    lines = reader.plot("contact-force", "plot.layout.shapes.map(shape => shape.x0)")
+    assert lines[-1] == pytest.approx(film_times(result)[frame])
+    assert lines[0] == pytest.approx(np.pi)
+
+
+def test_playing_goes_on_and_stops(opened: Opened, report: Path) -> None:
+    page = opened(report).page
+    page.locator(".clock").scroll_into_view_if_needed()
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("() => document.querySelector('.clock input').value > 2")
+    page.get_by_role("button", name="Pause").click()
+    stopped = page.locator(".clock input").input_value()
+    page.wait_for_timeout(200)
+    assert page.locator(".clock input").input_value() == stopped
+
+
+def test_it_can_be_read_with_the_keyboard_alone(opened: Opened, report: Path) -> None:
+    reader = opened(report)
+    page = reader.page
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.textContent") == "Skip to the numbers"
+    page.locator(".clock input").focus()
+    page.keyboard.press("ArrowRight")
+    assert page.locator(".clock input").input_value() == "1"
+    assert "t = " in (page.locator(".clock input").get_attribute("aria-valuetext") or "")
+    _zoom_by_keyboard(reader)
+    _turn_by_keyboard(reader)
+
+
+def _zoom_by_keyboard(reader: Any) -> None:
+    reader.look_at("contact-force")
+    reader.page.locator("#contact-force .plot").focus()
+    whole = reader.plot("contact-force", "[...plot.layout.xaxis.range]")
+    reader.page.keyboard.press("+")
+    near = reader.plot("contact-force", "[...plot.layout.xaxis.range]")
+    assert near[1] - near[0] == pytest.approx(0.5 * (whole[1] - whole[0]))
+    reader.page.keyboard.press("ArrowRight")
+    assert reader.plot("contact-force", "plot.layout.xaxis.range[0]") > near[0]
+    reader.page.keyboard.press("0")
+    assert reader.plot("contact-force", "[...plot.layout.xaxis.range]") == pytest.approx(whole)
+    curve = reader.page.locator("#contact-force button.legend").first
+    curve.focus()
+    reader.page.keyboard.press("Enter")
+    assert curve.get_attribute("aria-pressed") == "false"
+    assert reader.plot("contact-force", "plot.data[0].visible") is False
+
+
+def _turn_by_keyboard(reader: Any) -> None:
+    reader.look_at("mechanism")
+    reader.page.locator("#mechanism .plot").focus()
+    before = reader.plot("mechanism", "plot.layout.scene.camera.eye.x")
+    reader.page.keyboard.press("ArrowLeft")
+    assert reader.plot("mechanism", "plot.layout.scene.camera.eye.x") != before
+    bore = reader.plot("mechanism", "Math.max(...plot.data[1].x.slice(0, 40))")
+    reader.page.locator("#mechanism input").focus()
+    reader.page.keyboard.press("End")
+    reader.settle()
+    assert reader.plot("mechanism", "Math.max(...plot.data[1].x.slice(0, 40))") > bore
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_axe_finds_nothing_serious(opened: Opened, report: Path, dark: bool) -> None:
+    reader = opened(report, dark=dark)
+    reader.page.evaluate("document.querySelectorAll('details').forEach(one => { one.open = true; })")
+    reader.draw_everything()
+    assert _faults(reader) == []
+    if dark:
+        reader.keep_picture("report-dark")
+        back = reader.page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert back == "rgb(21, 23, 26)"
+        assert reader.plot("orbit", "plot.layout.font.color") == "#e8e8e6"
+
+
+def test_a_phone_shows_it_all_without_overflow(opened: Opened, report: Path) -> None:
+    reader = opened(report, width=380, phone=True)
+    reader.draw_everything()
+    assert reader.overflow() == 0
+    wide = "all => all.filter(one => one.getBoundingClientRect().right > innerWidth + 1).map(one => one.id)"
+    assert reader.page.locator("figure").evaluate_all(wide) == []
+    assert _faults(reader) == []
+    reader.keep_picture("report-phone")
+
+
+def test_the_colours_follow_the_system_while_it_is_open(opened: Opened, report: Path) -> None:
+    reader = opened(report)
+    reader.look_at("orbit")
+    reader.page.emulate_media(color_scheme="dark")
+    reader.settle()
+    assert reader.plot("orbit", "plot.layout.font.color") == "#e8e8e6"
+
+
+def test_hostile_names_are_shown_as_text(opened: Opened, result: xr.Dataset, tmp_path: Path) -> None:
+    texts = {"title": HOSTILE, "contact_law": HOSTILE, "failure": HOSTILE, "case": HOSTILE}
+    hostile = result.assign_attrs(**texts, warnings=f'["{HOSTILE.replace(chr(34), chr(39))}"]')
+    hostile["F_cx"].attrs["long_name"] = HOSTILE
+    folder = tmp_path / "<b>run & more"
+    reader = opened(write(hostile, folder))
+    reader.draw_everything()
+    assert reader.page.locator("h1").text_content() == HOSTILE
+    assert reader.page.title().startswith("<img src=x")
+    assert reader.page.locator("img").count() == 0
+    assert reader.page.locator("script").count() == 3
+
+
+def test_a_failed_run_shows_its_failure_and_time_first(
+    opened: Opened, result: xr.Dataset, tmp_path: Path
+) -> None:
+    partial = result.isel(time=slice(0, 300), frame=slice(0, 50)).assign_attrs(
+        failure="the step size became too small"
+    )
+    reader = opened(write(partial, tmp_path))
+    first = reader.page.locator("main > *").first
+    assert first.get_attribute("role") == "alert"
+    assert "the step size became too small" in first.inner_text()
+    assert f"stopped at t = {float(partial['time'][-1]):.4g} s" in first.inner_text()
+    reader.draw_everything()
+    assert _faults(reader) == []
+    reader.keep_picture("report-failed")
+
+
+def test_a_result_with_next_to_nothing_opens(opened: Opened, result: xr.Dataset, tmp_path: Path) -> None:
+    bare = result[["e_x", "e_y"]].isel(time=slice(0, 1))
+    reader = opened(write(bare, tmp_path))
+    assert reader.page.locator("h1").count() == 1
+    assert reader.overflow() == 0
+
+
+def test_paper_gets_stills_and_no_controls(opened: Opened, report: Path, tmp_path: Path) -> None:
+    reader = opened(report, width=720)
+    page = reader.page
+    page.emulate_media(media="print")
+    assert not page.locator(".clock").is_visible()
+    assert not page.locator("#motion .live").is_visible()
+    assert page.locator("#motion .still img").is_visible()
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    assert reader.overflow() == 0
+    reader.keep_picture("report-print")
+    page.pdf(path=tmp_path / "report.pdf", format="A4")
+    assert (tmp_path / "report.pdf").stat().st_size > 50_000
+
+
+def test_without_scripts_it_still_says_everything(browser: Any, report: Path) -> None:
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto(report.as_uri())
+    assert page.locator("#motion .still img").is_visible()
+    assert page.locator("table.numbers").is_visible()
+    assert not page.locator(".clock").is_visible()
+    context.close()

@@ -1,0 +1,66 @@
+from __future__ import annotations
+
+import pytest
+
+from tribodyn.cli.main import main
+from tribodyn.report import Run, write_comparison
+from tribodyn.results import write_run
+
+WIDE = 'case = "vsv"\n[joint]\nclearance = "40 um"\n'
+NARROW = 'case = "vsv"\n[joint]\nclearance = "20 um"\n'
+
+
+@pytest.fixture
+def runs(make_result):
+    one = make_result(0.5, case=NARROW, title="one")
+    other = make_result(0.5, case=WIDE, title="<b>other</b>", failure="too <i>small</i>")
+    other["F_cx"] = 2.0 * other["F_cx"]
+    return [Run("narrow", one), Run("<wide>", other, "wide/report.html")]
+
+
+def test_differences_come_first(runs, tmp_path):
+    text = write_comparison(runs, tmp_path / "new" / "page.html").read_text(encoding="utf-8")
+    assert text.index("<code>joint.clearance</code>") < text.index("Contact force, mean")
+    assert text.index("Contact force, mean") < text.index("Curves over each other")
+    assert "20 um" in text
+    assert "40 um" in text
+    assert "<code>case</code>" not in text
+
+
+def test_texts_are_escaped_and_runs_linked(runs, tmp_path):
+    text = write_comparison(runs, tmp_path / "page.html").read_text(encoding="utf-8")
+    page = text[: text.index('id="page-data"')]
+    assert "&lt;b&gt;other&lt;/b&gt;" in page
+    assert "too &lt;i&gt;small&lt;/i&gt;" in page
+    assert '<a href="wide/report.html">&lt;wide&gt;</a>' in page
+    assert "<i>" not in page
+    assert "<wide>" not in text
+
+
+def test_changes_are_given_in_percent_of_the_first_run(runs, tmp_path):
+    text = write_comparison(runs, tmp_path / "page.html").read_text(encoding="utf-8")
+    row = text[text.index("Contact force, mean") :]
+    assert '<td class="changed">' in row[: row.index("</tr>")]
+    same = text[text.index("Tilt, largest") :]
+    assert "changed" not in same[: same.index("</tr>")]
+
+
+def test_the_command_writes_it_and_names_equal_directories_apart(make_result, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for name in ("a/run", "b/run"):
+        write_run(make_result(0.2), tmp_path / name)
+    (tmp_path / "a" / "run" / "report.html").write_text("", encoding="utf-8")
+    assert main(["compare", "a/run", "b/run", "-o", "both.html"]) == 0
+    assert "both.html" in capsys.readouterr().out
+    text = (tmp_path / "both.html").read_text(encoding="utf-8")
+    assert '<a href="a/run/report.html">a/run</a>' in text
+    assert "b/run" in text
+
+
+@pytest.mark.parametrize("arguments", [["out"], ["out", "absent"], ["out", "out", "-o", "."]])
+def test_bad_arguments_write_nothing(arguments, make_result, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    write_run(make_result(0.2), tmp_path / "out")
+    assert main(["compare", *arguments]) == 2
+    assert "allowed: " in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]

@@ -1,0 +1,82 @@
+"""Our own text format: what is written reads back, and what a person writes is understood."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tribodyn.cases.units import to_si
+from tribodyn.surfaces import Scale, Scan, read_scan, write_text
+
+LENGTH = partial(to_si, like="m")
+
+
+def read(tmp_path: Path, text: str, given: Scale | None = None) -> Scan:
+    path = tmp_path / "scan.csv"
+    path.write_bytes(text.encode())
+    return read_scan(path, LENGTH, given or Scale())
+
+
+@pytest.mark.parametrize("shape", [(64,), (40, 50)])
+def test_what_is_written_reads_back_to_the_bit(
+    shape: tuple[int, ...], rough: Callable[..., Scan], tmp_path: Path
+) -> None:
+    scan = rough(*shape)
+    heights = scan.heights.copy()
+    heights.flat[7] = np.nan
+    spacing = (1e-6,) if len(shape) == 1 else (1.1e-6, 0.7e-6)
+    write_text(Scan(heights, spacing), tmp_path / "scan.csv")
+    again = read_scan(tmp_path / "scan.csv", LENGTH)
+    np.testing.assert_array_equal(again.heights, heights)
+    assert again.spacing == spacing
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t", " , "])
+def test_separators(separator: str, tmp_path: Path) -> None:
+    rows = "\n".join(separator.join(row) for row in (["1", "2.5", "-3e1"], ["4", "", "NaN"]))
+    scan = read(tmp_path, f"# unit: um\n# spacing = 2 um, 0.5 um\n\n{rows}\n")
+    np.testing.assert_allclose(
+        scan.heights, 1e-6 * np.array([[1, 2.5, -30], [4, np.nan, np.nan]]), rtol=1e-15
+    )
+    assert scan.spacing == (0.5e-6, 2e-6)
+
+
+def test_unit_and_spacing_may_be_given_beside_the_file(tmp_path: Path) -> None:
+    scan = read(tmp_path, "1,2\r\n3,4\r\n", Scale("nm", "1 um"))
+    np.testing.assert_allclose(scan.heights, [[1e-9, 2e-9], [3e-9, 4e-9]], rtol=1e-15)
+    assert scan.spacing == (1e-6, 1e-6)
+
+
+@pytest.mark.parametrize("text", ["1,2,3\n", "1\n2\n3\n"])
+def test_a_single_line_or_column_is_a_profile(text: str, tmp_path: Path) -> None:
+    scan = read(tmp_path, text, Scale("um", "2 um"))
+    np.testing.assert_allclose(scan.heights, [1e-6, 2e-6, 3e-6], rtol=1e-15)
+    assert scan.spacing == (2e-6,)
+
+
+@pytest.mark.parametrize("header", ["x [mm],h [um]", "X[mm], H [µm]"])
+def test_columns_carry_their_own_units(header: str, tmp_path: Path) -> None:
+    scan = read(tmp_path, f"{header}\n0,1\n0.5,2\n1,3\n")
+    np.testing.assert_allclose(scan.heights, [1e-6, 2e-6, 3e-6], rtol=1e-15)
+    assert scan.spacing == (0.5e-3,)
+
+
+def test_columns_in_the_other_order(tmp_path: Path) -> None:
+    scan = read(tmp_path, "h [um],x [um]\n5,0\n6,1\n")
+    np.testing.assert_allclose(scan.heights, [5e-6, 6e-6], rtol=1e-15)
+
+
+def test_points_left_out_of_a_profile_are_missing(tmp_path: Path) -> None:
+    scan = read(tmp_path, "# unit: um\nx,h\n0,1\n1,2\n4,3\n5,4\n6,5\n")
+    np.testing.assert_array_equal(np.isnan(scan.heights), [False, False, True, True, False, False, False])
+    assert scan.spacing[0] == pytest.approx(1e-6, rel=1e-15)
+
+
+def test_rounded_positions_are_equal_steps(tmp_path: Path) -> None:
+    x = np.round(np.arange(100) * 0.35, 2)
+    rows = "\n".join(f"{place},{k}" for k, place in enumerate(x))
+    assert read(tmp_path, f"x [um],h [um]\n{rows}\n").spacing[0] == pytest.approx(0.35e-6, rel=1e-3)
