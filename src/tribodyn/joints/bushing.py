@@ -174,6 +174,7 @@ class BushingJoint:
             area=self.node_area,
             wear=depth,
             work=np.zeros(N_WORK),
+            pieces=np.zeros((2 * self.field_shape[0] + 3, 3), dtype=np.int64),
             cursor=np.zeros(2, dtype=np.int64),
         )
 

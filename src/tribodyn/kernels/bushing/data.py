@@ -47,9 +47,9 @@ class BushingData(NamedTuple):
         Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges.
     wear
         Wear depth at the nodes [m], shape (n_z + 2, n_theta).
-    work, cursor
-        Scratch of the kernels: a list of nodes, and how far it has been filled (row of nodes, nodes of that
-        row). Nothing is carried from one call of a kernel to the next.
+    work, pieces, cursor
+        Scratch of the kernels: a list of nodes, where they come from, and how far it has been filled (row of
+        nodes, nodes of that row). Nothing is carried from one call of a kernel to the next.
     """
 
     clearance: float
@@ -70,4 +70,5 @@ class BushingData(NamedTuple):
     area: FloatArray
     wear: FloatArray
     work: FloatArray
+    pieces: IntArray
     cursor: IntArray

@@ -77,18 +77,24 @@ def pressure_field(
 
 
 @inlined
-def add_sliding_load(
+def report_and_slide(
     joint: BushingData,
     entry_velocity: FloatArray,
     y: FloatArray,
-    speed: float,
-    step: float,
-    rate: FloatArray,
+    omega: float,
+    sign: float,
+    with_energy: bool,
+    out: FloatArray,
+    distance: float,
     load: FloatArray,
 ) -> None:
-    """Add pressure times the sliding speed [m/s] over a step [s] to ``load`` [N/m]; nothing at a point."""
-    if joint.point == 0.0:
-        memory.add_sliding_load(joint, entry_velocity, y, speed, step, rate, load)
+    """As :func:`report`, and add pressure times ``distance`` [m] to ``load`` [N/m]; nothing at a point."""
+    if joint.point > 0.0:
+        point.report(joint, entry_velocity, y, omega, sign, with_energy, out)
+    else:
+        surface_report.report_and_slide(
+            joint, entry_velocity, y, omega, sign, with_energy, out, distance, load
+        )
 
 
 @inlined

@@ -1,4 +1,4 @@
-"""The memory of the bushing: entry velocities and sliding loads, changed at accepted steps only."""
+"""The memory of the bushing: entry velocities, changed at accepted steps only; and the pressure field."""
 
 from __future__ import annotations
 
@@ -21,52 +21,6 @@ def pressure_field(
 ) -> None:
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa] at all nodes."""
     clear(pressure)
-    _add_pressure(joint, entry_velocity, y, 1.0, pressure, 0.0, pressure)
-
-
-@kernel
-def add_sliding_load(
-    joint: BushingData,
-    entry_velocity: FloatArray,
-    y: FloatArray,
-    speed: float,
-    step: float,
-    rate: FloatArray,
-    load: FloatArray,
-) -> None:
-    """Add P_c times the sliding speed over a step by the trapezoidal rule (Eq. 47 and the text below it).
-
-    Parameters
-    ----------
-    joint, entry_velocity, y
-        As for ``wrench``, at the end of the step.
-    speed
-        Sliding speed at the end of the step [m/s].
-    step
-        Its length [s].
-    rate
-        P_c times speed [N/(m s)] at its beginning, shape (n_z + 2, n_theta); becomes that at its end.
-    load
-        Sliding load [N/m], same shape.
-    """
-    for j in range(rate.shape[0]):
-        for i in range(rate.shape[1]):
-            load[j, i] += 0.5 * step * rate[j, i]
-            rate[j, i] = 0.0
-    _add_pressure(joint, entry_velocity, y, speed, rate, 0.5 * step, load)
-
-
-@kernel
-def _add_pressure(
-    joint: BushingData,
-    entry_velocity: FloatArray,
-    y: FloatArray,
-    factor: float,
-    field: FloatArray,
-    weight: float,
-    total: FloatArray,
-) -> None:
-    """Write P_c times ``factor`` into a cleared ``field``, and add that times ``weight`` to ``total``."""
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
@@ -76,7 +30,7 @@ def _add_pressure(
         for k in range(count):
             i = first + k if first + k < n_theta else first + k - n_theta
             c, s = joint.cos_theta[i], joint.sin_theta[i]
-            _, p, _, _ = node_pressure(
+            _, pressure[j, i], _, _ = node_pressure(
                 joint.table,
                 joint.roughness,
                 joint.minimum_entry_velocity,
@@ -85,8 +39,6 @@ def _add_pressure(
                 -(v_a * c + v_b * s),
                 entry_velocity[j, i],
             )
-            field[j, i] = factor * p
-            total[j, i] += weight * field[j, i]
 
 
 @inlined

@@ -2,7 +2,8 @@
 
 Sums over nodes are loops over this list: long enough for the processor to take four nodes at once, whatever
 the width of the window in a row. The list is filled and summed a part at a time, so that it stays in the
-nearest cache. Its columns lie ``PITCH`` numbers apart in ``BushingData.work``.
+nearest cache. Where its nodes come from is listed in ``BushingData.pieces``: number of pieces in row 0, then
+(row of nodes, first node, count). Its columns lie ``PITCH`` numbers apart in ``BushingData.work``.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.window import contact_window
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.lookup import interval, last_interval
+from tribodyn.kernels.lookup import interval, last_interval, offset
 
 PART: Final = 512
 """Nodes in a part of the list."""
@@ -36,7 +37,11 @@ ENTRY: Final = 6 * PITCH
 AREA: Final = 7 * PITCH
 MOMENT: Final = 8 * PITCH
 """Area that the node stands for [m²], and that times its axial position [m³]."""
-N_WORK: Final = 9 * PITCH
+PRESSURE: Final = 9 * PITCH
+"""P_c [Pa]; left by the report."""
+CUBICS: Final = 10 * PITCH
+"""First of eight columns with the coefficients of the contact table, filled by :func:`look_up`."""
+N_WORK: Final = 18 * PITCH
 
 
 @inlined
@@ -110,10 +115,10 @@ def gather(
     with_edges
         Whether the rows on the edges, which stand for no area, are wanted too.
     """
-    cursor, n_theta = joint.cursor, joint.cos_theta.size
+    cursor, pieces, n_theta = joint.cursor, joint.pieces, joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
-    row, taken, n = cursor[0], cursor[1], 0
+    row, taken, n, n_pieces = cursor[0], cursor[1], 0, 0
     slip = omega * joint.journal_radius
     while row < joint.z.size and n < PART:
         left = 0
@@ -125,8 +130,20 @@ def gather(
                 start = first + taken if first + taken < n_theta else first + taken - n_theta
                 size = min(left, n_theta - start, PART - n)
                 _load(joint, entry_velocity, row, start, size, n, a, b, v_a, v_b, slip)
+                n_pieces += 1
+                pieces[n_pieces, 0], pieces[n_pieces, 1], pieces[n_pieces, 2] = row, start, size
                 n, left, taken = n + size, left - size, taken + size
         if left == 0:
             row, taken = row + 1, 0
-    cursor[0], cursor[1] = row, taken
+    cursor[0], cursor[1], pieces[0, 0] = row, taken, n_pieces
     return n
+
+
+@kernel
+def look_up(joint: BushingData, n: int) -> None:
+    """Copy the coefficients of the contact table into the list, for loops that write as well as read."""
+    work, cubics = joint.work, joint.table.cubics
+    for k in range(min(n, PART)):
+        first = offset(work[INTERVAL + k])
+        for m in range(8):
+            work[CUBICS + m * PITCH + k] = cubics[first + np.uint64(m)]

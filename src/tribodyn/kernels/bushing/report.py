@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing import nodes
 from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.nodes import gather, rewind, row_motion
+from tribodyn.kernels.bushing.nodes import gather, look_up, rewind, row_motion
 from tribodyn.kernels.bushing.pressure import reference_velocity, total_pressure
 from tribodyn.kernels.bushing.wrench import friction_law, ratio_at
 from tribodyn.kernels.extremes import larger, smaller
-from tribodyn.kernels.jit import kernel, summing
-from tribodyn.kernels.lookup import cubic, offset, stored_energy
+from tribodyn.kernels.jit import inlined, kernel, summing
+from tribodyn.kernels.lookup import stored_energy
 
 F_CX, F_CY, M_JCX, M_JCY = 0, 1, 2, 3
 """Normal pressure: forces [N] and moments [N m]."""
@@ -45,15 +43,34 @@ def report(
 
     The stored energy takes a look-up of its own at every node and is left at zero unless ``with_energy``.
     """
+    report_and_slide(joint, entry_velocity, y, omega, sign, with_energy, out, 0.0, joint.wear)
+
+
+@kernel
+def report_and_slide(
+    joint: BushingData,
+    entry_velocity: FloatArray,
+    y: FloatArray,
+    omega: float,
+    sign: float,
+    with_energy: bool,
+    out: FloatArray,
+    distance: float,
+    load: FloatArray,
+) -> None:
+    """As :func:`report`, and add P_c times ``distance`` [m] to the sliding load (n_z + 2, n_theta) [N/m]."""
     for k in range(N_REPORT):
         out[k] = 0.0
     out[SEPARATION_MIN] = math.inf
     rewind(joint)
     n = gather(joint, entry_velocity, y, omega, True)
     while n > 0:
+        look_up(joint, n)
         _add_nodes(joint, omega, sign, n, out)
         if with_energy:
             out[STORED] += _stored(joint, n)
+        if distance != 0.0:
+            _slide(joint, distance, load)
         n = gather(joint, entry_velocity, y, omega, True)
     nearest = out[SEPARATION_MIN]
     out[SEPARATION_MIN] = _separation(joint, nearest) if nearest < math.inf else _far_separation(joint, y)
@@ -63,10 +80,19 @@ def report(
         out[CLIPPED] /= contact
 
 
+@inlined
+def listed_cubic(work: FloatArray, first: int, k: int, x: float) -> float:
+    """Return the polynomial of node ``k`` with coefficients in four columns from ``first`` on at ``x``."""
+    c_0, c_1 = work[first + k], work[first + nodes.PITCH + k]
+    c_2, c_3 = work[first + 2 * nodes.PITCH + k], work[first + 3 * nodes.PITCH + k]
+    value: float = c_0 + x * (c_1 + x * (c_2 + x * c_3))
+    return value
+
+
 @summing
 def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: FloatArray) -> None:
     """Add the sums over the ``n`` nodes in the list to ``out``; separations are places in the table."""
-    work, cubics = joint.work, joint.table.cubics
+    work = joint.work
     law = friction_law(joint, sign)
     v_min, clip = joint.minimum_entry_velocity, joint.clip
     tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
@@ -76,15 +102,18 @@ def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: Float
     highest, nearest = out[P_MAX], out[SEPARATION_MIN]
     for k in range(min(n, nodes.PART)):
         number, x = work[nodes.INTERVAL + k], work[nodes.FRACTION + k]
-        first = offset(number)
         approach, slip = work[nodes.APPROACH + k], work[nodes.SLIP + k]
         c, s = work[nodes.COS + k], work[nodes.SIN + k]
         area, moment = work[nodes.AREA + k], work[nodes.MOMENT + k]
         reference = reference_velocity(work[nodes.ENTRY + k], approach, v_min)
-        rigid, damping = cubic(cubics, first, x), cubic(cubics, first + np.uint64(4), x)
+        rigid, damping = (
+            listed_cubic(work, nodes.CUBICS, k, x),
+            listed_cubic(work, nodes.CUBICS + 4 * nodes.PITCH, k, x),
+        )
         p = total_pressure(rigid, damping, approach / reference, clip)
         ratio, _ = ratio_at(law, slip)
         tau = ratio * p
+        work[nodes.PRESSURE + k] = p
         highest = larger(highest, p)
         nearest = smaller(nearest, number + x)
         p_c, p_s = p * c, p * s
@@ -143,3 +172,14 @@ def _stored(joint: BushingData, n: int) -> float:
         h_star = joint.table.h_first + (place - 1.0) / joint.table.inverse_step
         total += work[nodes.AREA + k] * stored_energy(joint.table, h_star)
     return joint.roughness * total
+
+
+@kernel
+def _slide(joint: BushingData, distance: float, load: FloatArray) -> None:
+    """Add pressure times ``distance`` to the sliding load of the nodes in the list."""
+    pieces, at = joint.pieces, 0
+    for piece in range(1, pieces[0, 0] + 1):
+        row, first, size = pieces[piece, 0], pieces[piece, 1], pieces[piece, 2]
+        for k in range(size):
+            load[row, first + k] += distance * joint.work[nodes.PRESSURE + at + k]
+        at += size
