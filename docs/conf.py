@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import sys
 from importlib.metadata import version as installed_version
@@ -10,8 +9,10 @@ from pathlib import Path
 from types import GenericAlias
 from typing import Any
 
-# Compiled functions hide their signature; as plain Python they show it.
-os.environ["NUMBA_DISABLE_JIT"] = "1"
+import numba
+
+# Compiled functions hide their signature; as plain Python they show it. Here only: tutorials compile.
+numba.config.DISABLE_JIT = 1
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
@@ -21,12 +22,13 @@ copyright = f"2026, {author}"
 release = version = installed_version("tribodyn")
 
 extensions = [
-    "myst_parser",
+    "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",
     "numpydoc",
     "case_keys",
+    "contact_laws",
 ]
 exclude_patterns = ["_build"]
 templates_path = ["_templates"]
@@ -34,6 +36,10 @@ templates_path = ["_templates"]
 myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 myst_dmath_double_inline = True
+
+nb_execution_mode = "auto"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 600
 
 autosummary_generate = True
 autodoc_typehints = "none"  # the signature shows them, the docstring says what they mean

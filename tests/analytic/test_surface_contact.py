@@ -17,8 +17,8 @@ import pytest
 pytest.importorskip("ContactMechanics")
 SCRIPT = Path(__file__).parents[2] / "docs" / "plots" / "bem.py"
 LOADS = np.array([1e-2, 1e-1])
-"""Pressure over modulus and gradient: real areas of 2.5 % and 22 %. Below, a piece of this size holds so few high
-summits that the ratio scatters by 20 % from piece to piece; here by 6 % and by 1 %."""
+"""Pressure over modulus and gradient: real areas of 2.5 % and 22 %. At smaller loads a piece of this size has
+so few high summits that the ratio scatters by 20 % from piece to piece; here by 6 % and by 1 %."""
 
 
 @pytest.fixture(scope="module")
@@ -43,8 +43,8 @@ def test_greenwood_williamson_is_right_while_little_touches(name: str, bem: Modu
     assert ratio[0] == pytest.approx(1.0, abs=0.25)
     # With a fifth of the area in contact the asperities have merged: the law is too soft.
     assert ratio[1] < 0.75
-    # Real area over load at a small load: the theories of Persson and of Bush, Gibson and Thomas say √(8/π) and
-    # √(2π). Whole cells of the grid are counted, which adds their border: some 10 %.
+    # Real area over load at a small load: the theories of Persson and of Bush, Gibson and Thomas say √(8/π)
+    # and √(2π). Whole cells of the grid are counted, which adds their border: some 10 %.
     assert math.sqrt(8.0 / math.pi) < solution.area[0] / LOADS[0] < 1.15 * math.sqrt(2.0 * math.pi)
 
 

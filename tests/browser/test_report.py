@@ -11,9 +11,13 @@ import pytest
 import xarray as xr
 from axe_playwright_python.sync_playwright import Axe
 
+import tribodyn as td
+from tribodyn.cases import load_case
 from tribodyn.figures.trajectory import centre
-from tribodyn.report import write
+from tribodyn.report import Run, write, write_comparison
 from tribodyn.report.film import film_times
+from tribodyn.studies import Sampling, make_plan
+from tribodyn.studies.merge import merge
 
 Opened = Callable[..., Any]
 HOSTILE = '<img src=x onerror="alert(1)"><script>alert(2)</script> & </script> </title> {{ 7*7 }} \u2028 “µ”'
@@ -233,3 +237,63 @@ def test_without_scripts_it_still_says_everything(browser: Any, report: Path) ->
     assert page.locator("table.numbers").is_visible()
     assert not page.locator(".clock").is_visible()
     context.close()
+
+
+def test_a_comparison_shows_directory_names_as_text(
+    opened: Opened, result: xr.Dataset, tmp_path: Path
+) -> None:
+    runs = [Run("one", result), Run(HOSTILE, result.assign_attrs(case='case = "vsv"'))]
+    reader = opened(write_comparison(runs, tmp_path / "comparison.html"))
+    reader.draw_everything()
+    assert reader.page.locator("[data-widget]").count() == 6
+    assert reader.page.locator("img").count() == 0
+    assert reader.page.locator("button.legend").nth(1).text_content() == HOSTILE
+    assert reader.plot("overlay-force", "plot.data.length") == 4
+    assert _faults(reader) == []
+    reader.keep_picture("comparison")
+
+
+@pytest.mark.parametrize("width", [1280, 380])
+def test_a_point_of_a_sweep_opens_its_report(opened: Opened, tmp_path: Path, width: int) -> None:
+    plan = make_plan(load_case("vsv"), {"joint.clearance": "20:50:10 um"}, Sampling())
+    numbers = {
+        point.name: {"failure": "", "contact_force_max_N": 10.0 * k, "tilt_max_mrad": -1.0 * k}
+        for k, point in enumerate(plan.points)
+    }
+    for point in plan.points:
+        (tmp_path / "points" / point.name).mkdir(parents=True)
+        (tmp_path / "points" / point.name / "report.html").write_text("a report", encoding="utf-8")
+    reader = opened(write(merge(plan, numbers), tmp_path), elsewhere=True, width=width)
+    reader.draw_everything()
+    assert reader.overflow() == 0
+    assert _faults(reader) == []
+    reader.keep_picture(f"sweep-{width}")
+    reader.look_at("parallel")
+    place = reader.plot(
+        "parallel",
+        "(({left, top}, {xaxis, yaxis}) => [left + xaxis._offset + xaxis.d2p(0), top + yaxis._offset"
+        " + yaxis.d2p(1)])(plot.getBoundingClientRect(), plot._fullLayout)",
+    )
+    reader.page.mouse.move(*place)
+    reader.settle()
+    assert "joint.clearance [um] = 50" in reader.page.locator("#parallel .readout").inner_text()
+    reader.page.mouse.click(*place)
+    reader.page.wait_for_url(f"**/points/{plan.points[-1].name}/report.html")
+
+
+def test_a_journal_is_followed_law_beside_law(opened: Opened, tmp_path: Path) -> None:
+    journal = td.simulate(td.load_case("journal-dry").replace({"run.duration": "2 ms"}))
+    reader = opened(write(journal, tmp_path))
+    reader.draw_everything()
+    assert reader.page.locator("[data-widget]").count() == 4
+    times = film_times(journal)
+    reader.go_to_frame(times.size // 2)
+    expected = [
+        np.interp(times[times.size // 2], journal["time"], journal["e_x"].isel(law=k)) * 1e6
+        for k in range(journal.sizes["law"])
+    ]
+    # Positions travel in single precision, 7 digits.
+    shown = reader.plot("path", "[...plot.data[plot.data.length - 1].x]")
+    assert shown == pytest.approx(expected, rel=1e-5)
+    assert _faults(reader) == []
+    reader.keep_picture("journal")

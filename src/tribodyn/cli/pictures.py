@@ -1,14 +1,18 @@
-"""Figures and report of a stored result."""
+"""Figures and reports of stored results."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.directory import FIGURES, REPORT
 
 if TYPE_CHECKING:
     import xarray as xr
+
+FEW_POINTS: Final = 24
+"""Points of a sweep up to which each gets its report without being asked: a second and 3 MB each."""
 
 
 def draw(dataset: xr.Dataset, directory: Path) -> None:
@@ -17,3 +21,23 @@ def draw(dataset: xr.Dataset, directory: Path) -> None:
 
     figures.draw_all(dataset, directory / FIGURES)
     report.write(dataset, directory / REPORT)
+
+
+def draw_points(directory: Path, note: Callable[[str], None]) -> None:
+    """Write the report of every point of a sweep that has its whole result, without figures as files.
+
+    Parameters
+    ----------
+    directory
+        Of the sweep.
+    note
+        Prints a line.
+    """
+    from tribodyn import report
+    from tribodyn.results.store import RESULT, read
+    from tribodyn.studies.archive import POINTS
+
+    results = sorted((directory / POINTS).glob(f"*/{RESULT}"))
+    note(f"writing the reports of {len(results)} points")
+    for result in results:
+        report.write(read(result), result.parent / REPORT)

@@ -4,23 +4,30 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
-from tribodyn.cli.pictures import draw
+from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 HELP = "build figures and the HTML report again from stored results"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``report``."""
-    parser.add_argument("directory", metavar="DIR", help="directory that `tribodyn run` wrote to")
+    parser.add_argument(
+        "directory", metavar="DIR", help="directory that `tribodyn run` or `tribodyn sweep` wrote to"
+    )
+    parser.add_argument("--points", action="store_true", help="of a sweep: the report of every point too")
 
 
 def execute(args: Namespace) -> int:
     """Draw figures and report beside the stored result."""
-    from tribodyn.results.store import read
     from tribodyn.results.summary import summarise
 
     if not os.path.isdir(args.directory):
@@ -28,12 +35,23 @@ def execute(args: Namespace) -> int:
             f'given "{args.directory}", not a directory; allowed: a directory that `tribodyn run` wrote to',
             key="DIR",
         )
-    dataset = read(args.directory)
+    dataset = _read(Path(args.directory))
     directory = OutputDirectory(args.directory)
     console = Console.of(args)
+    if args.points:
+        draw_points(directory.path, console.note)
     console.note("drawing figures and report")
     draw(dataset, directory.path)
     console.say(f"look at {directory.path / REPORT}")
     if console.json:
         show_json(summarise(dataset))
     return 0
+
+
+def _read(directory: Path) -> xr.Dataset:
+    """Return the result of a run, or of a sweep, stored in a directory."""
+    from tribodyn.results.store import RESULT, read
+    from tribodyn.studies.sweep import DATASET
+
+    sweep = directory / DATASET
+    return read(sweep if sweep.is_file() and not (directory / RESULT).is_file() else directory)

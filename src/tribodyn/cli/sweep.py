@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, Final
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
-from tribodyn.cli.directory import FIGURES, OutputDirectory
+from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core.errors import InputError
@@ -77,11 +78,13 @@ def execute(args: Namespace) -> int:
     except BaseException:
         directory.forget()
         raise
+    # That of an earlier sweep would contradict this one.
+    (directory.path / REPORT).unlink(missing_ok=True)
     drawn = not interruption.requested and _draw(dataset, directory.path, console, args.debug)
     _tell(directory.path, console)
     lost = int(dataset.attrs["points_failed"])
     if lost:
-        complain(_lost(dataset, lost, stopped=interruption.requested))
+        complain(_lost(dataset, lost))
     return 0 if drawn and not lost else 1
 
 
@@ -101,20 +104,25 @@ def _variations(texts: list[str]) -> dict[str, str]:
 
 
 def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
-    from tribodyn.studies import run
+    from tribodyn.studies import Watcher, run
 
     with ExitStack() as stack:
-        return run(plan, path, means, _Watch(plan, console, stack), stop)
+        shown = _Shown(plan, console, stack)
+        return run(plan, path, means, Watcher(shown, stop, shown.note))
 
 
-class _Watch:
+class _Shown:
     """Shows the arrival of points; the bar opens when it is known how many there are to compute."""
 
     def __init__(self, plan: Plan, console: Console, stack: ExitStack) -> None:
         self._n_points = len(plan.points)
         self._console = console
         self._stack = stack
-        self._shown: Progress
+        self._bar: Progress
+
+    def note(self, text: str) -> None:
+        """Print a line about the work."""
+        self._bar.note(text)
 
     def __call__(self, arrival: Arrival) -> None:
         """Show one arrival."""
@@ -122,30 +130,30 @@ class _Watch:
             self._begin(arrival.to_do)
             return
         if arrival.failure:
-            self._shown.note(f"no result at {arrival.point.label}: {arrival.failure}")
-        self._shown(arrival.done)
+            self._bar.note(f"no result at {arrival.point.label}: {arrival.failure}")
+        self._bar(arrival.done)
 
     def _begin(self, to_do: int) -> None:
         here = f", {self._n_points - to_do} are there already" if to_do < self._n_points else ""
         self._console.note(f"computing {to_do} of {self._n_points} points{here}")
-        self._shown = self._stack.enter_context(progress(max(to_do, 1), self._console, POINTS))
-        self._stack.enter_context(announced_compilation(self._shown.note))
+        self._bar = self._stack.enter_context(progress(max(to_do, 1), self._console, POINTS))
+        self._stack.enter_context(announced_compilation(self._bar.note))
 
 
 def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool) -> bool:
-    """Draw all figures; the results are safe whatever happens here. Tell whether all were drawn."""
-    from tribodyn import figures
-
-    console.note("drawing figures")
+    """Draw figures and reports; the results are safe whatever happens here. Tell whether all were drawn."""
     try:
-        figures.draw_all(dataset, path / FIGURES)
+        if int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
+            draw_points(path, console.note)
+        console.note("drawing figures and report")
+        draw(dataset, path)
     except KeyboardInterrupt:
         complain(f"interrupted while drawing; the results are saved in {path}")
         return False
     except Exception as error:
         if debug:
             traceback.print_exc()
-        complain(f"figures could not be made ({error}); the results are saved in {path}")
+        complain(f"figures and report could not be made ({error}); the results are saved in {path}")
         return False
     return True
 
@@ -155,13 +163,15 @@ def _tell(path: Path, console: Console) -> None:
     record: dict[str, Any] = json.loads((path / "sweep.json").read_text(encoding="utf-8"))
     for line in ("", record["title"], *sweep_in_words(record), ""):
         console.say(line)
-    console.say(f"look at {path / FIGURES}{os.sep}; everything is in {path}{os.sep}")
+    console.say(f"look at {path / REPORT}; everything is in {path}{os.sep}")
     if console.json:
         show_json(record)
 
 
-def _lost(dataset: xr.Dataset, lost: int, *, stopped: bool) -> str:
+def _lost(dataset: xr.Dataset, lost: int) -> str:
     """Say how many points have no result, and how to get them."""
     reason = next(text for text in dataset["failure"].values.ravel().tolist() if text)
-    again = "the same command computes them" if stopped else "--retry computes failed points again"
-    return f"{lost} of {dataset.attrs['points_in_all']} points have no result ({reason}); {again}"
+    return (
+        f"{lost} of {dataset.attrs['points_in_all']} points have no result ({reason}); the same command goes "
+        "on where this one ended, with --retry it also computes again what failed"
+    )

@@ -21,6 +21,7 @@ _MEMBERS = (
     "greenwood_williamson:GreenwoodWilliamson",
     "greenwood_tripp:GreenwoodTripp",
     "chang_etsion_bogy:ChangEtsionBogy",
+    "jackson_green:JacksonGreen",
     "linear:Linear",
 )
 """Every law, one line each: its file and its class."""

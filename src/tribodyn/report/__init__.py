@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from tribodyn.report.comparison import Run, write_comparison
-from tribodyn.report.page import write
+from tribodyn.report.write import write
 
 __all__ = ["Run", "write", "write_comparison"]

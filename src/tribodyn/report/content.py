@@ -95,12 +95,12 @@ def embedded(path: Path) -> str:
     return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
 
 
-def reading(names: Iterable[str]) -> str:
-    """Return the lines of Python that read variables from ``result.nc``."""
+def reading(names: Iterable[str], file: str = "result.nc") -> str:
+    """Return the lines of Python that read variables from a file."""
     listed = ", ".join(f'"{name}"' for name in names)
     lines = [
         "import xarray as xr",
-        'result = xr.open_dataset("result.nc", engine="h5netcdf", decode_timedelta=False)',
+        f'result = xr.open_dataset("{file}", engine="h5netcdf", decode_timedelta=False)',
     ]
     return "\n".join([*lines, f"result[[{listed}]]"] if listed else lines)
 

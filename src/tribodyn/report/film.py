@@ -13,8 +13,15 @@ from tribodyn.figures.events import direction
 from tribodyn.figures.style import series
 from tribodyn.report.encode import packed
 
-_EVEN: Final = 121
+_EVEN: Final = 241
 """Moments where a result holds no pressure frames of its own."""
+_SHORT: Final = 0.5
+"""Runs shorter than this [s] are told in milliseconds."""
+
+
+def time_unit(dataset: xr.Dataset) -> tuple[str, float]:
+    """Return the unit in which the times of a run read well, and the factor to it from seconds."""
+    return ("s", 1.0) if np.ptp(series(dataset, "time")) >= _SHORT else ("ms", 1e3)
 
 
 def film_times(dataset: xr.Dataset) -> FloatArray:
@@ -44,7 +51,8 @@ def clock(dataset: xr.Dataset) -> dict[str, Any] | None:
     times = film_times(dataset)
     if times.size < 2:
         return None
-    shown: dict[str, Any] = {"time": packed(times, "float64"), "notes": []}
+    unit, scale = time_unit(dataset)
+    shown: dict[str, Any] = {"time": packed(times, "float64"), "unit": unit, "scale": scale, "notes": []}
     if "theta_v" in dataset and "omega_v_ideal" in dataset:
         # A little later: at a reversal the direction is the one about to begin.
         sense = np.interp(times + 1e-3, series(dataset, "time"), direction(dataset))

@@ -11,6 +11,8 @@ from tribodyn.report.base import Chapter
 from tribodyn.report.sections import (
     contact_force,
     energy,
+    journal_curves,
+    journal_path,
     mechanism,
     motion,
     orbit,
@@ -44,9 +46,19 @@ _TIME: Final = Chapter(
 )
 _WEAR: Final = Chapter("worn", "Wear", "What the run would take off the bushing.", (wear.SECTION,))
 
+_JOURNAL: Final = (
+    Chapter("film", "The run", "Move the slider, or press play.", (journal_path.SECTION,), film=True),
+    Chapter(
+        "time",
+        "Over time",
+        _TIME.lead,
+        (journal_curves.DEVIATION, journal_curves.FORCES, journal_curves.ENERGY),
+    ),
+)
+
 CHAPTERS: Final[dict[str, tuple[Chapter, ...]]] = {
     "vsv": (_FILM, _TIME, _WEAR),
-    "journal": (),
+    "journal": _JOURNAL,
 }
 """Chapters of each kind of result, in reading order. A section that a result has no data for is left out."""
 
@@ -61,7 +73,7 @@ KEY_NUMBERS: Final[dict[str, tuple[str, ...]]] = {
     ),
     "journal": tuple(
         named(template, law)
-        for template in ("settling_time_{law}_ms", "rebounds_{law}", "contact_force_max_{law}_N")
+        for template in ("settling_time_{law}_ms", "contact_force_max_{law}_N", "film_force_max_{law}_N")
         for law in LAWS
     ),
 }

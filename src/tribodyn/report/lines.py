@@ -13,6 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.events import reversal_times, smooth_limits
 from tribodyn.figures.style import peak, series
 from tribodyn.report.encode import packed
+from tribodyn.report.film import time_unit
 from tribodyn.report.thinning import thinned
 
 LOOKS: Final = (
@@ -83,11 +84,14 @@ def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | 
     if time.size < 2:
         return None
     turns = reversal_times(dataset) if "omega_v_ideal" in dataset else np.empty(0)
+    unit, scale = time_unit(dataset)
     return {
-        "x_label": "time [s]",
+        "x_label": f"time [{unit}]",
         "time": True,
-        "turns": [float(turn) for turn in turns],
-        "x": packed(time, "float64"),
+        "unit": unit,
+        "scale": scale,
+        "turns": [float(turn * scale) for turn in turns],
+        "x": packed(time * scale, "float64"),
         "panels": [_panel(panel, time, turns) for panel in panels],
     }
 

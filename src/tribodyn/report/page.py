@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from tribodyn.figures import figures_of
 from tribodyn.report import assets
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.encode import safe_json
@@ -18,41 +17,6 @@ from tribodyn.report.headlines import chosen, facts, grouped, versions
 from tribodyn.report.kinds import CHAPTERS, KEY_NUMBERS, kind_of
 from tribodyn.report.numbers import in_words
 from tribodyn.results import json_attribute, summarise
-from tribodyn.results.atomic import write_text
-
-NAME: Final = "report.html"
-
-
-def write(dataset: xr.Dataset, target: str | Path, figures: Sequence[str | Path] | None = None) -> Path:
-    """Write the report of a result.
-
-    Parameters
-    ----------
-    dataset
-        A result, whole or partial.
-    target
-        File ending in ``.html``, or the folder in which ``report.html`` is to be.
-    figures
-        PNG files that stand for the live figures on paper, in order; by default those of
-        :func:`tribodyn.figures.draw_all` in ``figures/`` beside the report.
-
-    Returns
-    -------
-    pathlib.Path
-        The file written.
-    """
-    path = Path(target)
-    path = path if path.suffix == ".html" else path / NAME
-    path.parent.mkdir(parents=True, exist_ok=True)
-    stills = _beside(path, dataset) if figures is None else [Path(figure) for figure in figures]
-    write_text(path, render(dataset, stills))
-    return path
-
-
-def _beside(path: Path, dataset: xr.Dataset) -> list[Path]:
-    """Return the figures in the folder of the report, in reading order."""
-    candidates = [path.parent / "figures" / f"{name}.png" for name in figures_of(dataset)]
-    return [figure for figure in candidates if figure.is_file()]
 
 
 def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
@@ -100,10 +64,9 @@ def page(template: str = "page.html", *, payload: Mapping[str, Any] | None, **co
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    scripts = assets.scripts() if payload else ()
+    scripts = assets.scripts() if payload else assets.NONE
     return environment.get_template(template).render(
         scripts=scripts,
-        policy=assets.policy(scripts),
         style=assets.style(),
         payload=safe_json(payload) if payload else "",
         **content,

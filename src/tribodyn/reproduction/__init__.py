@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.reproduction import clearance, drive, pressure, trunnion
+from tribodyn.reproduction import clearance, drive, journal, pressure, trunnion
 from tribodyn.reproduction.base import PaperFigure
 from tribodyn.reproduction.runs import FORMULATIONS, Runs
 
 FIGURES: Final[dict[str, PaperFigure]] = {
     figure.name: figure
     for figure in (
+        journal.DRY,
+        journal.OIL,
         drive.CRANK,
         drive.VANE,
         trunnion.FORCES,

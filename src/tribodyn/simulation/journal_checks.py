@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints import BushingJoint
+from tribodyn.joints import SURFACE, BushingJoint
 from tribodyn.kernels.journal import ledger
 from tribodyn.simulation.checks import CLIP_LIMIT, ENERGY_LIMIT, GRID_LIMIT
 
@@ -33,7 +33,9 @@ def warnings(
         f"on the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise "
         "solver.grid.": grid_error > GRID_LIMIT,
         f"the mean planes of the surfaces came within {depth:.2g} sigma of each other: below 0 the "
-        "statistical contact law is outside its range.": depth < 0.0,
+        "statistical contact law is outside its range.": depth < 0.0 and joint.contact == SURFACE,
+        "the contact is at a point of each end of the bushing: there is no pressure field.": joint.contact
+        != SURFACE,
         f"the clip of tensile pressure acted on {100 * clipped:.2g} % of the contact area on average: "
         "damping is strong against stiffness there.": clipped > CLIP_LIMIT,
     }

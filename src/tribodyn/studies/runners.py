@@ -32,8 +32,7 @@ _LISTEN: Final = 0.2
 """Time between two looks at whether to stop [s]."""
 _PATIENCE: Final = 15.0
 """How long a scheduler may be out of reach [s]."""
-_CLOSING: Final = 2.0
-"""How long workers have to end by themselves [s]."""
+_GONE: Final = "the Dask scheduler is gone; all points that had finished are saved"
 
 # The threads of a worker would only take time from the other workers.
 _ONE_THREAD: Final = {
@@ -164,6 +163,8 @@ def _arriving(
         except queue.Empty:
             heard = _demand_connection(client, heard)
             continue
+        if future.cancelled():
+            raise TribodynError(_GONE)
         point, _ = waiting.pop(str(future.key))
         yield point, _outcome(future)
         # Frees the worker's memory.
@@ -175,7 +176,7 @@ def _demand_connection(client: Client, heard: float) -> float:
     if client.status == "running":
         return time.monotonic()
     if client.status == "closed" or time.monotonic() - heard > _PATIENCE:
-        raise TribodynError("the Dask scheduler is gone; all points that had finished are saved")
+        raise TribodynError(_GONE)
     return heard
 
 

@@ -92,7 +92,7 @@ def _scan(
         heights = _channel(reader, channel, source)
         if np.prod(heights.nb_grid_pts or 1, dtype=float) > MOST_POINTS:
             raise InputError(f"the scan has more than {MOST_POINTS} points; cut out a part", source=source)
-        return _converted(_topography(heights, length, given, source), source)
+        return _read(heights, length, given, source)
 
 
 def _channel(reader: Any, channel: int, source: str) -> Any:
@@ -103,64 +103,42 @@ def _channel(reader: Any, channel: int, source: str) -> Any:
     return channels[channel - 1]
 
 
-def _topography(channel: Any, length: Length, given: Scale, source: str) -> Any:
-    """Return the topography in metres."""
-    sizes = None
-    columns = channel.is_uniform is False
-    if channel.physical_sizes is None and not columns:
-        if given.spacing is None:
-            raise InputError("the file does not say it; give --spacing", key="spacing", source=source)
-        steps = parse_spacing(given.spacing, channel.dim, length)[::-1]
-        sizes = tuple(n * step for n, step in zip(channel.nb_grid_pts, steps, strict=True))
-    elif given.spacing is not None:
-        raise InputError("the file says it itself; leave it out", key="spacing", source=source)
-    if channel.unit is not None:
-        if given.unit is not None:
-            raise InputError("the file says it itself; leave it out", key="unit", source=source)
-        size = float(length(f"1 {channel.unit}")) if sizes is not None else 1.0
-        sizes = None if sizes is None else tuple(value / size for value in sizes)
-        return channel.topography(physical_sizes=sizes).to_unit("m")
-    if given.unit is None:
-        raise InputError("the file does not say it; give --unit", key="unit", source=source)
-    return _with_unit(channel, unit_size(given.unit, length), sizes)
+def _spacing_given(channel: Any, given: Scale, length: Length, source: str) -> tuple[float, ...] | None:
+    """Return the spacing (dx, dy) [m] that was given, None where the file has positions itself."""
+    if channel.physical_sizes is not None or channel.is_uniform is False:
+        if given.spacing is not None:
+            raise InputError("the file says it itself; leave it out", key="spacing", source=source)
+        return None
+    if given.spacing is None:
+        raise InputError("the file does not say it; give it", key="spacing", source=source)
+    return parse_spacing(given.spacing, channel.dim, length)[::-1]
 
 
-def _with_unit(channel: Any, size: float, sizes: tuple[float, ...] | None) -> Any:
-    """Return the topography of numbers without a unit, each ``size`` metres; sizes are metres already."""
-    if sizes is not None:
-        return channel.topography(physical_sizes=sizes, height_scale_factor=size, unit="m")
-    whole = channel.topography(unit="m")
-    return whole if size == 1.0 else _Scaled(whole, size)
+def _unit(channel: Any, given: Scale, length: Length, source: str) -> float:
+    """Return the size of the numbers in the file [m]."""
+    if channel.unit is None:
+        if given.unit is None:
+            raise InputError("the file does not say it; give it", key="unit", source=source)
+        return unit_size(given.unit, length)
+    if given.unit is not None:
+        raise InputError("the file says it itself; leave it out", key="unit", source=source)
+    return unit_size(str(channel.unit).replace("Å", "angstrom"), length)
 
 
-class _Scaled:
-    """A topography whose positions and heights are multiplied by one factor."""
-
-    def __init__(self, whole: Any, factor: float) -> None:
-        self._whole, self._factor = whole, factor
-        self.dim, self.is_uniform = whole.dim, whole.is_uniform
-        if self.is_uniform:
-            self.pixel_size = tuple(np.ravel(whole.pixel_size) * factor)
-
-    def heights(self) -> Any:
-        """Return the heights [m]."""
-        return self._whole.heights() * self._factor
-
-    def positions(self) -> Any:
-        """Return the positions [m]."""
-        return self._whole.positions() * self._factor
-
-
-def _converted(topography: Any, source: str) -> Scan:
+def _read(channel: Any, length: Length, given: Scale, source: str) -> Scan:
     """Return our surface; SurfaceTopography counts x first, we count lines first."""
-    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
+    spacing = _spacing_given(channel, given, length, source)
+    size = _unit(channel, given, length, source)
+    sizes = None if spacing is None else tuple(np.multiply(channel.nb_grid_pts, spacing))
+    topography = channel.topography(physical_sizes=sizes)
+    heights = size * np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
     if topography.dim == 1 and not topography.is_uniform:
-        return from_columns(np.asarray(topography.positions(), dtype=np.float64), heights, source)
-    spacing = tuple(float(step) for step in np.ravel(topography.pixel_size))
-    heights = np.ascontiguousarray(heights.T)
+        return from_columns(size * np.asarray(topography.positions(), dtype=np.float64), heights, source)
+    if spacing is None:
+        spacing = tuple(size * float(step) for step in np.ravel(topography.pixel_size))
     if heights.ndim == 2 and 1 in heights.shape:
-        return Scan(heights.ravel(), (spacing[0] if heights.shape[0] == 1 else spacing[1],), source)
-    return Scan(heights, spacing[::-1], source)
+        return Scan(heights.ravel(), (spacing[int(heights.shape[0] == 1)],), source)
+    return Scan(np.ascontiguousarray(heights.T), spacing[::-1], source)
 
 
 def _in_short(error: Exception) -> str:

@@ -31,7 +31,7 @@ class Directional:
     m2_across, m2_along
         Largest and smallest over all directions [1]: across and along the lay.
     lay
-        Direction of the smallest, from x towards y [rad], in (-π/2, π/2].
+        Direction of the smallest, from x towards y [rad], in [-π/2, π/2].
     """
 
     m2_x: float

@@ -37,7 +37,7 @@ def evaluate_gap(
     least = LEAST_RANGE * film.roughness
     lowest = _theta_faces(film, fields, rows, alike)
     lowest = min(lowest, _z_faces(film, fields, rows, half, alike))
-    lowest = min(lowest, _nodes(film, fields, rows))
+    lowest = min(lowest, _nodes(film, fields, rows, alike))
     if not lowest > least:  # also when something is not a number
         return OUT_OF_RANGE
     _sources(film, fields, omega, rows)
@@ -187,12 +187,16 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
 
 
 @kernel
-def _nodes(film: FilmData, fields: FilmFields, rows: int) -> float:
+def _nodes(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
     """Fill the contact factor at the nodes and return the smallest gap there [m]."""
     lowest = math.inf
     for i in range(film.cos_node.size):
         c, s = fields.cos_node[i], fields.sin_node[i]
         for j in range(rows):
+            if alike and j > 0:
+                fields.contact[i, j] = fields.weight[j] * fields.contact[i, 0]
+                fields.d_contact[i, j] = fields.weight[j] * fields.d_contact[i, 0]
+                continue
             gap = (
                 film.clearance + fields.offset[0, j] * c + fields.offset[1, j] * s + film.wear_node[i, j + 1]
             )

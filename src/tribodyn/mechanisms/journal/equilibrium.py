@@ -82,8 +82,8 @@ def equilibrium(
     speed
         Speed of rotation [rad/s]; the journal's own by default.
     guess
-        Attitude to start from [m, rad], shape (2,) or (4,); by default the journal is laid against the
-        bushing in the direction of the load.
+        Attitude to try first [m, rad], shape (2,) or (4,). By default, and where it leads nowhere, the
+        journal is laid against the bushing in the direction of the load.
 
     Raises
     ------
@@ -93,7 +93,9 @@ def equilibrium(
     turning = journal if speed is None else replace(journal, speed=speed)
     data = journal_data(turning)
     memory = journal_memory(turning, data)
-    starts = _starts(turning) if guess is None else [np.asarray(guess, dtype=np.float64)]
+    starts = _starts(turning)
+    if guess is not None:
+        starts.insert(0, np.asarray(guess, dtype=np.float64))
     half = data.joint.z[-1]
     scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])[: journal.freedoms]
     for start in starts:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Final
@@ -18,9 +20,15 @@ SCRIPTS: Final = (
     "field.js",
     "solid.js",
     "scene.js",
+    "parallel.js",
     "run.js",
 )
 """Our scripts, in the order in which they run."""
+
+_POLICY: Final = (
+    "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; "
+    "base-uri 'none'; form-action 'none'"
+)
 
 
 def style() -> str:
@@ -28,21 +36,40 @@ def style() -> str:
     return _text("page.css")
 
 
+@dataclass(frozen=True)
+class Scripts:
+    """What runs in a page.
+
+    Attributes
+    ----------
+    ours
+        Our own scripts as one text.
+    library
+        The plotting library, compressed, as base64.
+    policy
+        Content security policy of the page: these two run, and nothing is fetched.
+    """
+
+    ours: str
+    library: str
+    policy: str
+
+
+NONE: Final = Scripts("", "", _POLICY.format("'none'"))
+"""A page without scripts."""
+
+
 @cache
-def scripts() -> tuple[str, ...]:
-    """Return the plotting library and our scripts, as they stand in the page."""
+def scripts() -> Scripts:
+    """Return the scripts of a page with live figures."""
     from plotly.offline import get_plotlyjs
 
+    library = get_plotlyjs()
     ours = "\n".join(_text(name) for name in SCRIPTS)
-    return get_plotlyjs(), f'"use strict";\n(() => {{\n{ours}\n}})();'
-
-
-def policy(texts: tuple[str, ...]) -> str:
-    """Return the content security policy of a page with these scripts: they run, and nothing is fetched."""
-    allowed = " ".join(f"'sha256-{_digest(text)}'" for text in texts) or "'none'"
-    return (
-        f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; img-src data: blob:; "
-        "font-src data:; base-uri 'none'; form-action 'none'"
+    wrapped = f'"use strict";\n(() => {{\n{ours}\n}})();'
+    packed = base64.b64encode(gzip.compress(library.encode("utf-8"), mtime=0)).decode("ascii")
+    return Scripts(
+        wrapped, packed, _POLICY.format(f"'sha256-{_digest(wrapped)}' 'sha256-{_digest(library)}'")
     )
 
 

@@ -2,12 +2,15 @@
 
 const FRAME_MS = 40;
 const MOST_LEFT_OUT = 6;
+/** Share of the longest step between frames below which the picture runs slower than elsewhere. */
+const SLOW = 0.25;
 
 const clock = {
   frame: 0,
   frames: page.clock ? page.clock.time.length : 0,
   playing: false,
   due: false,
+  longest: 0,
 
   /** Return the simulated time now [s]. */
   now() {
@@ -38,9 +41,9 @@ const clock = {
   /** Say on the slider what moment it is. */
   tell() {
     const { time, notes } = page.clock;
-    const text = `t = ${clock.now().toFixed(3)} s`;
-    const step = 1000 * (time[Math.min(clock.frame + 1, clock.frames - 1)] - clock.now());
-    const slow = step > 0 && step < 0.25 * FRAME_MS ? "slow motion" : "";
+    const text = `t = ${(clock.now() * page.clock.scale).toFixed(3)} ${page.clock.unit}`;
+    const step = time[Math.min(clock.frame + 1, clock.frames - 1)] - clock.now();
+    const slow = step > 0 && step < SLOW * clock.longest ? "slow motion" : "";
     const parts = [notes[clock.frame], slow].filter(Boolean);
     clock.slider.value = clock.frame;
     clock.slider.setAttribute("aria-valuetext", [text, ...parts].join(", "));
@@ -75,6 +78,9 @@ const clock = {
     clock.output = bar.querySelector("output");
     clock.button = bar.querySelector("button");
     clock.slider.max = clock.frames - 1;
+    page.clock.time.forEach((t, k) => {
+      clock.longest = Math.max(clock.longest, k ? t - page.clock.time[k - 1] : 0);
+    });
     clock.slider.addEventListener("input", () => clock.go(Number(clock.slider.value)));
     clock.button.addEventListener("click", clock.toggle);
     clock.go(0);

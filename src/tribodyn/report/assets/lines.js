@@ -51,14 +51,15 @@ widgets.lines = (box, data) => {
         view = [...area.layout.xaxis.range];
       });
       area.on("plotly_click", (event) => {
-        if (data.time && clock.frames) clock.goTo(event.points[0].x);
+        if (data.time && clock.frames) clock.goTo(event.points[0].x / data.scale);
       });
     });
   };
   const show = data.time
     ? () => {
         const last = data.turns.length;
-        Plotly.relayout(area, { [`shapes[${last}].x0`]: clock.now(), [`shapes[${last}].x1`]: clock.now() });
+        const now = clock.now() * data.scale;
+        Plotly.relayout(area, { [`shapes[${last}].x0`]: now, [`shapes[${last}].x1`]: now });
       }
     : null;
   return { paint, show };
@@ -151,7 +152,7 @@ function linesLayout(data, area, span, height, first) {
       anchor: axisName("y", count - 1),
       range: first ? [...span] : [...area.layout.xaxis.range],
       hoverformat: ".4f",
-      unifiedhovertitle: { text: "t = %{x} s" },
+      unifiedhovertitle: { text: `t = %{x} ${data.unit}` },
     },
     annotations: [],
     shapes: [...data.turns.map(turnLine), cursorLine(data)],
@@ -192,7 +193,7 @@ function turnLine(time) {
 
 /** Return the line at the time of the slider. */
 function cursorLine(data) {
-  const time = data.time && clock.frames ? clock.now() : 0;
+  const time = data.time && clock.frames ? clock.now() * data.scale : 0;
   const line = { color: theme.colour("accent"), width: 1.5 };
   const visible = data.time && clock.frames > 0;
   return { type: "line", x0: time, x1: time, y0: 0, y1: 1, yref: "paper", line, visible };

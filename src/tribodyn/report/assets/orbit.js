@@ -1,17 +1,11 @@
-// The trunnion axis seen from above, in the clearance circle.
-
-const PLACES = [
-  { colour: "blue", dash: "solid", symbol: "circle" },
-  { colour: "ink", dash: "dot", symbol: "diamond" },
-  { colour: "vermilion", dash: "dash", symbol: "square" },
-];
+// Points of one or several axes seen along the bushing, in the clearance circle.
 
 const AT_ONCE = { mode: "immediate", transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
 
 widgets.orbit = (box, data) => {
   const area = plotArea(box, isNarrow() ? 310 : 380, {}, "Follows the time slider.");
   const moving = data.at.length;
-  tools(box, ...data.places.map((place, k) => element("span", { class: "key" }, swatch(k), place)));
+  tools(box, ...data.places.map((place, k) => element("span", { class: "key" }, swatch(data.looks[k]), place)));
   const readout = element("p", { class: "readout" });
   box.append(readout);
   const paint = () => react(area, orbitTraces(data), orbitLayout(data));
@@ -20,37 +14,38 @@ widgets.orbit = (box, data) => {
     const y = data.at.map((path) => path.y[frame]);
     // Not restyle, which draws all paths again.
     Plotly.animate(area, { data: [{ x, y }], traces: [moving] }, AT_ONCE);
-    readout.textContent = `middle at X ${number(x[1])} µm, Y ${number(y[1])} µm`;
+    const at = data.places.map((place, k) => `${place}: X ${number(x[k])} µm, Y ${number(y[k])} µm`);
+    readout.textContent = (data.joined ? at.slice(1, 2) : at).join(" · ");
   };
   return { paint, show };
 };
 
 /** Return a mark as in the plot, for the key below it. */
-function swatch(k) {
-  return element("span", { class: `mark ${PLACES[k].symbol}`, style: `background: var(--${PLACES[k].colour})` });
+function swatch({ colour, symbol }) {
+  return element("span", { class: `mark ${symbol}`, style: `background: var(--${colour})` });
 }
 
-/** Return the three paths, and the axis now as three marks on a line. */
+/** Return the paths, and where the points are now: marks, on a line where they belong to one body. */
 function orbitTraces(data) {
   const paths = data.paths.map((path, k) => ({
     type: "scatter",
     mode: "lines",
     x: path.x,
     y: path.y,
-    line: { color: theme.colour(PLACES[k].colour), dash: PLACES[k].dash, width: 1 },
+    line: { color: theme.colour(data.looks[k].colour), dash: data.looks[k].dash, width: 1 },
     opacity: 0.55,
     hoverinfo: "skip",
   }));
   const now = {
     type: "scatter",
-    mode: "lines+markers",
+    mode: data.joined ? "lines+markers" : "markers",
     x: data.at.map((path) => path.x[clock.frame]),
     y: data.at.map((path) => path.y[clock.frame]),
     line: { color: theme.colour("ink"), width: 2.5 },
     marker: {
       size: 12,
-      color: PLACES.map(({ colour }) => theme.colour(colour)),
-      symbol: PLACES.map(({ symbol }) => symbol),
+      color: data.at.map((_, k) => theme.colour(data.looks[k].colour)),
+      symbol: data.at.map((_, k) => data.looks[k].symbol),
       line: { color: theme.colour("card"), width: 1.5 },
     },
     text: data.places.map(literal),

@@ -14,6 +14,13 @@ from tribodyn.report.base import Payload, Section
 from tribodyn.report.encode import packed
 from tribodyn.report.film import film_times, in_film
 
+LOOKS: Final = (
+    {"colour": "blue", "dash": "solid", "symbol": "circle"},
+    {"colour": "ink", "dash": "dot", "symbol": "diamond"},
+    {"colour": "vermilion", "dash": "dash", "symbol": "square"},
+)
+"""Looks of top, middle and bottom."""
+
 
 def data(dataset: xr.Dataset) -> Payload | None:
     """Return paths and positions at the frames [µm] of the top, middle and bottom centres."""
@@ -29,6 +36,8 @@ def data(dataset: xr.Dataset) -> Payload | None:
     return {
         "clearance": clearance,
         "reach": 1.25 * reach,
+        "joined": True,
+        "looks": LOOKS,
         "places": [f"top, z = {signed(half * 1e3)} mm", "middle", f"bottom, z = {signed(-half * 1e3)} mm"],
         "paths": [{"x": packed(x[inside]), "y": packed(y[inside])} for x, y in centres],
         "at": [_at(times, time, path) for path in centres],

@@ -1,0 +1,102 @@
+"""A sweep as one page: all its points across parallel axes, and the report of each a click away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from tribodyn.report.base import Chapter, Section
+from tribodyn.report.content import chapters, reading, variables
+from tribodyn.report.page import page
+from tribodyn.report.sections.parallel import Axis, Point, at_first, axes_of, payload, points_of
+
+
+def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | None) -> str:
+    """Return the page of a sweep as text.
+
+    Parameters
+    ----------
+    dataset
+        A sweep.
+    stills
+        PNG files of its figures, shown below.
+    folder
+        Where the sweep is stored: reports of points that are there are linked.
+    """
+    axes, points = axes_of(dataset), points_of(dataset, folder)
+    section = Section(
+        name="parallel",
+        title="All points",
+        caption=(
+            "Each line is a point of the sweep. Click a line where it meets an axis to open the report of "
+            "that point. Choose below which axes stand side by side; colours follow the first of them."
+        ),
+        needs=(),
+        widget="parallel",
+        data=lambda _: payload(axes, points),
+    )
+    lead = "Parameters at the left, what came out at the right."
+    shown, payloads = chapters(dataset, [Chapter("all", "All points", lead, (section,))], stills)
+    lost = [point for point in points if point.failure]
+    return page(
+        "sweep.html",
+        payload={"clock": None, "figures": payloads} if payloads else None,
+        title=str(dataset.attrs.get("title", "")) or "Sweep",
+        version=dataset.attrs.get("tribodyn_version", ""),
+        count=len(points),
+        lost=len(lost),
+        failures=_reasons(lost),
+        ranges=[_range(axis) for axis in axes],
+        chapters=shown,
+        columns=[axis.label for axis in _columns(axes)],
+        rows=[_row(k, point, _columns(axes)) for k, point in enumerate(points)],
+        case=dataset.attrs.get("case", ""),
+        variables=variables(dataset),
+        reading=reading((), "sweep.nc"),
+    )
+
+
+def _columns(axes: Sequence[Axis]) -> list[Axis]:
+    """Return what the table of points shows."""
+    names = at_first(list(axes))
+    return [axis for axis in axes if axis.name in names]
+
+
+def _reasons(lost: Sequence[Point]) -> list[dict[str, Any]]:
+    """Return the reasons why points have no numbers, each once, the most frequent first."""
+    counts: dict[str, int] = {}
+    for point in lost:
+        counts[point.failure] = counts.get(point.failure, 0) + 1
+    return [{"text": text, "count": counts[text]} for text in sorted(counts, key=lambda text: -counts[text])]
+
+
+def _range(axis: Axis) -> dict[str, Any]:
+    """Return name, smallest and largest value of an axis, with the points that have them."""
+    order = [int(k) for k in axis.values.argsort() if axis.values[k] == axis.values[k]]
+    if axis.categories or not order:
+        return {
+            "label": axis.label,
+            "low": ", ".join(axis.categories) or "—",
+            "high": "",
+            "parameter": axis.parameter,
+        }
+    return {
+        "label": axis.label,
+        "low": axis.texts[order[0]],
+        "high": axis.texts[order[-1]],
+        "parameter": axis.parameter,
+    }
+
+
+def _row(number: int, point: Point, columns: Sequence[Axis]) -> dict[str, Any]:
+    """Return a point for the table."""
+    return {
+        "number": number + 1,
+        "name": point.name,
+        "link": point.link,
+        "failure": point.failure,
+        "texts": [axis.texts[number] for axis in columns],
+    }

@@ -1,0 +1,94 @@
+"""A sweep on a Dask scheduler and workers that were started on their own and are known by an address."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+
+SWEEP = [
+    *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--summary-only", "--quiet", "--json"),
+    *("--vary", "joint.clearance=20,30 um", "--vary", "mechanism.formulation=exact,paper"),
+    *("--set", "run.duration=50 ms"),
+]
+EFFORT = {"wall_time_s", "real_time_factor"}
+
+pytestmark = pytest.mark.long
+
+
+def dask(*arguments: str, folder: Path) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-m", "dask", *arguments]
+    quiet = subprocess.DEVNULL
+    return subprocess.Popen(command, cwd=folder, stdout=quiet, stderr=quiet)
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """End a process with its children, by their numbers."""
+    family = [*psutil.Process(process.pid).children(recursive=True), psutil.Process(process.pid)]
+    for member in family:
+        member.kill()
+    process.wait()
+
+
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    """Start a scheduler and two workers; return the address."""
+    about = tmp_path / "scheduler.json"
+    file = ("--scheduler-file", str(about))
+    local = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    processes = [dask("scheduler", *local, *file, folder=tmp_path)]
+    try:
+        deadline = time.monotonic() + 120.0
+        while not about.exists():
+            assert time.monotonic() < deadline, "the scheduler did not start"
+            time.sleep(0.1)
+        found = str(json.loads(about.read_text(encoding="utf-8"))["address"])
+        workers = ("--nworkers", "2", "--nthreads", "1", "--no-dashboard")
+        processes.append(dask("worker", found, *workers, folder=tmp_path))
+        yield found
+    finally:
+        for process in processes:
+            end(process)
+
+
+def rows(*options: str, folder: Path) -> list[dict[str, object]]:
+    done = subprocess.run([*SWEEP, *options], cwd=folder, capture_output=True, text=True, check=True)
+    points: list[dict[str, object]] = json.loads(done.stdout)["points"]
+    return [{name: value for name, value in row.items() if name not in EFFORT} for row in points]
+
+
+def test_the_same_sweep_gives_the_same_numbers_on_a_cluster(address: str, tmp_path: Path) -> None:
+    there = rows("--scheduler", address, "-o", "there", folder=tmp_path)
+    here = rows("--workers", "1", "-o", "here", folder=tmp_path)
+    assert there == here
+    # Results travel: only the client writes, and where it was told.
+    assert {path.name for path in tmp_path.iterdir() if path.is_dir()} >= {"there", "here"}
+    assert len(list(tmp_path.glob("there/points/*/summary.json"))) == len(there)
+
+
+def test_a_scheduler_that_goes_away_loses_no_point_that_had_finished(address: str, tmp_path: Path) -> None:
+    # Long enough that one of the points is still under way when the scheduler is gone.
+    options = ["--set", "run.duration=3 s", "--scheduler", address, "-o", "there"]
+    command = [word for word in SWEEP if word not in {"--quiet", "--json"}]
+    sweep = subprocess.Popen([*command, *options], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    assert sweep.stderr is not None
+    while "1 of 4 points" not in (line := sweep.stderr.readline()):
+        assert line
+    port = int(address.rpartition(":")[2])
+    scheduler = next(
+        process
+        for process in psutil.Process().children(recursive=True)
+        if any(c.laddr.port == port and c.status == "LISTEN" for c in process.net_connections("tcp"))
+    )
+    scheduler.kill()
+    _, err = sweep.communicate(timeout=120)
+    assert sweep.returncode == 1
+    assert "scheduler is gone" in err
+    assert list(tmp_path.glob("there/points/*/summary.json"))
+    assert (tmp_path / "there" / "sweep.nc").exists()

@@ -1,0 +1,170 @@
+"""``tribodyn sweep`` around a simulation that is made up."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray as xr
+
+import tribodyn.figures
+import tribodyn.report
+from tribodyn.cli.main import main
+
+SWEEP = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,25 um"]
+
+
+@pytest.fixture(autouse=True)
+def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, simulated: list[Any]) -> Path:
+    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+        directory.mkdir(exist_ok=True)
+
+    def write(dataset: xr.Dataset, path: Path) -> None:
+        path.write_text("made up", encoding="utf-8")
+
+    monkeypatch.setattr(tribodyn.report, "write", write)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    return tmp_path
+
+
+def test_a_sweep_leaves_everything_and_says_where(
+    in_empty_directory: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(SWEEP) == 0
+    out, err = capsys.readouterr()
+    assert sorted(path.name for path in Path("sweep-vsv").iterdir()) == [
+        "figures",
+        "points",
+        "report.html",
+        "sweep.json",
+        "sweep.nc",
+    ]
+    assert len(list(Path("sweep-vsv/points").glob("*/report.html"))) == 2
+    assert "computing 2 of 2 points" in err
+    assert "100 %  2 of 2 points" in err
+    rows = [line.split() for line in out.splitlines() if line.startswith("2")]
+    assert [row[:3] for row in rows] == [["20", "um", "2000"], ["25", "um", "2500"]]
+    assert "everything is in sweep-vsv/" in out
+
+
+def test_json_is_one_document(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*SWEEP, "--json", "--quiet", "-o", "out"]) == 0
+    out, err = capsys.readouterr()
+    assert json.loads(out) == json.loads(Path("out/sweep.json").read_text(encoding="utf-8"))
+    assert err == ""
+
+
+def test_quiet_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*SWEEP, "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_failed_points_are_in_the_table_and_in_the_status(
+    simulated: list[Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,35 um"]
+    assert main(command) == 1
+    out, err = capsys.readouterr()
+    assert "no result: stopped at t = 0 s: no equilibrium" in out
+    assert "no result at joint.clearance = 35 um" in err
+    assert "1 of 2 points have no result" in err
+    simulated.clear()
+    assert main(command) == 1
+    assert simulated == []
+    assert main([*command, "--retry"]) == 1
+    assert len(simulated) == 1
+
+
+def test_samples_print_statistics(capsys: pytest.CaptureFixture[str]) -> None:
+    vary = ["--vary", "joint.friction_coefficient=uniform(0.1, 0.2)", "--vary", "contact.law=ke,rsdc"]
+    assert main(["sweep", "vsv", "--workers", "0", *vary, "--samples", "3"]) == 0
+    out = capsys.readouterr().out
+    assert out.count("Contact force, largest N") == 2
+    assert "contact.law = ke" in out
+    assert "median" in out
+
+
+def test_set_and_solver_change_every_point(simulated: list[Any]) -> None:
+    assert main([*SWEEP, "--set", "run.duration=0.5 s", "--solver", "radau"]) == 0
+    assert {(case.run.duration, case.solver.name) for case in simulated} == {(0.5, "radau")}
+
+
+def test_a_wide_table_is_cut_to_the_terminal(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    vary = ["--vary", "joint.friction_coefficient=0.01:0.5:0.01", "--vary", "title=" + "x" * 60]
+    assert main(["sweep", "vsv", "--workers", "0", *vary, "--summary-only"]) == 0
+    out = capsys.readouterr().out
+    assert "... 10 more points" in out
+    assert max(map(len, out.splitlines()[3:44])) <= 60
+
+
+def test_an_interrupt_keeps_what_is_done(
+    simulated: list[Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made_up = tribodyn.simulation.simulate
+
+    def simulate(case: Any, **options: Any) -> xr.Dataset:
+        os.kill(os.getpid(), signal.SIGINT)
+        return made_up(case, **options)
+
+    monkeypatch.setattr(tribodyn.simulation, "simulate", simulate)
+    assert main(SWEEP) == 1
+    assert len(list(Path().glob("sweep-vsv/points/*/summary.json"))) == 1
+    assert "1 of 2 points have no result" in capsys.readouterr().err
+    assert not Path("sweep-vsv/figures").exists()
+
+
+def test_pictures_that_fail_do_not_lose_the_result(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+        raise ValueError("no colour left")
+
+    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    assert main(SWEEP) == 1
+    assert "no colour left" in capsys.readouterr().err
+    assert Path("sweep-vsv/sweep.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (["--vary", "joint.clearance"], "--vary"),
+        (["--vary", "joint.clearance=20"], "joint.clearance"),
+        (["--vary", "joint.clearance=20,900 um"], "joint.clearance"),
+        (["--vary", "joint.clearance=20 um", "--vary", "joint.clearance=30 um"], "joint.clearance"),
+        (["--vary", "joint.clearence=20 um"], "joint.clearance"),
+        (["--vary", "joint.clearance=normal(20, 2 um)"], "--samples"),
+        (["--vary", "joint.clearance=20 um", "--workers", "-1"], "--workers"),
+        (["--vary", "joint.clearance=20 um", "--scheduler", "nonsense"], "--scheduler"),
+        (["--vary", "joint.clearance=20 um", "-o", "/dev/null/x"], "--output"),
+    ],
+)
+def test_bad_input_names_the_key_and_leaves_nothing(
+    options: list[str],
+    named: str,
+    in_empty_directory: Path,
+    simulated: list[Any],
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["sweep", "vsv", "--quiet", *options]) == 2
+    message = capsys.readouterr().err
+    assert named in message
+    assert message.count("\n") == 1
+    assert simulated == []
+    assert list(in_empty_directory.iterdir()) == []
+
+
+@pytest.mark.parametrize("options", [[], ["--workers", "two"], ["--workers", "1", "--scheduler", "tcp://x"]])
+def test_wrong_options_end_with_status_2(options: list[str]) -> None:
+    vary = ["--vary", "joint.clearance=20 um"] if options else []
+    with pytest.raises(SystemExit) as caught:
+        main(["sweep", "vsv", *vary, *options])
+    assert caught.value.code == 2

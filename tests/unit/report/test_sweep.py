@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tribodyn.cases import load_case
+from tribodyn.report import write
+from tribodyn.report.sections.parallel import at_first, axes_of, payload, points_of
+from tribodyn.studies import Sampling, make_plan
+from tribodyn.studies.merge import merge
+
+
+@pytest.fixture
+def sweep():
+    """A grid of six points, the fourth of which failed with markup in its reason."""
+    plan = make_plan(
+        load_case("vsv"), {"joint.clearance": "20,30,40 um", "contact.law": "ke,rsdc"}, Sampling()
+    )
+    found = {
+        point.name: {"failure": "", "contact_force_max_N": 10.0 * k, "tilt_max_mrad": 1.0}
+        if k != 3
+        else {"failure": "<i>no</i> equilibrium"}
+        for k, point in enumerate(plan.points)
+    }
+    return merge(plan, found)
+
+
+def test_axes_hold_parameters_in_their_units_and_numbers(sweep):
+    axes = {axis.name: axis for axis in axes_of(sweep)}
+    assert axes["joint.clearance"].label == "joint.clearance [um]"
+    assert axes["joint.clearance"].values == pytest.approx([20.0, 20.0, 30.0, 30.0, 40.0, 40.0])
+    assert axes["contact.law"].categories == ("ke", "rsdc")
+    assert axes["contact.law"].texts == ("ke", "rsdc") * 3
+    assert axes["contact_force_max_N"].texts[3] == "—"
+    assert at_first(list(axes.values()))[:2] == ["joint.clearance", "contact.law"]
+
+
+def test_the_page_links_the_reports_that_are_there(sweep, tmp_path):
+    name = str(sweep["points"].values.ravel()[1])
+    report = tmp_path / "points" / name / "report.html"
+    report.parent.mkdir(parents=True)
+    report.write_text("", encoding="utf-8")
+    text = write(sweep, tmp_path).read_text(encoding="utf-8")
+    page = text[: text.index('id="page-data"')]
+    assert re.findall(r'href="(points/[^"]*)"', page) == [f"points/{name}/report.html"]
+    assert "1 of 6 points have no result" in page
+    assert "&lt;i&gt;no&lt;/i&gt; equilibrium" in page
+    assert "<i>" not in page
+
+
+def test_a_sweep_without_any_result_still_has_a_page(sweep, tmp_path):
+    bare = sweep.drop_vars(["contact_force_max_N", "tilt_max_mrad"])
+    assert payload(axes_of(bare), points_of(bare, None)) is None
+    text = write(bare, tmp_path).read_text(encoding="utf-8")
+    assert "page-data" not in text
+    assert "Table of all 6 points" in text
