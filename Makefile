@@ -50,6 +50,7 @@ docs: $(VENV)/.docs
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.work_precision
+	$(BIN)/python -m benchmarks
 
 clean:
 	rm -rf $(VENV) docs/_build docs/reference/generated docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

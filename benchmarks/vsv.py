@@ -2,11 +2,11 @@
 
 python -m benchmarks.vsv
 
-All integrators call the same compiled functions and keep the same books: energy ledgers, sliding loads,
-entry velocities, reactions, output rows. Those of SciPy and scikit-sundae are stepped from Python. Each is run at
+All integrators call the same compiled functions and keep the same books: energy ledgers, sliding loads, entry
+velocities, reactions, output rows. Those of SciPy and scikit-sundae are stepped from Python. Each is run at
 falling tolerances, and the fastest run that is accurate enough counts. Accuracy is asked against a run at
-tolerances a hundred times tighter: outside 100 ms after a reversal the vane angle within 1e-5° and the contact
-force within 0.5 %, between 50 and 100 ms the angle within 5e-5°.
+tolerances a hundred times tighter: outside 100 ms after a reversal the vane angle within 1e-5° and the
+contact force within 0.5 %, between 50 and 100 ms the angle within 5e-5°.
 
 Times are of the thread, without the compilation.
 """
