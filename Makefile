@@ -10,7 +10,7 @@ PLOTS := $(filter-out docs/plots/demo.py,$(wildcard docs/plots/*.py))
 PYTEST := $(BIN)/python -m pytest -n 2
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-long lint format docs bench clean
+.PHONY: help demo test test-long lint format docs bench lock clean
 
 help:
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
@@ -20,6 +20,7 @@ help:
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
 	@echo "make bench       work and precision of the integrators (some minutes)"
+	@echo "make lock        pin all dependencies anew, with hashes (needs uv)"
 	@echo "make clean       remove .venv and everything built"
 
 demo: $(VENV)/.run
@@ -51,6 +52,9 @@ docs: $(VENV)/.docs
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.work_precision
 	$(BIN)/python -m benchmarks
+
+lock:
+	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --extra all pyproject.toml -o requirements.lock
 
 clean:
 	rm -rf $(VENV) docs/_build docs/reference/generated docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

@@ -21,7 +21,7 @@ from tribodyn.studies.work import Outcome
 POINTS = 7
 # The seconds of a point are those in which it can be killed.
 SWEEP = [
-    *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "-o", "out", "--workers", "2"),
+    *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "-o", "out", "--workers", "2", "--summary-only"),
     *("--vary", "joint.clearance=20:38:3 um", "--set", "run.duration=0.3 s"),
 ]
 
@@ -105,11 +105,10 @@ def test_a_point_that_kills_its_workers_has_no_result_and_the_rest_go_on(
     # Workers cannot import this module, so its functions are sent as they are.
     cloudpickle.register_pickle_by_value(sys.modules[__name__])
     monkeypatch.setattr(runners, "compute", deadly)
-    monkeypatch.setattr(runners, "warm_up", lambda toml: None)
     plan = make_plan(load_case("vsv"), {"joint.clearance": "20,30,40 um"})
     found = {
         point.changes["joint.clearance"]: outcome
-        for point, outcome in runners.local(plan.points, False, lambda: False, 2)
+        for point, outcome in runners.local(runners.Job(plan.points, False, lambda: False, print), 2)
     }
     assert found["20 um"].failure == found["40 um"].failure == ""
     assert "worker process died" in found["30 um"].failure

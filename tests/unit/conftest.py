@@ -189,7 +189,7 @@ def simulated(monkeypatch: pytest.MonkeyPatch, make_result: Callable[..., xr.Dat
     """Replace the simulation in this process; the cases it is given are in the list.
 
     A clearance of 30 um stops midway, one of 35 um raises an error that we know, one of 40 um one that
-    we do not.
+    we do not, one of 45 um warns.
     """
     seen: list[Any] = []
 
@@ -202,7 +202,9 @@ def simulated(monkeypatch: pytest.MonkeyPatch, make_result: Callable[..., xr.Dat
             raise ZeroDivisionError("surprise")
         failure = "steps became too small" if micrometres == 30 else ""
         peak = micrometres * case.joint.friction_coefficient
-        result = make_result(0.1, failure=failure, contact_force_peak=1e3 * peak, case=case.to_toml())
+        warned = ["odd"] if micrometres == 45 else []
+        facts = {"contact_force_peak": 1e3 * peak, "case": case.to_toml(), "warnings": warned}
+        result = make_result(0.1, failure=failure, **facts)
         # Few variables, because writing all of them takes longer than everything else here.
         return result[["F_cx", "F_cy", "p_max"]]
 

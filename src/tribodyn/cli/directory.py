@@ -11,6 +11,7 @@ from tribodyn.core.errors import InputError
 
 FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html")
 FIGURES: Final = "figures"
+POINTS: Final = "points"
 REPORT: Final = "report.html"
 _LONGEST_SHOWN: Final = 200
 
@@ -59,6 +60,11 @@ class OutputDirectory:
         figures = self.path / FIGURES
         if figures.exists() and not figures.is_dir():
             raise _refused(os.fspath(self.path), f"{FIGURES} in it is a file")
+        # A folder of results may come from elsewhere: what is written into it stays in it. A file that is
+        # a link is replaced, never written through.
+        for name in (FIGURES, POINTS):
+            if not (self.path / name).resolve().is_relative_to(self.path.resolve()):
+                raise _refused(os.fspath(self.path), f"{name} in it is a link that leads out of it")
 
     def forget(self) -> None:
         """Remove what was made, as far as it is still empty."""

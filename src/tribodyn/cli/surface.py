@@ -62,6 +62,7 @@ def _measure(args: Namespace, console: Console) -> None:
     material, treatment = _material(args), _treatment(args)
     scan = _scan(args)
     surface = analyse(scan, treatment)
+    console.note("measuring with other cut-offs")
     others = dependence(surface, scan)
     outcome = document(surface, others)
     if material is not None:

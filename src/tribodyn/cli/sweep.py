@@ -82,6 +82,7 @@ def execute(args: Namespace) -> int:
     (directory.path / REPORT).unlink(missing_ok=True)
     drawn = not interruption.requested and _draw(dataset, directory.path, console, args.debug)
     _tell(directory.path, console)
+    _warn(dataset)
     lost = int(dataset.attrs["points_failed"])
     if lost:
         complain(_lost(dataset, lost))
@@ -166,6 +167,14 @@ def _tell(path: Path, console: Console) -> None:
     console.say(f"look at {path / REPORT}; everything is in {path}{os.sep}")
     if console.json:
         show_json(record)
+
+
+def _warn(dataset: xr.Dataset) -> None:
+    """Say how many points warn about themselves, with the words of the first."""
+    texts = [text for text in dataset["warnings"].values.ravel().tolist() if text]
+    if texts:
+        count = f"{len(texts)} of {dataset.attrs['points_in_all']} points"
+        complain(f"warning of {count}, the first of them (sweep.json has all): {texts[0]}")
 
 
 def _lost(dataset: xr.Dataset, lost: int) -> str:

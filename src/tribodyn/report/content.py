@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,7 @@ def chapters(
     shown, payloads
         Chapters for the template; data by name of the section.
     """
+    families = figures_of(dataset)
     pictures = {path.stem: path for path in stills}
     shown: list[Shown] = []
     payloads: dict[str, Any] = {}
@@ -42,11 +43,10 @@ def chapters(
         drawn = {section: payload for section, payload in found.items() if payload is not None}
         payloads |= {section.name: payload for section, payload in drawn.items()}
         still = [section for section in found if section in drawn or section.still in pictures]
-        sections = [_section(section, section in drawn, pictures) for section in still]
+        sections = [_section(section, section in drawn, pictures, families) for section in still]
         if sections:
             shown.append(_chapter(chapter, sections))
     used = {section.still for chapter in planned for section in chapter.sections}
-    families = figures_of(dataset)
     others = [_still(path, families.get(name)) for name, path in pictures.items() if name not in used]
     if others:
         lead = "Also in the folder figures."
@@ -64,7 +64,9 @@ def _chapter(chapter: Chapter, sections: list[Shown]) -> Shown:
     }
 
 
-def _section(section: Section, drawn: bool, pictures: dict[str, Path]) -> Shown:
+def _section(
+    section: Section, drawn: bool, pictures: Mapping[str, Path], families: Mapping[str, Family]
+) -> Shown:
     """Return a section for the template; one that cannot be drawn is shown as its picture."""
     return {
         "name": section.name,
@@ -72,6 +74,7 @@ def _section(section: Section, drawn: bool, pictures: dict[str, Path]) -> Shown:
         "caption": section.caption,
         "widget": section.widget if drawn else "",
         "still": embedded(pictures[section.still]) if section.still in pictures else "",
+        "still_caption": families[section.still].caption if section.still in families else "",
         "needs": section.needs,
         "code": reading(section.needs),
     }
@@ -85,6 +88,7 @@ def _still(path: Path, family: Family | None) -> Shown:
         "caption": family.caption if family else "",
         "widget": "",
         "still": embedded(path),
+        "still_caption": "",
         "needs": family.needs if family else (),
         "code": reading(family.needs if family else ()),
     }

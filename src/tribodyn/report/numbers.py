@@ -19,6 +19,6 @@ def in_words(value: object) -> str:
         return str(value)
     if isinstance(value, int):
         return f"{value:,}".replace(",", "\N{NARROW NO-BREAK SPACE}")
-    digits, _, power = f"{value:.4g}".partition("e")
+    digits, _, power = f"{value + 0.0:.4g}".partition("e")
     text = digits.replace("-", "−")
     return f"{text} × 10{str(int(power)).translate(_RAISED)}" if power else text

@@ -39,7 +39,7 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         data=lambda _: payload(axes, points),
     )
     lead = "Parameters at the left, what came out at the right."
-    shown, payloads = chapters(dataset, [Chapter("all", "All points", lead, (section,))], stills)
+    shown, payloads = chapters(dataset, [Chapter("all", "Side by side", lead, (section,))], stills)
     lost = [point for point in points if point.failure]
     return page(
         "sweep.html",

@@ -154,15 +154,15 @@ class _Run:
         """Why the run stopped before its end, empty if it did not."""
         if self.solution.failure in (None, INTERRUPTED):
             return self.solution.failure or ""
-        memory = self.problem.memory
-        table = self.journal.joint.table
+        memory, reason = self.problem.memory, str(self.solution.failure)
         if memory.beyond[0] > 0.0:
-            why = f"; the surfaces came closer than the contact law reaches ({table.h_first:g} sigma)"
+            reason = (
+                f"stopped at t = {self.solution.t_end:.6g} s: the surfaces came closer than the contact law "
+                f"reaches ({self.journal.joint.table.h_first:g} sigma); the load or the impact is too much for it"
+            )
         elif memory.scratch.film_status[0] > 0.0:
-            why = f"; the film had no answer: {explain(int(memory.scratch.film_status[0]))}"
-        else:
-            why = ""
-        return f"{self.law}: {self.solution.failure}{why}"
+            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status[0]))}"
+        return f"{self.law}: {reason}"
 
     def columns(self) -> dict[str, FloatArray]:
         """Return what is stored over time."""

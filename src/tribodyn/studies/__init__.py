@@ -6,7 +6,7 @@ from tribodyn.studies.distributions import DISTRIBUTIONS
 from tribodyn.studies.plan import Plan, Sampling, make_plan
 from tribodyn.studies.samplers import SAMPLERS
 from tribodyn.studies.statistics import statistics
-from tribodyn.studies.sweep import Arrival, Means, run, sweep
+from tribodyn.studies.sweep import Arrival, Means, Watcher, run, sweep
 
 __all__ = [
     "DISTRIBUTIONS",
@@ -15,6 +15,7 @@ __all__ = [
     "Means",
     "Plan",
     "Sampling",
+    "Watcher",
     "make_plan",
     "run",
     "statistics",

@@ -1,7 +1,8 @@
 """Distributions that a parameter may be drawn from, listed once.
 
 All arguments are values of the parameter itself, in its unit: ``lognormal(20 um, 2 um)`` has a mean of 20 µm
-and a standard deviation of 2 µm. Formulas of the underlying laws: scipy.stats.
+and a standard deviation of 2 µm. Formulas of the underlying laws: scipy.stats. As that takes long to
+import, it is done only where something is drawn.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from scipy import stats
 
 from tribodyn.core.arrays import FloatArray
 
@@ -76,6 +76,8 @@ def _demand(condition: bool, message: str) -> None:
 
 
 def _normal(mean: float, deviation: float, least: float = -math.inf, most: float = math.inf) -> Any:
+    from scipy import stats
+
     _demand(deviation > 0.0, "the standard deviation must be above 0")
     _demand(least < most, "the least value must be below the largest")
     if math.isinf(least) and math.isinf(most):
@@ -85,17 +87,23 @@ def _normal(mean: float, deviation: float, least: float = -math.inf, most: float
 
 
 def _lognormal(mean: float, deviation: float) -> Any:
+    from scipy import stats
+
     _demand(mean > 0.0 and deviation > 0.0, "mean and standard deviation must be above 0")
     spread = math.log1p((deviation / mean) ** 2)
     return stats.lognorm(math.sqrt(spread), scale=mean * math.exp(-0.5 * spread))
 
 
 def _uniform(least: float, most: float) -> Any:
+    from scipy import stats
+
     _demand(least < most, "the least value must be below the largest")
     return stats.uniform(least, most - least)
 
 
 def _triangular(least: float, likeliest: float, most: float) -> Any:
+    from scipy import stats
+
     _demand(least < most, "the least value must be below the largest")
     _demand(least <= likeliest <= most, "the likeliest value must lie between the least and the largest")
     return stats.triang((likeliest - least) / (most - least), loc=least, scale=most - least)

@@ -13,6 +13,7 @@ import time
 import uuid
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -23,13 +24,17 @@ from tribodyn.studies.work import Outcome, compute, failed, warm_up
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-Stop: TypeAlias = Callable[[], bool]
 Finished: TypeAlias = Iterator[tuple[Point, Outcome]]
 
 DEATHS: Final = 2
 """How many deaths of its worker a point survives: it is tried once more after each."""
-_LISTEN: Final = 0.2
+_LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
+_SOON: Final = 5.0
+"""How long workers may get ready before a user is told why nothing happens [s]."""
+_PREPARING: Final = (
+    "preparing the workers; where the equations are not compiled yet this takes a minute or two"
+)
 _PATIENCE: Final = 15.0
 """How long a scheduler may be out of reach [s]."""
 _GONE: Final = "the Dask scheduler is gone; all points that had finished are saved"
@@ -40,45 +45,64 @@ _ONE_THREAD: Final = {
 }
 
 
-def here(points: Sequence[Point], keep_result: bool, stop: Stop) -> Finished:
+@dataclass(frozen=True)
+class Job:
+    """What is to be computed.
+
+    Attributes
+    ----------
+    points
+        One or more.
+    keep_result
+        Whether outcomes hold the whole result beside the headline numbers.
+    stop
+        Asked several times a second; when true, what is still to be done is called off.
+    note
+        Told what a user should know.
+    """
+
+    points: Sequence[Point]
+    keep_result: bool
+    stop: Callable[[], bool]
+    note: Callable[[str], None]
+
+
+def here(job: Job) -> Finished:
     """Compute points one after the other in this process, without Dask."""
-    for point in points:
-        if stop():
+    for point in job.points:
+        if job.stop():
             return
-        yield point, compute(point.toml, version("tribodyn"), keep_result)
+        yield point, compute(point.toml, version("tribodyn"), job.keep_result)
 
 
-def local(points: Sequence[Point], keep_result: bool, stop: Stop, workers: int | None) -> Finished:
+def local(job: Job, workers: int | None) -> Finished:
     """Compute points in processes of this machine, one thread each.
 
     Parameters
     ----------
-    points, keep_result, stop
-        As for :func:`here`.
+    job
+        The points.
     workers
         How many processes; by default one for each processor.
     """
     from dask.system import CPU_COUNT
 
-    # Compiled in this process, once, before workers that would all do the same look for it on the disk.
-    warm_up(points[0].toml)
-    with _local_client(min(workers or CPU_COUNT, len(points))) as client:
-        yield from _computed(client, points, keep_result, stop)
+    with _local_client(min(workers or CPU_COUNT, len(job.points))) as client:
+        yield from _computed(client, job)
 
 
-def cluster(points: Sequence[Point], keep_result: bool, stop: Stop, address: str) -> Finished:
+def cluster(job: Job, address: str) -> Finished:
     """Compute points on the workers of a Dask scheduler that runs already.
 
     Parameters
     ----------
-    points, keep_result, stop
-        As for :func:`here`.
+    job
+        The points.
     address
         Such as ``tcp://10.0.0.1:8786``.
     """
     with _remote_client(address) as client:
-        _warm_up_each_host(client, points[0].toml, stop)
-        yield from _computed(client, points, keep_result, stop)
+        yield from _computed(client, job)
 
 
 @contextmanager
@@ -123,28 +147,45 @@ def _remote_client(address: str) -> Iterator[Client]:
         yield client
 
 
-def _warm_up_each_host(client: Client, toml: str, stop: Stop) -> None:
-    """Let one worker of each machine fill the cache of compiled code that the others there read."""
+def _prepare(client: Client, job: Job) -> None:
+    """Let one worker of each machine fill the cache of compiled code, from which the others there read it.
+
+    Meanwhile the others import what they need.
+    """
     workers = client.scheduler_info()["workers"]
-    one_a_host = {about["host"]: address for address, about in workers.items()}
-    tasks = [client.submit(warm_up, toml, workers=[address], pure=False) for address in one_a_host.values()]
-    while any(task.status == "pending" for task in tasks) and not stop():
+    first = {about["host"]: address for address, about in workers.items()}.values()
+    tasks = {
+        address: client.submit(
+            warm_up,
+            job.points[0].toml if address in first else "",
+            workers=[address],
+            allow_other_workers=True,
+            pure=False,
+        )
+        for address in workers
+    }
+    news = [_PREPARING]
+    began = time.monotonic()
+    while any(tasks[address].status == "pending" for address in first) and not job.stop():
+        if news and time.monotonic() - began > _SOON:
+            job.note(news.pop())
         _demand_connection(client, time.monotonic())
         time.sleep(_LISTEN)
 
 
-def _computed(client: Client, points: Sequence[Point], keep_result: bool, stop: Stop) -> Finished:
-    """Yield points as they finish; what is still to be done when ``stop`` says so is called off."""
+def _computed(client: Client, job: Job) -> Finished:
+    """Yield points as they finish; what is still to be done when the job stops is called off."""
+    _prepare(client, job)
     run, own = uuid.uuid4().hex[:8], version("tribodyn")
     waiting: dict[str, tuple[Point, Future[Any]]] = {}
     done: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-    for point in points:
+    for point in job.points:
         key = f"{point.name}-{run}"
-        future = client.submit(compute, point.toml, own, keep_result, key=key, pure=False)
+        future = client.submit(compute, point.toml, own, job.keep_result, key=key, pure=False)
         waiting[key] = (point, future)
         future.add_done_callback(done.put)
     try:
-        yield from _arriving(client, waiting, done, stop)
+        yield from _arriving(client, waiting, done, job.stop)
     finally:
         with contextlib.suppress(Exception):
             client.cancel([future for _, future in waiting.values()], force=True)
@@ -154,7 +195,7 @@ def _arriving(
     client: Client,
     waiting: dict[str, tuple[Point, Future[Any]]],
     done: queue.SimpleQueue[Future[Any]],
-    stop: Stop,
+    stop: Callable[[], bool],
 ) -> Finished:
     heard = time.monotonic()
     while waiting and not stop():

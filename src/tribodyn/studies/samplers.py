@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from scipy.stats import qmc
 
 from tribodyn.core.arrays import FloatArray
 
@@ -17,6 +16,8 @@ def latin_hypercube(samples: int, dimensions: int, seed: int) -> FloatArray:
 
     McKay, Beckman, Conover, Technometrics 21 (1979) 239.
     """
+    from scipy.stats import qmc
+
     sampler = qmc.LatinHypercube(dimensions, seed=np.random.default_rng(seed))
     return np.asarray(sampler.random(samples))
 
@@ -26,6 +27,8 @@ def sobol(samples: int, dimensions: int, seed: int) -> FloatArray:
 
     Sobol', USSR Comput. Math. Math. Phys. 7 (1967) 86; scrambling: Owen, J. Complexity 14 (1998) 466.
     """
+    from scipy.stats import qmc
+
     sampler = qmc.Sobol(dimensions, scramble=True, seed=np.random.default_rng(seed))
     with warnings.catch_warnings():
         # Any number may be asked for; the manual says why powers of two are best.

@@ -74,6 +74,29 @@ class Means:
     keep_results: bool = True
 
 
+def _nothing(_: object) -> None:
+    """Take no notice."""
+
+
+@dataclass(frozen=True)
+class Watcher:
+    """Who is told how a sweep is going, and may end it.
+
+    Attributes
+    ----------
+    arrived
+        Called at the beginning and after every point.
+    stop
+        Asked several times a second; when true, the sweep ends with the points it has.
+    note
+        Called with a line about the work.
+    """
+
+    arrived: Callable[[Arrival], None] = _nothing
+    stop: Callable[[], bool] = lambda: False
+    note: Callable[[str], None] = _nothing
+
+
 def sweep(
     case: Case | str | Path,
     vary: Mapping[str, Asked],
@@ -129,23 +152,20 @@ def sweep(
     chosen = case if isinstance(case, Case) else load_case(case)
     plan = make_plan(chosen, vary, Sampling(samples, method, seed))
     means = Means(workers, scheduler, retry)
-    return run(plan, None if directory is None else Path(directory), means, progress, stop)
+    watcher = Watcher(progress or _nothing, stop or Watcher.stop)
+    return run(plan, None if directory is None else Path(directory), means, watcher)
 
 
 def run(
-    plan: Plan,
-    directory: Path | None,
-    means: Means = Means(),
-    progress: Callable[[Arrival], None] | None = None,
-    stop: Callable[[], bool] | None = None,
+    plan: Plan, directory: Path | None, means: Means = Means(), watcher: Watcher = Watcher()
 ) -> xr.Dataset:
-    """Compute what is missing of a plan and merge all of it; parameters as for :func:`sweep`."""
+    """Compute what is missing of a plan and merge all of it; returns and raises as :func:`sweep`."""
     if means.workers is not None and means.workers < 0:
         raise InputError(f"given {means.workers}; allowed: 0 or more", key="--workers")
     archive = None if directory is None else Archive(prepare_directory(directory))
     summaries = _kept(plan, archive, means)
     try:
-        _compute(plan, archive, means, summaries, progress or (lambda _: None), stop or (lambda: False))
+        _compute(plan, archive, means, summaries, watcher)
     except InputError:
         raise
     except TribodynError:
@@ -171,31 +191,26 @@ def _compute(
     archive: Archive | None,
     means: Means,
     summaries: dict[str, Numbers],
-    progress: Callable[[Arrival], None],
-    stop: Callable[[], bool],
+    watcher: Watcher,
 ) -> None:
     """Compute the missing points, keep each when it arrives, and add their summaries."""
     # By name: samples may coincide.
     missing = list({point.name: point for point in plan.points if point.name not in summaries}.values())
-    progress(Arrival(0, len(missing)))
+    watcher.arrived(Arrival(0, len(missing)))
     if not missing:
         return
-    for done, (point, outcome) in enumerate(_finished(missing, archive, means, stop), 1):
+    job = runners.Job(missing, means.keep_results and archive is not None, watcher.stop, watcher.note)
+    for done, (point, outcome) in enumerate(_finished(job, means), 1):
         if archive is not None and outcome.final:
             archive.keep(point, outcome)
         summaries[point.name] = outcome.summary
-        progress(Arrival(done, len(missing), point, outcome.failure))
+        watcher.arrived(Arrival(done, len(missing), point, outcome.failure))
 
 
-def _finished(
-    missing: list[Point], archive: Archive | None, means: Means, stop: Callable[[], bool]
-) -> runners.Finished:
-    keep_result = means.keep_results and archive is not None
+def _finished(job: runners.Job, means: Means) -> runners.Finished:
     if means.scheduler is not None:
-        return runners.cluster(missing, keep_result, stop, means.scheduler)
-    if means.workers == 0:
-        return runners.here(missing, keep_result, stop)
-    return runners.local(missing, keep_result, stop, means.workers)
+        return runners.cluster(job, means.scheduler)
+    return runners.here(job) if means.workers == 0 else runners.local(job, means.workers)
 
 
 def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -> xr.Dataset:

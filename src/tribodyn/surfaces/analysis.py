@@ -18,7 +18,7 @@ from tribodyn.surfaces.moments import Moments, moments
 from tribodyn.surfaces.scan import Scan
 
 _POINTS_OF_A_WAVE: Final = 2.0
-_CUTOFFS: Final = 10
+_CUTOFFS: Final = 8
 _LEAST_RANGE: Final = 1.5
 _STEEPEST: Final = 10.0
 _UNRESOLVED: Final = 0.85
@@ -174,7 +174,9 @@ def _measured(level: Scan, treatment: Treatment) -> Roughness:
     heights = surface.heights - np.nanmean(surface.heights)
     surface = surface.with_heights(heights)
     found = moments(surface)
-    skewness, kurtosis = (float(np.nanmean(heights**n)) / found.m0 ** (n / 2.0) for n in (3, 4))
+    squares = heights * heights
+    skewness = float(np.nanmean(squares * heights)) / found.m0**1.5
+    kurtosis = float(np.nanmean(squares * squares)) / found.m0**2
     return Roughness(surface, treatment, skewness, kurtosis, found, asperities(found))
 
 

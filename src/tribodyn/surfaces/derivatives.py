@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
+from scipy.ndimage import correlate1d
 
 from tribodyn.core.arrays import FloatArray
 
@@ -35,7 +36,5 @@ def coarse_curvature(heights: FloatArray, step: float, axis: int = 0) -> FloatAr
 
 
 def _difference(heights: FloatArray, weights: FloatArray, axis: int) -> FloatArray:
-    lines = np.moveaxis(heights, axis, 0)
-    n = lines.shape[0] - 2 * REACH
-    result = sum(weight * lines[k : k + n] for k, weight in enumerate(weights) if weight)
-    return np.asarray(np.moveaxis(np.asarray(result), 0, axis))
+    everywhere = correlate1d(heights, weights, axis=axis, mode="nearest")
+    return np.asarray(everywhere[REACH:-REACH] if axis == 0 else everywhere[:, REACH:-REACH])

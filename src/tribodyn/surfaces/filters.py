@@ -32,9 +32,15 @@ def gaussian(scan: Scan, cutoff: float) -> FloatArray:
     known = ~np.isnan(scan.heights)
     width = _ALPHA * cutoff / math.sqrt(2.0 * math.pi)
     mean = np.where(known, scan.heights, 0.0)
-    share = known.astype(np.float64)
+    # Without holes the share is a product of the shares of the lines, which costs next to nothing.
+    share = np.ones([1] * known.ndim) if known.all() else known.astype(np.float64)
     for axis, step in enumerate(scan.spacing):
-        mean, share = (_convolved(values, width / step, axis) for values in (mean, share))
+        mean = _convolved(mean, width / step, axis)
+        if known.all():
+            line = np.ones([n if k == axis else 1 for k, n in enumerate(known.shape)])
+            share = share * _convolved(line, width / step, axis)
+        else:
+            share = _convolved(share, width / step, axis)
     return np.where(known, mean / np.where(known, share, 1.0), np.nan)
 
 

@@ -168,3 +168,9 @@ def test_wrong_options_end_with_status_2(options: list[str]) -> None:
     with pytest.raises(SystemExit) as caught:
         main(["sweep", "vsv", *vary, *options])
     assert caught.value.code == 2
+
+
+def test_warnings_of_points_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,45 um", "--quiet"]) == 0
+    assert "warning of 1 of 2 points" in (err := capsys.readouterr().err)
+    assert err.endswith(": odd\n")

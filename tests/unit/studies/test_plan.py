@@ -4,6 +4,7 @@ import pytest
 
 import tribodyn.studies.plan
 from tribodyn.cases import load_case, parse_case
+from tribodyn.contact import LAWS
 from tribodyn.core.errors import InputError
 from tribodyn.studies import Sampling, make_plan
 
@@ -76,3 +77,8 @@ def test_what_cannot_be_is_refused_before_anything_runs(
     with pytest.raises(InputError, match=said) as caught:
         make_plan(VSV, vary, sampling)
     assert caught.value.key == key
+
+
+def test_every_contact_law_can_be_swept_in_both_formulations() -> None:
+    vary = {"contact.law": ",".join(LAWS), "mechanism.formulation": "exact,paper"}
+    assert len({point.name for point in make_plan(VSV, vary).points}) == 2 * len(LAWS)

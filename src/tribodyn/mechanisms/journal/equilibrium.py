@@ -15,6 +15,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
+from tribodyn.kernels.journal.equations import least_gap
 from tribodyn.kernels.journal.functions import static_residual
 from tribodyn.mechanisms.balance import damped_newton
 from tribodyn.mechanisms.journal.parameters import Journal
@@ -102,7 +103,7 @@ def equilibrium(
         q = damped_newton(
             partial(_residual, data, memory), start[: journal.freedoms], scale, 0.5 * journal.joint.roughness
         )
-        if q is not None:
+        if q is not None and _in_range(data, memory):
             return _described(turning, data, memory, q)
     raise InputError(
         f"no equilibrium was found: {journal.loads.force:.4g} N may be more than this bearing can carry",
@@ -114,6 +115,11 @@ def _residual(data: JournalData, memory: JournalMemory, q: FloatArray) -> tuple[
     residual, jacobian = np.empty(q.size), np.empty((q.size, q.size))
     static_residual(q, data, memory, residual, jacobian)
     return residual, jacobian
+
+
+def _in_range(data: JournalData, memory: JournalMemory) -> bool:
+    """Tell whether the contact law reaches the attitude last looked at; Newton may end where it does not."""
+    return bool(least_gap(data.joint, memory.scratch.state) >= data.deepest)
 
 
 def _starts(journal: Journal) -> list[FloatArray]:

@@ -25,3 +25,8 @@ function openTarget() {
 }
 
 addEventListener("hashchange", openTarget);
+
+// Paper cannot be unfolded.
+addEventListener("beforeprint", () => {
+  for (const folded of document.querySelectorAll("#made details")) folded.open = true;
+});

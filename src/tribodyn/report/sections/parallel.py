@@ -128,9 +128,10 @@ def points_of(dataset: xr.Dataset, folder: Path | None) -> list[Point]:
 
 
 def _link(folder: Path | None, name: str) -> str:
-    """Return the address of a point's report from the folder of the sweep."""
+    """Return the address of a point's report from the folder of the sweep, and from nowhere else."""
     report = Path(POINTS, name, "report.html")
-    return quote(report.as_posix()) if folder and (folder / report).is_file() else ""
+    inside = Path(name).name == name and folder is not None and (folder / report).is_file()
+    return quote(report.as_posix()) if inside else ""
 
 
 def at_first(axes: list[Axis]) -> list[str]:

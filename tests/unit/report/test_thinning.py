@@ -1,0 +1,38 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tribodyn.report.thinning import thinned
+
+
+@given(
+    y=st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400),
+    most=st.integers(5, 60),
+)
+def test_peaks_ends_and_order_are_kept(y, most):
+    values, x = np.array(y), np.arange(len(y), dtype=float)
+    few_x, few_y = thinned(x, values, most)
+    assert few_x.size <= most
+    assert np.all(np.diff(few_x) > 0.0)
+    assert (few_x[0], few_x[-1]) == (x[0], x[-1])
+    if np.isfinite(values).any():
+        assert (np.nanmin(few_y), np.nanmax(few_y)) == (np.nanmin(values), np.nanmax(values))
+    assert np.isnan(few_y).any() == np.isnan(values).any()
+
+
+def test_a_short_curve_is_left_as_it_is():
+    x = np.linspace(0.0, 1.0, 100)
+    assert thinned(x, x**2)[0] is x
+
+
+def test_every_peak_of_a_fine_signal_is_there():
+    x = np.arange(100_000.0)
+    y = np.zeros_like(x)
+    spikes = np.arange(500, 100_000, 5000)
+    y[spikes] = 1.0 + np.arange(spikes.size)
+    few_x, few_y = thinned(x, y, 500)
+    assert few_x.size <= 500
+    assert few_y[np.isin(few_x, spikes)] == pytest.approx(y[spikes])

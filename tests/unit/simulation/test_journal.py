@@ -1,0 +1,135 @@
+"""Results of journal cases: what they hold, and what ends early."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import tribodyn as td
+from tribodyn.results import VARIABLES, read, summarise, write_run
+
+SHORT = {"run.duration": "0.4 ms", "run.output_interval": "2 us"}
+
+
+def simulate(name: str, **changes: object) -> xr.Dataset:
+    return td.simulate(td.load_case(name).replace({**SHORT, **changes}))
+
+
+@pytest.fixture(scope="module")
+def dry() -> xr.Dataset:
+    return simulate("journal-dry")
+
+
+@pytest.fixture(scope="module")
+def oil() -> xr.Dataset:
+    return simulate("journal-oil")
+
+
+def test_both_laws_stand_side_by_side(dry: xr.Dataset) -> None:
+    assert list(dry["law"].values) == ["rsdc", "ke"]
+    assert dry["e_x"].dims == ("law", "time")
+    assert dry["rebounds"].dims == ("law",)
+    assert dry.sizes["time"] == 201
+    assert dry["time"].values[-1] == pytest.approx(0.4e-3)
+    assert dry.attrs["kind"] == "journal"
+    # Until contact the laws are the same.
+    free = dry["time"].values < 0.15e-3
+    assert dry["e_x"].values[0, free] == pytest.approx(dry["e_x"].values[1, free], rel=1e-6)
+    assert float((dry["F_dx"].sel(law="ke") ** 2).sum()) == 0.0
+    assert float((dry["F_dx"].sel(law="rsdc") ** 2).sum()) > 0.0
+
+
+def test_film_variables_are_there_with_oil_only(dry: xr.Dataset, oil: xr.Dataset) -> None:
+    film = {"F_ox", "F_oy", "M_ox", "M_oy", "M_of", "energy_film", "film_force_peak"}
+    assert not film & set(dry.variables)
+    assert film <= set(oil.variables)
+    assert set(oil.variables) <= set(VARIABLES)
+
+
+def test_one_law_alone_still_runs_over_law() -> None:
+    alone = simulate("journal-dry", **{"contact.law": "ke", "contact.second_law": "none"})
+    assert alone["e_x"].shape == (1, 201)
+    assert {name for name in summarise(alone) if name.startswith("rebounds")} == {"rebounds_ke"}
+
+
+def test_a_run_alone_is_the_run_side_by_side(dry: xr.Dataset) -> None:
+    alone = simulate("journal-dry", **{"contact.law": "ke", "contact.second_law": "none"})
+    assert np.array_equal(alone["e_x"].values[0], dry["e_x"].values[1])
+
+
+def test_headline_numbers_name_the_law(dry: xr.Dataset, oil: xr.Dataset) -> None:
+    summary: Any = summarise(dry)
+    assert summary["contact_force_max_ke_N"] > summary["contact_force_max_rsdc_N"] > 4000.0
+    assert isinstance(summary["rebounds_ke"], int)
+    assert summary["contact_start_ke_ms"] == pytest.approx(0.175, abs=0.003)
+    assert "film_force_max_ke_N" not in summary
+    assert "contact_force_max_N" not in summary
+    assert summarise(oil)["film_force_max_ke_N"] == pytest.approx(223.6, rel=0.01)  # the whole load
+
+
+def test_a_result_survives_the_disk(oil: xr.Dataset, tmp_path: Path) -> None:
+    write_run(oil, tmp_path)
+    again = read(tmp_path)
+    assert summarise(again) == summarise(oil)
+    assert list(again["law"].values) == ["rsdc", "ke"]
+    assert td.load_case(tmp_path / "case.toml").to_toml() == oil.attrs["case"]
+
+
+def test_the_same_case_gives_the_same_numbers(oil: xr.Dataset) -> None:
+    again = simulate("journal-oil")
+    assert all(np.array_equal(again[name], oil[name], equal_nan=True) for name in ("e_x", "F_ox", "rebounds"))
+
+
+def test_an_interrupted_run_keeps_what_it_has() -> None:
+    case = td.load_case("journal-dry").replace({**SHORT, "solver.name": "radau"})
+    stopped = td.simulate(case, stop=lambda: True)
+    assert stopped.attrs["failure"] == "interrupted"
+    assert list(stopped["law"].values) == ["rsdc"]
+    assert stopped.attrs["time_reached"] == 0.0  # of the law that was not begun
+    assert stopped.sizes["time"] >= 1
+    summary: Any = summarise(stopped)
+    assert summary["status"] == "failed"
+
+
+def test_an_interrupted_second_law_stands_beside_the_whole_first() -> None:
+    case = td.load_case("journal-dry").replace({**SHORT, "solver.name": "radau"})
+    reached = [0.0]
+    # Progress runs over both laws: beyond the half it is the second one's.
+    stopped = td.simulate(case, progress=reached.append, stop=lambda: reached[-1] > 0.22e-3)
+    assert stopped.attrs["failure"] == "interrupted"
+    assert list(stopped["law"].values) == ["rsdc", "ke"]
+    assert np.isfinite(stopped["e_x"].sel(law="rsdc")).all()
+    assert 0.0 < stopped.attrs["time_reached"] < case.duration
+    assert np.isfinite(stopped["e_x"].sel(law="ke").values[0])
+    assert np.isnan(stopped["e_x"].sel(law="ke").values[-1])
+
+
+def test_progress_counts_both_laws_as_one_run() -> None:
+    seen: list[float] = []
+    td.simulate(td.load_case("journal-dry").replace(SHORT), progress=seen.append)
+    assert all(np.diff(seen) >= 0.0)
+    assert seen[-1] == pytest.approx(0.4e-3)
+
+
+def test_a_start_in_equilibrium_stays_there() -> None:
+    still = simulate("journal-dry", **{"run.start": "equilibrium"})
+    assert float(np.ptp(still["e_x"].values)) < 1e-10
+    summary: Any = summarise(still)
+    assert summary["settling_time_rsdc_ms"] == 0.0
+
+
+def test_a_turning_journal_reports_its_friction() -> None:
+    changes = {"journal.speed": "300 rad/s", "joint.friction_coefficient": 0.1, "run.start": "equilibrium"}
+    summary: Any = summarise(simulate("journal-oil", **changes))
+    assert 0.005 < summary["friction_coefficient_rsdc"] < 0.01
+
+
+def test_a_tilting_journal_tilts() -> None:
+    changes = {"journal.tilt": True, "loads.moment_x": "0.2 N m"}
+    tilted = simulate("journal-dry", **changes)
+    assert float(tilted["phi_x"].max()) > 1e-5
+    assert float(abs(simulate("journal-dry")["phi_x"]).max()) == 0.0
