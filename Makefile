@@ -51,6 +51,7 @@ docs: $(VENV)/.docs
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.work_precision
+	$(BIN)/python -m benchmarks
 
 lock:
 	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --extra all pyproject.toml -o requirements.lock

@@ -48,12 +48,20 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     damping, damping_rise = _values_and_rises(law.damping_pressure(h_star))
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
     smoothed_rise = share * damping_rise + step * share_slope * damping
-    nodes = np.ascontiguousarray(np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise]))
-    energy = energy_from_above(pressure, pressure_rise, step)
-    table = ContactTable(H_FIRST, H_LAST, 1.0 / step, nodes, energy)
+    nodes = np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise])
+    table = table_of_nodes(H_FIRST, step, nodes)
     if law.damping_factor == "calibrated":
         nodes[:, 2:] *= _scale(law, table, onset)
+        table = table_of_nodes(H_FIRST, step, nodes)
     return table
+
+
+def table_of_nodes(first: float, step: float, nodes: FloatArray) -> ContactTable:
+    """Return the table with the given node values and rises, shape (n + 1, 4); see :class:`ContactTable`."""
+    energy = _energy_from_above(nodes[:, 0], nodes[:, 1], step)
+    cubics = np.hstack([_power_form(*nodes[:, :2].T), _power_form(*nodes[:, 2:].T)]).reshape(-1)
+    last = first + step * (len(nodes) - 1)
+    return ContactTable(first, last, 1.0 / step, np.array(nodes, order="C"), energy, cubics)
 
 
 def _scale(law: ContactLaw, table: ContactTable, onset: float) -> float:
@@ -87,7 +95,16 @@ def _values_and_rises(values: FloatArray) -> tuple[FloatArray, FloatArray]:
     return values[beyond:-beyond], np.correlate(values, _CENTRAL_DIFFERENCE, mode="valid")
 
 
-def energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> FloatArray:
+def _energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> FloatArray:
     """Return the integral of the Hermite interpolant from each node to the last, shape (n + 1,) [Pa]."""
     interval = step * (0.5 * (pressure[:-1] + pressure[1:]) + (rise[:-1] - rise[1:]) / 12.0)
     return np.append(np.cumsum(interval[::-1])[::-1], 0.0)
+
+
+def _power_form(values: FloatArray, rises: FloatArray) -> FloatArray:
+    """Return the Hermite cubics by their coefficients, what lies below and above included, (n + 2, 4)."""
+    rise = np.diff(values)
+    third = rises[:-1] + rises[1:] - 2.0 * rise
+    inside = np.column_stack([values[:-1], rises[:-1], rise - rises[:-1] - third, third])
+    below = [values[0] - rises[0], rises[0], 0.0, 0.0]
+    return np.vstack([below, inside, np.zeros(4)])

@@ -24,6 +24,11 @@ class ContactTable(NamedTuple):
     energy
         Stored energy per area divided by σ, W_k(h*) = ∫_h*^h_last P_k dh*, shape (n + 1,) [Pa]: the exact
         integral of the interpolated P_k.
+    cubics
+        The polynomials as kernels evaluate them: eight coefficients [Pa] for each interval, P_k and then C
+        in rising powers of the distance from its lower node in steps, shape (8 (n + 2),). The first eight
+        continue below the table linearly, in the distance from one step below the first node; the last
+        eight are zero and stand for everything above.
     """
 
     h_first: float
@@ -31,3 +36,4 @@ class ContactTable(NamedTuple):
     inverse_step: float
     nodes: FloatArray
     energy: FloatArray
+    cubics: FloatArray

@@ -13,6 +13,7 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
+from tribodyn.kernels.bushing.nodes import N_WORK
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -172,6 +173,9 @@ class BushingJoint:
             z=self.z,
             area=self.node_area,
             wear=depth,
+            work=np.zeros(N_WORK),
+            pieces=np.zeros((2 * self.field_shape[0] + 3, 3), dtype=np.int64),
+            cursor=np.zeros(2, dtype=np.int64),
         )
 
     def no_memory(self) -> FloatArray:

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.special import lambertw
 
 from tribodyn.contact.base import ContactLaw
-from tribodyn.contact.table import energy_from_above, tabulate
+from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
@@ -126,9 +126,8 @@ def point_table(name: str, law: ContactLaw, cylinders: Cylinders) -> ContactTabl
     step = cylinders.clearance / (sigma * INTERVALS)
     force, rise = 0.5 * force, -0.5 * slope * sigma * step
     ratio = point_damping(law)
-    nodes = np.ascontiguousarray(np.column_stack([force, rise, ratio * force, ratio * rise]))
-    energy = energy_from_above(force, rise, step)
-    return ContactTable(-cylinders.clearance / sigma, 0.0, 1.0 / step, nodes, energy)
+    nodes = np.column_stack([force, rise, ratio * force, ratio * rise])
+    return table_of_nodes(-cylinders.clearance / sigma, step, nodes)
 
 
 def point_damping(law: ContactLaw) -> float:

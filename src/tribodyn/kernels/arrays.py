@@ -19,11 +19,3 @@ def clear(target: FloatArray) -> None:
     for i in range(target.shape[0]):
         for j in range(target.shape[1]):
             target[i, j] = 0.0
-
-
-@kernel
-def add_scaled(factor: float, source: FloatArray, target: FloatArray) -> None:
-    """Add ``factor`` times ``source`` to ``target``; both two-dimensional."""
-    for i in range(source.shape[0]):
-        for j in range(source.shape[1]):
-            target[i, j] += factor * source[i, j]

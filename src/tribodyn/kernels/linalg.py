@@ -7,7 +7,7 @@ from tribodyn.kernels.jit import kernel
 
 
 @kernel
-def solve_in_place(matrix: FloatArray, rhs: FloatArray) -> None:
+def solve_in_place(matrix: FloatArray, rhs: FloatArray, first: int, last: int) -> None:
     """Solve ``matrix x = rhs`` by Gaussian elimination with partial pivoting.
 
     Parameters
@@ -15,10 +15,11 @@ def solve_in_place(matrix: FloatArray, rhs: FloatArray) -> None:
     matrix
         Square matrix, shape (n, n); destroyed.
     rhs
-        Right-hand sides as columns, shape (n, m); replaced by the solution.
+        Right-hand sides as columns, shape (n, m).
+    first, last
+        Those from column ``first`` up to, not including, ``last`` are replaced by the solution.
     """
     n = matrix.shape[0]
-    m = rhs.shape[1]
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
@@ -27,7 +28,7 @@ def solve_in_place(matrix: FloatArray, rhs: FloatArray) -> None:
         if pivot != k:
             for j in range(k, n):
                 matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-            for j in range(m):
+            for j in range(first, last):
                 rhs[k, j], rhs[pivot, j] = rhs[pivot, j], rhs[k, j]
         inverse = 1.0 / matrix[k, k]
         for i in range(k + 1, n):
@@ -35,11 +36,11 @@ def solve_in_place(matrix: FloatArray, rhs: FloatArray) -> None:
             if factor != 0.0:
                 for j in range(k + 1, n):
                     matrix[i, j] -= factor * matrix[k, j]
-                for j in range(m):
+                for j in range(first, last):
                     rhs[i, j] -= factor * rhs[k, j]
     for k in range(n - 1, -1, -1):
         inverse = 1.0 / matrix[k, k]
-        for j in range(m):
+        for j in range(first, last):
             total = rhs[k, j]
             for i in range(k + 1, n):
                 total -= matrix[k, i] * rhs[i, j]

@@ -1,13 +1,65 @@
 """Contact pressure, its derivative and its stored energy from a :class:`ContactTable`.
 
 Above the table everything is zero; below it the laws go on linearly with the value and slope of the first
-node. A separation that is not a number gives results that are not numbers.
+node. A separation that is not a number gives results that are not numbers. There are no branches: loops over
+nodes are to take four at once.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 from tribodyn.kernels.jit import inlined, kernel
+
+
+@inlined
+def interval(position: float, last: float) -> tuple[float, float]:
+    """Return the number of the interval and the distance from its lower node in steps.
+
+    Parameters
+    ----------
+    position
+        Steps from one step below the first node of the table.
+    last
+        Number of the interval above the table; see ``ContactTable.cubics``.
+    """
+    inside = position if position > 0.0 else 0.0  # not max(): NaN must not become an index
+    inside = inside if inside < last else last
+    number = np.floor(inside)
+    return number, position - number
+
+
+@inlined
+def offset(number: float) -> Any:
+    """Return where the coefficients of an interval begin, unsigned: no index is taken from the end."""
+    first: Any = np.uint64(8) * np.uint64(np.int32(number))
+    return first
+
+
+@inlined
+def cubic(cubics: FloatArray, first: Any, x: float) -> float:
+    """Return the polynomial with the four coefficients from ``first`` on at ``x``."""
+    c_1, c_2, c_3 = cubics[first + np.uint64(1)], cubics[first + np.uint64(2)], cubics[first + np.uint64(3)]
+    value: float = cubics[first] + x * (c_1 + x * (c_2 + x * c_3))
+    return value
+
+
+@inlined
+def cubic_slope(cubics: FloatArray, first: Any, x: float) -> float:
+    """Return the derivative of :func:`cubic` in ``x``."""
+    c_1, c_2, c_3 = cubics[first + np.uint64(1)], cubics[first + np.uint64(2)], cubics[first + np.uint64(3)]
+    slope: float = c_1 + x * (2.0 * c_2 + 3.0 * x * c_3)
+    return slope
+
+
+@inlined
+def last_interval(table: ContactTable) -> float:
+    """Return the number of the interval above the table."""
+    return float(table.nodes.shape[0])
 
 
 @inlined
@@ -16,29 +68,15 @@ def pressure_and_damping(table: ContactTable, h_star: float) -> tuple[float, flo
 
     The derivatives are those of the interpolant, exactly.
     """
-    if h_star >= table.h_last:
-        return 0.0, 0.0, 0.0, 0.0
-    nodes = table.nodes
-    x = (h_star - table.h_first) * table.inverse_step
-    if not x >= 0.0:  # also catches NaN, which must not become an index
-        dp, dc = nodes[0, 1], nodes[0, 3]
-        return (
-            nodes[0, 0] + dp * x,
-            dp * table.inverse_step,
-            nodes[0, 2] + dc * x,
-            dc * table.inverse_step,
-        )
-    i = min(int(x), nodes.shape[0] - 2)  # rounding may put x on the last node
-    x -= i
-    p_rise, c_rise = nodes[i + 1, 0] - nodes[i, 0], nodes[i + 1, 2] - nodes[i, 2]
-    p_1, c_1 = nodes[i, 1], nodes[i, 3]
-    p_3, c_3 = p_1 + nodes[i + 1, 1] - 2.0 * p_rise, c_1 + nodes[i + 1, 3] - 2.0 * c_rise
-    p_2, c_2 = p_rise - p_1 - p_3, c_rise - c_1 - c_3
+    position = (h_star - table.h_first) * table.inverse_step + 1.0
+    number, x = interval(position, last_interval(table))
+    first = offset(number)
+    damping = first + np.uint64(4)
     return (
-        nodes[i, 0] + x * (p_1 + x * (p_2 + x * p_3)),
-        table.inverse_step * (p_1 + x * (2.0 * p_2 + 3.0 * x * p_3)),
-        nodes[i, 2] + x * (c_1 + x * (c_2 + x * c_3)),
-        table.inverse_step * (c_1 + x * (2.0 * c_2 + 3.0 * x * c_3)),
+        cubic(table.cubics, first, x),
+        table.inverse_step * cubic_slope(table.cubics, first, x),
+        cubic(table.cubics, damping, x),
+        table.inverse_step * cubic_slope(table.cubics, damping, x),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.tables import ContactTable
 
 
@@ -47,6 +47,9 @@ class BushingData(NamedTuple):
         Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges.
     wear
         Wear depth at the nodes [m], shape (n_z + 2, n_theta).
+    work, pieces, cursor
+        Scratch of the kernels: a list of nodes, where they come from, and how far it has been filled (row of
+        nodes, nodes of that row). Nothing is carried from one call of a kernel to the next.
     """
 
     clearance: float
@@ -66,3 +69,6 @@ class BushingData(NamedTuple):
     z: FloatArray
     area: FloatArray
     wear: FloatArray
+    work: FloatArray
+    pieces: IntArray
+    cursor: IntArray

@@ -11,10 +11,10 @@ from tribodyn.kernels.bushing import memory, point
 from tribodyn.kernels.bushing import report as surface_report
 from tribodyn.kernels.bushing import wrench as surface
 from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined
 
 
-@kernel
+@inlined
 def wrench(
     joint: BushingData,
     entry_velocity: FloatArray,
@@ -30,7 +30,7 @@ def wrench(
         surface.wrench(joint, entry_velocity, y, omega, sign, out)
 
 
-@kernel
+@inlined
 def wrench_and_jacobian(
     joint: BushingData,
     entry_velocity: FloatArray,
@@ -48,7 +48,7 @@ def wrench_and_jacobian(
         surface.wrench_and_jacobian(joint, entry_velocity, y, omega, sign, out, jacobian, gradient)
 
 
-@kernel
+@inlined
 def report(
     joint: BushingData,
     entry_velocity: FloatArray,
@@ -65,7 +65,7 @@ def report(
         surface_report.report(joint, entry_velocity, y, omega, sign, with_energy, out)
 
 
-@kernel
+@inlined
 def pressure_field(
     joint: BushingData, entry_velocity: FloatArray, y: FloatArray, pressure: FloatArray
 ) -> None:
@@ -76,7 +76,28 @@ def pressure_field(
         memory.pressure_field(joint, entry_velocity, y, pressure)
 
 
-@kernel
+@inlined
+def report_and_slide(
+    joint: BushingData,
+    entry_velocity: FloatArray,
+    y: FloatArray,
+    omega: float,
+    sign: float,
+    with_energy: bool,
+    out: FloatArray,
+    distance: float,
+    load: FloatArray,
+) -> None:
+    """As :func:`report`, and add pressure times ``distance`` [m] to ``load`` [N/m]; nothing at a point."""
+    if joint.point > 0.0:
+        point.report(joint, entry_velocity, y, omega, sign, with_energy, out)
+    else:
+        surface_report.report_and_slide(
+            joint, entry_velocity, y, omega, sign, with_energy, out, distance, load
+        )
+
+
+@inlined
 def update_entry_velocity(
     joint: BushingData, y: FloatArray, entry_velocity: FloatArray, at_start: float
 ) -> None:

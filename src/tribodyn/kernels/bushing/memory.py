@@ -1,16 +1,18 @@
-"""The memory of the bushing: entry velocities and sliding loads, changed at accepted steps only."""
+"""The memory of the bushing: entry velocities, changed at accepted steps only; and the pressure field."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.nodes import row_motion
 from tribodyn.kernels.bushing.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.bushing.window import contact_window
-from tribodyn.kernels.bushing.wrench import row_motion
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 
 
 @kernel
@@ -18,30 +20,54 @@ def pressure_field(
     joint: BushingData, entry_velocity: FloatArray, y: FloatArray, pressure: FloatArray
 ) -> None:
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa] at all nodes."""
+    clear(pressure)
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
-    clear(pressure)
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
-        i = first % n_theta - 1
-        for _ in range(count):
-            i = i + 1 if i + 1 < n_theta else 0
-            c = joint.cos_theta[i]
-            s = joint.sin_theta[i]
-            gap = joint.clearance + a * c + b * s + joint.wear[j, i]
-            if gap < limit:
-                _, p, _, _ = node_pressure(
-                    joint.table,
-                    joint.roughness,
-                    joint.minimum_entry_velocity,
-                    joint.clip,
-                    gap,
-                    -(v_a * c + v_b * s),
-                    entry_velocity[j, i],
-                )
-                pressure[j, i] = p
+        for k in range(count):
+            i = first + k if first + k < n_theta else first + k - n_theta
+            c, s = joint.cos_theta[i], joint.sin_theta[i]
+            _, pressure[j, i], _, _ = node_pressure(
+                joint.table,
+                joint.roughness,
+                joint.minimum_entry_velocity,
+                joint.clip,
+                joint.clearance + a * c + b * s + joint.wear[j, i],
+                -(v_a * c + v_b * s),
+                entry_velocity[j, i],
+            )
+
+
+@inlined
+def _update(
+    joint: BushingData,
+    row: int,
+    first: int,
+    until: int,
+    motion: tuple[float, float, float, float],
+    entry_velocity: FloatArray,
+) -> None:
+    """Update nodes ``first`` to ``until`` of a row with the given offset and velocity."""
+    a, b, v_a, v_b = motion
+    cos, sin, wear = joint.cos_theta, joint.sin_theta, joint.wear
+    onset = joint.onset * joint.roughness
+    j = np.uint64(row)
+    for i in range(np.uint64(first), np.uint64(until)):
+        c, s = cos[i], sin[i]
+        gap = joint.clearance + a * c + b * s + wear[j, i]
+        known = reference_velocity(entry_velocity[j, i], v_a * c + v_b * s, joint.minimum_entry_velocity)
+        entry_velocity[j, i] = 0.0 if gap >= onset else known
+
+
+@inlined
+def _forget(row: int, first: int, until: int, entry_velocity: FloatArray) -> None:
+    """Clear nodes ``first`` to ``until`` of a row."""
+    j = np.uint64(row)
+    for i in range(np.uint64(first), np.uint64(until)):
+        entry_velocity[j, i] = 0.0
 
 
 @kernel
@@ -67,23 +93,14 @@ def update_entry_velocity(
     onset = joint.onset * joint.roughness
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     n_theta = joint.cos_theta.size
+    heed = 0.0 if at_start > 0.0 else 1.0
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, onset, n_theta)
-        i = first % n_theta - 1
-        for _ in range(count):
-            i = i + 1 if i + 1 < n_theta else 0
-            c = joint.cos_theta[i]
-            s = joint.sin_theta[i]
-            gap = joint.clearance + a * c + b * s + joint.wear[j, i]
-            if gap >= onset:
-                entry_velocity[j, i] = 0.0
-            elif entry_velocity[j, i] == 0.0:
-                if at_start > 0.0:
-                    entry_velocity[j, i] = joint.minimum_entry_velocity
-                else:
-                    approach = -(v_a * c + v_b * s)
-                    entry_velocity[j, i] = reference_velocity(0.0, approach, joint.minimum_entry_velocity)
-        for _ in range(count, n_theta):
-            i = i + 1 if i + 1 < n_theta else 0
-            entry_velocity[j, i] = 0.0
+        motion = (a, b, heed * v_a, heed * v_b)
+        until = min(first + count, n_theta)
+        again = first + count - until
+        _update(joint, j, first, until, motion, entry_velocity)
+        _update(joint, j, 0, again, motion, entry_velocity)
+        _forget(j, again, first, entry_velocity)
+        _forget(j, until, n_theta, entry_velocity)

@@ -16,6 +16,7 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.nodes import row_motion
 from tribodyn.kernels.bushing.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.bushing.report import (
     CLIPPED,
@@ -36,7 +37,7 @@ from tribodyn.kernels.bushing.report import (
     SEPARATION_MIN,
     STORED,
 )
-from tribodyn.kernels.bushing.wrench import friction_ratio, row_motion
+from tribodyn.kernels.bushing.wrench import friction_ratio
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.lookup import stored_energy
 

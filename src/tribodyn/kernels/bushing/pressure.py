@@ -1,4 +1,7 @@
-"""Pressure at one node of the bushing, Eqs. 1 and 10 with the memory of entry velocities."""
+"""Pressure at one node of the bushing, Eqs. 1 and 10 with the memory of entry velocities.
+
+Without branches, as the look-up: loops over nodes are to take four at once.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,15 @@ from tribodyn.kernels.lookup import pressure_and_damping
 @inlined
 def reference_velocity(entry_velocity: float, approach: float, minimum: float) -> float:
     """Return δ̇₋ [m/s]: the remembered entry velocity, or max(|δ̇|, v_min) where there is none yet."""
-    if entry_velocity > 0.0:
-        return entry_velocity
-    return max(abs(approach), minimum)
+    fresh = max(abs(approach), minimum)
+    return entry_velocity if entry_velocity > 0.0 else fresh
+
+
+@inlined
+def total_pressure(rigid: float, damping: float, ratio: float, clip: float) -> float:
+    """Return P_c [Pa] from P_k, C and δ̇/δ̇₋, kept from becoming tensile if ``clip`` is 1."""
+    total = rigid + damping * ratio
+    return 0.0 if clip > 0.0 and total <= 0.0 else total  # this way round for NaN
 
 
 @inlined
@@ -56,16 +65,15 @@ def node_pressure(
         ∂P_c/∂δ̇ [Pa s/m].
     """
     rigid, d_rigid, damping, d_damping = pressure_and_damping(table, gap / roughness)
-    if damping == 0.0:  # above the onset, and everywhere in a law without damping
-        return rigid, rigid, d_rigid / roughness, 0.0
     reference = reference_velocity(entry_velocity, approach, minimum_entry_velocity)
     ratio = approach / reference
-    total = rigid + damping * ratio
-    if clip > 0.0 and total <= 0.0:
-        return rigid, 0.0, 0.0, 0.0
-    d_gap = (d_rigid + d_damping * ratio) / roughness
-    if entry_velocity > 0.0 or abs(approach) < minimum_entry_velocity:
-        d_approach = damping / reference
-    else:
-        d_approach = 0.0
-    return rigid, total, d_gap, d_approach
+    total = total_pressure(rigid, damping, ratio, clip)
+    whole = 0.0 if clip > 0.0 and total == 0.0 else 1.0
+    # Without memory and faster than the least velocity, the ratio is ±1 whatever the speed.
+    follows = 1.0 if entry_velocity > 0.0 or abs(approach) < minimum_entry_velocity else 0.0
+    return (
+        rigid,
+        total,
+        whole * (d_rigid + d_damping * ratio) / roughness,
+        whole * follows * damping / reference,
+    )

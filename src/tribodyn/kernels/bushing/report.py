@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.bushing import nodes
 from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.pressure import node_pressure
-from tribodyn.kernels.bushing.window import contact_window
-from tribodyn.kernels.bushing.wrench import friction_ratio, row_motion
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.bushing.nodes import gather, look_up, rewind, row_motion
+from tribodyn.kernels.bushing.pressure import reference_velocity, total_pressure
+from tribodyn.kernels.bushing.wrench import friction_law, ratio_at
+from tribodyn.kernels.extremes import larger, smaller
+from tribodyn.kernels.jit import inlined, kernel, summing
 from tribodyn.kernels.lookup import stored_energy
 
 F_CX, F_CY, M_JCX, M_JCY = 0, 1, 2, 3
@@ -41,79 +43,143 @@ def report(
 
     The stored energy takes a look-up of its own at every node and is left at zero unless ``with_energy``.
     """
-    n_theta = joint.cos_theta.size
-    limit = joint.table.h_last * joint.roughness
-    onset = joint.onset * joint.roughness
-    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    report_and_slide(joint, entry_velocity, y, omega, sign, with_energy, out, 0.0, joint.wear)
+
+
+@kernel
+def report_and_slide(
+    joint: BushingData,
+    entry_velocity: FloatArray,
+    y: FloatArray,
+    omega: float,
+    sign: float,
+    with_energy: bool,
+    out: FloatArray,
+    distance: float,
+    load: FloatArray,
+) -> None:
+    """As :func:`report`, and add P_c times ``distance`` [m] to the sliding load (n_z + 2, n_theta) [N/m]."""
     for k in range(N_REPORT):
         out[k] = 0.0
-    out[SEPARATION_MIN] = 1.0e30
-    contact_area = clipped_area = 0.0
+    out[SEPARATION_MIN] = math.inf
+    rewind(joint)
+    n = gather(joint, entry_velocity, y, omega, True)
+    while n > 0:
+        look_up(joint, n)
+        _add_nodes(joint, omega, sign, n, out)
+        if with_energy:
+            out[STORED] += _stored(joint, n)
+        if distance != 0.0:
+            _slide(joint, distance, load)
+        n = gather(joint, entry_velocity, y, omega, True)
+    nearest = out[SEPARATION_MIN]
+    out[SEPARATION_MIN] = _separation(joint, nearest) if nearest < math.inf else _far_separation(joint, y)
+    contact, total = out[CONTACT_FRACTION], joint.cos_theta.size * joint.area.sum()
+    out[CONTACT_FRACTION] = contact / total
+    if contact > 0.0:
+        out[CLIPPED] /= contact
+
+
+@inlined
+def listed_cubic(work: FloatArray, first: int, k: int, x: float) -> float:
+    """Return the polynomial of node ``k`` with coefficients in four columns from ``first`` on at ``x``."""
+    c_0, c_1 = work[first + k], work[first + nodes.PITCH + k]
+    c_2, c_3 = work[first + 2 * nodes.PITCH + k], work[first + 3 * nodes.PITCH + k]
+    value: float = c_0 + x * (c_1 + x * (c_2 + x * c_3))
+    return value
+
+
+@summing
+def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: FloatArray) -> None:
+    """Add the sums over the ``n`` nodes in the list to ``out``; separations are places in the table."""
+    work = joint.work
+    law = friction_law(joint, sign)
+    v_min, clip = joint.minimum_entry_velocity, joint.clip
+    tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
+    onset = (joint.onset - joint.table.h_first) * joint.table.inverse_step + 1.0
+    f_cx = f_cy = m_cx = m_cy = f_kx = f_ky = f_fx = f_fy = m_fx = m_fy = 0.0
+    torque = heat = power = contact = clipped = 0.0
+    highest, nearest = out[P_MAX], out[SEPARATION_MIN]
+    for k in range(min(n, nodes.PART)):
+        number, x = work[nodes.INTERVAL + k], work[nodes.FRACTION + k]
+        approach, slip = work[nodes.APPROACH + k], work[nodes.SLIP + k]
+        c, s = work[nodes.COS + k], work[nodes.SIN + k]
+        area, moment = work[nodes.AREA + k], work[nodes.MOMENT + k]
+        reference = reference_velocity(work[nodes.ENTRY + k], approach, v_min)
+        rigid, damping = (
+            listed_cubic(work, nodes.CUBICS, k, x),
+            listed_cubic(work, nodes.CUBICS + 4 * nodes.PITCH, k, x),
+        )
+        p = total_pressure(rigid, damping, approach / reference, clip)
+        ratio, _ = ratio_at(law, slip)
+        tau = ratio * p
+        work[nodes.PRESSURE + k] = p
+        highest = larger(highest, p)
+        nearest = smaller(nearest, number + x)
+        p_c, p_s = p * c, p * s
+        tau_c, tau_s = tangential * tau * c, tangential * tau * s
+        f_cx += area * p_c
+        f_cy += area * p_s
+        m_cx -= moment * p_s
+        m_cy -= moment * p_c
+        f_kx += area * rigid * c
+        f_ky += area * rigid * s
+        f_fx += area * tau_s
+        f_fy -= area * tau_c
+        m_fx += moment * tau_c
+        m_fy -= moment * tau_s
+        torque += area * tau
+        heat += area * (p - rigid) * approach
+        power += area * tau * (tangential * slip + turning)
+        touching = area if number + x < onset else 0.0
+        contact += touching
+        clipped += touching if p <= 0.0 else 0.0
+    sums = (f_cx, f_cy, m_cx, m_cy, f_kx, f_ky, f_fx, f_fy, m_fx, m_fy)
+    for i in range(10):
+        out[i] += sums[i]
+    out[P_MAX], out[SEPARATION_MIN] = highest, nearest
+    out[M_JF] += joint.journal_radius * torque
+    out[HEAT_DAMPING] += heat
+    out[POWER_FRICTION] += power
+    out[CONTACT_FRACTION] += contact
+    out[CLIPPED] += clipped
+
+
+@kernel
+def _separation(joint: BushingData, place: float) -> float:
+    """Return the gap [m] that belongs to a place in the contact table."""
+    table = joint.table
+    return joint.roughness * (table.h_first + (place - 1.0) / table.inverse_step)
+
+
+@kernel
+def _far_separation(joint: BushingData, y: FloatArray) -> float:
+    """Return the least unworn gap [m] of a trunnion out of reach of contact."""
+    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    farthest = 0.0
     for j in range(joint.z.size):
-        area = joint.area[j]
-        z = joint.z[j]
-        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, z)
-        first, count = contact_window(joint.clearance, a, b, limit, n_theta)
-        f_cx = f_cy = f_kx = f_ky = f_fx = f_fy = torque = heat = power = stored = 0.0
-        i = first % n_theta - 1
-        for _ in range(count):
-            i = i + 1 if i + 1 < n_theta else 0
-            c = joint.cos_theta[i]
-            s = joint.sin_theta[i]
-            gap = joint.clearance + a * c + b * s + joint.wear[j, i]
-            out[SEPARATION_MIN] = min(out[SEPARATION_MIN], gap)
-            if gap >= limit:
-                continue
-            approach = -(v_a * c + v_b * s)
-            rigid, p, _, _ = node_pressure(
-                joint.table,
-                joint.roughness,
-                joint.minimum_entry_velocity,
-                joint.clip,
-                gap,
-                approach,
-                entry_velocity[j, i],
-            )
-            slip = omega * joint.journal_radius + v_a * s - v_b * c
-            ratio, _ = friction_ratio(joint, slip, sign)
-            tau = ratio * p
-            f_cx += p * c
-            f_cy += p * s
-            f_kx += rigid * c
-            f_ky += rigid * s
-            f_fx += joint.tangential * tau * s
-            f_fy -= joint.tangential * tau * c
-            torque += tau
-            heat += (p - rigid) * approach
-            if joint.tangential > 0.0:
-                power += tau * slip
-            else:
-                power += tau * omega * joint.journal_radius
-            if with_energy:
-                stored += joint.roughness * stored_energy(joint.table, gap / joint.roughness)
-            out[P_MAX] = max(out[P_MAX], p)
-            if gap < onset:
-                contact_area += area
-                if p <= 0.0:
-                    clipped_area += area
-        if count == 0:
-            e = (a * a + b * b) ** 0.5
-            out[SEPARATION_MIN] = min(out[SEPARATION_MIN], joint.clearance - e)
-        out[F_CX] += area * f_cx
-        out[F_CY] += area * f_cy
-        out[M_JCX] -= area * z * f_cy
-        out[M_JCY] -= area * z * f_cx
-        out[F_KX] += area * f_kx
-        out[F_KY] += area * f_ky
-        out[F_FX] += area * f_fx
-        out[F_FY] += area * f_fy
-        out[M_FX] -= area * z * f_fy
-        out[M_FY] -= area * z * f_fx
-        out[M_JF] += area * joint.journal_radius * torque
-        out[HEAT_DAMPING] += area * heat
-        out[POWER_FRICTION] += area * power
-        out[STORED] += area * stored
-    total_area = n_theta * joint.area.sum()
-    out[CONTACT_FRACTION] = contact_area / total_area
-    if contact_area > 0.0:
-        out[CLIPPED] = clipped_area / contact_area
+        a, b, _, _ = row_motion(y, tan_x, tan_y, joint.z[j])
+        farthest = max(farthest, math.sqrt(a * a + b * b))
+    return joint.clearance - farthest
+
+
+@kernel
+def _stored(joint: BushingData, n: int) -> float:
+    """Return the stored contact energy of the nodes in the list [J]."""
+    work, total = joint.work, 0.0
+    for k in range(n):
+        place = work[nodes.INTERVAL + k] + work[nodes.FRACTION + k]
+        h_star = joint.table.h_first + (place - 1.0) / joint.table.inverse_step
+        total += work[nodes.AREA + k] * stored_energy(joint.table, h_star)
+    return joint.roughness * total
+
+
+@kernel
+def _slide(joint: BushingData, distance: float, load: FloatArray) -> None:
+    """Add pressure times ``distance`` to the sliding load of the nodes in the list."""
+    pieces, at = joint.pieces, 0
+    for piece in range(1, pieces[0, 0] + 1):
+        row, first, size = pieces[piece, 0], pieces[piece, 1], pieces[piece, 2]
+        for k in range(size):
+            load[row, first + k] += distance * joint.work[nodes.PRESSURE + at + k]
+        at += size

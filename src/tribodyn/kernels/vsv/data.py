@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, Final, NamedTuple, TypeAlias
+
+import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.bushing.report import N_REPORT
+from tribodyn.kernels.vsv.layout import N_COLUMNS, N_RATES, N_ROWS, N_UNKNOWNS
 
 
 class VsvData(NamedTuple):
@@ -85,26 +89,42 @@ class VsvData(NamedTuple):
     joint: BushingData
 
 
-class Scratch(NamedTuple):
-    """Work arrays of one evaluation; they carry nothing from one evaluation to the next."""
+Scratch: TypeAlias = Any
+"""Work arrays of one evaluation, of the type :data:`SCRATCH`."""
 
-    motion: FloatArray
-    test: FloatArray
-    force: FloatArray
-    collar: FloatArray
-    mass: FloatArray
-    load: FloatArray
-    solved: FloatArray
-    acceleration: FloatArray
-    wrench: FloatArray
-    wrench_jacobian: FloatArray
-    gradient: FloatArray
-    report: FloatArray
-    rates: FloatArray
-    momentum: FloatArray
-    state: FloatArray
-    system: FloatArray
-    reactions: FloatArray
+SCRATCH: Final = np.dtype(
+    [
+        ("motion", "f8", (N_ROWS, N_COLUMNS)),
+        ("test", "f8", (N_ROWS, 5)),
+        ("force", "f8", (N_ROWS,)),
+        ("collar", "f8", (N_ROWS,)),
+        ("mass", "f8", (5, 4)),
+        ("load", "f8", (5,)),
+        ("solved", "f8", (4, 9)),
+        ("acceleration", "f8", (4,)),
+        ("wrench", "f8", (5,)),
+        ("wrench_jacobian", "f8", (5, 9)),
+        ("gradient", "f8", (3, 5)),
+        ("report", "f8", (N_REPORT,)),
+        ("rates", "f8", (N_RATES,)),
+        ("momentum", "f8", (4,)),
+        ("state", "f8", (8,)),
+        ("small", "f8", (4, 4)),
+        ("system", "f8", (N_UNKNOWNS, N_UNKNOWNS)),
+        ("reactions", "f8", (N_UNKNOWNS, 1)),
+    ],
+    align=True,
+)
+"""Work arrays of one evaluation; they carry nothing from one evaluation to the next.
+
+One record instead of a tuple of arrays: a compiled function takes one address instead of seven numbers for
+each array, and need not count who holds them.
+"""
+
+
+def new_scratch() -> Scratch:
+    """Return cleared work arrays."""
+    return np.zeros(1, dtype=SCRATCH).view(np.recarray)[0]
 
 
 class VsvMemory(NamedTuple):
@@ -114,17 +134,17 @@ class VsvMemory(NamedTuple):
     ----------
     entry_velocity
         δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta); 0 where there is no contact.
-    sliding_load, sliding_rate
-        ∫P_c |u| dt [N/m] and P_c |u| at the last accepted step [N/(m s)], same shape.
+    sliding_load
+        ∫P_c |u| dt [N/m], same shape (Eq. 47 and the text below it).
     last_time
-        Time of the last mark and of the last accepted step [s], shape (2,).
+        Time of the last mark [s], shape (1,).
     regime
         Direction of the ideal vane motion, ±1, and the vane speed that traction is told instead of
         the actual one (0: none), shape (2,).
     integrals
-        Path integrals of the energy ledgers [J], shape (N_INTEGRALS,).
+        Path integrals of the energy ledgers [J], shape (N_RATES + 1,).
     rates
-        Their integrands at the last mark [W], shape (N_INTEGRALS,).
+        Their integrands at the last mark [W], shape (N_RATES,).
     extremes
         Peaks over all accepted steps, see ``kernels/vsv/ledger.py``, shape (N_EXTREMES,).
     last_state
@@ -137,7 +157,6 @@ class VsvMemory(NamedTuple):
 
     entry_velocity: FloatArray
     sliding_load: FloatArray
-    sliding_rate: FloatArray
     last_time: FloatArray
     regime: FloatArray
     integrals: FloatArray

@@ -230,8 +230,8 @@ def _solve(data: VsvData, scratch: Scratch, columns: int) -> float:
     for i in range(4):
         scratch.solved[i, 0] = scratch.load[1 + i]
         for j in range(4):
-            scratch.system[i, j] = scratch.mass[1 + i, j]
-    solve_in_place(scratch.system[:4, :4], scratch.solved[:, :columns])
+            scratch.small[i, j] = scratch.mass[1 + i, j]
+    solve_in_place(scratch.small, scratch.solved, 0, columns)
     for i in range(4):
         scratch.acceleration[i] = scratch.solved[i, 0]
     return collar_force(data, scratch, scratch.acceleration)
@@ -258,7 +258,7 @@ def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> 
 def fill_load_gradient(
     data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
 ) -> None:
-    """Fill ∂(generalised joint and collar forces)/∂y (4, 8) with the motion table held fixed."""
+    """Fill columns 1 to 8 with ∂(generalised joint and collar forces)/∂y, the motion table held fixed."""
     scratch = memory.scratch
     motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
     sec2_x = 1.0 + math.tan(y[2]) ** 2
@@ -293,9 +293,9 @@ def fill_load_gradient(
             )
             if k >= 4:
                 total += free_slip * d_omega * motion[THETA_V, k - 3]
-            gradient[i, k] = total
-        gradient[i, 2] += t_px * collar_xx + t_py * collar_xy
-        gradient[i, 3] += t_px * collar_xy + t_py * collar_yy
+            gradient[i, 1 + k] = total
+        gradient[i, 3] += t_px * collar_xx + t_py * collar_xy
+        gradient[i, 4] += t_px * collar_xy + t_py * collar_yy
 
 
 @kernel
@@ -318,9 +318,9 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
         scratch.gradient,
     )
     f_cz = solve_accelerations(data, y, memory, 1)
-    fill_load_gradient(data, y, memory, f_cz, scratch.solved[:, 1:])
+    fill_load_gradient(data, y, memory, f_cz, scratch.solved)
     for i in range(4):
         for j in range(4):
-            scratch.system[i, j] = scratch.mass[1 + i, j]
-    solve_in_place(scratch.system[:4, :4], scratch.solved[:, 1:])
+            scratch.small[i, j] = scratch.mass[1 + i, j]
+    solve_in_place(scratch.small, scratch.solved, 1, 9)
     return f_cz

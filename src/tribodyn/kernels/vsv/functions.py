@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import add_scaled, clear
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.joint import pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import drive
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
-from tribodyn.kernels.vsv.equations import (
-    accelerations,
-    accelerations_and_gradient,
-    set_up,
-)
-from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
+from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
 
 
 @entry
@@ -52,38 +47,20 @@ def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     speed = alpha_a if at_reversal else omega_a
     memory.regime[0] = 1.0 if speed >= 0.0 else -1.0
     ledger.begin(data, t, y, memory)
-    memory.last_time[1] = t
 
 
 @entry
 def advance(
     t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: VsvData, memory: VsvMemory
 ) -> None:
-    """Add the path integrals of the energy ledgers over ``[t_a, t_b]``."""
+    """Add the path integrals over ``[t_a, t_b]``: the energy ledgers and the sliding load."""
     ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
 
 
 @entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Update entry velocities and sliding load at the end of an accepted step."""
-    add_sliding_load(t, y, data, memory)
+    """Update entry velocities at the end of an accepted step."""
     update_entry_velocity(data.joint, y, memory.entry_velocity, 0.0)
-
-
-@kernel
-def add_sliding_load(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Add P_c |u|, u = ω_v r_j, over the step by the trapezoidal rule (Eq. 47 and the text below it)."""
-    load, rate = memory.sliding_load, memory.sliding_rate
-    half_step = 0.5 * (t - memory.last_time[1])
-    add_scaled(half_step, rate, load)
-    set_up(data, t, y, memory)
-    slip = abs(memory.scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
-    pressure_field(data.joint, memory.entry_velocity, y, rate)
-    for j in range(rate.shape[0]):
-        for i in range(rate.shape[1]):
-            rate[j, i] *= slip
-    add_scaled(half_step, rate, load)
-    memory.last_time[1] = t
 
 
 @entry

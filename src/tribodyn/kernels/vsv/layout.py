@@ -47,5 +47,10 @@ BIAS: Final = 6
 VALUE: Final = 7
 N_COLUMNS: Final = 8
 
+N_UNKNOWNS: Final = 24
+"""Of the full Newton-Euler system: four accelerations and twenty reactions."""
+N_RATES: Final = 9
+"""Powers that the energy ledgers integrate."""
+
 N_COORDINATES: Final = 4
 """Clearance coordinates e_x, e_y, φ_x, φ_y."""

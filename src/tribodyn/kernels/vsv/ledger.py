@@ -14,13 +14,14 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
-from tribodyn.kernels.bushing.joint import report
+from tribodyn.kernels.bushing.joint import report_and_slide
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
+    N_RATES,
     N_ROWS,
     O1_Z,
     O2_Z,
@@ -39,7 +40,7 @@ DRIVE, LOADS, FRICTION, COLLAR_FRICTION, COLLAR_TILT, DAMPING = 0, 1, 2, 3, 4, 5
 """Whole mechanism: work of the drive and of the air loads, of friction, of the collar; damping heat."""
 CLEARANCE_LOADS, CLEARANCE_FRICTION, CLEARANCE_COLLAR, CLEARANCE_INERTIA = 6, 7, 8, 9
 """Clearance motion: work of everything but the joint, of joint friction, of the collar; inertia."""
-N_INTEGRALS = 10
+N_INTEGRALS = N_RATES + 1
 
 PEAK_FORCE, PEAK_FORCE_TIME, PEAK_PRESSURE, PEAK_PRESSURE_TIME = 0, 1, 2, 3
 """Largest contact force [N] and pressure [Pa] at any mark, and when [s]."""
@@ -53,12 +54,28 @@ KINETIC, GRAVITY = 0, 1
 
 
 @kernel
-def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, with_energy: bool) -> float:
-    """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
+def evaluate(
+    data: VsvData, t: float, y: FloatArray, memory: VsvMemory, with_energy: bool, duration: float
+) -> float:
+    """Fill all scratch arrays of one instant, joint report included, and return F_cz [N].
+
+    The pressure then is taken to slide for ``duration`` [s], with the speed |ω_v| r_j.
+    """
     scratch = memory.scratch
     omega = set_up(data, t, y, memory)
+    distance = duration * abs(scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
     out = scratch.report
-    report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], with_energy, out)
+    report_and_slide(
+        data.joint,
+        memory.entry_velocity,
+        y,
+        omega,
+        -memory.regime[0],
+        with_energy,
+        out,
+        distance,
+        memory.sliding_load,
+    )
     scratch.wrench[0] = out[joint_report.F_CX] + out[joint_report.F_FX]
     scratch.wrench[1] = out[joint_report.F_CY] + out[joint_report.F_FY]
     scratch.wrench[2] = out[joint_report.M_JCX] + out[joint_report.M_FX]
@@ -117,7 +134,7 @@ def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> 
 @kernel
 def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
-    f_cz = evaluate(data, t, y, memory, False)
+    f_cz = evaluate(data, t, y, memory, False, 0.0)
     fill_rates(data, y, memory, f_cz)
     copy(memory.scratch.rates, memory.rates)
     copy(memory.scratch.momentum, memory.last_momentum)
@@ -144,7 +161,10 @@ def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
 def add_part(
     data: VsvData, t_a: float, t_b: float, y_m: FloatArray, y_b: FloatArray, memory: VsvMemory
 ) -> None:
-    """Add the path integrals over ``[t_a, t_b]`` by Simpson's rule and move the mark to ``t_b``."""
+    """Add the path integrals over ``[t_a, t_b]`` by Simpson's rule and move the mark to ``t_b``.
+
+    The sliding load takes the middle of the part for all of it.
+    """
     h = t_b - t_a
     y_a = memory.last_state
     integrals = memory.integrals
@@ -152,21 +172,21 @@ def add_part(
     for i in range(4):
         v_a, v_m, v_b = y_a[4 + i], y_m[4 + i], y_b[4 + i]
         inertia += memory.last_momentum[i] * (-3.0 * v_a + 4.0 * v_m - v_b)
-    for k in range(CLEARANCE_INERTIA):
+    for k in range(N_RATES):
         integrals[k] += h / 6.0 * memory.rates[k]
-    f_cz = evaluate(data, 0.5 * (t_a + t_b), y_m, memory, False)
+    f_cz = evaluate(data, 0.5 * (t_a + t_b), y_m, memory, False, h)
     fill_rates(data, y_m, memory, f_cz)
     for i in range(4):
         inertia += 4.0 * memory.scratch.momentum[i] * (y_b[4 + i] - y_a[4 + i])
-    for k in range(CLEARANCE_INERTIA):
+    for k in range(N_RATES):
         integrals[k] += h / 6.0 * 4.0 * memory.scratch.rates[k]
-    f_cz = evaluate(data, t_b, y_b, memory, False)
+    f_cz = evaluate(data, t_b, y_b, memory, False, 0.0)
     fill_rates(data, y_b, memory, f_cz)
     note_extremes(t_b, h, f_cz, memory)
     for i in range(4):
         v_a, v_m, v_b = y_a[4 + i], y_m[4 + i], y_b[4 + i]
         inertia += memory.scratch.momentum[i] * (v_a - 4.0 * v_m + 3.0 * v_b)
-    for k in range(CLEARANCE_INERTIA):
+    for k in range(N_RATES):
         integrals[k] += h / 6.0 * memory.scratch.rates[k]
     integrals[CLEARANCE_INERTIA] += inertia / 6.0
     copy(memory.scratch.rates, memory.rates)

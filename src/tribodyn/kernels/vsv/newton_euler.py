@@ -46,7 +46,6 @@ from tribodyn.kernels.vsv.layout import (
 F_AX, F_AY, F_AZ, M_AX, M_AZ, M_D = 4, 5, 6, 7, 8, 9
 F_21, F_32, F_43 = 10, 13, 16
 F_BX, F_BZ, M_BX, M_BZ, F_CZ = 19, 20, 21, 22, 23
-N_UNKNOWNS = 24
 
 
 ROWS_OF_EQUATIONS: Final = np.array(
@@ -235,4 +234,4 @@ def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float)
     _drag_link(data, motion, matrix, rhs)
     _ring(data, motion, matrix)
     _vane(data, y, memory, lifted, matrix, rhs)
-    solve_in_place(matrix, rhs)
+    solve_in_place(matrix, rhs, 0, 1)

@@ -14,6 +14,7 @@ from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.layout import (
+    N_UNKNOWNS,
     OV_X,
     OV_Y,
     PHI_X,
@@ -109,7 +110,7 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     scratch = memory.scratch
     copy(y, row)
     _actual_vane(data, t, y, memory, row)
-    f_cz = ledger.evaluate(data, t, y, memory, True)
+    f_cz = ledger.evaluate(data, t, y, memory, True, 0.0)
     motion, force = scratch.motion, scratch.force
     row[_MOTION] = motion[THETA_A, VALUE]
     row[_MOTION + 1] = motion[THETA_B, VALUE]
@@ -125,7 +126,7 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     row[_AIR + 2] = force[THETA_V] - scratch.wrench[4]
     ledger.fill_energies(data, memory, row[_ENERGIES:])
     ne.newton_euler(data, y, memory, 1.0 if f_cz == 0.0 else 0.0)
-    for k in range(ne.N_UNKNOWNS - ne.F_AX):
+    for k in range(N_UNKNOWNS - ne.F_AX):
         row[_REACTIONS + k] = scratch.reactions[ne.F_AX + k, 0]
     for k in range(ledger.N_INTEGRALS):
         row[_INTEGRALS + k] = memory.integrals[k]

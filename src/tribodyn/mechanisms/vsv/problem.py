@@ -12,11 +12,9 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.kernels.bushing.joint import update_entry_velocity
 from tribodyn.kernels.bushing.names import STATES
-from tribodyn.kernels.bushing.report import N_REPORT
 from tribodyn.kernels.vsv import functions, layout
-from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory
-from tribodyn.kernels.vsv.ledger import CLEARANCE_INERTIA, LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
-from tribodyn.kernels.vsv.newton_euler import N_UNKNOWNS
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_scratch
+from tribodyn.kernels.vsv.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
 from tribodyn.kernels.vsv.observe import OBSERVED, observe
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -114,39 +112,19 @@ def _row_weight(vsv: Vsv) -> FloatArray:
 def vsv_memory(data: VsvData) -> VsvMemory:
     """Return an empty memory: no contact, no work done yet, direction forward."""
     shape = data.joint.wear.shape
-    scratch = Scratch(
-        motion=np.zeros((layout.N_ROWS, layout.N_COLUMNS)),
-        test=np.zeros((layout.N_ROWS, 5)),
-        force=np.zeros(layout.N_ROWS),
-        collar=np.zeros(layout.N_ROWS),
-        mass=np.zeros((5, 4)),
-        load=np.zeros(5),
-        solved=np.zeros((4, 9)),
-        acceleration=np.zeros(4),
-        wrench=np.zeros(5),
-        wrench_jacobian=np.zeros((5, 9)),
-        gradient=np.zeros((3, 5)),
-        report=np.zeros(N_REPORT),
-        rates=np.zeros(CLEARANCE_INERTIA),
-        momentum=np.zeros(4),
-        state=np.zeros(8),
-        system=np.zeros((N_UNKNOWNS, N_UNKNOWNS)),
-        reactions=np.zeros((N_UNKNOWNS, 1)),
-    )
     extremes = np.zeros(N_EXTREMES)
     extremes[LEAST_SEPARATION] = data.joint.clearance
     return VsvMemory(
         entry_velocity=np.zeros(shape),
         sliding_load=np.zeros(shape),
-        sliding_rate=np.zeros(shape),
-        last_time=np.zeros(2),
+        last_time=np.zeros(1),
         regime=np.array([1.0, 0.0]),
         integrals=np.zeros(N_INTEGRALS),
-        rates=np.zeros(CLEARANCE_INERTIA),
+        rates=np.zeros(layout.N_RATES),
         extremes=extremes,
         last_state=np.zeros(8),
         last_momentum=np.zeros(4),
-        scratch=scratch,
+        scratch=new_scratch(),
     )
 
 
