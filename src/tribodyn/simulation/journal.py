@@ -158,7 +158,7 @@ class _Run:
         if memory.beyond[0] > 0.0:
             reason = (
                 f"stopped at t = {self.solution.t_end:.6g} s: the surfaces came closer than the contact law "
-                f"reaches ({self.journal.joint.table.h_first:g} sigma); the load or the impact is too much for it"
+                f"reaches ({self.journal.joint.table.h_first:g} sigma); load or impact is too much for it"
             )
         elif memory.scratch.film_status[0] > 0.0:
             reason += f"; the film had no answer: {explain(int(memory.scratch.film_status[0]))}"

@@ -29,10 +29,9 @@ class JournalData(NamedTuple):
         Smallest separation that the contact law reaches [m]; negative.
     joint
         The bushing.
-    lubricated
-        1 with oil in the clearance, 0 without; the film is then not looked at.
     film
-        The oil film.
+        The oil film; None without oil. Kernels are compiled for the one and the other: a dry journal does not
+        wait for those of the film.
     """
 
     inertia: FloatArray
@@ -42,8 +41,7 @@ class JournalData(NamedTuple):
     sign: float
     deepest: float
     joint: BushingData
-    lubricated: float
-    film: FilmData
+    film: FilmData | None
 
 
 class Scratch(NamedTuple):
@@ -101,7 +99,7 @@ class JournalMemory(NamedTuple):
         1 once an accepted step has left the range of the contact law, shape (1,). From then on no force is
         a number, which stops every integrator. Trial states may lie there: the law goes on linearly.
     film
-        Cache of the film.
+        Cache of the film; None without oil.
     scratch
         Work arrays.
     """
@@ -112,5 +110,5 @@ class JournalMemory(NamedTuple):
     rates: FloatArray
     extremes: FloatArray
     beyond: FloatArray
-    film: FilmMemory
+    film: FilmMemory | None
     scratch: Scratch

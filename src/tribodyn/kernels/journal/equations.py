@@ -16,10 +16,10 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
-from tribodyn.kernels.film.data import CONVERGED
+from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.journal.data import JournalData, JournalMemory
+from tribodyn.kernels.journal.data import JournalData, JournalMemory, Scratch
 
 
 @kernel
@@ -42,17 +42,28 @@ def least_gap(joint: BushingData, state: FloatArray) -> float:
 
 
 @kernel
-def film_force(data: JournalData, memory: JournalMemory, with_jacobian: bool) -> None:
-    """Fill ``scratch.film`` at ``scratch.state``, and ``scratch.film_jacobian`` where asked."""
-    scratch = memory.scratch
-    if with_jacobian:
-        status = film_wrench_and_jacobian(
-            data.film, memory.film, scratch.state, data.speed, scratch.film, scratch.film_jacobian
-        )
-    else:
-        status = film_wrench(data.film, memory.film, scratch.state, data.speed, scratch.film)
-    if status != CONVERGED:
-        scratch.film_status[0] = status
+def film_force(film: FilmData | None, cache: FilmMemory | None, speed: float, scratch: Scratch) -> None:
+    """Fill ``scratch.film`` at ``scratch.state``; without oil it stays zero."""
+    # The test is for compile time, which sees it only on an argument of its own.
+    if film is not None:
+        status = film_wrench(film, cache, scratch.state, speed, scratch.film)
+        if status != CONVERGED:
+            scratch.film_status[0] = status
+
+
+@kernel
+def film_force_and_gradient(
+    film: FilmData | None, cache: FilmMemory | None, speed: float, scratch: Scratch
+) -> None:
+    """Fill ``scratch.film`` and add its derivatives to ``scratch.wrench_jacobian``."""
+    if film is not None:
+        gradient, total = scratch.film_jacobian, scratch.wrench_jacobian
+        status = film_wrench_and_jacobian(film, cache, scratch.state, speed, scratch.film, gradient)
+        if status != CONVERGED:
+            scratch.film_status[0] = status
+        for i in range(4):
+            for k in range(8):
+                total[i, k] += gradient[i, k]
 
 
 @kernel
@@ -78,8 +89,7 @@ def forces(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
         scratch.total[:] = math.nan
         return
     wrench(data.joint, memory.entry_velocity, scratch.state, data.speed, data.sign, scratch.wrench)
-    if data.lubricated > 0.0:
-        film_force(data, memory, False)
+    film_force(data.film, memory.film, data.speed, scratch)
     gather(data, memory)
 
 
@@ -99,11 +109,7 @@ def forces_and_gradient(data: JournalData, y: FloatArray, memory: JournalMemory)
         jacobian,
         scratch.gradient,
     )
-    if data.lubricated > 0.0:
-        film_force(data, memory, True)
-        for i in range(4):
-            for k in range(8):
-                jacobian[i, k] += scratch.film_jacobian[i, k]
+    film_force_and_gradient(data.film, memory.film, data.speed, scratch)
     gather(data, memory)
     spin = data.spin_inertia * data.speed
     for i in (2, 3):

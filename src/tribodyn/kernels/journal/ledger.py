@@ -46,8 +46,7 @@ def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory, with_energ
         with_energy,
         scratch.report,
     )
-    if data.lubricated > 0.0:
-        film_force(data, memory, False)
+    film_force(data.film, memory.film, data.speed, scratch)
 
 
 @kernel

@@ -17,7 +17,6 @@ from tribodyn.kernels.journal.data import JournalData, JournalMemory, Scratch
 from tribodyn.kernels.journal.equations import spread
 from tribodyn.kernels.journal.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
 from tribodyn.kernels.journal.observe import OBSERVED, observe
-from tribodyn.lubrication.film import Film, FilmGrid
 from tribodyn.mechanisms.journal.parameters import Journal
 
 FUNCTIONS: Final = CompiledFunctions(
@@ -42,17 +41,8 @@ def journal_data(journal: Journal) -> JournalData:
         sign=-float(np.sign(journal.speed)),
         deepest=float(joint.table.h_first * joint.roughness),
         joint=joint.data(),
-        lubricated=0.0 if journal.film is None else 1.0,
-        film=_film(journal).data(),
+        film=None if journal.film is None else journal.film.data(),
     )
-
-
-def _film(journal: Journal) -> Film:
-    """Return the film, or for a dry journal the smallest one there is, which nobody looks at."""
-    if journal.film is not None:
-        return journal.film
-    size = journal.joint.geometry
-    return Film(1.0, size.clearance, size.radius, size.length, grid=FilmGrid(8, 4))
 
 
 def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
@@ -79,7 +69,7 @@ def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
         rates=np.zeros(N_INTEGRALS),
         extremes=extremes,
         beyond=np.zeros(1),
-        film=_film(journal).memory(),
+        film=None if journal.film is None else journal.film.memory(),
         scratch=scratch,
     )
 
