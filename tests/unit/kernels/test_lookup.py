@@ -90,7 +90,8 @@ def test_is_zero_above_the_table(table: ContactTable, h_star: float) -> None:
 def test_the_last_number_below_the_end_stays_inside(table: ContactTable) -> None:
     last = math.nextafter(8.0, 0.0)
     # Rounding may put it on the last node, above which everything is zero.
-    assert pressure_and_damping(table, last)[0] == pytest.approx(table.nodes[-1, 0], rel=1.0 + 1e-10)
+    pressure = pressure_and_damping(table, last)[0]
+    assert pressure == 0.0 or pressure == pytest.approx(table.nodes[-1, 0], rel=1e-10)
     assert stored_energy(table, last) == pytest.approx(0.0, abs=1e-20)
 
 
