@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
@@ -66,6 +67,27 @@ class OutputDirectory:
             if not (self.path / name).resolve().is_relative_to(self.path.resolve()):
                 raise _refused(os.fspath(self.path), f"{name} in it is a link that leads out of it")
 
+    @contextlib.contextmanager
+    def reserved(self) -> Iterator[None]:
+        """Keep other processes from writing here while the block runs; a killed process keeps nobody out.
+
+        Raises
+        ------
+        InputError
+            Another process has reserved it.
+        """
+        from tribodyn.results.atomic import remove_stale_parts
+
+        handle = os.open(self.path, os.O_RDONLY)
+        try:
+            if not _locked(handle):
+                raise _refused(os.fspath(self.path), "another tribodyn is writing results there")
+            for folder in (self.path, self.path / FIGURES):
+                remove_stale_parts(folder)
+            yield
+        finally:
+            os.close(handle)
+
     def forget(self) -> None:
         """Remove what was made, as far as it is still empty."""
         for path in self._made:
@@ -77,6 +99,21 @@ class OutputDirectory:
         figures = self.path / FIGURES
         for path in (self.path / REPORT, *figures.glob("*.png"), *figures.glob("*.pdf")):
             path.unlink(missing_ok=True)
+
+
+def _locked(handle: int) -> bool:
+    """Lock an open folder; False when another process has. File systems without locks let everyone in."""
+    try:
+        import fcntl
+    except ImportError:
+        return True
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _missing_parents(path: Path) -> list[Path]:

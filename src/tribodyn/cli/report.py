@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
@@ -38,14 +39,33 @@ def execute(args: Namespace) -> int:
     dataset = _read(Path(args.directory))
     directory = OutputDirectory(args.directory)
     console = Console.of(args)
-    if args.points:
-        draw_points(directory.path, console.note)
-    console.note("drawing figures and report")
-    draw(dataset, directory.path)
+    with directory.reserved():
+        if args.points:
+            draw_points(directory.path, console.note)
+        console.note("drawing figures and report")
+        draw(dataset, directory.path)
+        _mend_summary(dataset, directory.path)
     console.say(f"look at {directory.path / REPORT}")
     if console.json:
         show_json(summarise(dataset))
     return 0
+
+
+def _mend_summary(dataset: xr.Dataset, directory: Path) -> None:
+    """Write the summary of a run again when it is damaged: everything in it follows from the result."""
+    from tribodyn.results.atomic import write_text
+    from tribodyn.results.store import RESULT, SUMMARY, summary_text
+
+    path = directory / SUMMARY
+    if not path.exists() or not (directory / RESULT).is_file():
+        return
+    try:
+        sound = isinstance(json.loads(path.read_text(encoding="utf-8")), dict)
+    except ValueError:
+        sound = False
+    if not sound:
+        write_text(path, summary_text(dataset))
+        complain(f"{os.fspath(path)} was damaged; it was written again from {RESULT}")
 
 
 def _read(directory: Path) -> xr.Dataset:

@@ -36,14 +36,15 @@ def execute(args: Namespace) -> int:
     console = Console.of(args)
     case = chosen_case(args)
     directory = OutputDirectory(_name(args) if args.output is None else args.output)
-    with Interruption() as interruption:
-        try:
-            dataset = _simulate(case, console, interruption)
-        except BaseException:
-            directory.forget()
-            raise
-        summary = _save(dataset, directory)
-    drawn = _draw(dataset, directory, console, args.debug, skip=interruption.requested)
+    with directory.reserved():
+        with Interruption() as interruption:
+            try:
+                dataset = _simulate(case, console, interruption)
+                summary = _save(dataset, directory)
+            except BaseException:
+                directory.forget()
+                raise
+        drawn = _draw(dataset, directory, console, args.debug, skip=interruption.requested)
     _tell(summary, directory.path, console)
     failure = str(dataset.attrs.get("failure", ""))
     if failure:

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import os
 import secrets
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Final
+
+_STALE: Final = 3600.0
+"""Age [s] from which a temporary file is what a killed process left: none takes so long to write."""
 
 
 @contextmanager
@@ -44,6 +49,20 @@ def write_text(path: Path, text: str) -> None:
     """
     with replacing(path) as part:
         part.write_text(text, encoding="utf-8", newline="\n")
+
+
+def remove_stale_parts(folder: Path) -> None:
+    """Remove temporary files that a killed process left in a folder; those being written now stay.
+
+    Parameters
+    ----------
+    folder
+        Where to look; it need not exist.
+    """
+    for part in folder.glob(".*.part"):
+        with suppress(OSError):
+            if time.time() - part.stat().st_mtime > _STALE:
+                part.unlink()
 
 
 def _flush(path: Path) -> None:

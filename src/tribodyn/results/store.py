@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Final
 
+import h5py
 import numpy as np
 import xarray as xr
 
@@ -65,15 +66,40 @@ def write_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
-    summary = json.dumps(summarise(dataset), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    texts = {SUMMARY: summary, CASE: str(dataset.attrs.get("case", ""))}
+    texts = {SUMMARY: summary_text(dataset), CASE: str(dataset.attrs.get("case", ""))}
     paths = [folder / name for name in (RESULT, *texts)]
     with ExitStack() as stack:
         parts = [stack.enter_context(replacing(path)) for path in paths]
-        dataset.to_netcdf(parts[0], engine="h5netcdf")
+        parts[0].write_bytes(_netcdf(dataset))
         for part, text in zip(parts[1:], texts.values(), strict=True):
             part.write_text(text, encoding="utf-8", newline="\n")
     return paths
+
+
+def _netcdf(dataset: xr.Dataset) -> memoryview:
+    """Return the content of ``result.nc``.
+
+    Made in memory, because the HDF5 library crashes the process when a disk is full. Each array has a
+    checksum, so that damage is seen when it is read.
+    """
+    encoding = {name: {"fletcher32": True} for name, values in dataset.variables.items() if _summable(values)}
+    return memoryview(dataset.to_netcdf(None, engine="h5netcdf", encoding=encoding))
+
+
+def _summable(values: xr.Variable) -> bool:
+    """Tell whether HDF5 can hold a checksum of an array: of numbers, and not of none."""
+    return values.ndim > 0 and values.size > 0 and values.dtype.kind in "fiu"
+
+
+def summary_text(dataset: xr.Dataset) -> str:
+    """Return the content of ``summary.json``.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+    """
+    return json.dumps(summarise(dataset), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -97,13 +123,20 @@ def read(path: str | Path) -> xr.Dataset:
     file = Path(path)
     file = file / RESULT if file.is_dir() else file
     try:
+        _check(file)
         dataset = xr.load_dataset(file, engine="h5netcdf", decode_times=False, decode_timedelta=False)
     except FileNotFoundError as error:
         raise InputError(f"there is no result at {file}; run a case with `-o {file.parent}` first") from error
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"cannot read the result in {file}: {error}") from error
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
+        raise InputError(f"cannot read the result in {file}; it is damaged or no result: {error}") from error
     dataset.attrs = {name: _python(value) for name, value in dataset.attrs.items()}
     return dataset
+
+
+def _check(file: Path) -> None:
+    """Walk through a file before it is read: h5netcdf writes tracebacks to stderr where a file is damaged."""
+    with h5py.File(file, "r") as content:
+        content.visititems(lambda name, node: dict(node.attrs) and None)
 
 
 def _python(value: object) -> object:

@@ -1,0 +1,250 @@
+"""Real runs that are killed, have no room left, meet each other, or whose results are damaged afterwards."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import resource
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from tribodyn.cases import parse_case
+from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.main import main
+from tribodyn.core.errors import InputError
+from tribodyn.results import read, summarise
+from tribodyn.results.atomic import remove_stale_parts
+
+RUN = [sys.executable, "-m", "tribodyn", "run", "vsv", "--set", "run.duration=1 s", "-o"]
+WHOLE = ["case.toml", "figures", "report.html", "result.nc", "summary.json"]
+SMALL = 100_000
+"""Bytes that a full disk has left; a result needs ten times as many."""
+
+
+def started(folder: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen([*RUN, str(folder)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+
+def assert_one_run(folder: Path) -> None:
+    """Assert that result, summary and case are there and of one and the same run."""
+    result = read(folder)
+    assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == summarise(result)
+    assert (folder / "case.toml").read_text(encoding="utf-8") == result.attrs["case"]
+
+
+def assert_whole_or_absent(folder: Path) -> None:
+    """Assert that what has the name of a result is a whole one."""
+    for path in [path for path in folder.rglob("*") if path.is_file() and path.suffix != ".part"]:
+        if path.suffix == ".nc":
+            assert read(path).attrs["failure"] == ""
+        elif path.suffix == ".json":
+            assert json.loads(path.read_text(encoding="utf-8"))["status"] == "complete"
+        elif path.suffix == ".toml":
+            parse_case(path.read_text(encoding="utf-8"), path.name)
+        else:
+            ends = {".png": b"IEND\xaeB`\x82", ".pdf": b"%%EOF\n", ".html": b"</html>"}
+            assert path.read_bytes().rstrip(b"\n").endswith(ends[path.suffix].rstrip(b"\n"))
+    # A file on its way is hidden and has an ending of its own: nobody takes it for a result.
+    assert all(path.name.startswith(".") for path in folder.rglob("*.part"))
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[tuple[int, str]]]:
+    """Return the folder of two runs started at once, with status and message of each."""
+    folder = tmp_path_factory.mktemp("both") / "out"
+    both = [started(folder), started(folder)]
+    said = [process.communicate(timeout=300)[1] for process in both]
+    return folder, [(process.returncode, text) for process, text in zip(both, said, strict=True)]
+
+
+def test_of_two_runs_into_one_folder_one_is_refused(made: tuple[Path, list[tuple[int, str]]]) -> None:
+    folder, outcomes = made
+    (done, _), (refused, message) = sorted(outcomes)
+    assert (done, refused) == (0, 2)
+    assert "another tribodyn is writing results there" in message
+    assert message.count("\n") == 1
+    assert sorted(path.name for path in folder.iterdir()) == WHOLE
+    assert_one_run(folder)
+
+
+def kill(folder: Path, wait: Callable[[subprocess.Popen[str]], None]) -> None:
+    process = started(folder)
+    wait(process)
+    process.kill()
+    process.communicate()
+    if folder.exists():
+        assert_whole_or_absent(folder)
+
+
+def until_drawing(process: subprocess.Popen[str]) -> None:
+    assert process.stderr is not None
+    while "drawing" not in process.stderr.readline():
+        assert process.poll() is None
+    time.sleep(random.uniform(0.0, 2.0))
+
+
+def test_a_killed_run_leaves_whole_files_and_the_next_one_succeeds(tmp_path: Path) -> None:
+    folder = tmp_path / "out"
+
+    def until_saving(process: subprocess.Popen[str]) -> None:
+        while not list(folder.glob(".*.part")) and process.poll() is None:
+            time.sleep(1e-4)
+
+    kill(folder, lambda process: time.sleep(random.uniform(0.0, 2.0)))
+    kill(folder, until_saving)
+    kill(folder, until_drawing)
+    process = started(folder)
+    assert process.communicate(timeout=300)
+    assert process.returncode == 0
+    assert set(WHOLE) <= {path.name for path in folder.iterdir()}
+    assert_one_run(folder)
+
+
+@pytest.mark.long
+def test_runs_killed_at_fifty_moments(made: tuple[Path, list[tuple[int, str]]], tmp_path: Path) -> None:
+    folder = tmp_path / "out"
+    began = time.perf_counter()
+    process = started(folder)
+    process.communicate(timeout=300)
+    lasts = time.perf_counter() - began
+    for _ in range(50):
+        kill(folder, lambda process: time.sleep(random.uniform(0.0, lasts)))
+        # There was a whole result before, so there is one now.
+        assert set(WHOLE) <= {path.name for path in folder.iterdir()}
+    process = started(folder)
+    process.communicate(timeout=300)
+    assert process.returncode == 0
+    assert_one_run(folder)
+
+
+def test_what_a_killed_process_left_is_removed_in_time(tmp_path: Path) -> None:
+    old, new = tmp_path / ".result.nc.1.part", tmp_path / ".result.nc.2.part"
+    old.touch()
+    new.touch()
+    os.utime(old, (time.time() - 7200.0,) * 2)
+    remove_stale_parts(tmp_path)
+    assert (old.exists(), new.exists()) == (False, True)
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """Return a folder on a disk of its own with little room, where the system lets us mount one."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", f"size={SMALL}", "tmpfs", str(folder)]
+    if shutil.which("mount") is None or subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("mounting is not allowed here")
+    yield folder
+    subprocess.run(["umount", str(folder)], check=True)
+
+
+def limit_files() -> None:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (SMALL, SMALL))
+
+
+def assert_failed(folder: Path, **options: Callable[[], None]) -> None:
+    """Run where there is an earlier result and no room for another: one line says so, and nothing is lost."""
+    (folder / "result.nc").write_bytes(b"earlier")
+    done = subprocess.run([*RUN, str(folder), "--quiet"], capture_output=True, text=True, **options)
+    assert done.returncode == 1
+    assert done.stderr.startswith("tribodyn: writing or reading failed: ")
+    assert done.stderr.count("\n") == 1
+    assert [path.name for path in folder.iterdir()] == ["result.nc"]
+    assert (folder / "result.nc").read_bytes() == b"earlier"
+
+
+def test_a_full_disk(small_disk: Path) -> None:
+    assert_failed(small_disk)
+
+
+def test_a_limit_on_the_size_of_files(tmp_path: Path) -> None:
+    assert_failed(tmp_path, preexec_fn=limit_files)
+
+
+def test_a_read_only_folder(small_disk: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (small_disk / "result.nc").write_bytes(b"earlier")
+    subprocess.run(["mount", "-o", "remount,ro", str(small_disk)], check=True)
+    assert main(["run", "vsv", "-o", str(small_disk)]) == 2
+    message = capsys.readouterr().err
+    assert "read-only" in message
+    assert message.count("\n") == 1
+    assert (small_disk / "result.nc").read_bytes() == b"earlier"
+
+
+@pytest.fixture
+def copy(made: tuple[Path, list[tuple[int, str]]], tmp_path: Path) -> Path:
+    """Return a folder that holds a real result."""
+    folder = tmp_path / "copy"
+    folder.mkdir()
+    for name in ("result.nc", "summary.json", "case.toml"):
+        shutil.copy(made[0] / name, folder)
+    return folder
+
+
+def damaged(content: bytes, how: str, chance: random.Random) -> bytes:
+    """Return a file cut short, or with one or many bytes changed."""
+    if how == "cut":
+        return content[: chance.randrange(len(content))]
+    changed = bytearray(content)
+    for _ in range(1 if how == "bit" else 300):
+        changed[chance.randrange(len(content))] ^= chance.randrange(1, 256)
+    return bytes(changed)
+
+
+def attempt(folder: Path) -> xr.Dataset | InputError:
+    try:
+        return read(folder)
+    except InputError as error:
+        return error
+
+
+@pytest.mark.parametrize("how", ["cut", "bit", "noise"])
+def test_a_damaged_result_is_refused_or_unharmed(
+    how: str, copy: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    file = copy / "result.nc"
+    whole, content = read(copy), file.read_bytes()
+    chance = random.Random(how)
+    refused = 0
+    for _ in range(12):
+        file.write_bytes(damaged(content, how, chance))
+        found = attempt(copy)
+        if isinstance(found, InputError):
+            refused += 1
+            assert "it is damaged or no result" in str(found)
+        else:
+            # The byte fell into a gap, or into a text, which has no checksum.
+            xr.testing.assert_equal(found, whole)
+        assert capfd.readouterr() == ("", "")
+    assert refused == 12 if how != "bit" else refused > 6
+    file.write_bytes(content[: len(content) // 2])
+    assert main(["report", str(copy)]) == 2
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert "result.nc; it is damaged or no result" in err
+    assert not (copy / "report.html").exists()
+
+
+def test_a_damaged_summary_is_written_again(
+    copy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("tribodyn.cli.report.draw", lambda dataset, directory: None)
+    (copy / "summary.json").write_text('{"title": "Var', encoding="utf-8")
+    assert main(["report", str(copy), "--quiet"]) == 0
+    assert "summary.json was damaged; it was written again from result.nc" in capsys.readouterr().err
+    assert_one_run(copy)
+
+
+def test_a_report_waits_for_nobody(copy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with OutputDirectory(str(copy)).reserved():
+        assert main(["report", str(copy)]) == 2
+    assert "another tribodyn is writing results there" in capsys.readouterr().err
