@@ -1,0 +1,46 @@
+"""The page on warnings names the thresholds that are built in, and every attribute it points to is stored."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tribodyn.kernels.vsv import ledger
+from tribodyn.simulation import checks, journal_checks
+from tribodyn.simulation.checks import peaks
+
+PAGE = Path(__file__).parents[3] / "docs" / "guide" / "self_checks.md"
+LIMITS = {name: value for name, value in vars(checks).items() if name.endswith("_LIMIT")}
+
+
+def test_the_journal_has_no_thresholds_of_its_own() -> None:
+    own = {name: value for name, value in vars(journal_checks).items() if name.endswith("_LIMIT")}
+    assert own == LIMITS
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_every_threshold_stands_in_the_table(name: str) -> None:
+    rows = {
+        "ENERGY_LIMIT": "energy is missed",
+        "GRID_LIMIT": "the contact force is off",
+        "CLIP_LIMIT": "the clip of tensile pressure",
+    }
+    row = next(line for line in PAGE.read_text(encoding="utf-8").splitlines() if rows[name] in line)
+    assert f"more than {100.0 * LIMITS[name]:g} %" in row
+
+
+def test_the_attributes_of_the_table_are_those_of_a_run() -> None:
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    cells = [line.split("|")[3] for line in lines if line.startswith("| ")][1:]
+    named = set(re.findall(r"`(\w+)`", " ".join(cells)))
+    stored = {
+        *peaks(np.zeros(ledger.N_EXTREMES)),
+        "energy_residual",
+        "clearance_energy_residual",
+        "grid_force_error",
+    }
+    assert len(named) >= 6
+    assert named <= stored
