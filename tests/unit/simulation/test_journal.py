@@ -39,8 +39,9 @@ def test_both_laws_stand_side_by_side(dry: xr.Dataset) -> None:
     # Until contact the laws are the same.
     free = dry["time"].values < 0.15e-3
     assert dry["e_x"].values[0, free] == pytest.approx(dry["e_x"].values[1, free], rel=1e-6)
-    assert float((dry["F_dx"].sel(law="ke") ** 2).sum()) == 0.0
-    assert float((dry["F_dx"].sel(law="rsdc") ** 2).sum()) > 0.0
+    # Total and stiffness part are the same sums, contracted differently: rounding of some thousand newtons.
+    assert float(abs(dry["F_dx"].sel(law="ke")).max()) < 1e-9
+    assert float(abs(dry["F_dx"].sel(law="rsdc")).max()) > 1000.0
 
 
 def test_film_variables_are_there_with_oil_only(dry: xr.Dataset, oil: xr.Dataset) -> None:
