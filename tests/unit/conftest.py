@@ -170,6 +170,9 @@ def make_result() -> ResultFactory:
             "clearance": CLEARANCE,
             "joint_length": LENGTH,
             "cycle_period": PERIOD,
+            "worn_volume": 4e-17,
+            "wear_cycles_reached": 2,  # as if of a campaign, so that every headline number is there
+            "wear_life_cycles": 3e6,
             "friction_coefficient": 0.1,
             "contact_law": "rsdc",
             "formulation": "exact",
@@ -180,6 +183,42 @@ def make_result() -> ResultFactory:
             fields=fields,
             attributes={**facts, **attributes},
         )
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def make_campaign(make_result: ResultFactory) -> ResultFactory:
+    """Return a maker of results of wear campaigns with ``n_jumps`` stops (not the output of any)."""
+
+    def make(n_jumps: int, **attributes: object) -> xr.Dataset:
+        jump = np.arange(n_jumps, dtype=np.float64)
+        depth = 1e-7 * (1.0 - np.exp(-jump / 10.0))
+        history = {
+            "wear_cycles": 1000.0 * jump,
+            "wear_jump_cycles": np.where(jump < n_jumps - 1, 1000.0, 0.0),
+            "wear_depth_max": depth,
+            "worn_volume": 1e-6 * depth,
+            "wear_rate": 1e-11 * np.exp(-jump / 10.0),
+            "wear_load_change": np.where(jump > 0.0, 0.05, 0.0),
+            "wear_pressure_max": 2e8 + 3e7 * np.sin(jump),
+            "wear_pressure_mean": 1e7 * np.exp(-jump / 10.0),
+            "wear_force_mean": np.full(n_jumps, 18.0),
+            "wear_angle_error_max": np.full(n_jumps, 5e-4),
+            "wear_angle_error_rms": 4e-4 + 1e-6 * jump,
+            "wear_energy_lost": np.full(n_jumps, 1e-6),
+        }
+        cycles = history["wear_cycles"][1:]
+        reached = int(cycles[-1]) if cycles.size else 0
+        facts = {"wear_cycles_reached": reached, "worn_volume": float(1e-6 * depth.max(initial=0.0))}
+        result = make_result(PERIOD, **facts, **attributes)
+        profile = result["wear_depth"].values
+        campaign = build(
+            coordinates={"jump": jump, "stage_cycles": cycles},
+            columns={},
+            fields={**history, "stage_depth": np.ones((cycles.size, 1, 1)) * profile},
+        )
+        return result.merge(campaign)
 
     return make
 

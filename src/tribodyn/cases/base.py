@@ -59,6 +59,11 @@ class Case(Group):
         """Simulated time of the whole run [s]."""
         raise NotImplementedError
 
+    @property
+    def campaign_cycles(self) -> int:
+        """Drive cycles of a wear campaign; 0 where the case asks for none."""
+        return 0
+
     def at(self, path: str) -> Value | None:
         """Return the value at a dotted path, such as ``joint.clearance``."""
         value: Any = self

@@ -224,6 +224,27 @@ class Wear(Group):
     paper_hardness_divisor: float = number(
         0.0, "the paper's figures come out when the rate is divided by 65; 0 is off", "paper, Eq. 47", ge=0
     )
+    cycles: int = count(
+        0, "drive cycles of a wear campaign; 0: none, a linear estimate of wear", ASSUMED, ge=0, le=10**12
+    )
+    feedback: bool = switch(True, "whether the worn shape changes the gap in a campaign", "model, section 7")
+    jump_limit: float = number(
+        0.05,
+        "change of the sliding load, relative to its peak, that one jump of a campaign may cause",
+        ASSUMED,
+        gt=0,
+        le=1,
+    )
+    jump_depth: float = number(
+        0.25,
+        "largest gain of depth in one jump, over the combined roughness",
+        ASSUMED,
+        gt=0,
+        le=1,
+    )
+    depth_limit: float | None = quantity(
+        None, "depth at which the bushing is worn out: a campaign ends there", ASSUMED, gt=0, example="5 um"
+    )
 
 
 class Tolerances(Group):

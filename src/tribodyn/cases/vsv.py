@@ -138,6 +138,11 @@ class Vsv(Case):
         return self.run.cycles * self.period
 
     @property
+    def campaign_cycles(self) -> int:
+        """Drive cycles of a wear campaign; 0 where the case asks for none."""
+        return self.wear.cycles
+
+    @property
     def lengths(self) -> Lengths:
         """Lengths and angles of the mechanism in the symbols of the paper."""
         # Imported here: the mechanism brings compiled code along, which reading the models does not need.
@@ -166,6 +171,7 @@ class Vsv(Case):
         """Check what involves several keys."""
         super().model_post_init(context)
         self._check_run()
+        self._check_campaign()
         self._check_inertias()
         self._check_reach()
         self.contact.check(self.surface_pair)
@@ -182,6 +188,23 @@ class Vsv(Case):
             self.duration <= _MOST_OUTPUT_TIMES * interval,
             "run.output_interval",
             f"at most {_MOST_OUTPUT_TIMES} output times are kept; the run lasts {self.duration:g} s",
+        )
+
+    def _check_campaign(self) -> None:
+        """Check that a campaign can begin: after whole cycles, in a contact that has a pressure."""
+        if self.wear.cycles == 0:
+            return
+        cycles = self.run.cycles or 0.5
+        demand(
+            cycles == int(cycles),
+            "run.cycles",
+            "a wear campaign needs a whole number of cycles here: the last of them is the first whose wear "
+            "counts, those before let the start die away",
+        )
+        demand(
+            self.joint.contact == "surface",
+            "wear.cycles",
+            'a contact at points has no pressure that could wear: joint.contact = "surface" is needed',
         )
 
     def _check_inertias(self) -> None:

@@ -18,7 +18,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 def execute(args: Namespace) -> int:
     """Say that the case is valid; if not, loading it has raised."""
     case = chosen_case(args)
-    Console.of(args).say(f'{args.case}: valid, a "{case.kind()}" case of {case.duration:.6g} s')
+    cycles = case.campaign_cycles
+    length = f"{cycles} cycles of wear" if cycles else f"{case.duration:.6g} s"
+    Console.of(args).say(f'{args.case}: valid, a "{case.kind()}" case of {length}')
     if args.json:
         show_json({"case": args.case, "valid": True})
     return 0

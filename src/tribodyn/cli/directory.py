@@ -10,7 +10,9 @@ from typing import Final
 
 from tribodyn.core.errors import InputError
 
-FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html")
+CHECKPOINT: Final = "checkpoint.npz"
+"""Where a wear campaign is kept until its result is written."""
+FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html", CHECKPOINT)
 FIGURES: Final = "figures"
 POINTS: Final = "points"
 REPORT: Final = "report.html"
@@ -87,6 +89,11 @@ class OutputDirectory:
             yield
         finally:
             os.close(handle)
+
+    @property
+    def checkpoint(self) -> Path:
+        """File in which a wear campaign is kept."""
+        return self.path / CHECKPOINT
 
     def forget(self) -> None:
         """Remove what was made, as far as it is still empty."""

@@ -32,6 +32,9 @@ class Measure:
 
 
 SIMULATED: Final = Measure("{n:.2f} of {total:.2f} s simulated", "{reached:.4g} of {total:.4g} s simulated")
+CYCLES: Final = Measure(
+    "{n:.0f} of {total:.0f} cycles of wear", "{reached:.0f} of {total:.0f} cycles of wear"
+)
 POINTS: Final = Measure("{n:.0f} of {total:.0f} points", "{reached:.0f} of {total:.0f} points")
 
 

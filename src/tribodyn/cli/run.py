@@ -15,7 +15,7 @@ from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.headlines import in_words
 from tribodyn.cli.interrupt import Interruption
 from tribodyn.cli.pictures import draw
-from tribodyn.cli.progress import progress
+from tribodyn.cli.progress import CYCLES, Progress, progress
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,11 +39,13 @@ def execute(args: Namespace) -> int:
     with directory.reserved():
         with Interruption() as interruption:
             try:
-                dataset = _simulate(case, console, interruption)
+                dataset = _simulate(case, directory, console, interruption)
                 summary = _save(dataset, directory)
             except BaseException:
                 directory.forget()
                 raise
+            if case.campaign_cycles and not dataset.attrs.get("failure"):
+                directory.checkpoint.unlink(missing_ok=True)
         drawn = _draw(dataset, directory, console, args.debug, skip=interruption.requested)
     _tell(summary, directory.path, console)
     failure = str(dataset.attrs.get("failure", ""))
@@ -57,12 +59,21 @@ def _name(args: Namespace) -> str:
     return f"results-{Path(args.case).stem}"
 
 
-def _simulate(case: Case, console: Console, stop: Interruption) -> xr.Dataset:
+def _simulate(case: Case, directory: OutputDirectory, console: Console, stop: Interruption) -> xr.Dataset:
     console.note(f"running {case.title}")
-    with progress(case.duration, console) as shown, announced_compilation(shown.note):
+    if case.campaign_cycles and directory.checkpoint.exists():
+        console.note(f"going on with the wear campaign kept in {os.fspath(directory.checkpoint)}")
+    with _progress(case, console) as shown, announced_compilation(shown.note):
         from tribodyn.simulation import simulate
 
-        return simulate(case, progress=shown, stop=stop)
+        return simulate(case, progress=shown, stop=stop, checkpoint=directory.checkpoint)
+
+
+def _progress(case: Case, console: Console) -> Progress:
+    """Return what shows progress: simulated time, or the cycles of a wear campaign."""
+    if case.campaign_cycles:
+        return progress(case.campaign_cycles, console, CYCLES)
+    return progress(case.duration, console)
 
 
 def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
@@ -114,6 +125,12 @@ def _tell(summary: dict[str, Any], path: Path, console: Console) -> None:
 
 def _stopped(dataset: xr.Dataset, case: Case, failure: str, path: Path) -> str:
     """Say when a run stopped, why, and where the rest is."""
+    if case.campaign_cycles:
+        return (
+            f"the wear campaign stopped after {dataset.attrs.get('wear_cycles_reached', 0)} of "
+            f"{case.campaign_cycles} cycles: {failure}; what was computed until then is saved in "
+            f"{os.fspath(path)}; the same command goes on from there"
+        )
     reached = float(dataset.attrs.get("time_reached", 0.0))
     return (
         f"the run stopped at t = {reached:.6g} s of {case.duration:.6g} s: {failure}; "

@@ -21,6 +21,7 @@ from tribodyn.figures import (
     trajectory,
     vane_error,
     wear,
+    wear_history,
 )
 from tribodyn.figures.base import Family
 from tribodyn.figures.save import remove, save
@@ -46,7 +47,10 @@ JOURNAL_FIGURES: Final[dict[str, Family]] = {
 }
 """Every figure of a run of the journal."""
 
-__all__ = ["FIGURES", "JOURNAL_FIGURES", "Family", "draw_all", "figures_of"]
+CAMPAIGN_FIGURES: Final[dict[str, Family]] = FIGURES | {wear_history.FAMILY.name: wear_history.FAMILY}
+"""Every figure of a wear campaign of the mechanism."""
+
+__all__ = ["CAMPAIGN_FIGURES", "FIGURES", "JOURNAL_FIGURES", "Family", "draw_all", "figures_of"]
 
 
 def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
@@ -54,6 +58,8 @@ def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
     kind = dataset.attrs.get("kind")
     if kind == "sweep":
         return sweep.families(dataset)
+    if "wear_cycles" in dataset.variables:
+        return CAMPAIGN_FIGURES
     return JOURNAL_FIGURES if kind == "journal" else FIGURES
 
 

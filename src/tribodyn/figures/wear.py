@@ -64,6 +64,8 @@ def _headline(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -> 
     """Say how deep and after what."""
     time, period = dataset["time"].values, dataset.attrs.get("cycle_period")
     after = f" after {np.ptp(time) / period:.3g} cycles" if period and time.size else ""
+    if "wear_cycles_reached" in dataset.attrs:
+        after = f" after {dataset.attrs['wear_cycles_reached']} cycles"
     caption(axes, f"deepest {depth.max(initial=0.0):.3g} {unit}{after}")
 
 
@@ -86,8 +88,9 @@ FAMILY: Final = Family(
     name="wear_depth",
     title=TITLE,
     caption=(
-        "Depth worn off the bushing by this run, a linear estimate: the worn shape does not yet change the "
-        "pressure. Above: the bushing laid flat. Below: around its edges and its middle."
+        "Depth worn off the bushing: after the cycles of the wear campaign, or else a linear estimate for "
+        "this run, in which the worn shape does not change the pressure. Above: the bushing laid flat. "
+        "Below: around its edges and its middle."
     ),
     needs=("wear_depth", "theta", "z"),
     draw=draw,

@@ -20,6 +20,7 @@ from tribodyn.report.sections import (
     tilt,
     vane_error,
     wear,
+    wear_history,
     wear_stages,
 )
 from tribodyn.results.law_headlines import named
@@ -46,7 +47,10 @@ _TIME: Final = Chapter(
     ),
 )
 _WEAR: Final = Chapter(
-    "worn", "Wear", "What the run would take off the bushing.", (wear.SECTION, wear_stages.SECTION)
+    "worn",
+    "Wear",
+    "What is worn off the bushing.",
+    (wear.SECTION, wear_history.SECTION, wear_stages.SECTION),
 )
 
 _JOURNAL: Final = (

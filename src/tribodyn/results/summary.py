@@ -69,6 +69,8 @@ def _cycles(dataset: xr.Dataset) -> float:
 
 def _wear_rate(dataset: xr.Dataset) -> float:
     """Return the greatest wear depth [nm] a thousand cycles would make; NaN before one cycle is complete."""
+    if "wear_rate" in dataset:
+        return float(_values(dataset, "wear_rate")[-1]) * 1e9 * 1000.0
     cycles = _cycles(dataset)
     whole = cycles >= 1.0 - 1e-9
     return _peak(_values(dataset, "wear_depth")) * 1e9 * 1000.0 / cycles if whole else math.nan
@@ -80,7 +82,9 @@ def _statistic(name: str) -> Callable[[xr.Dataset], float]:
 
 
 def _real_time_factor(dataset: xr.Dataset) -> float:
-    """Return simulated time over wall time."""
+    """Return simulated time over wall time; a wear campaign simulates far more than the result holds."""
+    if "wear_cycles" in dataset:
+        return math.nan
     time = _values(dataset, "time")
     return float(time[-1] - time[0]) / _statistic("wall_time")(dataset)
 
@@ -150,10 +154,10 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: _peak(_values(d, "M_d")),
     ),
     "wear_depth_max_nm": Headline(
-        "Wear depth after this run",
+        "Wear depth",
         "nm",
         "Wear",
-        "Deepest point of the worn bushing, linear estimate.",
+        "Deepest point of the worn bushing: after the wear campaign, or a linear estimate for this run.",
         lambda d: _peak(_values(d, "wear_depth")) * 1e9,
     ),
     "wear_depth_rate_nm_per_1000_cycles": Headline(
@@ -162,6 +166,27 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Wear",
         "Deepest wear if this motion repeats and the pressure stays as it is.",
         _wear_rate,
+    ),
+    "worn_volume_mm3": Headline(
+        "Worn volume",
+        "mm³",
+        "Wear",
+        "What was worn off the bushing, in the campaign or by the same estimate.",
+        lambda d: float(d.attrs["worn_volume"]) * 1e9,
+    ),
+    "wear_cycles": Headline(
+        "Cycles of wear",
+        "",
+        "Wear",
+        "Drive cycles that the wear campaign covered.",
+        lambda d: float(d.attrs["wear_cycles_reached"]),
+    ),
+    "wear_life_cycles": Headline(
+        "Life",
+        "cycles",
+        "Wear",
+        "Drive cycles until some point is worn to the depth limit; without a campaign a linear estimate.",
+        lambda d: float(d.attrs["wear_life_cycles"]),
     ),
     "energy_residual_percent": Headline(
         "Energy residual, whole mechanism",
@@ -201,7 +226,7 @@ HEADLINES: Final[dict[str, Headline]] = {
 }
 """Every headline number, by its name in ``summary.json``."""
 
-_COUNTS: Final = ("steps", "rhs_evaluations", "rebounds_")
+_COUNTS: Final = ("steps", "rhs_evaluations", "rebounds_", "wear_cycles")
 """What the names of whole numbers begin with."""
 
 

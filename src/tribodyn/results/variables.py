@@ -13,6 +13,7 @@ from typing import Final
 
 TIME: Final = ("time",)
 SNAPSHOT: Final = ("snapshot",)
+JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
 
 
@@ -44,6 +45,8 @@ COORDINATES: Final[dict[str, Variable]] = {
     "snapshot_direction": Variable("1", "direction of vane rotation at the snapshot, +1 or -1", SNAPSHOT),
     "frame": Variable("1", "number of the pressure frame, over the last cycle", FRAME),
     "frame_time": Variable("s", "simulated time of the pressure frame", FRAME),
+    "jump": Variable("1", "number of the stop of a wear campaign", JUMP),
+    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", ("stage_cycles",)),
     "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
@@ -169,10 +172,30 @@ _ENERGY: Final[dict[str, Variable]] = {
     "energy_clearance_residual": Variable("J", "what the clearance ledger misses"),
 }
 
+_CAMPAIGN: Final[dict[str, Variable]] = {
+    "wear_cycles": Variable("1", "drive cycles of wear at the stop", JUMP),
+    "wear_jump_cycles": Variable("1", "cycles that the cycle simulated there stands for", JUMP),
+    "wear_depth_max": Variable("m", "wear depth at the deepest", JUMP),
+    "worn_volume": Variable("m3", "volume worn off the bushing", JUMP),
+    "wear_rate": Variable("m", "wear depth of one cycle where it wears fastest", JUMP),
+    "wear_load_change": Variable(
+        "1", "change of the sliding load since the stop before, over its peak", JUMP
+    ),
+    "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
+    "wear_pressure_mean": Variable("Pa", "peak contact pressure, mean over the cycle", JUMP),
+    "wear_force_mean": Variable("N", "contact force, mean over the cycle", JUMP),
+    "wear_angle_error_max": Variable("rad", "vane-angle error, largest in the cycle", JUMP),
+    "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
+    "wear_energy_lost": Variable("J", "stored contact energy that the jump takes away", JUMP),
+    "stage_depth": Variable("m", "wear depth of the bushing, selected", ("stage_cycles", "theta", "z")),
+}
+
 _FIELDS: Final[dict[str, Variable]] = {
     "pressure": Variable("Pa", "contact pressure", ("snapshot", "theta", "z")),
     "pressure_cycle": Variable("Pa", "contact pressure over one drive cycle", ("frame", "theta", "z")),
-    "wear_depth": Variable("m", "wear depth of the bushing after this run", ("theta", "z")),
+    "wear_depth": Variable(
+        "m", "wear depth of the bushing, after the campaign or, estimated, after this run", ("theta", "z")
+    ),
 }
 
 VARIABLES: Final[dict[str, Variable]] = {
@@ -185,5 +208,6 @@ VARIABLES: Final[dict[str, Variable]] = {
     **_REACTIONS,
     **_ENERGY,
     **_FIELDS,
+    **_CAMPAIGN,
 }
 """Every variable a result may hold, by name."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError
 from tribodyn.simulation.journal import simulate_journal
 from tribodyn.simulation.vsv import simulate_vsv
+from tribodyn.simulation.vsv_wear import simulate_vsv_wear
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,12 +20,16 @@ if TYPE_CHECKING:
 SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv, "journal": simulate_journal}
 """What runs each kind of case."""
 
+CAMPAIGNS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv_wear}
+"""What runs a wear campaign of each kind of case that has one."""
+
 
 def simulate(
     case: Case,
     *,
     progress: Callable[[float], None] | None = None,
     stop: Callable[[], bool] | None = None,
+    checkpoint: str | PathLike[str] | None = None,
 ) -> xr.Dataset:
     """Simulate a case.
 
@@ -31,9 +38,13 @@ def simulate(
     case
         From :func:`tribodyn.load_case`.
     progress
-        Called with the simulated time [s] after every accepted step.
+        Called with the simulated time [s] after every accepted step; in a wear campaign with the cycles
+        of wear behind.
     stop
         Asked after every accepted step; when true the run ends there.
+    checkpoint
+        File in which a wear campaign is kept after every jump, and from which it goes on if the file is
+        there. It stays when the campaign is over. Other runs do not use it.
 
     Returns
     -------
@@ -49,8 +60,13 @@ def simulate(
     kind: str = getattr(case, "case", "")
     if kind not in SIMULATORS:
         raise InputError(f"given {kind!r}; allowed: {', '.join(SIMULATORS)}", key="case")
-    dataset: xr.Dataset = SIMULATORS[kind](case, progress=progress, stop=stop)
+    dataset: xr.Dataset
+    if case.campaign_cycles > 0:
+        kept = None if checkpoint is None else Path(checkpoint)
+        dataset = CAMPAIGNS[kind](case, progress=progress, stop=stop, checkpoint=kept)
+    else:
+        dataset = SIMULATORS[kind](case, progress=progress, stop=stop)
     return dataset
 
 
-__all__ = ["SIMULATORS", "simulate"]
+__all__ = ["CAMPAIGNS", "SIMULATORS", "simulate"]

@@ -13,6 +13,7 @@ from tribodyn.joints import SURFACE, BushingJoint, Grid
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.kernels.vsv import ledger
 from tribodyn.mechanisms.vsv import Vsv
+from tribodyn.wear import resampled
 
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
@@ -33,16 +34,28 @@ def peaks(extremes: FloatArray) -> dict[str, float]:
     }
 
 
-def grid_force_error(joint: BushingJoint, rows: Mapping[str, FloatArray]) -> float:
+def grid_force_error(
+    joint: BushingJoint, rows: Mapping[str, FloatArray], wear: FloatArray | None = None
+) -> float:
     """Return the largest error of the contact force on the run's grid against one four times finer [1].
 
     Taken at some of the run's own attitudes, without their velocities, relative to the largest force.
+
+    Parameters
+    ----------
+    joint
+        The joint on the run's grid.
+    rows
+        Columns of the run, of which the attitudes are used.
+    wear
+        Wear depth at the nodes during the run [m], shape (n_z + 2, n_theta); none by default.
     """
     n_rows = rows["e_x"].size
     if not n_rows:
         return 0.0
-    fine = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z)).data()
-    coarse = joint.data()
+    finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
+    fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
+    coarse = joint.data(wear)
     largest = error = 0.0
     for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
         y = np.zeros(8)

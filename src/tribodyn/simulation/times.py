@@ -16,13 +16,13 @@ _END_SHARE: Final = 0.02
 """Share of the vane's range by which pictures near the reversals stand off their impacts."""
 
 
-def output_times(case: VsvCase, vsv: Vsv) -> FloatArray:
+def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:
     """Return the times of the rows [s]: uniform, the reversals, and close together after each reversal.
 
     The impacts after a reversal last milliseconds; ``run.impact_interval`` resolves them for the
-    length of ``run.impact_window``.
+    length of ``run.impact_window``. ``duration`` is the time simulated in one go [s].
     """
-    duration, run = case.duration, case.run
+    run = case.run
     uniform = np.append(np.arange(0.0, duration, run.output_interval), duration)
     events = [uniform]
     burst = np.arange(0.0, run.impact_window, run.impact_interval)

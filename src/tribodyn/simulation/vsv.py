@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
 from tribodyn.kernels.vsv.observe import OBSERVED
-from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
+from tribodyn.mechanisms.vsv import AirLoads, Carried, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
@@ -24,6 +24,7 @@ from tribodyn.simulation.joint import joint
 from tribodyn.simulation.ledger import ledger_columns, residual_fractions
 from tribodyn.simulation.provenance import provenance
 from tribodyn.simulation.times import output_times, snapshots
+from tribodyn.wear import Archard, worn_volume
 
 NOT_STORED = ("work_", "heat_")
 """Observed quantities that reach the user under the names of the ledger instead."""
@@ -37,26 +38,69 @@ def simulate_vsv(
 ) -> xr.Dataset:
     """Simulate a ``vsv`` case, see :func:`tribodyn.simulation.simulate`."""
     vsv = mechanism(case)
+    problem, solution = integrated(case, vsv, case.duration, progress=progress, stop=stop)
+    depth = archard(case).depth(problem.memory.sliding_load)
+    return Gathered(case, vsv, problem, solution, depth).dataset(linear_life(case, solution.t_end, depth))
+
+
+def integrated(
+    case: VsvCase,
+    vsv: Vsv,
+    duration: float,
+    *,
+    wear: FloatArray | None = None,
+    carried: Carried | None = None,
+    progress: Callable[[float], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> tuple[Problem, Solution]:
+    """Integrate the mechanism over ``duration`` [s] from its start, or from where another run ended.
+
+    Parameters
+    ----------
+    case, vsv
+        The case and its mechanism.
+    duration
+        Simulated time [s].
+    wear, carried
+        As for :func:`tribodyn.mechanisms.vsv.vsv_problem`.
+    progress, stop
+        As for :func:`tribodyn.simulation.simulate`.
+    """
     atol = case.solver.atol
     problem = vsv_problem(
         vsv,
-        duration=case.duration,
+        duration=duration,
         start=case.run.start,
         atol=(atol.position, atol.tilt, atol.velocity, atol.tilt_rate),
+        wear=wear,
+        carried=carried,
     )
     frames = frame_times(
-        case.duration, vsv.drive.period, np.array(reversals(vsv, case.duration)), case.run.impact_window
+        duration, vsv.drive.period, np.array(reversals(vsv, duration)), case.run.impact_window
     )
     solution = integrate(
         problem,
         solver=case.solver.name,
         rtol=case.solver.rtol,
-        output_times=output_times(case, vsv),
-        picture_times=merged(snapshots(vsv, case.duration), frames, case.duration),
+        output_times=output_times(case, vsv, duration),
+        picture_times=merged(snapshots(vsv, duration), frames, duration),
         progress=progress,
         stop=stop,
     )
-    return _Gathered(case, vsv, problem, solution).dataset()
+    return problem, solution
+
+
+def archard(case: VsvCase) -> Archard:
+    """Return the wear law of a case."""
+    return Archard(case.wear.specific_wear_rate, case.wear.paper_hardness_divisor)
+
+
+def linear_life(case: VsvCase, t_end: float, depth: FloatArray) -> More:
+    """Return after how many cycles the depth limit is reached if the wear of this run goes on."""
+    limit, cycles, deepest = case.wear.depth_limit, t_end / case.period, float(depth.max(initial=0.0))
+    if limit is None or cycles < 1.0 - 1e-9 or deepest == 0.0:
+        return More()
+    return More(attributes={"wear_life_cycles": limit * cycles / deepest})
 
 
 def mechanism(case: VsvCase) -> Vsv:
@@ -87,15 +131,42 @@ def mechanism(case: VsvCase) -> Vsv:
 
 
 @dataclass(frozen=True)
-class _Gathered:
-    """A finished or interrupted run on its way to a dataset."""
+class More:
+    """What a run adds to its dataset: coordinates, fields, attributes, warnings."""
+
+    coordinates: Mapping[str, FloatArray] = field(default_factory=dict)
+    fields: Mapping[str, FloatArray] = field(default_factory=dict)
+    attributes: Mapping[str, object] = field(default_factory=dict)
+    warnings: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Gathered:
+    """A finished or interrupted run on its way to a dataset.
+
+    Attributes
+    ----------
+    case, vsv, problem, solution
+        The case, its mechanism, and what was integrated.
+    depth
+        Wear depth at the nodes after the run [m], shape (n_z + 2, n_theta).
+    statistics
+        Cost, where it is more than that of ``solution``.
+    """
 
     case: VsvCase
     vsv: Vsv
     problem: Problem
     solution: Solution
+    depth: FloatArray
+    statistics: Mapping[str, float] = field(default_factory=dict)
 
-    def dataset(self) -> xr.Dataset:
+    @property
+    def duration(self) -> float:
+        """Simulated time that was asked for [s]."""
+        return float(self.problem.t_span[1])
+
+    def dataset(self, more: More) -> xr.Dataset:
         """Return the result."""
         rows = {name: self.solution.rows[:, i] for i, name in enumerate(OBSERVED)}
         ledger = ledger_columns(rows)
@@ -104,10 +175,10 @@ class _Gathered:
         kept["F_dy"] = rows["F_cy"] - rows["F_ky"]
         kept["friction_power"] = -rows["friction_power"]
         return build(
-            coordinates=self._coordinates(),
+            coordinates={**self._coordinates(), **more.coordinates},
             columns=kept | ledger,
-            fields=self._fields(),
-            attributes=self._attributes(rows, ledger),
+            fields={**self._fields(), **more.fields},
+            attributes={**self._attributes(rows, ledger, more.warnings), **more.attributes},
         )
 
     def _coordinates(self) -> dict[str, FloatArray]:
@@ -132,27 +203,28 @@ class _Gathered:
 
     def _is_snapshot(self) -> NDArray[np.bool_]:
         """Tell of each picture whether it is a snapshot, shape (n_pictures,)."""
-        return np.isin(self.solution.picture_times, snapshots(self.vsv, self.case.duration))
+        return np.isin(self.solution.picture_times, snapshots(self.vsv, self.duration))
 
     def _film(self) -> slice:
         """Return which pictures are the frames of the animation."""
-        return shown(self.solution.picture_times, self.case.duration, self.vsv.drive.period)
+        return shown(self.solution.picture_times, self.duration, self.vsv.drive.period)
 
     def _fields(self) -> dict[str, NDArray[np.floating[Any]]]:
         pressure = self.solution.pictures[:, 0].transpose(0, 2, 1)
-        wear = self.case.wear
-        rate = wear.specific_wear_rate / (wear.paper_hardness_divisor or 1.0)
         return {
             "pressure": pressure[self._is_snapshot()],
             # Half the size, and more digits than an animation needs.
             "pressure_cycle": pressure[self._film()].astype(np.float32),
-            "wear_depth": rate * self.problem.memory.sliding_load.T,
+            "wear_depth": self.depth.T,
         }
 
-    def _attributes(self, rows: dict[str, FloatArray], ledger: dict[str, FloatArray]) -> dict[str, object]:
+    def _attributes(
+        self, rows: dict[str, FloatArray], ledger: dict[str, FloatArray], more: Sequence[str]
+    ) -> dict[str, object]:
         whole, clearance = residual_fractions(ledger)
-        grid_error = grid_force_error(self.vsv.joint, rows)
+        grid_error = grid_force_error(self.vsv.joint, rows, self.problem.data.joint.wear)
         found = peaks(self.problem.memory.extremes)
+        told = warnings(self.vsv, found, whole, clearance, grid_error, float(self.solution.t_end))
         return {
             "title": self.case.title,
             "case": self.case.to_toml(),
@@ -169,14 +241,15 @@ class _Gathered:
             "clearance_energy_residual": clearance,
             "grid_force_error": grid_error,
             **found,
+            "worn_volume": worn_volume(self.depth, self.vsv.joint.node_area),
             "time_reached": float(self.solution.t_end),
             "failure": self.solution.failure or "",
-            "warnings": warnings(self.vsv, found, whole, clearance, grid_error, float(self.solution.t_end)),
+            "warnings": [*told, *more],
         }
 
     def _solver(self) -> dict[str, object]:
         return {
             "name": self.case.solver.name,
             "rtol": self.case.solver.rtol,
-            **vars(self.solution.statistics),
+            **(self.statistics or vars(self.solution.statistics)),
         }

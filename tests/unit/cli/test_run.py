@@ -46,7 +46,9 @@ def simulation(monkeypatch: pytest.MonkeyPatch, make_result: ResultFactory) -> C
     """Replace the simulation by one that does ``during`` and returns a made-up result."""
 
     def install(during: Callable[[Any], str] = lambda stop: "") -> None:
-        def simulate(case: Any, *, progress: Callable[[float], None], stop: Callable[[], bool]) -> xr.Dataset:
+        def simulate(
+            case: Any, *, progress: Callable[[float], None], stop: Callable[[], bool], checkpoint: Path
+        ) -> xr.Dataset:
             progress(1.0)
             failure = during(stop)
             end = 5.0 if failure else case.duration

@@ -10,8 +10,15 @@ OF_A_LAW = {"law", *(name for name, variable in VARIABLES.items() if variable.di
 """What only results with contact laws side by side hold."""
 
 
-def test_every_variable_carries_unit_and_meaning(make_result):
-    result = make_result(0.5)
+OF_A_CAMPAIGN = {
+    name for name, variable in VARIABLES.items() if {"jump", "stage_cycles"} & set(variable.dims)
+}
+"""What only results of wear campaigns hold."""
+
+
+def test_every_variable_carries_unit_and_meaning(make_result, make_campaign):
+    assert set(make_result(0.5).variables) == set(VARIABLES) - OF_A_LAW - OF_A_CAMPAIGN
+    result = make_campaign(5)
     assert set(result.variables) == set(VARIABLES) - OF_A_LAW
     for name, variable in result.variables.items():
         assert variable.attrs["units"] == VARIABLES[name].units

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -154,6 +155,22 @@ def reversals(vsv: Vsv, duration: float) -> tuple[float, ...]:
     return tuple(half * k for k in range(1, count))
 
 
+@dataclass(frozen=True)
+class Carried:
+    """What a run hands on to the next one, which begins where it ended in the drive's cycle.
+
+    Attributes
+    ----------
+    state
+        The eight states, shape (8,).
+    entry_velocity
+        Memory of contact: δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta).
+    """
+
+    state: FloatArray
+    entry_velocity: FloatArray
+
+
 def vsv_problem(
     vsv: Vsv,
     *,
@@ -161,6 +178,7 @@ def vsv_problem(
     start: str,
     atol: tuple[float, float, float, float],
     wear: FloatArray | None = None,
+    carried: Carried | None = None,
 ) -> Problem:
     """Return the initial value problem of the mechanism.
 
@@ -176,11 +194,19 @@ def vsv_problem(
         Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s].
     wear
         Wear depth at the nodes [m].
+    carried
+        Where to go on from, at the beginning of a drive cycle, instead of ``start``.
     """
     data = vsv_data(vsv, wear, duration)
     memory = vsv_memory(data)
-    y0 = initial_state(data, memory, start)
-    update_entry_velocity(data.joint, y0, memory.entry_velocity, 1.0)
+    if carried is None:
+        y0 = initial_state(data, memory, start)
+        update_entry_velocity(data.joint, y0, memory.entry_velocity, 1.0)
+    else:
+        y0 = carried.state.copy()
+        memory.entry_velocity[:] = carried.entry_velocity
+        # Points that wear has taken out of contact forget.
+        update_entry_velocity(data.joint, y0, memory.entry_velocity, 0.0)
     return Problem(
         functions=FUNCTIONS,
         data=data,

@@ -1,0 +1,266 @@
+"""Wear over many cycles by cycle jumping.
+
+A campaign stops at some cycles. At each stop one drive cycle is simulated with the bushing as worn as it is
+then, from the state and the memory of contact in which the cycle simulated before it ended. Its sliding load
+is repeated over the cycles of the jump that follows, the simulated one among them. What lies between two
+simulated cycles is a :class:`Worn`, and nothing else: a campaign goes on from it to the same bits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Statistics
+from tribodyn.mechanisms.vsv import Carried
+from tribodyn.simulation.history import History, appended, empty_history, thinned
+from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is asked of a campaign.
+
+    Attributes
+    ----------
+    cycles
+        Drive cycles to wear for.
+    settling
+        Cycles simulated before the first one whose wear counts.
+    feedback
+        Whether the worn shape changes the gap.
+    depth_limit
+        Depth at which the campaign ends [m]; infinite for none.
+    law, control
+        Wear law, and what chooses the length of jumps.
+    node_area
+        Area that a node of each row stands for [m²], shape (n_z + 2,).
+    field_shape
+        Shape (n_z + 2, n_theta) of a field over the nodes.
+    """
+
+    cycles: int
+    settling: int
+    feedback: bool
+    depth_limit: float
+    law: Archard
+    control: JumpControl
+    node_area: FloatArray
+    field_shape: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """One simulated cycle.
+
+    Attributes
+    ----------
+    carried
+        State and memory of contact at its end.
+    sliding_load
+        ∫P_c |u| dt over the cycle at the nodes [N/m], shape (n_z + 2, n_theta).
+    motion
+        Entries of the history that describe its motion; empty if it was not completed.
+    statistics
+        What it cost.
+    failure
+        Why it was not completed, if it was not.
+    """
+
+    carried: Carried
+    sliding_load: FloatArray
+    motion: dict[str, float]
+    statistics: Statistics
+    failure: str | None
+
+
+class Mechanism(Protocol):
+    """What a campaign needs of a mechanism whose joint wears."""
+
+    def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
+        """Simulate one cycle with a worn bushing, from the start of a run or from where one ended.
+
+        Parameters
+        ----------
+        wear
+            Depth at the nodes [m], shape (n_z + 2, n_theta).
+        carried
+            Where to go on from.
+        done
+            Cycles of wear behind, for the display of progress.
+        """
+        ...
+
+    def contact_energy(self, wear: FloatArray, carried: Carried) -> float:
+        """Return the energy stored in the contact at a state [J]."""
+        ...
+
+
+@dataclass(frozen=True)
+class Worn:
+    """A campaign between two simulated cycles.
+
+    Attributes
+    ----------
+    cycles
+        Cycles of wear behind.
+    depth
+        Wear depth at the nodes [m], shape (n_z + 2, n_theta).
+    carried
+        Where the last simulated cycle ended; none before the first.
+    load
+        Its sliding load [N/m], shape (n_z + 2, n_theta); zero before the first stop.
+    gain
+        Depth that the last jump gained at its deepest, over the roughness.
+    life
+        Cycles after which the depth limit was reached; infinite if it was not.
+    history
+        What was written down at the stops so far.
+    stage_cycles, stage_depth
+        Selected worn profiles [m] and their cycles, shapes (n,) and (n, n_z + 2, n_theta).
+    statistics
+        Cost so far.
+    """
+
+    cycles: int
+    depth: FloatArray
+    carried: Carried | None
+    load: FloatArray
+    gain: float
+    life: float
+    history: History
+    stage_cycles: FloatArray
+    stage_depth: FloatArray
+    statistics: dict[str, float]
+
+
+def run_campaign(
+    mechanism: Mechanism, plan: Plan, resumed: Worn | None, keep: Callable[[Worn], None]
+) -> tuple[Worn, Cycle]:
+    """Run a campaign to its end, or to a cycle that fails.
+
+    Parameters
+    ----------
+    mechanism
+        What wears.
+    plan
+        What is asked.
+    resumed
+        Where an earlier run of the same campaign was; from the beginning by default.
+    keep
+        Called after every jump with what the campaign goes on from.
+
+    Returns
+    -------
+    worn, cycle
+        The bushing at the end, and the cycle simulated with it.
+    """
+    worn, cycle = (resumed, None) if resumed is not None else _settled(mechanism, plan)
+    while cycle is None or cycle.failure is None:
+        cycle = mechanism.cycle(_gap(worn, plan), worn.carried, worn.cycles)
+        worn = replace(worn, statistics=_added(worn.statistics, cycle.statistics))
+        if cycle.failure is None:
+            if worn.cycles >= plan.cycles or math.isfinite(worn.life):
+                return _noted(worn, cycle, plan), cycle
+            worn = _jumped(mechanism, worn, cycle, plan)
+            keep(worn)
+    return worn, cycle
+
+
+def _settled(mechanism: Mechanism, plan: Plan) -> tuple[Worn, Cycle | None]:
+    """Simulate the cycles that let the start die away; return also the last of them, if there is any."""
+    nothing = np.zeros(plan.field_shape)
+    worn = Worn(
+        cycles=0,
+        depth=nothing,
+        carried=None,
+        load=nothing,
+        gain=0.0,
+        life=math.inf,
+        history=empty_history(),
+        stage_cycles=np.empty(0),
+        stage_depth=np.empty((0, *plan.field_shape)),
+        statistics=vars(Statistics()),
+    )
+    cycle: Cycle | None = None
+    for _ in range(plan.settling):
+        cycle = mechanism.cycle(nothing, worn.carried, 0)
+        statistics = _added(worn.statistics, cycle.statistics)
+        worn = replace(worn, carried=cycle.carried, statistics=statistics)
+        if cycle.failure is not None:
+            break
+    return worn, cycle
+
+
+def _gap(worn: Worn, plan: Plan) -> FloatArray:
+    """Return the wear depth that the contact feels [m]."""
+    return worn.depth if plan.feedback else np.zeros(plan.field_shape)
+
+
+def _jumped(mechanism: Mechanism, worn: Worn, cycle: Cycle, plan: Plan) -> Worn:
+    """Write the stop down and wear the bushing for the cycles of a jump."""
+    per_cycle = plan.law.depth(cycle.sliding_load)
+    until_limit = _cycles_to(plan.depth_limit, worn.depth, per_cycle)
+    cycles = min(_jump(worn, cycle, plan), math.ceil(min(until_limit, plan.cycles)))
+    after = replace(
+        worn,
+        cycles=worn.cycles + cycles,
+        depth=worn.depth + cycles * per_cycle,
+        carried=cycle.carried,
+        load=cycle.sliding_load,
+        gain=cycles * float(per_cycle.max()) / plan.control.roughness,
+        life=worn.cycles + until_limit if until_limit <= cycles else math.inf,
+    )
+    lost = mechanism.contact_energy(_gap(worn, plan), cycle.carried)
+    lost -= mechanism.contact_energy(_gap(after, plan), cycle.carried)
+    stages = (
+        np.append(worn.stage_cycles, after.cycles),
+        np.append(worn.stage_depth, after.depth[None], axis=0),
+    )
+    stage_cycles, stage_depth = thinned(*stages)
+    history = _noted(worn, cycle, plan, cycles, lost).history
+    return replace(after, history=history, stage_cycles=stage_cycles, stage_depth=stage_depth)
+
+
+def _jump(worn: Worn, cycle: Cycle, plan: Plan) -> int:
+    """Return the cycles of the next jump, the simulated one among them, as its change of load allows."""
+    remaining = plan.cycles - worn.cycles
+    if not plan.feedback:
+        return remaining
+    gain = plan.control.first
+    if worn.gain > 0.0:
+        gain = plan.control.next(worn.gain, load_change(cycle.sliding_load, worn.load))
+    return plan.control.cycles(gain, plan.law.depth(cycle.sliding_load), remaining)
+
+
+def _cycles_to(limit: float, depth: FloatArray, per_cycle: FloatArray) -> float:
+    """Return after how many cycles some point is as deep as ``limit`` [m]."""
+    wearing = per_cycle > 0.0
+    if not (math.isfinite(limit) and wearing.any()):
+        return math.inf
+    return float(((limit - depth[wearing]) / per_cycle[wearing]).min())
+
+
+def _noted(worn: Worn, cycle: Cycle, plan: Plan, jump: int = 0, lost: float = 0.0) -> Worn:
+    """Return the campaign with a stop written down, from which a jump of ``jump`` cycles follows."""
+    entry = {
+        **cycle.motion,
+        "wear_cycles": float(worn.cycles),
+        "wear_jump_cycles": float(jump),
+        "wear_depth_max": float(worn.depth.max()),
+        "worn_volume": worn_volume(worn.depth, plan.node_area),
+        "wear_rate": float(plan.law.depth(cycle.sliding_load).max()),
+        "wear_load_change": load_change(cycle.sliding_load, worn.load),
+        "wear_energy_lost": lost,
+    }
+    return replace(worn, history=appended(worn.history, entry))
+
+
+def _added(before: dict[str, float], cost: Statistics) -> dict[str, float]:
+    """Return the cost so far with that of one more cycle."""
+    return {name: before[name] + value for name, value in vars(cost).items()}

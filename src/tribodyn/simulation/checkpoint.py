@@ -1,0 +1,124 @@
+"""A wear campaign on disk between two jumps.
+
+One NumPy archive, without pickled objects, written beside its place and then renamed: a campaign that is
+killed finds the last complete one.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.vsv import Carried
+from tribodyn.results.atomic import replacing
+from tribodyn.simulation.campaign import Worn
+from tribodyn.simulation.history import COLUMNS
+from tribodyn.simulation.provenance import provenance
+
+FORMAT: Final = 1
+_ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
+
+
+def write(path: Path, worn: Worn, case: str) -> None:
+    """Write a checkpoint whole or not at all.
+
+    Parameters
+    ----------
+    path
+        The file; its folder must exist.
+    worn
+        What the campaign goes on from.
+    case
+        Text of the case, by which the campaign is known again.
+    """
+    assert worn.carried is not None
+    facts = {
+        "format": FORMAT,
+        "case": case,
+        "versions": provenance(),
+        "cycles": worn.cycles,
+        "statistics": worn.statistics,
+    }
+    arrays: dict[str, Any] = {name: getattr(worn, name) for name in _ARRAYS}
+    arrays |= {"state": worn.carried.state, "entry_velocity": worn.carried.entry_velocity}
+    arrays |= {"gain": worn.gain, "life": worn.life, "facts": json.dumps(facts)}
+    arrays |= {f"history_{name}": worn.history[name] for name in COLUMNS}
+    with replacing(path) as part, part.open("wb") as stream:
+        np.savez(stream, **arrays)
+
+
+def read(path: Path, case: str) -> tuple[Worn, list[str]] | None:
+    """Read a checkpoint, if there is one.
+
+    Parameters
+    ----------
+    path
+        The file.
+    case
+        Text of the case that is to be gone on with.
+
+    Returns
+    -------
+    tuple or None
+        What the campaign goes on from, and warnings about it.
+
+    Raises
+    ------
+    InputError
+        If the file is of another case or cannot be read.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = dict(archive)
+        facts = json.loads(str(arrays["facts"]))
+        known = facts["format"] == FORMAT
+        worn = _worn(arrays, facts) if known else None
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        raise _refused(path, f"it cannot be read ({error})") from error
+    if worn is None:
+        raise _refused(path, "it was written by another version of tribodyn")
+    if facts["case"] != case:
+        raise _refused(path, f"it holds {worn.cycles} cycles of a campaign of another case")
+    return worn, _changed(facts["versions"])
+
+
+def _worn(arrays: Mapping[str, Any], facts: Mapping[str, Any]) -> Worn:
+    return Worn(
+        cycles=facts["cycles"],
+        carried=Carried(arrays["state"], arrays["entry_velocity"]),
+        gain=float(arrays["gain"]),
+        life=float(arrays["life"]),
+        history={name: arrays[f"history_{name}"] for name in COLUMNS},
+        statistics=facts["statistics"],
+        **{name: arrays[name] for name in _ARRAYS},
+    )
+
+
+def _changed(versions: Mapping[str, str]) -> list[str]:
+    """Say with which packages the campaign was begun, if they are others now."""
+    begun = [
+        f"{name.removesuffix('_version')} {old}"
+        for name, old in versions.items()
+        if provenance()[name] != old
+    ]
+    if not begun:
+        return []
+    return [f"The campaign was begun with {', '.join(begun)}: its later cycles were computed with others."]
+
+
+def _refused(path: Path, reason: str) -> InputError:
+    name = os.fspath(path)
+    return InputError(
+        f"a wear campaign cannot go on from {name}: {reason}; choose another directory, or remove the file "
+        "to begin anew",
+        key="wear.cycles",
+    )

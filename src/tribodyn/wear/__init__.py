@@ -1,0 +1,9 @@
+"""Wear: from sliding loads to depth and volume, and how far one simulated cycle may be extrapolated."""
+
+from __future__ import annotations
+
+from tribodyn.wear.jump import JumpControl, load_change
+from tribodyn.wear.law import Archard, worn_volume
+from tribodyn.wear.profile import resampled
+
+__all__ = ["Archard", "JumpControl", "load_change", "resampled", "worn_volume"]

@@ -1,0 +1,58 @@
+"""Archard's law of wear, Eq. 47.
+
+The depth worn off a point of the bushing is the specific wear rate times the sliding load of that point,
+the time integral of P_c |u|. The paper prints C_w/H_d, which is no specific wear rate if C_w is one
+already; its figures come out when the rate is divided by the bare number 65.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class Archard:
+    """Archard's law with a constant rate.
+
+    Attributes
+    ----------
+    specific_rate
+        Specific wear rate C_w [m²/N].
+    hardness_divisor
+        What the paper divides the rate by, a number without a unit; 0 is off.
+    """
+
+    specific_rate: float
+    hardness_divisor: float = 0.0
+
+    @property
+    def rate(self) -> float:
+        """Wear rate in force [m²/N]."""
+        return self.specific_rate / (self.hardness_divisor or 1.0)
+
+    def depth(self, sliding_load: FloatArray) -> FloatArray:
+        """Return the depth worn off [m].
+
+        Parameters
+        ----------
+        sliding_load
+            ∫P_c |u| dt [N/m], any shape.
+        """
+        return self.rate * sliding_load
+
+
+def worn_volume(depth: FloatArray, node_area: FloatArray) -> float:
+    """Return the volume worn off [m³] by the quadrature of the contact.
+
+    Parameters
+    ----------
+    depth
+        Depth at the nodes [m], shape (n_z + 2, n_theta).
+    node_area
+        Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges.
+    """
+    return float(np.sum(node_area * np.sum(depth, axis=1)))
