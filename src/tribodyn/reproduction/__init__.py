@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.reproduction import clearance, drive, journal, pressure, trunnion
+from tribodyn.reproduction import clearance, drive, journal, pressure, trunnion, wear
 from tribodyn.reproduction.base import PaperFigure
 from tribodyn.reproduction.runs import FORMULATIONS, Runs
 
@@ -22,6 +22,7 @@ FIGURES: Final[dict[str, PaperFigure]] = {
         clearance.MOTION,
         clearance.FORCES,
         clearance.ATTITUDE,
+        wear.WEAR,
     )
 }
 """Every figure of the paper that shows results, by name."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.reproduction.claims import clearance, journal, trunnion
+from tribodyn.reproduction.claims import clearance, journal, trunnion, wear
 from tribodyn.reproduction.claims.base import Claim, Finding, verdict
 from tribodyn.reproduction.claims.table import Row, as_json, as_markdown, as_text, judge
 
-CLAIMS: Final[tuple[Claim, ...]] = (*journal.CLAIMS, *trunnion.CLAIMS, *clearance.CLAIMS)
+CLAIMS: Final[tuple[Claim, ...]] = (*journal.CLAIMS, *trunnion.CLAIMS, *clearance.CLAIMS, *wear.CLAIMS)
 """In the order of the paper."""
 
 __all__ = ["CLAIMS", "Claim", "Finding", "Row", "as_json", "as_markdown", "as_text", "judge", "verdict"]
