@@ -75,7 +75,7 @@ def read(path: Path, case: str) -> tuple[Worn, list[str]] | None:
         If the file is of another case or cannot be read.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
             arrays = dict(archive)
         facts = json.loads(str(arrays["facts"]))
         known = facts["format"] == FORMAT

@@ -186,3 +186,15 @@ def test_models_check_values_without_a_file() -> None:
 
 def test_every_case_is_a_case() -> None:
     assert all(issubclass(entry.model, Case) for entry in CASES.values())
+
+
+def test_a_campaign_needs_whole_cycles_and_a_pressure() -> None:
+    assert CASE.campaign_cycles == 0
+    assert CASE.replace({"wear.cycles": 400}).campaign_cycles == 400
+    for changes, message in (
+        ({"run.cycles": 1.5}, "a whole number of cycles"),
+        ({"run.duration": "9 s"}, "a whole number of cycles"),
+        ({"joint.contact": "point-johnson"}, "no pressure that could wear"),
+    ):
+        with pytest.raises(InputError, match=message):
+            CASE.replace({"wear.cycles": 400, **changes})

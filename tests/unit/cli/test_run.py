@@ -237,3 +237,53 @@ def test_results_are_replaced(in_empty_directory: Path, simulation: Callable[...
     assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]) == 0
     assert 'clearance = "40 um"' in Path("out/case.toml").read_text(encoding="utf-8")
     assert Path("out/notes.txt").read_text(encoding="utf-8") == "mine"
+
+
+CAMPAIGN = ["run", "vsv", "--set", "wear.cycles=400", "-o", "out"]
+
+
+@pytest.fixture
+def campaign(monkeypatch: pytest.MonkeyPatch, make_campaign: ResultFactory) -> Callable[[str], None]:
+    """Replace the simulation by a campaign that keeps a checkpoint and ends with ``failure``."""
+
+    def install(failure: str) -> None:
+        def simulate(
+            case: Any, *, progress: Callable[[float], None], checkpoint: Path, **_: Any
+        ) -> xr.Dataset:
+            assert case.campaign_cycles == 400
+            progress(400.0)
+            checkpoint.write_text("kept", encoding="utf-8")
+            return make_campaign(3, failure=failure, case=case.to_toml(), title=case.title)
+
+        monkeypatch.setattr(tribodyn.simulation, "simulate", simulate)
+
+    return install
+
+
+def test_a_campaign_counts_cycles_and_leaves_no_checkpoint(
+    in_empty_directory: Path, campaign: Callable[[str], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    campaign("")
+    assert main(CAMPAIGN) == 0
+    assert not Path("out/checkpoint.npz").exists()
+    captured = capsys.readouterr()
+    assert "400 of 400 cycles of wear" in captured.err
+    assert "going on" not in captured.err
+    summary = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
+    assert summary["wear_cycles"] == 2000
+    assert isinstance(summary["wear_cycles"], int)
+
+
+def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(
+    in_empty_directory: Path, campaign: Callable[[str], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    campaign("interrupted")
+    assert main(CAMPAIGN) == 1
+    assert Path("out/checkpoint.npz").exists()
+    message = capsys.readouterr().err.splitlines()[-1]
+    assert "stopped after 2000 of 400 cycles: interrupted" in message
+    assert "saved in out; the same command goes on from there" in message
+    campaign("")
+    assert main(CAMPAIGN) == 0
+    assert "going on with the wear campaign kept in" in capsys.readouterr().err
+    assert not Path("out/checkpoint.npz").exists()

@@ -1,0 +1,130 @@
+"""A wear campaign whose process is killed at random moments ends as one that was left alone, to the bit."""
+
+from __future__ import annotations
+
+import json
+import random
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from tribodyn.cases import load_case
+from tribodyn.results import read
+from tribodyn.simulation import simulate
+
+CHANGES = {
+    "solver.grid.theta": 24,
+    "solver.grid.z": 6,
+    "run.output_interval": "50 ms",
+    "run.impact_interval": "5 ms",
+    "wear.specific_wear_rate": "1.1e-12 m^2/N",
+    "wear.cycles": 400,
+    "wear.jump_limit": 0.5,
+}
+
+
+def changed(**more: object) -> dict[str, object]:
+    return CHANGES | {name.replace("__", "."): value for name, value in more.items()}
+
+
+def command(changes: dict[str, object]) -> list[str]:
+    options = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
+    return [sys.executable, "-m", "tribodyn", "run", "vsv", "--quiet", *options, "-o", "out"]
+
+
+def begin(changes: dict[str, object], folder: Path) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(
+        command(changes), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+
+
+def end(process: subprocess.Popen[bytes]) -> bool:
+    """Kill a process as a power cut would; False if it was over already."""
+    alive = process.poll() is None
+    process.kill()
+    process.wait(timeout=60)
+    return alive
+
+
+def checkpoint_time(folder: Path) -> float:
+    path = folder / "out" / "checkpoint.npz"
+    return path.stat().st_mtime if path.exists() else 0.0
+
+
+def wait_for_a_jump(process: subprocess.Popen[bytes], folder: Path, before: float) -> None:
+    """Wait until the campaign has been kept once more, or its process is over."""
+    deadline = time.monotonic() + 300.0  # compiling may come first
+    while checkpoint_time(folder) == before and process.poll() is None:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def same_to_the_bit(one: xr.Dataset, other: xr.Dataset) -> None:
+    assert set(one.variables) == set(other.variables)
+    for name in one.variables:
+        values, others = one[name].values, other[name].values
+        assert values.dtype == others.dtype
+        assert values.tobytes() == others.tobytes(), name
+    facts, other_facts = ({**data.attrs, "solver": json.loads(data.attrs["solver"])} for data in (one, other))
+    for attributes in (facts, other_facts):
+        del attributes["solver"]["wall_time"]
+    assert facts == other_facts
+
+
+def test_killed_twice_it_ends_as_one_left_alone(tmp_path: Path) -> None:
+    changes, chance = changed(), random.Random(19)
+    undisturbed = simulate(load_case("vsv").replace(changes))
+    for _ in range(2):
+        before = checkpoint_time(tmp_path)
+        process = begin(changes, tmp_path)
+        wait_for_a_jump(process, tmp_path, before)
+        time.sleep(chance.uniform(0.0, 0.4))  # a cycle takes about 0.2 s
+        assert end(process)
+    assert not (tmp_path / "out" / "result.nc").exists()
+    with np.load(tmp_path / "out" / "checkpoint.npz", allow_pickle=False) as archive:
+        assert 0.0 < archive["depth"].max() < float(undisturbed["wear_depth"].max())
+    assert begin(changes, tmp_path).wait(timeout=600) == 0
+    same_to_the_bit(read(tmp_path / "out"), undisturbed)
+    assert not (tmp_path / "out" / "checkpoint.npz").exists()
+
+
+@pytest.mark.long
+def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
+    # At any moment: while Python starts, in a cycle, while a checkpoint is written, while the result is.
+    changes, chance = (
+        changed(wear__cycles=4000, wear__jump_limit=0.02, wear__jump_depth=0.05),
+        random.Random(50),
+    )
+    undisturbed = simulate(load_case("vsv").replace(changes))
+    assert undisturbed.sizes["jump"] > 60
+    kills = 0
+    while kills < 50:
+        before = checkpoint_time(tmp_path)
+        process = begin(changes, tmp_path)
+        if kills % 5:  # else it may be killed before it has done anything
+            wait_for_a_jump(process, tmp_path, before)
+        time.sleep(chance.uniform(0.0, 1.0))
+        assert end(process), "the campaign was over before it was killed often enough"
+        kills += 1
+    assert begin(changes, tmp_path).wait(timeout=900) == 0
+    same_to_the_bit(read(tmp_path / "out"), undisturbed)
+
+
+def test_another_case_does_not_go_on_from_it(tmp_path: Path) -> None:
+    path = tmp_path / "checkpoint.npz"
+    simulate(load_case("vsv").replace(changed(wear__cycles=1, run__cycles=1)), checkpoint=path)
+    assert path.exists()
+    out = tmp_path / "out"
+    out.mkdir()
+    path.rename(out / "checkpoint.npz")
+    other = command(changed(joint__clearance="30 um"))
+    found = subprocess.run(other, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
+    assert found.returncode == 2
+    assert found.stderr.count("\n") == 1
+    assert "another case; choose another directory, or remove the file to begin anew" in found.stderr
+    assert [file.name for file in out.iterdir()] == ["checkpoint.npz"]
