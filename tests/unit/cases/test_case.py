@@ -64,7 +64,8 @@ def changes(draw: st.DrawFn) -> dict[str, object]:
 @given(changes())
 @settings(max_examples=60, deadline=None)
 def test_case_text_reads_back_to_the_same_case(changed: dict[str, object]) -> None:
-    case = CASE.replace(changed)
+    # A campaign needs whole cycles; its keys have tests of their own.
+    case = CASE.replace({path: value for path, value in changed.items() if path != "wear.cycles"})
     for comments in (False, True):
         again = parse_case(case.to_toml(comments=comments), "case.toml")
         assert again == case
