@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from tribodyn.cases import load_case
-from tribodyn.mechanisms.vsv.parameters import Lengths
-from tribodyn.mechanisms.vsv.reach import closure
 from tribodyn.simulation import simulate
 
 BRIEF = {"run.duration": "0.2 s", "run.output_interval": "5 ms"}
 """The start and what follows it: contact, friction and memory are at work."""
 ATTITUDE = ("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot")
-
-LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))
 
 
 def run(**changes):
@@ -62,13 +56,3 @@ def test_the_path_integrals_do_not_depend_on_the_rows(base):
     often = run(run__output_interval="1 ms")
     for name in ("energy_damping", "energy_friction", "energy_drive"):
         assert often[name].values[-1] == pytest.approx(base[name].values[-1], rel=1e-5)
-
-
-def test_a_mirrored_loop_closes_where_its_image_does() -> None:
-    """x → −x: γ → π − γ, φ → −φ, θ_a → −θ_a, θ_v → π − θ_v leave the length of the drag link as it is."""
-    image = replace(LENGTHS, gamma=np.pi - LENGTHS.gamma, phi=-LENGTHS.phi)
-    theta_a = np.linspace(-0.5, 0.5, 11)[:, None]
-    theta_v = np.linspace(-1.0, 4.0, 51)
-    missing = closure(LENGTHS, theta_a, theta_v) - closure(image, -theta_a, np.pi - theta_v)
-    # Rounding of lengths of half a metre, squared.
-    np.testing.assert_allclose(missing, 0.0, atol=1e-15)

@@ -12,6 +12,7 @@ from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, text
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair
+    from tribodyn.mechanisms.vsv import Drive as Crank
     from tribodyn.mechanisms.vsv import Lengths
 
 TABLE_2 = "paper, Table 2"
@@ -56,7 +57,9 @@ class Drive(Group):
     """Motion of the crank: theta_a = start + amplitude/frequency (1 - cos(frequency t))."""
 
     start_angle: float = quantity("-16 deg", "crank angle at the start", DRIVE, ge="-180 deg", le="180 deg")
-    speed_amplitude: float = quantity("20 deg/s", "largest angular speed of the crank", DRIVE, gt=0)
+    speed_amplitude: float = quantity(
+        "20 deg/s", "largest angular speed of the crank; negative: it sets out backwards", DRIVE
+    )
     angular_frequency: float = quantity("1 rad/s", "of the sinusoidal crank speed", DRIVE, gt=0)
 
 
@@ -161,11 +164,11 @@ class Vsv(Case):
         )
 
     @property
-    def crank_range(self) -> tuple[float, float]:
-        """Smallest and largest crank angle reached in the run [rad]."""
-        half_turn = min(self.drive.angular_frequency * self.duration, math.pi)
-        swing = self.drive.speed_amplitude / self.drive.angular_frequency * (1.0 - math.cos(half_turn))
-        return self.drive.start_angle, self.drive.start_angle + swing
+    def crank(self) -> Crank:
+        """Motion of the crank in the symbols of the paper."""
+        from tribodyn.mechanisms.vsv import Drive as Crank
+
+        return Crank(self.drive.start_angle, self.drive.speed_amplitude, self.drive.angular_frequency)
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
@@ -227,4 +230,5 @@ class Vsv(Case):
         """Check that the loop closes at every crank angle of the drive."""
         from tribodyn.mechanisms.vsv import check_reach
 
-        check_reach(self.lengths, *self.crank_range)
+        demand(self.drive.speed_amplitude != 0.0, "drive.speed_amplitude", "the crank must move")
+        check_reach(self.lengths, *self.crank.crank_range(self.duration))

@@ -42,7 +42,7 @@ def snapshots(vsv: Vsv, duration: float) -> FloatArray:
     """
     drive = vsv.drive
     crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
-    vane = ideal_vane_angle(vsv.lengths, crank)
+    vane = np.unwrap(ideal_vane_angle(vsv.lengths, crank))
     low, high = float(vane[0]), float(vane[-1])
     switch = vsv.air.switch_angle
     middle = switch if min(low, high) < switch < max(low, high) else 0.5 * (low + high)

@@ -14,8 +14,9 @@ from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
+from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.observe import OBSERVED
-from tribodyn.mechanisms.vsv import AirLoads, Carried, Drive, Inertias, Vsv, ideal_vane_angle, vsv_problem
+from tribodyn.mechanisms.vsv import AirLoads, Carried, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
@@ -105,7 +106,7 @@ def linear_life(case: VsvCase, t_end: float, depth: FloatArray) -> More:
 
 def mechanism(case: VsvCase) -> Vsv:
     """Return the mechanism that a case describes, in the symbols of the paper."""
-    m, loads, drive = case.mechanism, case.loads, case.drive
+    m, loads = case.mechanism, case.loads
     return Vsv(
         formulation=m.formulation,
         lengths=case.lengths,
@@ -120,7 +121,7 @@ def mechanism(case: VsvCase) -> Vsv:
             J_v=m.vane_inertia,
             J_vz=m.vane_spin_inertia,
         ),
-        drive=Drive(drive.start_angle, drive.speed_amplitude, drive.angular_frequency),
+        drive=case.crank,
         air=AirLoads(
             loads.air_force_x, loads.air_force_y, loads.air_moment, loads.switch_angle, loads.switch_width
         ),
@@ -192,7 +193,9 @@ class Gathered:
             "frame": np.arange(frames.size, dtype=np.float64),
             "frame_time": frames,
             "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, theta_a),
-            "snapshot_direction": np.sign(np.sin(self.vsv.drive.angular_frequency * times)),
+            "snapshot_direction": np.array(
+                [vane_direction(self.problem.data, t, self.problem.memory) for t in times]
+            ),
             "theta": self.vsv.joint.theta,
             "z": self.vsv.joint.z,
         }

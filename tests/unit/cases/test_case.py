@@ -154,10 +154,18 @@ def test_surfaces_reach_the_contact_law() -> None:
 
 
 def test_crank_range_covers_the_swing_of_a_whole_cycle_only_if_it_is_run() -> None:
-    low, high = CASE.crank_range  # type: ignore[attr-defined]
+    low, high = CASE.crank.crank_range(CASE.duration)  # type: ignore[attr-defined]
     assert high - low == pytest.approx(0.6981317007977318)
     short = CASE.replace({"run.duration": "0.1 s", "drive.speed_amplitude": "200 deg/s"})
-    assert short.crank_range[1] < 0.0  # type: ignore[attr-defined]
+    assert short.crank.crank_range(short.duration)[1] < 0.0  # type: ignore[attr-defined]
+
+
+def test_the_crank_may_set_out_backwards_but_must_move() -> None:
+    back = CASE.replace({"drive.speed_amplitude": "-20 deg/s", "drive.start_angle": "24 deg"})
+    assert back.crank.crank_range(7.0) == pytest.approx(CASE.crank.crank_range(7.0))  # type: ignore[attr-defined]
+    with pytest.raises(InputError, match="must move") as caught:
+        CASE.replace({"drive.speed_amplitude": "0 deg/s"})
+    assert caught.value.key == "drive.speed_amplitude"
 
 
 def test_comments_fit_on_a_screen() -> None:

@@ -62,7 +62,7 @@ def closure_residual(
 
 @kernel
 def vane_angle(data: VsvData, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float) -> float:
-    """Return θ_v [rad] of the assembly with the larger vane angle, to machine precision; NaN out of reach."""
+    """Return θ_v [rad] in the assembly of the table, to machine precision; NaN out of reach."""
     theta_v = ideal_guess(data, theta_a)
     for _ in range(MAX_NEWTON):
         residual, slope = closure_residual(data, theta_a, e_x, e_y, tan_x, tan_y, theta_v)

@@ -7,9 +7,13 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.joint import pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
-from tribodyn.kernels.vsv.closure import drive
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
+from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
+from tribodyn.kernels.vsv.motion import fill_rods
+
+JUST_AFTER = 1.0e-5
+"""How long after a reversal the new direction is read, as a phase of the drive [rad]."""
 
 
 @entry
@@ -36,16 +40,20 @@ def jac(
             jacobian[4 + i, k] = memory.scratch.solved[i, 1 + k]
 
 
+@kernel
+def vane_direction(data: VsvData, t: float, memory: VsvMemory) -> float:
+    """Return the direction of the ideal vane motion just after ``t``, ±1: at a reversal it does not move."""
+    motion = memory.scratch.motion
+    clear(motion)
+    soon = t + JUST_AFTER / data.angular_frequency
+    fill_rods(data, soon, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+    return 1.0 if motion[THETA_V, VELOCITY] >= 0.0 else -1.0
+
+
 @entry
 def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Begin a segment: set the direction of the ideal vane motion.
-
-    The direction is that of the crank just after ``t``, since θ_v grows with θ_a.
-    """
-    _, omega_a, alpha_a = drive(data, t)
-    at_reversal = abs(omega_a) < 1.0e-9 * abs(data.speed_amplitude)
-    speed = alpha_a if at_reversal else omega_a
-    memory.regime[0] = 1.0 if speed >= 0.0 else -1.0
+    """Begin a segment: set the direction of the ideal vane motion."""
+    memory.regime[0] = vane_direction(data, t, memory)
     ledger.begin(data, t, y, memory)
 
 

@@ -47,7 +47,10 @@ class Inertias:
 
 @dataclass(frozen=True)
 class Drive:
-    """Crank motion θ_a = θ_a0 + Ω/ν (1 − cos ν t): angles [rad], Ω and ν [rad/s]."""
+    """Crank motion θ_a = θ_a0 + Ω/ν (1 − cos ν t): angles [rad], Ω and ν [rad/s].
+
+    With Ω < 0 the crank sets out towards smaller angles.
+    """
 
     start_angle: float
     speed_amplitude: float
@@ -60,13 +63,14 @@ class Drive:
 
     @property
     def swing(self) -> float:
-        """Angle between the two reversals of the crank [rad]."""
+        """Way from the first reversal of the crank to the second [rad], with its sign."""
         return 2.0 * self.speed_amplitude / self.angular_frequency
 
-    def last_angle(self, duration: float) -> float:
-        """Return the largest crank angle that a run of ``duration`` [s] reaches [rad]."""
+    def crank_range(self, duration: float) -> tuple[float, float]:
+        """Return the smallest and the largest crank angle in a run of ``duration`` [s] [rad]."""
         phase = min(self.angular_frequency * duration, math.pi)
-        return self.start_angle + 0.5 * self.swing * (1.0 - math.cos(phase))
+        far = self.start_angle + 0.5 * self.swing * (1.0 - math.cos(phase))
+        return min(self.start_angle, far), max(self.start_angle, far)
 
 
 @dataclass(frozen=True)

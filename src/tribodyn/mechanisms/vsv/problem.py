@@ -15,11 +15,12 @@ from tribodyn.kernels.bushing.joint import update_entry_velocity
 from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_scratch
+from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
 from tribodyn.kernels.vsv.observe import OBSERVED, observe
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
-from tribodyn.mechanisms.vsv.reach import ideal_table
+from tribodyn.mechanisms.vsv.reach import dead_centres, ideal_table
 
 STARTS: Final = ("equilibrium", "centred")
 
@@ -47,8 +48,7 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         Length of the run [s]; the crank must reach no further than it takes it.
     """
     lengths, inertias = vsv.lengths, vsv.inertias
-    first, last = vsv.drive.start_angle, vsv.drive.last_angle(duration)
-    ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, first, last)
+    ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, *vsv.drive.crank_range(duration))
     return VsvData(
         exact=1.0 if vsv.exact else 0.0,
         l_1=lengths.l_1,
@@ -144,15 +144,23 @@ def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
         raise InputError(f"given {start!r}; allowed: {', '.join(STARTS)}", key="run.start")
     y0 = np.zeros(8)
     if start == "equilibrium":
-        y0[:4] = equilibrium(data, memory, 0.0, direction=1.0)
+        y0[:4] = equilibrium(data, memory, 0.0, direction=vane_direction(data, 0.0, memory))
     return y0
 
 
 def reversals(vsv: Vsv, duration: float) -> tuple[float, ...]:
-    """Return the times strictly inside the run at which the crank reverses, t = kπ/ν [s]."""
-    half = 0.5 * vsv.drive.period
-    count = math.ceil(duration / half * (1.0 - 1.0e-12))
-    return tuple(half * k for k in range(1, count))
+    """Return the times strictly inside the run at which the ideal vane reverses [s], increasing.
+
+    With the crank, at t = kπ/ν, and where the crank passes a dead centre on its way.
+    """
+    drive = vsv.drive
+    half = 0.5 * drive.period
+    ends = half * np.arange(math.ceil(duration / half) + 1)
+    angles = np.array(dead_centres(vsv.lengths, *drive.crank_range(duration)))
+    after = np.arccos(1.0 - (angles - drive.start_angle) / (0.5 * drive.swing)) / drive.angular_frequency
+    passed = (ends[::2, None] + np.concatenate([after, -after])).ravel()
+    times = np.unique(np.concatenate([ends, passed]))
+    return tuple(times[(times > 0.0) & (times < duration * (1.0 - 1.0e-12))].tolist())
 
 
 @dataclass(frozen=True)

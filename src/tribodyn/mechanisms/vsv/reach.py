@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.optimize import bisect
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
@@ -29,8 +30,18 @@ def closure(lengths: Lengths, theta_a: FloatArray, theta_v: FloatArray) -> Float
     return np.asarray(d_x**2 + d_y**2 + d_z**2 - lengths.l_2**2)
 
 
+def sense(lengths: Lengths) -> float:
+    """Return the sign of the slope of the closure over θ_v in the assembly taken, ±1.
+
+    Of the two assemblies this is the one with the larger sin θ_v, as seen with the end of the crank on the
+    pivot's side of the ring's arm. The slope keeps its sign until the assemblies merge, so that one motion
+    never mixes them, and changes it with x → −x, as it must. Derived in the theory manual.
+    """
+    return 1.0 if math.cos(lengths.gamma + lengths.phi) >= 0.0 else -1.0
+
+
 def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
-    """Return θ_v [rad] of the assembly with the larger vane angle; NaN where the loop cannot close.
+    """Return θ_v [rad] of the assembly that :func:`sense` tells; NaN where the loop cannot close.
 
     Parameters
     ----------
@@ -40,12 +51,12 @@ def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
         Crank angles [rad], shape (n,).
     """
     scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)
-    residual = closure(lengths, theta_a[:, None], scan[None, :])
-    rising = (residual[:, :-1] < 0.0) != (residual[:, 1:] < 0.0)
-    found = rising.any(axis=1)
-    last = rising.shape[1] - 1 - np.argmax(rising[:, ::-1], axis=1)
-    low, high = scan[last], scan[last + 1]
-    sign = np.sign(closure(lengths, theta_a, high))
+    sign = sense(lengths)
+    above = sign * closure(lengths, theta_a[:, None], scan[None, :]) > 0.0
+    crossing = ~above[:, :-1] & above[:, 1:]
+    found = crossing.any(axis=1)
+    first = np.argmax(np.where(crossing, np.sin(0.5 * (scan[:-1] + scan[1:])), -math.inf), axis=1)
+    low, high = scan[first], scan[first + 1]
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         above = sign * closure(lengths, theta_a, middle) > 0.0
@@ -102,11 +113,43 @@ def check_reach(lengths: Lengths, first: float, last: float) -> None:
     raise InputError(reason, key="drive.start_angle")
 
 
+# Asked for every cycle of a wear campaign.
+@lru_cache(maxsize=64)
 def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, float, FloatArray]:
     """Return first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
     check_reach(lengths, first, last)
     angles = np.linspace(first, last, _INTERVALS + 1)
-    theta_v = ideal_vane_angle(lengths, angles)
+    theta_v = np.unwrap(ideal_vane_angle(lengths, angles))
     step = (last - first) / _INTERVALS
     slope = CubicSpline(angles, theta_v)(angles, 1)
     return first, 1.0 / step, np.column_stack([theta_v, step * slope])
+
+
+def crank_lever(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
+    """Return S1S2 · ∂S1/∂θ_a [m²] of the ideal mechanism: zero where the crank can move without the vane."""
+    theta_b = np.arctan2(-lengths.l_4 * np.cos(ideal_vane_angle(lengths, theta_a)), lengths.l_3)
+    d_x = lengths.l_3 * np.sin(lengths.phi - theta_b) - lengths.l_m * math.cos(lengths.gamma)
+    d_z = lengths.l_3 * np.cos(lengths.phi - theta_b) - lengths.l_m * math.sin(lengths.gamma)
+    # From the pivot instead of S1: the crank itself is across its own derivative.
+    return np.asarray(-lengths.l_1 * (d_x * np.cos(theta_a) + d_z * np.sin(theta_a)))
+
+
+@lru_cache(maxsize=64)
+def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ...]:
+    """Return the crank angles [rad] inside a crank range at which the vane of the ideal mechanism turns back.
+
+    Parameters
+    ----------
+    lengths
+        The mechanism, which reaches all of the range.
+    first, last
+        Smallest and largest crank angle [rad].
+    """
+    angles = np.linspace(first, last, _INTERVALS + 1)
+    forward = crank_lever(lengths, angles) > 0.0
+    turns = np.flatnonzero(forward[1:] != forward[:-1])
+
+    def lever(angle: float) -> float:
+        return float(crank_lever(lengths, np.array([angle]))[0])
+
+    return tuple(bisect(lever, float(angles[k]), float(angles[k + 1]), xtol=1e-12) for k in turns)

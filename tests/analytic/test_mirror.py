@@ -1,0 +1,175 @@
+"""The mechanism seen in a mirror, x → −x, moves as the image of the mechanism.
+
+Lengths, masses and heights stay. γ → 180° − γ, φ → −φ, θ_a → −θ_a (start and speed), θ_v → 180° − θ_v (the
+angle where F_airx changes its sign). Of the joint, e_x and φ_y change sign; φ_x is a turn about the normal of
+the mirror and does not. Forces along X change sign, and moments about Y and Z.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from tribodyn.cases import load_case
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.vsv import Lengths, Vsv, ideal_vane_angle
+from tribodyn.mechanisms.vsv.problem import vsv_problem
+from tribodyn.mechanisms.vsv.reach import closure
+from tribodyn.simulation import simulate
+
+LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))
+
+CASE = {"run.duration": "3.6 s", "loads.switch_angle": "85 deg"}
+"""Forward, a reversal at π, and backward; a switch that is not its own image."""
+IMAGE = {
+    "mechanism.pivot_angle": "160 deg",
+    "mechanism.ring_angle": "-55 deg",
+    "drive.start_angle": "16 deg",
+    "drive.speed_amplitude": "-20 deg/s",
+    "loads.switch_angle": "95 deg",
+}
+
+TURNED = {
+    *("e_x", "phi_y", "e_x_dot", "phi_y_dot"),
+    *("theta_a", "theta_b", "omega_a", "omega_v", "omega_v_ideal"),
+    *("F_cx", "F_kx", "F_dx", "F_fx", "M_jcy", "M_fy", "M_jf", "M_tcy", "M_tf"),
+    *("F_ax", "M_az", "M_d", "F_21x", "F_32x", "F_43x", "F_bx", "M_bz", "F_airx", "M_air"),
+}
+"""Change their sign; vane angles become their supplements; all others stay."""
+ERRORS = {"energy_residual", "energy_clearance_residual"}
+"""What the integration misses: its own, and small."""
+
+
+def image(lengths: Lengths) -> Lengths:
+    return replace(lengths, gamma=math.pi - lengths.gamma, phi=-lengths.phi)
+
+
+def seen_in_a_mirror(name: str, values: FloatArray) -> FloatArray:
+    if name.startswith("theta_v"):
+        return math.pi - values
+    return -values if name in TURNED else values
+
+
+def test_the_loop_closes_where_its_image_does() -> None:
+    theta_a = np.linspace(-0.5, 0.5, 11)[:, None]
+    theta_v = np.linspace(-1.0, 4.0, 51)
+    missing = closure(LENGTHS, theta_a, theta_v) - closure(image(LENGTHS), -theta_a, np.pi - theta_v)
+    # Rounding of lengths of half a metre, squared.
+    np.testing.assert_allclose(missing, 0.0, atol=1e-15)
+
+
+def test_the_image_is_assembled_as_the_original() -> None:
+    random = np.random.default_rng(4)
+    closed = 0
+    for _ in range(300):
+        l_1, l_2, l_3, l_4, l_m = random.uniform([0.02, 0.08, 0.2, 0.02, 0.3], [0.08, 0.25, 0.6, 0.08, 0.7])
+        gamma, phi = random.uniform(-math.pi, math.pi, 2)
+        lengths = Lengths(l_1, l_2, l_3, l_4, 0.16, l_m, gamma, phi)
+        theta_a = random.uniform(-math.pi, math.pi, 20)
+        here, there = ideal_vane_angle(lengths, theta_a), ideal_vane_angle(image(lengths), -theta_a)
+        closed += int(np.isfinite(here).sum())
+        # Where the assemblies are about to merge the angle is the square root of a rounding error.
+        np.testing.assert_allclose(np.exp(1j * there), np.exp(1j * (math.pi - here)), atol=1e-6)
+    assert closed > 200
+
+
+def test_an_assembly_is_never_left_on_the_way() -> None:
+    """Over all crank angles, those with a crank end on either side of the ring's arm among them."""
+    lengths = replace(LENGTHS, l_1=0.06, l_2=0.11, gamma=np.radians(30.0))
+    crank = np.linspace(-math.pi, math.pi, 4001)
+    arm = np.array([math.sin(lengths.phi), math.cos(lengths.phi)])
+    s1_x = lengths.l_m * math.cos(lengths.gamma) - lengths.l_1 * np.sin(crank)
+    s1_z = lengths.l_m * math.sin(lengths.gamma) + lengths.l_1 * np.cos(crank)
+    vane = ideal_vane_angle(lengths, crank)
+    side = (s1_x * arm[1] - s1_z * arm[0])[np.isfinite(vane)]
+    assert side.min() < 0.0 < side.max()
+    # The crank goes in steps of 1.6 mrad, and the vane much faster only near a merger, which ends the range.
+    assert np.nanmax(np.abs(np.diff(vane))) < 0.1
+
+
+@pytest.mark.parametrize("formulation", ["exact", "paper"])
+@pytest.mark.parametrize("friction", ["traction", "moment"])
+def test_the_equations_of_motion_are_mirrored(
+    make_vsv: Callable[..., Vsv], formulation: str, friction: str
+) -> None:
+    vsv = make_vsv(formulation, friction=friction)
+    drive = replace(vsv.drive, start_angle=-vsv.drive.start_angle, speed_amplitude=-vsv.drive.speed_amplitude)
+    air = replace(vsv.air, switch_angle=math.pi - vsv.air.switch_angle)
+    mirrored = replace(vsv, lengths=image(vsv.lengths), drive=drive, air=air)
+    tolerances = (1e-11, 1e-9, 1e-7, 1e-5)
+    here, there = (
+        vsv_problem(each, duration=7.0, start="centred", atol=tolerances) for each in (vsv, mirrored)
+    )
+    sign = np.array([-1.0, 1.0, 1.0, -1.0] * 2)
+    random = np.random.default_rng(5)
+    for t in (0.0, 1.3, math.pi, 5.0):
+        y = random.uniform(-1.0, 1.0, 8) * np.repeat([15e-6, 4e-4, 1e-3, 0.05], 2)
+        for problem, state in ((here, y), (there, sign * y)):
+            problem.functions.enter(t, state, problem.data, problem.memory)
+            problem.functions.accept(t, state, problem.data, problem.memory)
+        f, g = np.empty(8), np.empty(8)
+        here.functions.rhs(t, y, here.data, here.memory, f)
+        there.functions.rhs(t, sign * y, there.data, there.memory, g)
+        # Sums over the grid in another order, and pressures at gaps that differ by rounding over sigma.
+        np.testing.assert_allclose(sign * g, f, rtol=1e-9, atol=1e-9 * np.abs(f[4:]).max())
+
+
+@pytest.fixture(scope="module")
+def both() -> tuple[xr.Dataset, xr.Dataset]:
+    case = load_case("vsv").replace(CASE)
+    return simulate(case), simulate(case.replace(IMAGE))
+
+
+def test_every_variable_of_a_run_is_mirrored(both: tuple[xr.Dataset, xr.Dataset]) -> None:
+    here, there = both
+    t = here["time"].values
+    np.testing.assert_array_equal(there["time"].values, t)
+    # In impacts and the ringing after them rounding grows; it dies away with the ringing.
+    quiet = ((t > 0.4) & (t < math.pi)) | (t > math.pi + 0.35)
+    names = [name for name, values in here.data_vars.items() if values.dims == ("time",)]
+    assert set(names) >= TURNED
+    for name in sorted(set(names) - ERRORS):
+        expected = seen_in_a_mirror(name, here[name].values)
+        off = np.abs(there[name].values - expected)
+        scale = np.abs(expected).max()
+        # Steps fall otherwise: ten times the tolerance of the run, and a twentieth of an impact.
+        assert off[quiet].max() <= 1e-3 * scale, name
+        assert off.max() <= 0.05 * scale, name
+
+
+def test_pictures_and_wear_are_mirrored(both: tuple[xr.Dataset, xr.Dataset]) -> None:
+    here, there = both
+    n = here.sizes["theta"]
+    assert here["theta"].values[0] == 0.0
+    supplement = (n // 2 - np.arange(n)) % n
+    for name in ("pressure", "wear_depth"):
+        expected = here[name].values[..., supplement, :]
+        # As for the attitude, times the slope of the pressure, e-fold in a third of a micrometre.
+        np.testing.assert_allclose(there[name].values, expected, atol=0.01 * expected.max())
+    np.testing.assert_array_equal(there["snapshot_direction"], -here["snapshot_direction"])
+    np.testing.assert_allclose(there["snapshot_theta_v"], math.pi - here["snapshot_theta_v"], atol=1e-6)
+
+
+def directions(result: xr.Dataset) -> tuple[FloatArray, FloatArray]:
+    """Return the signs of the ideal vane speed and of the air moment where the vane moves."""
+    speed = result["omega_v_ideal"].values
+    moving = np.abs(speed) > 0.01 * np.abs(speed).max()
+    return np.sign(speed[moving]), np.sign(result["M_air"].values[moving])
+
+
+@pytest.mark.parametrize(("start", "turns"), [("90 deg", 0), ("40 deg", 1)])
+def test_loads_oppose_a_vane_that_falls_with_the_crank_or_turns_back(start: str, turns: int) -> None:
+    """Past the dead centre at 61.7° the vane of the built-in mechanism goes back while the crank goes on."""
+    result = simulate(load_case("vsv").replace({"run.duration": "3 s", "drive.start_angle": start}))
+    vane, moment = directions(result)
+    np.testing.assert_array_equal(moment, -vane)
+    assert vane[0] == (1.0 if turns else -1.0)
+    assert np.count_nonzero(np.diff(vane)) == turns
+    assert np.all(result["energy_friction"].values >= 0.0)
+    assert result.attrs["energy_residual"] < 0.01
+    assert result.attrs["clearance_energy_residual"] < 0.01
