@@ -32,14 +32,14 @@ def simulate_vsv_wear(
 ) -> xr.Dataset:
     """Run the wear campaign of a ``vsv`` case, see :func:`tribodyn.simulation.simulate`."""
     text = case.to_toml()
-    found = None if checkpoint is None else checkpoints.read(checkpoint, text)
+    vane = _WearingVane(case, progress, stop)
+    found = None if checkpoint is None else checkpoints.read(checkpoint, text, vane.plan.field_shape)
     resumed, told = (None, []) if found is None else found
 
     def keep(worn: Worn) -> None:
         if checkpoint is not None:
             checkpoints.write(checkpoint, worn, text)
 
-    vane = _WearingVane(case, progress, stop)
     worn, _ = run_campaign(vane, vane.plan, resumed, keep)
     gathered = Gathered(case, vane.vsv, vane.problem, vane.solution, worn.depth, worn.statistics)
     return gathered.dataset(_more(case, worn, told))

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import random
 from dataclasses import replace
 
 import numpy as np
@@ -14,21 +15,22 @@ from tribodyn.simulation.campaign import Worn
 from tribodyn.simulation.history import COLUMNS
 
 CASE = 'case = "vsv"\n'
+SHAPE = (4, 6)
 
 
 @pytest.fixture
 def worn():
-    random = np.random.default_rng(5)
+    chance = np.random.default_rng(5)
     return Worn(
         cycles=10**12 - 1,
-        depth=random.random((4, 6)),
-        carried=Carried(random.random(8), random.random((4, 6))),
-        load=random.random((4, 6)),
+        depth=chance.random(SHAPE),
+        carried=Carried(chance.random(8), chance.random(SHAPE)),
+        load=chance.random(SHAPE),
         gain=0.1,
         life=np.inf,
-        history={name: random.random(3) for name in COLUMNS},
-        stage_cycles=random.random(2),
-        stage_depth=random.random((2, 4, 6)),
+        history={name: chance.random(3) for name in COLUMNS},
+        stage_cycles=chance.random(2),
+        stage_depth=chance.random((2, 4, 6)),
         statistics=vars(Statistics(steps=7, wall_time=1.0 / 3.0)),
     )
 
@@ -36,7 +38,7 @@ def worn():
 def test_what_is_written_reads_back_to_the_bit(worn, tmp_path):
     path = tmp_path / "checkpoint.npz"
     checkpoint.write(path, worn, CASE)
-    found, told = checkpoint.read(path, CASE)
+    found, told = checkpoint.read(path, CASE, SHAPE)
     assert told == []
     assert (found.cycles, found.gain, found.life) == (worn.cycles, worn.gain, worn.life)
     assert found.statistics == worn.statistics
@@ -52,14 +54,14 @@ def test_what_is_written_reads_back_to_the_bit(worn, tmp_path):
 
 
 def test_no_file_is_a_beginning(tmp_path):
-    assert checkpoint.read(tmp_path / "checkpoint.npz", CASE) is None
+    assert checkpoint.read(tmp_path / "checkpoint.npz", CASE, SHAPE) is None
 
 
 def test_another_case_is_refused_and_kept(worn, tmp_path):
     path = tmp_path / "checkpoint.npz"
     checkpoint.write(path, worn, CASE)
     with pytest.raises(InputError, match="another case; choose another directory, or remove the file"):
-        checkpoint.read(path, CASE + "# changed\n")
+        checkpoint.read(path, CASE + "# changed\n", SHAPE)
     assert path.exists()
 
 
@@ -69,14 +71,79 @@ def test_a_torn_file_is_refused(kept, worn, tmp_path):
     checkpoint.write(path, worn, CASE)
     path.write_bytes(path.read_bytes()[:kept])
     with pytest.raises(InputError, match="cannot be read"):
-        checkpoint.read(path, CASE)
+        checkpoint.read(path, CASE, SHAPE)
+
+
+def parts(found):
+    """Return the bytes of all that a campaign goes on from."""
+    arrays = [found.depth, found.load, found.stage_cycles, found.stage_depth, *found.history.values()]
+    arrays += [found.carried.state, found.carried.entry_velocity]
+    return found.cycles, found.gain, found.life, found.statistics, [array.tobytes() for array in arrays]
+
+
+def attempt(path):
+    try:
+        return checkpoint.read(path, CASE, SHAPE)[0]
+    except InputError as error:
+        return error
+
+
+@pytest.mark.parametrize("damage", ["cut", "byte", "noise"])
+def test_a_damaged_file_is_refused_or_unharmed(damage, worn, tmp_path):
+    path = tmp_path / "checkpoint.npz"
+    checkpoint.write(path, worn, CASE)
+    content, chance = path.read_bytes(), random.Random(damage)
+    refused = 0
+    for _ in range(300):
+        changed = bytearray(content[: chance.randrange(len(content))] if damage == "cut" else content)
+        for _ in range({"cut": 0, "byte": 1, "noise": 300}[damage]):
+            changed[chance.randrange(len(content))] ^= chance.randrange(1, 256)
+        path.write_bytes(changed)
+        found = attempt(path)
+        if isinstance(found, InputError):
+            refused += 1
+            assert "a wear campaign cannot go on from" in str(found)
+        else:
+            assert parts(found) == parts(worn)  # the byte stood for nothing, such as a date
+    assert refused > 200 if damage == "byte" else refused == 300
+
+
+@pytest.mark.parametrize("name", ["depth", "load", "entry_velocity", "state"])
+@pytest.mark.parametrize("wrong", [np.zeros((5, 6)), np.zeros((4, 6), np.int8), np.array("text")])
+def test_arrays_of_another_shape_or_kind_never_reach_compiled_code(name, wrong, worn, tmp_path):
+    path = tmp_path / "checkpoint.npz"
+    checkpoint.write(path, worn, CASE)
+    with np.load(path, allow_pickle=False) as archive:
+        arrays = dict(archive)
+    np.savez(path, **{**arrays, name: wrong})
+    with pytest.raises(InputError, match="cannot be read"):
+        checkpoint.read(path, CASE, SHAPE)
+
+
+@pytest.mark.parametrize("facts", ["3", "[]", '{"format": 1}', '{"format": 1, "case": 2, "versions": []}'])
+def test_facts_of_another_kind_are_refused(facts, worn, tmp_path):
+    path = tmp_path / "checkpoint.npz"
+    checkpoint.write(path, worn, CASE)
+    with np.load(path, allow_pickle=False) as archive:
+        arrays = dict(archive)
+    np.savez(path, **{**arrays, "facts": facts})
+    with pytest.raises(InputError, match="a wear campaign cannot go on from"):
+        checkpoint.read(path, CASE, SHAPE)
+
+
+def test_an_array_instead_of_an_archive_is_refused(tmp_path):
+    path = tmp_path / "checkpoint.npz"
+    with path.open("wb") as stream:
+        np.save(stream, np.zeros(3))
+    with pytest.raises(InputError, match="cannot be read"):
+        checkpoint.read(path, CASE, SHAPE)
 
 
 def test_pickled_objects_are_not_loaded(tmp_path):
     path = tmp_path / "checkpoint.npz"
     np.savez(path, facts=np.array([{"format": 1}], dtype=object))
     with pytest.raises(InputError, match="cannot be read"):
-        checkpoint.read(path, CASE)
+        checkpoint.read(path, CASE, SHAPE)
 
 
 def test_other_versions_are_told(worn, tmp_path, monkeypatch):
@@ -85,7 +152,7 @@ def test_other_versions_are_told(worn, tmp_path, monkeypatch):
     monkeypatch.setattr(checkpoint, "provenance", lambda: versions | {"numba_version": "0.1"})
     checkpoint.write(path, worn, CASE)
     monkeypatch.undo()
-    _, told = checkpoint.read(path, CASE)
+    _, told = checkpoint.read(path, CASE, SHAPE)
     assert told == ["The campaign was begun with numba 0.1: its later cycles were computed with others."]
 
 
@@ -95,7 +162,7 @@ def test_another_format_is_refused(worn, tmp_path, monkeypatch):
     checkpoint.write(path, worn, CASE)
     monkeypatch.undo()
     with pytest.raises(InputError, match="another version of tribodyn"):
-        checkpoint.read(path, CASE)
+        checkpoint.read(path, CASE, SHAPE)
 
 
 def test_the_file_says_what_it_is(worn, tmp_path):
