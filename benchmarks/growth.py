@@ -8,7 +8,7 @@ from __future__ import annotations
 import resource
 from typing import Any
 
-from benchmarks.vsv import one
+from benchmarks.vsv_case import one
 
 GRIDS = ((48, 8), (96, 16), (192, 32))
 CLEARANCES = ("10 um", "20 um", "30 um", "40 um")

@@ -11,47 +11,19 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from benchmarks.numpy_joint import numpy_wrench
 from benchmarks.repeated import many_jacobians, many_wrenches
 from tribodyn.cases import load_case
 from tribodyn.joints import BushingJoint, Grid
-from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
 from tribodyn.simulation.vsv import mechanism
-
-FloatArray = NDArray[np.float64]
 
 STATE = np.array([-3.9e-6, 6.57e-6, 6.46e-4, 1.31e-3, 3.6e-6, -2.4e-6, -2.8e-4, 3.8e-4])
 """Attitude and rates while the vane turns under load, a tilted trunnion [m, rad, m/s, rad/s]."""
 OMEGA = 0.3
 GRIDS = ((48, 8), (96, 16), (192, 16), (256, 32), (512, 64))
 PAIRS, CALLS = 7, 50
-
-
-def numpy_wrench(joint: BushingData, entry: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the wrench (5,) as sums over arrays of all nodes."""
-    tan_x, tan_y = np.tan(y[2:4])
-    z, c, s = joint.z[:, None], joint.cos_theta, joint.sin_theta
-    v_a, v_b = y[4] - z * y[7] * (1 + tan_y**2), y[5] - z * y[6] * (1 + tan_x**2)
-    gap = joint.clearance + (y[0] - z * tan_y) * c + (y[1] - z * tan_x) * s + joint.wear
-    approach = -(v_a * c + v_b * s)
-    table = joint.table
-    place = (gap / joint.roughness - table.h_first) * table.inverse_step + 1.0
-    number = np.clip(np.floor(place), 0, table.nodes.shape[0])
-    x, first = place - number, 8 * number.astype(np.int64)
-    rigid, damping = (
-        table.cubics[at] + x * (table.cubics[at + 1] + x * (table.cubics[at + 2] + x * table.cubics[at + 3]))
-        for at in (first, first + 4)
-    )
-    reference = np.where(entry > 0.0, entry, np.maximum(np.abs(approach), joint.minimum_entry_velocity))
-    pressure = np.maximum(rigid + damping * approach / reference, 0.0)
-    slip = OMEGA * joint.journal_radius + v_a * s - v_b * c
-    tau = -joint.friction_coefficient * pressure * slip / np.hypot(slip, joint.slip_velocity)
-    area = joint.area[:, None]
-    f_x, f_y = area * (pressure * c + tau * s), area * (pressure * s - tau * c)
-    torque = (area * joint.journal_radius * tau).sum()
-    return np.array([f_x.sum(), f_y.sum(), -(z * f_y).sum(), -(z * f_x).sum(), torque])
 
 
 def microseconds(call: Callable[[], object], calls: int = CALLS) -> float:
@@ -71,7 +43,7 @@ def measure(joint: BushingJoint) -> dict[str, float]:
     # Called from Python, a kernel first takes its arguments apart: 25 µs that a compiled caller does not see.
     many_wrenches(data, entry, STATE, OMEGA, out, 1)
     many_jacobians(data, entry, STATE, OMEGA, out, jacobian, gradient, 1)
-    np.testing.assert_allclose(numpy_wrench(data, entry, STATE), out, rtol=1e-9)
+    np.testing.assert_allclose(numpy_wrench(data, entry, STATE, OMEGA)[0], out, rtol=1e-9)
     times: dict[str, list[float]] = {"wrench": [], "with Jacobian": [], "numpy": []}
     for _ in range(PAIRS):
         once = microseconds(lambda: many_wrenches(data, entry, STATE, OMEGA, out, 200), 1)
@@ -80,7 +52,7 @@ def measure(joint: BushingJoint) -> dict[str, float]:
             lambda: many_jacobians(data, entry, STATE, OMEGA, out, jacobian, gradient, 200), 1
         )
         times["with Jacobian"].append(once / 200)
-        times["numpy"].append(microseconds(lambda: numpy_wrench(data, entry, STATE)))
+        times["numpy"].append(microseconds(lambda: numpy_wrench(data, entry, STATE, OMEGA)))
     result = {name: float(np.median(values)) for name, values in times.items()}
     nodes = int(np.count_nonzero(field[1:-1]))
     return {"all nodes": float(field[1:-1].size), "nodes in contact": float(nodes), **result}

@@ -1,0 +1,53 @@
+"""The joint integral as sums over NumPy arrays of all nodes: what the kernels are measured against."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.kernels.bushing.data import BushingData
+
+FloatArray = NDArray[np.float64]
+
+
+def gap_and_approach(
+    joint: BushingData, y: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return gap [m], approach speed [m/s], and the velocities v_a, v_b of the axis at each row [m/s]."""
+    tan_x, tan_y = np.tan(y[2:4])
+    z, c, s = joint.z[:, None], joint.cos_theta, joint.sin_theta
+    v_a, v_b = y[4] - z * y[7] * (1 + tan_y**2), y[5] - z * y[6] * (1 + tan_x**2)
+    gap = joint.clearance + (y[0] - z * tan_y) * c + (y[1] - z * tan_x) * s + joint.wear
+    return gap, -(v_a * c + v_b * s), v_a, v_b
+
+
+def numpy_wrench(
+    joint: BushingData, entry: FloatArray, y: FloatArray, omega: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return the wrench (5,) with friction as traction, and the normal force (2,) alone."""
+    z, c, s = joint.z[:, None], joint.cos_theta, joint.sin_theta
+    gap, approach, v_a, v_b = gap_and_approach(joint, y)
+    table = joint.table
+    place = (gap / joint.roughness - table.h_first) * table.inverse_step + 1.0
+    number = np.clip(np.floor(place), 0, table.nodes.shape[0])
+    x, first = place - number, 8 * number.astype(np.int64)
+    rigid, damping = (
+        table.cubics[at] + x * (table.cubics[at + 1] + x * (table.cubics[at + 2] + x * table.cubics[at + 3]))
+        for at in (first, first + 4)
+    )
+    reference = np.where(entry > 0.0, entry, np.maximum(np.abs(approach), joint.minimum_entry_velocity))
+    pressure = np.maximum(rigid + damping * approach / reference, 0.0)
+    slip = omega * joint.journal_radius + v_a * s - v_b * c
+    tau = -joint.friction_coefficient * pressure * slip / np.hypot(slip, joint.slip_velocity)
+    area = joint.area[:, None]
+    normal = np.array([(area * pressure * c).sum(), (area * pressure * s).sum()])
+    f_x, f_y = area * (pressure * c + tau * s), area * (pressure * s - tau * c)
+    torque = (area * joint.journal_radius * tau).sum()
+    return np.array([f_x.sum(), f_y.sum(), -(z * f_y).sum(), -(z * f_x).sum(), torque]), normal
+
+
+def numpy_update(joint: BushingData, y: FloatArray, entry: FloatArray) -> None:
+    """Let nodes enter and leave contact at the end of an accepted step."""
+    gap, approach, _, _ = gap_and_approach(joint, y)
+    fresh = np.maximum(np.abs(approach), joint.minimum_entry_velocity)
+    entry[:] = np.where(gap < joint.onset * joint.roughness, np.where(entry > 0.0, entry, fresh), 0.0)
