@@ -175,6 +175,14 @@ def test_nothing_is_evaluated_beyond_the_end(span):
     assert solution.y[0, -1] == pytest.approx(np.exp(-1.0), rel=1e-5)
 
 
+@pytest.mark.parametrize("end", np.linspace(1e-3, 1e-2, 25))
+def test_the_end_is_met_where_the_spacing_of_numbers_is_not_small_against_a_step(end):
+    # Late and fast: steps of 1e-4, numbers 1e-13 apart.
+    solution = solve(lambda t, y: [y[1], -1e6 * y[0]], (1e3, 1e3 + end), [1.0, 0.0], rtol=1e-6, atol=1e-9)
+    assert solution.success, solution.message
+    assert solution.t[-1] == 1e3 + end
+
+
 def test_a_span_of_no_length():
     solution = solve(swing, (4.0, 4.0), [1.0, 2.0])
     assert solution.success

@@ -154,7 +154,8 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> Non
     push(rows, Y, count[K] + 3, HISTORY)
     real[T_OLD] = real[T]
     real[T] += real[H]
-    if abs(real[T_END] - real[T]) <= ROUNDING * abs(real[H]):
+    # What no step could cross is no distance either.
+    if abs(real[T_END] - real[T]) <= max(ROUNDING * abs(real[H]), LEAST_STEP * abs(real[T])):
         real[T] = real[T_END]
     real[H_LAST] = real[H]
     count[K_LAST] = count[K]

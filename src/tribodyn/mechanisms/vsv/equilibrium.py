@@ -23,6 +23,8 @@ FULLY_SLIDING: Final = 1.0e3
 
 _START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)
 """Separations over σ tried for the first guess."""
+_MOMENTS_RULE: Final = 2.0
+"""Moments over the half length of the bushing, as a multiple of the force, that lay opposite ends against it."""
 
 
 def equilibrium(
@@ -80,11 +82,22 @@ def _residual(data: VsvData, memory: VsvMemory, t: float, q: FloatArray) -> tupl
 
 
 def _starts(data: VsvData, memory: VsvMemory, t: float) -> list[FloatArray]:
-    """Lay the trunnion against the bushing, opposite to the load that it feels when centred."""
+    """Lay the trunnion against the bushing, opposite to the load that it feels when centred.
+
+    Along its length, or tilted with the ends at opposite sides; first the one that the load asks for.
+    """
     load, _ = _residual(data, memory, t, np.zeros(4))
-    angle = math.atan2(load[1], load[0])
-    starts = []
+    laid, tilted = [], []
     for depth in _START_DEPTHS:
         e = max(data.joint.clearance - depth * data.joint.roughness, 0.1 * data.joint.clearance)
-        starts.append(np.array([e * math.cos(angle), e * math.sin(angle), 0.0, 0.0]))
-    return starts
+        laid.append(np.append(_along(load[:2], e), [0.0, 0.0]))
+        tilted.append(np.append([0.0, 0.0], _along(load[2:], e / data.half_length)))
+    moments = math.hypot(load[2], load[3]) / data.half_length
+    turns = moments > _MOMENTS_RULE * math.hypot(load[0], load[1])
+    return tilted + laid if turns else laid + tilted
+
+
+def _along(direction: FloatArray, length: float) -> FloatArray:
+    """Return the vector of a length along another one; along the first axis if that one is zero."""
+    angle = math.atan2(direction[1], direction[0])
+    return length * np.array([math.cos(angle), math.sin(angle)])
