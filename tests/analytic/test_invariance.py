@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 import numpy as np
 import pytest
+import xarray as xr
 
 from tribodyn.cases import load_case
+from tribodyn.joints import BushingJoint
+from tribodyn.joints.bushing import joint_wrench
 from tribodyn.simulation import simulate
 
 BRIEF = {"run.duration": "0.2 s", "run.output_interval": "5 ms"}
@@ -56,3 +62,70 @@ def test_the_path_integrals_do_not_depend_on_the_rows(base):
     often = run(run__output_interval="1 ms")
     for name in ("energy_damping", "energy_friction", "energy_drive"):
         assert often[name].values[-1] == pytest.approx(base[name].values[-1], rel=1e-5)
+
+
+WHOLE_NODES = 2.0 * math.pi * 7 / 96
+"""Seven nodes of the contact's grid."""
+TURNING = {
+    "contact.second_law": "none",
+    "journal.tilt": True,
+    "journal.speed": "30 rad/s",
+    "joint.friction_coefficient": 0.1,
+}
+PAIRS = (("e_x", "e_y"), ("e_x_dot", "e_y_dot"), ("phi_y", "phi_x"), ("F_cx", "F_cy"), ("F_fx", "F_fy"))
+"""Vectors in the plane of the bushing; an axis leans along (φ_y, φ_x), moments act along (M_y, M_x)."""
+
+
+def journal(kind: str, angle: float, **changes: str) -> xr.Dataset:
+    """Return a run of a tilting, turning journal whose loads are turned by ``angle`` [rad]."""
+    rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    force, moment = rotation @ (200.0, 100.0), rotation @ (0.1, -0.2)
+    loads = {"force_x": force[0], "force_y": force[1], "moment_y": moment[0], "moment_x": moment[1]}
+    units = {name: f"{value} N{' m' if 'moment' in name else ''}" for name, value in loads.items()}
+    case = load_case(kind).replace(TURNING | {f"loads.{name}": value for name, value in units.items()})
+    return simulate(case.replace({path.replace("__", "."): value for path, value in changes.items()}))
+
+
+@pytest.mark.parametrize(
+    ("kind", "angle", "agree"),
+    [
+        # The same sums in another order: to the tolerance of the run, 1e-5.
+        ("journal-oil", WHOLE_NODES, 1e-4),
+        # The error of the grid: 0.1 % in a force at worst.
+        ("journal-oil", 0.5, 1e-3),
+        # The memory of contact changes at accepted steps, and those fall otherwise: thousandths of an impact.
+        ("journal-dry", WHOLE_NODES, 0.03),
+        ("journal-dry", 0.5, 0.1),
+    ],
+)
+def test_a_journal_follows_a_load_that_is_turned(kind: str, angle: float, agree: float) -> None:
+    """All directions around the bushing are alike, and so are the names of its nodes."""
+    here, there = (journal(kind, turn, run__duration="10 ms") for turn in (0.0, angle))
+    cos, sin = math.cos(angle), math.sin(angle)
+    for x, y in PAIRS:
+        a, b = here[x].values, here[y].values
+        off = np.hypot(there[x].values - (cos * a - sin * b), there[y].values - (sin * a + cos * b))
+        assert off.max() <= agree * np.hypot(a, b).max(), x
+    moment = here["M_jf"].values
+    assert np.abs(there["M_jf"].values - moment).max() <= agree * np.abs(moment).max()
+
+
+def test_the_names_of_the_nodes_do_not_matter(make_joint: Callable[..., BushingJoint]) -> None:
+    """A worn bushing and its memory of contact, with the trunnion in it, all turned by whole nodes."""
+    joint, nodes = make_joint(), 7
+    random = np.random.default_rng(8)
+    wear = 2e-6 * random.random(joint.field_shape)
+    entry = random.choice([0.0, 1e-3, 4e-3], size=joint.field_shape)
+    angle = 2.0 * math.pi * nodes / joint.grid.theta
+    rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    lean = np.array([6e-4, -3e-4])
+    here = np.concatenate([(13e-6, -9e-6), np.arctan(lean)[::-1], np.zeros(4)])
+    there = np.concatenate([rotation @ here[:2], np.arctan(rotation @ lean)[::-1], np.zeros(4)])
+    before = joint_wrench(joint.data(wear), here, omega=0.3, entry_velocity=entry)
+    worn = joint.data(np.roll(wear, nodes, axis=1))
+    after = joint_wrench(worn, there, omega=0.3, entry_velocity=np.roll(entry, nodes, axis=1))
+    turned = np.concatenate([rotation @ before[:2], (rotation @ before[[3, 2]])[::-1], before[4:]])
+    # Cosines of the nodes' angles are rounded; pressure is that rounding over a third of a micrometre.
+    np.testing.assert_allclose(after, turned, rtol=1e-9)
+    moved = joint_wrench(joint.data(wear), there, omega=0.3, entry_velocity=entry)
+    assert np.abs(moved / turned - 1.0).max() > 1e-3
