@@ -16,8 +16,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def execute(args: Namespace) -> int:
-    """Say that the case is valid; if not, loading it has raised."""
+    """Say that the case is valid; if not, loading it has raised, or its integrator is not installed."""
+    from tribodyn.integrate import SOLVERS
+
     case = chosen_case(args)
+    SOLVERS[str(case.at("solver.name"))].prepare()
     cycles = case.campaign_cycles
     length = f"{cycles} cycles of wear" if cycles else f"{case.duration:.6g} s"
     Console.of(args).say(f'{args.case}: valid, a "{case.kind()}" case of {length}')

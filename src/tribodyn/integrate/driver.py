@@ -27,6 +27,10 @@ INTERRUPTED = "interrupted"
 class Integrator(Protocol):
     """What ``SOLVERS`` lists: runs a whole problem and never raises for a run that fails midway."""
 
+    def prepare(self) -> None:
+        """Raise ``InputError`` if a package that the integrator needs is not installed."""
+        ...
+
     def __call__(
         self,
         problem: Problem,
@@ -51,6 +55,10 @@ class Stepwise:
 
     method: Method
 
+    def prepare(self) -> None:
+        """Import what the method needs, see :class:`Integrator`."""
+        self.method.prepare()
+
     def __call__(
         self,
         problem: Problem,
@@ -60,7 +68,7 @@ class Stepwise:
         stop: Callable[[], bool] | None,
     ) -> Solution:
         """Integrate ``problem``, see :class:`Integrator`."""
-        self.method.prepare()
+        self.prepare()
         walk = Walk(problem, schedule, progress, stop)
         begin = time.perf_counter()
         failure: str | None = None

@@ -29,6 +29,9 @@ STEPS_BETWEEN_LOOKS: Final = 500
 class CompiledMebdf:
     """The integrator that ``SOLVERS`` lists; problems in plain Python are run by the same source."""
 
+    def prepare(self) -> None:
+        """Need nothing that tribodyn does not bring along."""
+
     def __call__(
         self,
         problem: Problem,

@@ -77,7 +77,7 @@ def _solver(dataset: xr.Dataset) -> dict[str, str]:
     """Return statistics of the solver and what the ledgers and the grid say."""
     found = {name: in_words(value) for name, value in json_attribute(dataset, "solver", {}).items()}
     residuals = {
-        "energy_residual": "energy residual, whole mechanism",
+        "energy_residual": "energy residual, whole system",
         "clearance_energy_residual": "energy residual, clearance motion",
         "grid_force_error": "force error of the grid",
     }

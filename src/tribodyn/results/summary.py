@@ -189,10 +189,10 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: float(d.attrs["wear_life_cycles"]),
     ),
     "energy_residual_percent": Headline(
-        "Energy residual, whole mechanism",
+        "Energy residual, whole system",
         "%",
         "Trust",
-        "What the energy ledger of all bodies misses; below 1 % is sound.",
+        "What the energy ledger of everything that moves misses; below 1 % is sound.",
         lambda d: float(d.attrs["energy_residual"]) * 100.0,
     ),
     "clearance_energy_residual_percent": Headline(

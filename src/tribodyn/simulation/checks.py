@@ -18,6 +18,10 @@ from tribodyn.wear import resampled
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
 CLIP_LIMIT: Final = 0.02
+REJECTED_LIMIT: Final = 0.2
+"""Share of rejected steps among those tried; the built-in cases and rough variations of them have 1 to 6 %."""
+RESTART_LIMIT: Final = 0.05
+"""Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
 _SAMPLES: Final = 24
 
 
@@ -67,7 +71,13 @@ def grid_force_error(
 
 
 def warnings(
-    vsv: Vsv, found: Mapping[str, float], whole: float, clearance: float, grid_error: float, t_end: float
+    vsv: Vsv,
+    found: Mapping[str, float],
+    whole: float,
+    clearance: float,
+    grid_error: float,
+    t_end: float,
+    statistics: Mapping[str, float],
 ) -> list[str]:
     """Return what a user should know before trusting the numbers, one sentence each.
 
@@ -83,11 +93,44 @@ def warnings(
         From :func:`grid_force_error`.
     t_end
         Simulated time reached [s].
+    statistics
+        Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`.
     """
-    depth = found["separation_least"] / vsv.joint.roughness
-    surface = vsv.joint.contact == SURFACE
+    lift_off = found["collar_lift_off_time"]
     messages = [
         _energy_message(vsv, whole, clearance),
+        *of_contact(
+            vsv.joint,
+            separation=found["separation_least"],
+            clipped=found["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
+            grid_error=grid_error,
+        ),
+        f"The thrust collar carried nothing for {1e3 * lift_off:.3g} ms: "
+        "lift-off of the vane is not modelled."
+        if lift_off > 0.0
+        else "",
+        *of_steps(statistics),
+    ]
+    return [message for message in messages if message]
+
+
+def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_error: float) -> list[str]:
+    """Return what is to be said of a contact, whatever is joined by it; empty texts where nothing is.
+
+    Parameters
+    ----------
+    joint
+        The bushing.
+    separation
+        Least distance of the mean planes [m].
+    clipped
+        Share of the contact area where the tensile clip acts, mean over time.
+    grid_error
+        From :func:`grid_force_error`.
+    """
+    depth = separation / joint.roughness
+    surface = joint.contact == SURFACE
+    return [
         f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
         if grid_error > GRID_LIMIT
         else "",
@@ -95,19 +138,36 @@ def warnings(
         "statistical contact law is outside its range."
         if depth < 0.0 and surface
         else "",
+        f"The clip of tensile pressure acted on {100 * clipped:.2g} % of the contact area on average: "
+        "damping is strong against stiffness there."
+        if clipped > CLIP_LIMIT
+        else "",
         ""
         if surface
         else "The contact is at a point of each end of the bushing: there is no pressure field and no wear.",
-        f"The thrust collar carried nothing for {1e3 * found['collar_lift_off_time']:.3g} ms: "
-        "lift-off of the vane is not modelled."
-        if found["collar_lift_off_time"] > 0.0
+    ]
+
+
+def of_steps(statistics: Mapping[str, float]) -> list[str]:
+    """Return what is to be said of how the integration went; empty texts where nothing is.
+
+    Parameters
+    ----------
+    statistics
+        As for :func:`warnings`.
+    """
+    steps, rejected, restarts = (statistics[name] for name in ("steps", "rejected", "restarts"))
+    return [
+        f"The integrator threw away {100 * rejected / (steps + rejected):.2g} % of the steps it tried: "
+        "something switches faster than it can follow, and short peaks may be missed. Look for what is sharp "
+        "in the case, and see whether a tighter solver.rtol changes the result."
+        if rejected > REJECTED_LIMIT * (steps + rejected)
         else "",
-        f"The clip of tensile pressure acted on {100 * found['tensile_clip_time'] / t_end:.2g} % of the "
-        "contact area on average: damping is strong against stiffness there."
-        if t_end > 0.0 and found["tensile_clip_time"] > CLIP_LIMIT * t_end
+        f"The integration started anew every {steps / restarts:.2g} steps: most of them are taken with "
+        "low orders. See whether a tighter solver.rtol changes the result."
+        if restarts > RESTART_LIMIT * steps > 0.0
         else "",
     ]
-    return [message for message in messages if message]
 
 
 def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:

@@ -284,6 +284,7 @@ def _warnings(run: _Run) -> list[str]:
             residual=residual_fraction(run.rows, run.journal),
             grid_error=grid_force_error(run.journal.joint, run.rows),
             t_end=float(run.solution.t_end),
+            statistics=vars(run.solution.statistics),
         )
     ]
 

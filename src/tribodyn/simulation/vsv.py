@@ -227,7 +227,8 @@ class Gathered:
         whole, clearance = residual_fractions(ledger)
         grid_error = grid_force_error(self.vsv.joint, rows, self.problem.data.joint.wear)
         found = peaks(self.problem.memory.extremes)
-        told = warnings(self.vsv, found, whole, clearance, grid_error, float(self.solution.t_end))
+        t_end = float(self.solution.t_end)
+        told = warnings(self.vsv, found, whole, clearance, grid_error, t_end, self._cost())
         return {
             "title": self.case.title,
             "case": self.case.to_toml(),
@@ -245,7 +246,7 @@ class Gathered:
             "grid_force_error": grid_error,
             **found,
             "worn_volume": worn_volume(self.depth, self.vsv.joint.node_area),
-            "time_reached": float(self.solution.t_end),
+            "time_reached": t_end,
             "failure": self.solution.failure or "",
             "warnings": [*told, *more],
         }
@@ -254,5 +255,8 @@ class Gathered:
         return {
             "name": self.case.solver.name,
             "rtol": self.case.solver.rtol,
-            **(self.statistics or vars(self.solution.statistics)),
+            **self._cost(),
         }
+
+    def _cost(self) -> Mapping[str, float]:
+        return self.statistics or vars(self.solution.statistics)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import tomllib
 from pathlib import Path
 
@@ -47,3 +48,17 @@ def test_check_says_that_a_file_is_valid(tmp_path: Path, capsys: pytest.CaptureF
     assert capsys.readouterr() == ("", "")
     assert main(["check", str(path), "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {"case": str(path), "valid": True}
+
+
+def test_check_and_run_notice_a_solver_that_is_not_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setitem(sys.modules, "sksundae.cvode", None)
+    for command in ("check", "run"):
+        assert main([command, "vsv", "--solver", "cvode"]) == 2
+        message = capsys.readouterr().err
+        assert "solver.name" in message
+        assert "tribodyn[sundials]" in message
+    assert not list(tmp_path.iterdir())
+    assert main(["check", "vsv"]) == 0

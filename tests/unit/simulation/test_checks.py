@@ -1,0 +1,108 @@
+"""Every self-check speaks from its threshold on and not before, for the mechanism and for the journal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tribodyn.kernels.journal import ledger as journal_ledger
+from tribodyn.kernels.vsv import ledger
+from tribodyn.mechanisms.vsv import Vsv
+from tribodyn.simulation import checks, journal_checks
+from tribodyn.simulation.checks import (
+    CLIP_LIMIT,
+    ENERGY_LIMIT,
+    GRID_LIMIT,
+    REJECTED_LIMIT,
+    RESTART_LIMIT,
+    peaks,
+)
+
+T_END = 2.0
+SOUND = {
+    "energy": 0.0,
+    "clearance_energy": 0.0,
+    "grid": 0.0,
+    "depth": 2.0,
+    "clipped": 0.0,
+    "lift_off": 0.0,
+    "rejected": 30.0,
+    "restarts": 3.0,
+}
+"""Of a run with nothing to say of; ``depth`` in σ, ``rejected`` and ``restarts`` beside a thousand steps."""
+
+CASES = [
+    ("energy", ENERGY_LIMIT, 1.0, "Energy is missed"),
+    ("grid", GRID_LIMIT, 1.0, "On the chosen grid"),
+    ("depth", 0.0, -1.0, "mean planes of the surfaces"),
+    ("clipped", CLIP_LIMIT, 1.0, "clip of tensile pressure"),
+    ("rejected", 1000.0 * REJECTED_LIMIT / (1.0 - REJECTED_LIMIT), 1.0, "integrator threw away"),
+    ("restarts", 1000.0 * RESTART_LIMIT, 1.0, "started anew every"),
+]
+ONLY_VSV = [
+    ("clearance_energy", ENERGY_LIMIT, 1.0, "Energy is missed"),
+    ("lift_off", 0.0, 1.0, "thrust collar carried nothing"),
+]
+
+
+def statistics(seen: dict[str, float]) -> dict[str, float]:
+    return {"steps": 1000.0, "rejected": seen["rejected"], "restarts": seen["restarts"]}
+
+
+def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
+    extremes = np.zeros(ledger.N_EXTREMES)
+    extremes[ledger.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
+    extremes[ledger.CLIPPED] = seen["clipped"] * T_END
+    extremes[ledger.LIFT_OFF] = seen["lift_off"]
+    residuals = seen["energy"], seen["clearance_energy"]
+    return checks.warnings(vsv, peaks(extremes), *residuals, seen["grid"], T_END, cost)
+
+
+def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
+    extremes = np.zeros(journal_ledger.N_EXTREMES)
+    extremes[journal_ledger.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
+    extremes[journal_ledger.CLIPPED] = seen["clipped"] * T_END
+    numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
+    return journal_checks.warnings(extremes, vsv.joint, **numbers, statistics=cost)
+
+
+@pytest.mark.parametrize("told", [of_vsv, of_journal])
+def test_a_sound_run_is_silent(make_vsv: Callable[..., Vsv], told: Callable[..., list[str]]) -> None:
+    assert told(make_vsv(), SOUND, statistics(SOUND)) == []
+
+
+@pytest.mark.parametrize(
+    ("told", "name", "limit", "way", "words"),
+    [(of_vsv, *case) for case in CASES + ONLY_VSV] + [(of_journal, *case) for case in CASES],
+)
+def test_a_threshold_is_where_the_warning_begins(
+    make_vsv: Callable[..., Vsv],
+    told: Callable[..., list[str]],
+    name: str,
+    limit: float,
+    way: float,
+    words: str,
+) -> None:
+    for off, expected in ((-1e-6, 0), (1e-6, 1)):
+        seen = SOUND | {name: limit + way * off}
+        messages = told(make_vsv(), seen, statistics(seen))
+        assert len(messages) == expected
+        assert all(words in message and message.endswith(".") for message in messages)
+
+
+def test_points_of_contact_are_told_of_and_have_no_depth(make_vsv: Callable[..., Vsv]) -> None:
+    vsv = make_vsv()
+    vsv = replace(vsv, joint=replace(vsv.joint, contact="point-johnson"))
+    seen = SOUND | {"depth": -3.0}
+    for told in (of_vsv, of_journal):
+        (message,) = told(vsv, seen, statistics(seen))
+        assert "no pressure field" in message
+
+
+def test_a_run_that_took_no_step_is_silent_about_steps() -> None:
+    nothing: dict[str, Any] = {"steps": 0, "rejected": 0, "restarts": 0}
+    assert not any(checks.of_steps(nothing))
