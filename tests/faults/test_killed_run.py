@@ -56,6 +56,19 @@ def assert_whole_or_absent(folder: Path) -> None:
     assert all(path.name.startswith(".") for path in folder.rglob("*.part"))
 
 
+def assert_nothing_of_another_run(folder: Path) -> None:
+    """Assert that there is a result, and that summary and case, where they are there, are of it."""
+    result = read(folder)
+    summary, case = folder / "summary.json", folder / "case.toml"
+    if summary.exists():
+        assert json.loads(summary.read_text(encoding="utf-8")) == summarise(result)
+    if case.exists():
+        assert case.read_text(encoding="utf-8") == result.attrs["case"]
+    pictures = [folder / "report.html", *(folder / "figures").glob("*")]
+    made = (folder / "result.nc").stat().st_mtime
+    assert all(picture.stat().st_mtime >= made for picture in pictures if picture.exists())
+
+
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[tuple[int, str]]]:
     """Return the folder of two runs started at once, with status and message of each."""
@@ -101,6 +114,7 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_succeeds(tmp_path: Pat
     kill(folder, lambda process: time.sleep(random.uniform(0.0, 2.0)))
     kill(folder, until_saving)
     kill(folder, until_drawing)
+    assert_nothing_of_another_run(folder)
     process = started(folder)
     assert process.communicate(timeout=300)
     assert process.returncode == 0
@@ -117,8 +131,8 @@ def test_runs_killed_at_fifty_moments(made: tuple[Path, list[tuple[int, str]]], 
     lasts = time.perf_counter() - began
     for _ in range(50):
         kill(folder, lambda process: time.sleep(random.uniform(0.0, lasts)))
-        # There was a whole result before, so there is one now.
-        assert set(WHOLE) <= {path.name for path in folder.iterdir()}
+        # There was a result before, so there is one now, and nothing that is not of it.
+        assert_nothing_of_another_run(folder)
     process = started(folder)
     process.communicate(timeout=300)
     assert process.returncode == 0
@@ -234,14 +248,25 @@ def test_a_damaged_result_is_refused_or_unharmed(
     assert not (copy / "report.html").exists()
 
 
-def test_a_damaged_summary_is_written_again(
+def test_a_summary_that_is_not_of_the_result_is_written_again(
     copy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("tribodyn.cli.report.draw", lambda dataset, directory: None)
-    (copy / "summary.json").write_text('{"title": "Var', encoding="utf-8")
+    summary, case = copy / "summary.json", copy / "case.toml"
+    other = json.dumps(json.loads(summary.read_text(encoding="utf-8")) | {"contact_force_max_N": 1.0})
+    for content in ('{"title": "Var', other, None):
+        if content is None:
+            summary.unlink()
+            case.unlink()
+        else:
+            summary.write_text(content, encoding="utf-8")
+        assert main(["report", str(copy), "--quiet"]) == 0
+        assert "damaged or of another result; it was written again from result.nc" in capsys.readouterr().err
+        assert_one_run(copy)
+    case.write_text('case = "vsv"  # mine, for the next run\n', encoding="utf-8")
     assert main(["report", str(copy), "--quiet"]) == 0
-    assert "summary.json was damaged; it was written again from result.nc" in capsys.readouterr().err
-    assert_one_run(copy)
+    assert capsys.readouterr().err == ""
+    assert "mine" in case.read_text(encoding="utf-8")
 
 
 def test_a_report_waits_for_nobody(copy: Path, capsys: pytest.CaptureFixture[str]) -> None:

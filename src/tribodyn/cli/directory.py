@@ -101,11 +101,10 @@ class OutputDirectory:
             with contextlib.suppress(OSError, ValueError):
                 path.rmdir()
 
-    def drop_pictures(self) -> None:
-        """Remove figures and report of an earlier run, which would contradict the new result."""
+    def pictures(self) -> list[Path]:
+        """Return report and figures that are there."""
         figures = self.path / FIGURES
-        for path in (self.path / REPORT, *figures.glob("*.png"), *figures.glob("*.pdf")):
-            path.unlink(missing_ok=True)
+        return [*self.path.glob(REPORT), *figures.glob("*.png"), *figures.glob("*.pdf")]
 
 
 def _locked(handle: int) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
@@ -44,28 +43,32 @@ def execute(args: Namespace) -> int:
             draw_points(directory.path, console.note)
         console.note("drawing figures and report")
         draw(dataset, directory.path)
-        _mend_summary(dataset, directory.path)
+        _mend(dataset, directory.path)
     console.say(f"look at {directory.path / REPORT}")
     if console.json:
         show_json(summarise(dataset))
     return 0
 
 
-def _mend_summary(dataset: xr.Dataset, directory: Path) -> None:
-    """Write the summary of a run again when it is damaged: everything in it follows from the result."""
-    from tribodyn.results.atomic import write_text
-    from tribodyn.results.store import RESULT, SUMMARY, summary_text
+def _mend(dataset: xr.Dataset, directory: Path) -> None:
+    """Write again what follows from the result of a run and is missing or not true to it.
 
-    path = directory / SUMMARY
-    if not path.exists() or not (directory / RESULT).is_file():
+    A case file that is there stays as it is: somebody may have edited it on the way to the next run.
+    """
+    from tribodyn.results.atomic import write_text
+    from tribodyn.results.store import CASE, RESULT, SUMMARY, case_text, summary_text
+
+    if not (directory / RESULT).is_file():
         return
-    try:
-        sound = isinstance(json.loads(path.read_text(encoding="utf-8")), dict)
-    except ValueError:
-        sound = False
-    if not sound:
-        write_text(path, summary_text(dataset))
-        complain(f"{os.fspath(path)} was damaged; it was written again from {RESULT}")
+    if not (directory / CASE).exists():
+        write_text(directory / CASE, case_text(dataset))
+    summary, text = directory / SUMMARY, summary_text(dataset)
+    if not summary.is_file() or summary.read_bytes() != text.encode():
+        write_text(summary, text)
+        complain(
+            f"{os.fspath(summary)} was missing, damaged or of another result; it was written again "
+            f"from {RESULT}"
+        )
 
 
 def _read(directory: Path) -> xr.Dataset:

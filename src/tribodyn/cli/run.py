@@ -80,7 +80,7 @@ def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
     from tribodyn.results.store import write_run
     from tribodyn.results.summary import summarise
 
-    write_run(dataset, directory.path)
+    write_run(dataset, directory.path, stale=directory.pictures())
     return dict(summarise(dataset))
 
 
@@ -91,7 +91,6 @@ def _draw(
     path = os.fspath(directory.path)
     again = f"`tribodyn report {path}` draws them"
     if skip:
-        directory.drop_pictures()
         console.note(f"figures and report were left out; {again}")
         return False
     console.note("drawing figures and report")
@@ -103,7 +102,8 @@ def _draw(
     except Exception as error:
         if debug:
             traceback.print_exc()
-        directory.drop_pictures()
+        for picture in directory.pictures():
+            picture.unlink(missing_ok=True)
         complain(f"figures and report could not be made ({error}); the result is saved in {path}; {again}")
         return False
     return True

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
@@ -26,8 +26,7 @@ def replacing(path: Path) -> Iterator[Path]:
     path
         File to write; its folder must exist.
     """
-    # Opened by the writer itself rather than by tempfile, whose files only their owner may read.
-    part = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    part = _part(path)
     try:
         yield part
         _flush(part)
@@ -51,6 +50,37 @@ def write_text(path: Path, text: str) -> None:
         part.write_text(text, encoding="utf-8", newline="\n")
 
 
+def write_together(contents: Mapping[Path, bytes | memoryview], stale: Iterable[Path]) -> None:
+    """Write files of one folder that belong together, the first of which the others follow from.
+
+    All are on the disk before any takes its name. Then what belongs to the old first file goes, the new first
+    file takes its name, and the others theirs: whenever the process is killed, none stands beside a first
+    file that it does not belong to.
+
+    Parameters
+    ----------
+    contents
+        Content of each file by its path, the one that all others follow from first.
+    stale
+        Other files that belong to the old first file; they need not exist.
+    """
+    parts = {path: _part(path) for path in contents}
+    folder = next(iter(parts)).parent
+    try:
+        for path, part in parts.items():
+            part.write_bytes(contents[path])
+            _flush(part)
+        for path in (*list(parts)[1:], *stale):
+            path.unlink(missing_ok=True)
+        _flush_folder(folder)
+        for path, part in parts.items():
+            os.replace(part, path)
+    finally:
+        for part in parts.values():
+            part.unlink(missing_ok=True)
+    _flush_folder(folder)
+
+
 def remove_stale_parts(folder: Path) -> None:
     """Remove temporary files that a killed process left in a folder; those being written now stay.
 
@@ -63,6 +93,12 @@ def remove_stale_parts(folder: Path) -> None:
         with suppress(OSError):
             if time.time() - part.stat().st_mtime > _STALE:
                 part.unlink()
+
+
+def _part(path: Path) -> Path:
+    """Return a name beside ``path`` for what is to become it."""
+    # Opened by the writer itself rather than by tempfile, whose files only their owner may read.
+    return path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
 
 
 def _flush(path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
-from contextlib import ExitStack
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.errors import InputError
-from tribodyn.results.atomic import replacing
+from tribodyn.results.atomic import write_together
 from tribodyn.results.summary import summarise
 
 RESULT: Final = "result.nc"
@@ -49,8 +49,8 @@ def prepare_directory(directory: str | Path) -> Path:
         raise InputError(f"cannot write results to {folder} ({reason}); choose another folder") from error
 
 
-def write_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
-    """Write a run; the three files are replaced together, after all of them have been written.
+def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:
+    """Write a run; summary and case of an earlier one never stand beside its result.
 
     Parameters
     ----------
@@ -58,6 +58,8 @@ def write_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
         A result; ``attrs["case"]`` is the text of the case file.
     directory
         Folder to write to; made if missing.
+    stale
+        What else was made from the earlier result; removed once the new one is on the disk.
 
     Returns
     -------
@@ -66,14 +68,13 @@ def write_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
-    texts = {SUMMARY: summary_text(dataset), CASE: str(dataset.attrs.get("case", ""))}
-    paths = [folder / name for name in (RESULT, *texts)]
-    with ExitStack() as stack:
-        parts = [stack.enter_context(replacing(path)) for path in paths]
-        parts[0].write_bytes(_netcdf(dataset))
-        for part, text in zip(parts[1:], texts.values(), strict=True):
-            part.write_text(text, encoding="utf-8", newline="\n")
-    return paths
+    contents: dict[str, bytes | memoryview] = {
+        RESULT: _netcdf(dataset),
+        CASE: case_text(dataset).encode(),
+        SUMMARY: summary_text(dataset).encode(),
+    }
+    write_together({folder / name: content for name, content in contents.items()}, stale)
+    return [folder / name for name in contents]
 
 
 def _netcdf(dataset: xr.Dataset) -> memoryview:
@@ -89,6 +90,17 @@ def _netcdf(dataset: xr.Dataset) -> memoryview:
 def _summable(values: xr.Variable) -> bool:
     """Tell whether HDF5 can hold a checksum of an array: of numbers, and not of none."""
     return values.ndim > 0 and values.size > 0 and values.dtype.kind in "fiu"
+
+
+def case_text(dataset: xr.Dataset) -> str:
+    """Return the content of ``case.toml``.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+    """
+    return str(dataset.attrs.get("case", ""))
 
 
 def summary_text(dataset: xr.Dataset) -> str:

@@ -19,7 +19,7 @@ ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
 CLIP_LIMIT: Final = 0.02
 REJECTED_LIMIT: Final = 0.2
-"""Share of rejected steps among those tried; the built-in cases and rough variations of them have 1 to 6 %."""
+"""Share of rejected steps among those tried; built-in cases and rough variations of them have 1 to 6 %."""
 RESTART_LIMIT: Final = 0.05
 """Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
 _SAMPLES: Final = 24

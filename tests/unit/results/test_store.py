@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,16 +11,17 @@ import xarray as xr
 from tribodyn.core.errors import InputError
 from tribodyn.results import build, prepare_directory, read, summarise, write_run
 from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.store import summary_text
 
 
 def test_a_run_reads_back_identical(make_result, tmp_path):
     result = make_result(0.5)
     result["F_cx"].values[3] = np.nan
     paths = write_run(result, tmp_path / "new" / "run")
-    assert [path.name for path in paths] == ["result.nc", "summary.json", "case.toml"]
+    assert [path.name for path in paths] == ["result.nc", "case.toml", "summary.json"]
     xr.testing.assert_identical(read(tmp_path / "new" / "run"), result)
     assert (tmp_path / "new" / "run" / "case.toml").read_text() == result.attrs["case"]
-    assert json.loads(paths[1].read_text()) == summarise(result)
+    assert json.loads(paths[2].read_text()) == summarise(result)
 
 
 def test_plain_xarray_opens_it(make_result, tmp_path):
@@ -94,6 +96,62 @@ def test_a_failing_run_leaves_all_three_old_files(make_result, tmp_path, monkeyp
     with pytest.raises(OSError, match="no space left"):
         write_run(make_result(0.2), tmp_path)
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+class Killed(BaseException):
+    """The process ends here."""
+
+
+def killed_after(monkeypatch, survived):
+    """Let the process die after so many changes of the folder; return the list of those that were made."""
+    made = []
+
+    def dying(change):
+        def changed(*arguments, **options):
+            if len(made) == survived:
+                raise Killed
+            made.append(arguments)
+            return change(*arguments, **options)
+
+        return changed
+
+    monkeypatch.setattr(os, "replace", dying(os.replace))
+    # The parts of a killed process stay, hidden, and are no change that a reader sees.
+    unlink = Path.unlink
+    dying_unlink = dying(unlink)
+    monkeypatch.setattr(
+        Path, "unlink", lambda path, **o: None if path.suffix == ".part" else dying_unlink(path, **o)
+    )
+    return made
+
+
+def test_nothing_ever_stands_beside_a_result_of_which_it_is_not(make_result, tmp_path, monkeypatch):
+    # Few variables: writing all of them takes longer than everything else here.
+    old, new = (make_result(end, case=name)[["F_cx", "p_max"]] for end, name in ((0.1, "old"), (0.2, "new")))
+    seen = []
+    for survived in range(20):
+        folder = tmp_path / str(survived)
+        write_run(old, folder)
+        report = folder / "report.html"
+        report.write_text("old")
+        with monkeypatch.context() as patch:
+            made = killed_after(patch, survived)
+            try:
+                write_run(new, folder, stale=[report])
+            except Killed:
+                pass
+            else:
+                assert len(made) == survived
+                break
+        there = old if read(folder).identical(old) else new
+        xr.testing.assert_identical(read(folder), there)
+        seen.append(there is new)
+        for name, text in (("summary.json", summary_text(there)), ("case.toml", there.attrs["case"])):
+            assert not (folder / name).exists() or (folder / name).read_text() == text
+        assert there is old or not report.exists()
+    # Three removals, then three renames, the first of which brings the new result.
+    assert seen == [False] * 4 + [True] * 2
+    assert not report.exists()
 
 
 def test_prepare_directory_makes_it_and_leaves_nothing(tmp_path):
