@@ -24,7 +24,7 @@ FULLY_SLIDING: Final = 1.0e3
 _START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)
 """Separations over σ tried for the first guess."""
 _MOMENTS_RULE: Final = 2.0
-"""Moments over the half length of the bushing, as a multiple of the force, that lay opposite ends against it."""
+"""Moments over the half length of the bushing, over the force, that lay opposite ends against it."""
 
 
 def equilibrium(
