@@ -1,28 +1,43 @@
 """Run benchmarks: ``python -m benchmarks [NAME ...]``; all of them without a name.
 
-Each is a module here with a function ``run`` that prints and returns what it found; ``all.json`` collects it.
+Each is a module here with a function ``run`` that prints and returns what it found. ``benchmarks.json`` in
+the manual's folder collects it, with the machine it was found on; manual and figure are made from that file.
 """
 
 from __future__ import annotations
 
 import importlib
 import json
+import os
+import platform
 import sys
 from pathlib import Path
 from typing import Final
 
-NAMES: Final = ("joint_kernel", "vsv", "growth")
+from benchmarks.figure import draw
+
+NAMES: Final = ("joint_kernel", "vsv", "film", "growth", "long_run", "command", "sweep")
 """Every benchmark once: to add one, write a module with ``run`` and name it here."""
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"
 
 
 def main(names: list[str]) -> None:
-    """Run the named benchmarks and keep what the others found before."""
+    """Run the named benchmarks, keep what the others found before, and draw the figure."""
     found = json.loads(TARGET.read_text(encoding="utf-8")) if TARGET.exists() else {}
     for name in names or NAMES:
         print(f"== {name}", flush=True)
-        found[name] = importlib.import_module(f"benchmarks.{name}").run()
-    TARGET.write_text(json.dumps(found, indent=1), encoding="utf-8")
+        before = os.getloadavg()[0]
+        found[name] = {"on": machine(), "load": before, **importlib.import_module(f"benchmarks.{name}").run()}
+        TARGET.write_text(json.dumps(found, indent=1), encoding="utf-8")
+    draw(found, TARGET.with_suffix(".svg"))
+
+
+def machine() -> str:
+    """Return processor and Python."""
+    about = Path("/proc/cpuinfo")
+    lines = about.read_text(encoding="utf-8").splitlines() if about.exists() else []
+    models = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
+    return f"{models[0] if models else platform.processor()}, Python {platform.python_version()}"
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,9 +89,9 @@ def loads_of(film: Film) -> FloatArray:
     return np.stack([column.ravel() for column in columns], axis=1)
 
 
-def orbit(state: FloatArray) -> list[FloatArray]:
+def orbit(state: FloatArray, points: int) -> list[FloatArray]:
     """Return states on a small orbit: steps as a time integration takes them."""
-    turns = np.linspace(0.0, 2.0 * np.pi, POINTS)
+    turns = np.linspace(0.0, 2.0 * np.pi, points)
     return [state * (1.0 + 0.02 * np.sin(turn + np.arange(8.0))) for turn in turns]
 
 
@@ -101,7 +102,7 @@ def milliseconds(call: Callable[[], object]) -> float:
     return 1e3 * (time.thread_time() - begin)
 
 
-def compare(state: FloatArray) -> tuple[float, float, float]:
+def compare(state: FloatArray, points: int) -> tuple[float, float, float]:
     """Return median times [ms], structured and general, and the largest difference of forces."""
     film = Film(0.01, 20e-6, 5e-3, 20e-3, Roughness((1e-6, 1e-6)), grid=FilmGrid(128, 32))
     data, memory, whole = film.data(), film.memory(), film.memory()
@@ -110,7 +111,7 @@ def compare(state: FloatArray) -> tuple[float, float, float]:
     ours, theirs, difference = [], [], 0.0
     film_wrench_and_jacobian(data, memory, state, OMEGA, out, jacobian)
     active = memory.active.ravel() == 1
-    for y in orbit(state):
+    for y in orbit(state, points):
         ours.append(milliseconds(lambda y=y: film_wrench_and_jacobian(data, memory, y, OMEGA, out, jacobian)))
         # A tilt of 1e-13 makes the film assemble its whole length, as the general solver must.
         film_wrench_and_jacobian(data, whole, y + np.eye(8)[2] * 1e-13, OMEGA, again, jacobian)
@@ -123,15 +124,19 @@ def compare(state: FloatArray) -> tuple[float, float, float]:
     return float(np.median(ours)), float(np.median(theirs)), difference
 
 
-def main() -> None:
-    """Print the table."""
+def run(quick: bool = False) -> dict[str, Any]:
+    """Measure, print and return; ``quick``: at a few points of the orbit."""
+    found = {}
     print("one film evaluation with derivatives, 128 x 32, warm start, one thread")
     print(f"{'':8s} {'ours [ms]':>10s} {'limit':>6s} {'SuperLU [ms]':>13s} {'ratio':>6s} {'difference':>11s}")
     for name, state in (("no tilt", LEVEL), ("tilt", TILTED)):
-        ours, theirs, difference = compare(state)
-        figures = f"{ours:10.2f} {LIMITS[name]:6.1f} {theirs:13.2f} {theirs / ours:6.1f} {difference:11.1e}"
+        ours, theirs, difference = compare(state, 3 if quick else POINTS)
+        ratio = theirs / ours
+        found[name] = {"ours [ms]": ours, "SuperLU [ms]": theirs, "ratio": ratio, "difference": difference}
+        figures = f"{ours:10.2f} {LIMITS[name]:6.1f} {theirs:13.2f} {ratio:6.1f} {difference:11.1e}"
         print(f"{name:8s} {figures}")
+    return found
 
 
 if __name__ == "__main__":
-    main()
+    run()

@@ -65,7 +65,7 @@ def run(quick: bool = False) -> dict[str, Any]:
     print("grid       in contact   wrench [ns/node]   with Jacobian   numpy/wrench")
     for theta, z in GRIDS[: 1 if quick else None]:
         found = measure(replace(joint, grid=Grid(theta, z)))
-        results[f"{theta} x {z}"] = found
+        results[f"{theta} × {z}"] = found
         nodes = found["nodes in contact"]
         per_node = [1e3 * found[name] / nodes for name in ("wrench", "with Jacobian")]
         ratio = found["numpy"] / found["wrench"]

@@ -1,0 +1,58 @@
+"""Four hundred drive cycles without cycle jumping: time, and whether memory grows with them.
+
+    python -m benchmarks.long_run
+    python -m benchmarks.long_run 10             # one run in this process: prints seconds and peak memory
+
+Each run is a process of its own, whose peak memory the system tells. Rows are kept every 0.1 s and no closer
+after reversals; they are what may grow, and their size is told beside the peak.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import sys
+import time
+from typing import Any
+
+from benchmarks.child import measured
+from tribodyn.cases import load_case
+
+FEW, MANY = 10, 400
+OUTPUT = {"run.output_interval": "100 ms", "run.impact_window": "0 s"}
+
+
+def run(quick: bool = False) -> dict[str, Any]:
+    """Measure, print and return; ``quick``: one cycle."""
+    found = {}
+    for cycles in (1,) if quick else (FEW, MANY):
+        row = json.loads(measured(["-m", "benchmarks.long_run", str(cycles)])["output"].splitlines()[-1])
+        found[str(cycles)] = row
+        print(
+            f"{cycles:4d} cycles {row['seconds']:7.2f} s, peak memory {row['peak memory [MB]']:6.1f} MB,"
+            f" result {row['result [MB]']:5.1f} MB"
+        )
+    return found
+
+
+def here(cycles: int) -> dict[str, float]:
+    """Simulate in this process."""
+    from tribodyn import simulate
+
+    simulate(load_case("vsv").replace({**OUTPUT, "run.duration": "0.2 s"}))  # compile
+    case = load_case("vsv").replace({**OUTPUT, "run.cycles": cycles})
+    begin = time.thread_time()
+    dataset = simulate(case)
+    return {
+        "seconds": time.thread_time() - begin,
+        "peak memory [MB]": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+        "result [MB]": dataset.nbytes / 2**20,
+        "steps": float(json.loads(dataset.attrs["solver"])["steps"]),
+    }
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        print(json.dumps(here(int(sys.argv[1]))))
+    else:
+        run()
