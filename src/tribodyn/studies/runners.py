@@ -122,7 +122,10 @@ def _local_client(workers: int) -> Iterator[Client]:
             n_workers=workers,
             threads_per_worker=1,
             processes=True,
-            dashboard_address=None,
+            # Without a dashboard its server starts all the same: any free port, for another sweep may have
+            # the usual one.
+            scheduler_kwargs={"dashboard": False},
+            dashboard_address="127.0.0.1:0",
             silence_logs=logging.CRITICAL,
             preload=["tribodyn.studies.work"],
         ) as processes,
