@@ -12,6 +12,7 @@ import xarray as xr
 from tribodyn.cases import load_case
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import joint_wrench
+from tribodyn.results import write_run
 from tribodyn.simulation import simulate
 
 BRIEF = {"run.duration": "0.2 s", "run.output_interval": "5 ms"}
@@ -29,8 +30,10 @@ def base():
     return run()
 
 
-def test_the_same_case_gives_the_same_bits(base):
-    again = run()
+def test_the_case_beside_a_result_gives_it_again_to_the_bit(base, tmp_path):
+    write_run(base, tmp_path)
+    again = simulate(load_case(tmp_path / "case.toml"))
+    assert again.attrs["case"] == base.attrs["case"]
     for name in base.variables:
         np.testing.assert_array_equal(base[name].values, again[name].values, err_msg=name)
 
@@ -95,7 +98,6 @@ def journal(kind: str, angle: float, **changes: str) -> xr.Dataset:
         ("journal-oil", 0.5, 1e-3),
         # The memory of contact changes at accepted steps, and those fall otherwise: thousandths of an impact.
         ("journal-dry", WHOLE_NODES, 0.03),
-        ("journal-dry", 0.5, 0.1),
     ],
 )
 def test_a_journal_follows_a_load_that_is_turned(kind: str, angle: float, agree: float) -> None:

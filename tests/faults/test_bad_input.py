@@ -127,6 +127,8 @@ VALUES = [
     ('[run]\noutput_interval = "1 ns"', "run.output_interval", "output times"),
     # out of reach
     ('[drive]\nstart_angle = "-30 deg"', "drive.start_angle", "reaches only from"),
+    ('[drive]\nspeed_amplitude = "-20 deg/s"', "drive.start_angle", "reaches only from"),
+    ('[drive]\nspeed_amplitude = "0 deg/s"', "drive.speed_amplitude", "must move"),
     ('[mechanism]\npivot_distance = "2 m"', "drive.start_angle", "cannot be assembled"),
     # names
     ('[contact]\nlaw = "hertz"', "contact.law", "ke, rsdc"),

@@ -172,9 +172,35 @@ def test_comments_fit_on_a_screen() -> None:
     assert max(map(len, CASE.to_toml(comments=True).splitlines())) <= 140
 
 
-def test_assumed_values_are_flagged() -> None:
-    line = next(x for x in CASE.to_toml(comments=True).splitlines() if x.startswith("friction_coefficient"))
-    assert "ASSUMED" in line
+@pytest.mark.parametrize("name", ["friction_coefficient", "minimum_entry_velocity", "onset_separation"])
+def test_assumed_values_are_flagged(name: str) -> None:
+    lines = CASE.to_toml(comments=True).splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith(name))
+    # A comment that is too long for its line stands above it.
+    assert "ASSUMED" in lines[at] + lines[at - 1] * lines[at - 1].startswith("#")
+
+
+TABLES = {
+    "surfaces.trunnion": "young_modulus poisson_ratio roughness",
+    "surfaces.bushing": "young_modulus poisson_ratio roughness hardness",
+    "asperities": "density radius surface",
+    "contact": "law damping_factor restitution",
+    "joint": "clearance radius length collar_radius friction_coefficient friction",
+    "mechanism": "crank_length pivot_angle crank_mass crank_inertia formulation",
+    "drive": "start_angle speed_amplitude angular_frequency",
+    "loads": "air_force_x air_force_y air_moment",
+    "wear": "specific_wear_rate paper_hardness_divisor cycles",
+    "solver": "name rtol",
+    "solver.atol": "position",
+    "solver.grid": "theta z",
+    "run": "cycles duration start output_interval",
+}
+
+
+def test_a_case_file_has_the_tables_it_is_known_for() -> None:
+    wanted = {f"{table}.{name}" for table, names in TABLES.items() for name in names.split()}
+    assert wanted <= set(keys_of(type(CASE)))
+    assert "film.viscosity" in keys_of(CASES["journal-oil"].model)
 
 
 def test_the_kind_of_a_case_cannot_be_replaced() -> None:

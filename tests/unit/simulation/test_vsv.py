@@ -1,8 +1,15 @@
-"""A run that stops before the crank gets where the mechanism cannot go."""
+"""The run of the vane mechanism: what its result holds, and a drive that would go too far if it went on."""
 
 from __future__ import annotations
 
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
 import tribodyn as td
+from tribodyn.results import summarise
 
 
 def test_a_valid_short_run_of_a_drive_that_would_go_out_of_reach_runs() -> None:
@@ -11,3 +18,58 @@ def test_a_valid_short_run_of_a_drive_that_would_go_out_of_reach_runs() -> None:
     result = td.simulate(td.load_case("vsv").replace(changes))
     assert not result.attrs["failure"]
     assert result.sizes["time"] > 5
+
+
+EVERY_MOMENT = [
+    *("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot"),
+    *("theta_a", "theta_b", "theta_v", "theta_v_ideal", "omega_v", "omega_v_ideal"),
+    *("F_cx", "F_cy", "F_kx", "F_ky", "F_dx", "F_dy", "F_fx", "F_fy", "F_cz"),
+    *("M_jcx", "M_jcy", "M_tcx", "M_tcy", "M_jf", "M_tf", "p_max", "F_21x", "F_32x", "F_43x", "F_bx", "M_d"),
+]
+"""Names that users may rely on, over time."""
+FACTS = [
+    "case",
+    "tribodyn_version",
+    "numpy_version",
+    "python_version",
+    "solver",
+    "energy_residual",
+    "warnings",
+]
+
+
+@pytest.fixture(scope="module")
+def result() -> xr.Dataset:
+    """Return a run that goes beyond the first reversal of the built-in drive, at t = π."""
+    return td.simulate(td.load_case("vsv").replace({"run.duration": "3.3 s"}))
+
+
+def test_the_names_of_a_result_can_be_relied_on(result: xr.Dataset) -> None:
+    for name in EVERY_MOMENT:
+        assert result[name].dims == ("time",), name
+        assert np.isfinite(result[name].values).all(), name
+    assert {"film_force_peak", "F_ox", "F_oy"}.isdisjoint(result.variables)
+    assert any(str(name).startswith("energy_") for name in result.data_vars)
+    assert result["pressure"].dims == ("snapshot", "theta", "z")
+    assert result["wear_depth"].dims == ("theta", "z")
+    assert result["time"].attrs["units"] == "s"
+    assert all(values.attrs["units"] and values.attrs["long_name"] for values in result.variables.values())
+    assert set(FACTS) <= set(result.attrs)
+    np.testing.assert_allclose(result["F_dx"], result["F_cx"] - result["F_kx"])
+
+
+def test_rows_are_uniform_and_at_every_event(result: xr.Dataset) -> None:
+    times = result["time"].values
+    quiet = times[(times < np.pi) & (times > 1e-9)]
+    np.testing.assert_allclose(np.diff(quiet), 5e-3, rtol=1e-9)
+    reversal = np.abs(times - np.pi).min()
+    assert reversal < 1e-9
+    after = times[(times > np.pi + 1e-9) & (times < np.pi + 0.05)]
+    assert np.diff(after).max() < 0.21e-3
+
+
+def test_summary_is_flat(result: xr.Dataset) -> None:
+    summary = summarise(result)
+    assert all(isinstance(value, float | int | str) for value in summary.values())
+    assert summary["vane_angle_error_max_deg"] > 0.0
+    assert json.loads(json.dumps(summary)) == summary

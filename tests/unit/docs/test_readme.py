@@ -1,0 +1,114 @@
+"""What the README shows works as it stands there."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+import time
+import tomllib
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+import tribodyn as td
+from tribodyn.cli.main import COMMANDS, main
+
+ROOT = Path(__file__).parents[3]
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+CODE_LINES = [line.strip() for line in TEXT.splitlines() if line.startswith("    ")]
+COMMAND_LINES = [
+    text.split(" # ")[0].split(" > ")[0]
+    for text in [*CODE_LINES, *re.findall(r"`([^`\n]+)`", TEXT)]
+    if text.startswith("tribodyn ")
+]
+
+
+def test_every_link_leads_somewhere() -> None:
+    links = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", TEXT)
+    assert len(links) > 10
+    assert [link for link in links if "://" not in link and not (ROOT / link).exists()] == []
+
+
+@pytest.mark.parametrize("line", COMMAND_LINES)
+def test_every_command_is_understood(
+    line: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its options are those of the command, and what it sets can be set."""
+    name, *arguments = shlex.split(line)[1:]
+    asked = []
+    monkeypatch.setattr(COMMANDS[name], "execute", lambda args: asked.append(args) or 0)
+    assert main([name, *arguments]) == 0
+    case = getattr(asked[0], "case", None)
+    if case and not case.endswith(".toml"):
+        changes = [f"--set={change}" for change in getattr(asked[0], "changes", [])]
+        assert main(["check", case, *changes]) == 0
+
+
+def test_commands_are_shown() -> None:
+    assert len(COMMAND_LINES) >= 8
+    assert {line.split()[1] for line in COMMAND_LINES} >= {"run", "show", "sweep", "surface", "compare"}
+
+
+def test_the_lines_of_python_run() -> None:
+    lines = [line for line in CODE_LINES if line.startswith(("import ", "result = "))]
+    names: dict[str, object] = {}
+    exec(compile("\n".join(lines), "README", "exec"), names)
+    result = names["result"]
+    assert isinstance(result, xr.Dataset)
+    assert result.attrs["clearance"] == 40e-6
+    assert not result.attrs["failure"]
+
+
+def recipe(target: str) -> str:
+    """Return what ``make`` would do, an environment being there."""
+    stamps = ("-o", ".venv/.run", "-o", ".venv/.dev")
+    shown = subprocess.run(["make", "-n", *stamps, target], cwd=ROOT, capture_output=True, text=True)
+    assert shown.returncode == 0, shown.stderr
+    return shown.stdout
+
+
+def test_make_demo_runs_the_vane_mechanism_over_two_drive_cycles() -> None:
+    assert "tribodyn run vsv -o out/demo" in recipe("demo")
+    assert td.load_case("vsv").at("run.cycles") == 2.0
+
+
+def test_make_test_runs_all_but_the_longest_tests() -> None:
+    assert '-m pytest -n 2 -m "not long"' in recipe("test")
+
+
+def test_installing_gives_the_command_on_python_3_11() -> None:
+    module, function = PROJECT["scripts"]["tribodyn"].split(":")
+    assert getattr(import_module(module), function) is main
+    assert PROJECT["requires-python"] == ">=3.11"
+    version = subprocess.run([sys.executable, "-m", "tribodyn", "--version"], capture_output=True, text=True)
+    assert version.stdout == f"tribodyn {td.__version__}\n"
+
+
+def test_the_licence_is_the_one_named() -> None:
+    assert PROJECT["license"] == "BSD-3-Clause"
+    assert f"Licence: {PROJECT['license']}" in TEXT
+    assert "BSD 3-Clause" in (ROOT / "LICENSE").read_text(encoding="utf-8")
+
+
+def test_the_demo_is_several_times_faster_than_its_motion() -> None:
+    case = td.load_case("vsv")
+    td.simulate(case.replace({"run.duration": "10 ms"}))  # compiles, or finds what was compiled
+    began = time.thread_time()
+    td.simulate(case.replace({"run.cycles": 0.5}))
+    # A twelfth is said; a slow machine may take four times as long.
+    assert time.thread_time() - began < 3.15 / 3.0
+
+
+def test_every_wrong_equation_has_what_was_built_instead_and_why() -> None:
+    lines = (ROOT / "docs" / "theory" / "errata.md").read_text(encoding="utf-8").splitlines()
+    rows = [
+        [cell.strip() for cell in line.strip("|").split(" | ")] for line in lines if line.startswith("| ")
+    ]
+    assert rows[0] == ["where", "printed", "built", "why"]
+    assert len(rows) > 15
+    assert all(len(row) == 4 and all(row) for row in rows)
