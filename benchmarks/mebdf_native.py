@@ -67,11 +67,16 @@ def _compiled() -> Any:
     return _repeated.compile((FunctionType(RHS), FunctionType(JAC), *state, cube, *state, nb.int64))
 
 
-def mebdf(problem: Benchmark, rtol: float, settings: dict[int, float] | None = None) -> dict[str, Any]:
+def mebdf(
+    problem: Benchmark,
+    rtol: float,
+    settings: dict[int, float] | None = None,
+    at_least: float = LONG_ENOUGH,
+) -> dict[str, Any]:
     """Integrate; return digits, counts and the time of the integration alone [s].
 
     Reaching a function that is an argument takes numba some 100 µs, once a call. It is not the method's, so
-    short integrations are repeated within the call until it does not count.
+    short integrations are repeated within the call until it does not count: for ``at_least`` so long [s].
     """
     loop = _compiled()
     state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol)
@@ -83,9 +88,9 @@ def mebdf(problem: Benchmark, rtol: float, settings: dict[int, float] | None = N
         begin = time.perf_counter()
         failed = loop(problem.rhs, problem.jac, *state, *start, repeats)
         seconds = time.perf_counter() - begin
-        if seconds > LONG_ENOUGH:
+        if seconds > at_least:
             break
-        repeats = max(2 * repeats, min(100 * repeats, int(1.2 * repeats * LONG_ENOUGH / seconds)))
+        repeats = max(2 * repeats, min(100 * repeats, int(1.2 * repeats * at_least / seconds)))
     seconds /= repeats
     names = {"steps": STEPS, "rhs": N_F, "jac": N_J, "lu": N_LU, "solves": N_SOLVES, "rejected": REJECTED}
     counts = {name: int(state.counts[place]) for name, place in names.items()}

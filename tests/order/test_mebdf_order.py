@@ -55,16 +55,18 @@ def global_error(k, n_steps):
 
 @pytest.mark.parametrize("k", range(1, MAX_K + 1))
 def test_order_is_one_more_than_the_back_values(k):
-    # Steps short enough for the leading term, long enough to stay clear of rounding and of Newton's limits.
+    # Steps short enough for the leading term, long enough to stay clear of rounding.
     steps = {
         1: (320, 640),
-        2: (160, 320),
+        2: (320, 640),
         3: (160, 320),
-        4: (80, 160),
-        5: (56, 112),
-        6: (56, 112),
-        7: (56, 80),
+        4: (160, 226),
+        5: (112, 160),
+        6: (96, 136),
+        7: (80, 112),
     }
     coarse, fine = steps[k]
     order = np.log(global_error(k, coarse) / global_error(k, fine)) / np.log(fine / coarse)
-    assert order == pytest.approx(k + 1, abs=0.35)
+    # The next term of the error is a multiple of h times the first. Up to order 6 it has shrunk to a few
+    # hundredths of it before rounding sets in; at orders 7 and 8 the error is 1e-10 when a tenth is left.
+    assert order == pytest.approx(k + 1, abs=0.05 if k <= 5 else 0.2)

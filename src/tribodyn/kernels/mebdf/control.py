@@ -76,7 +76,7 @@ def set_weights(real: FloatArray, rows: FloatArray) -> None:
 @kernel
 def change_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float) -> None:
     """Multiply the step by ``factor`` and make the history fit it."""
-    rescale(rows, count[K], factor)
+    rescale(rows, count[K], factor, 0.0)
     real[H] *= factor
     count[EQUAL_STEPS] = 0
     count[CARRIED] = 0
@@ -84,15 +84,12 @@ def change_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, fa
 
 @inlined
 def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
-    """Keep the step below its maximum and let the last steps end at the end."""
+    """Keep the step below its maximum; where nothing may be evaluated beyond the end, end there."""
     left = abs(real[T_END] - real[T])
-    h = abs(real[H])
+    h, largest = abs(real[H]), real[H_MAX]
     count[LAST] = 0
-    if 2.0 * h < left and h <= real[H_MAX]:
-        return
-    largest = left
-    if count[FIXED] == 0:
-        largest = min(real[H_MAX], left)
+    if count[INSIDE] == 1:
+        largest = min(largest, left)
         if h < left * (1.0 - 1.0e-9) and 2.0 * h > left:
             # Two equal last steps rather than a long one and a sliver.
             largest = min(largest, 0.5 * left)
@@ -173,4 +170,8 @@ def choose(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None
     if not settled and factor >= 1.0:
         return
     count[K] = best
-    change_step(real, count, rows, min(factor, real[LARGEST_GROWTH]))
+    largest = real[LARGEST_GROWTH]
+    if k == 1:
+        # Nothing higher than ∇² is rescaled: it is magnified less than ∇⁴ by the usual limit.
+        largest *= largest
+    change_step(real, count, rows, min(factor, largest))

@@ -26,7 +26,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
-from tribodyn.kernels.mebdf.history import push
+from tribodyn.kernels.mebdf.history import push, rescale
 from tribodyn.kernels.mebdf.newton import iterate, renew_matrix, start_stage
 from tribodyn.kernels.mebdf.phases import (
     ACCEPT,
@@ -154,10 +154,17 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> Non
     push(rows, Y, count[K] + 3, HISTORY)
     real[T_OLD] = real[T]
     real[T] += real[H]
-    # What no step could cross is no distance either.
-    if abs(real[T_END] - real[T]) <= max(ROUNDING * abs(real[H]), LEAST_STEP * abs(real[T])):
-        real[T] = real[T_END]
     real[H_LAST] = real[H]
+    beyond = real[T] - real[T_END]
+    # What no step could cross is no distance either.
+    if abs(beyond) <= max(ROUNDING * abs(real[H]), LEAST_STEP * abs(real[T])):
+        real[T] = real[T_END]
+    elif beyond * real[H] > 0.0:
+        # The dense output of this step is the solution at the end.
+        share = 1.0 - beyond / real[H]
+        rescale(rows, count[K] + 1, share, share - 1.0)
+        real[H_LAST] *= share
+        real[T] = real[T_END]
     count[K_LAST] = count[K]
     count[STEPS] += 1
     count[EQUAL_STEPS] += 1

@@ -8,21 +8,21 @@ from tribodyn.kernels.mebdf.state import HISTORY, N_DIFFERENCES, SCRATCH
 
 
 @kernel
-def rescale(rows: FloatArray, degree: int, factor: float) -> None:
+def rescale(rows: FloatArray, degree: int, factor: float, shift: float) -> None:
     """Make the differences ∇^0 … ∇^degree those of the same polynomial with steps ``factor`` times as long.
 
     The polynomial through y_n, y_{n-1}, … is evaluated at the new points by Newton's formula and
-    differenced again. Higher differences are dropped.
+    differenced again. The newest of them lies ``shift`` steps after the present one. Higher differences
+    are dropped.
     """
     n = rows.shape[1]
     for i in range(n):
-        for j in range(1, degree + 1):
-            rows[SCRATCH + j, i] = value_at(rows, HISTORY, degree, -j * factor, i)
-        rows[SCRATCH, i] = rows[HISTORY, i]
+        for j in range(degree + 1):
+            rows[SCRATCH + j, i] = value_at(rows, HISTORY, degree, shift - j * factor, i)
         for m in range(1, degree + 1):
             for j in range(degree, m - 1, -1):
                 rows[SCRATCH + j, i] = rows[SCRATCH + j - 1, i] - rows[SCRATCH + j, i]
-    for m in range(1, degree + 1):
+    for m in range(degree + 1):
         for i in range(n):
             rows[HISTORY + m, i] = rows[SCRATCH + m, i]
     for m in range(degree + 1, N_DIFFERENCES):

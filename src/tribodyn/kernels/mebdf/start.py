@@ -98,4 +98,4 @@ def _first_step(real: FloatArray, rows: FloatArray) -> float:
     if not math.isfinite(largest):
         return 1.0e-3 * trial
     size = max(1.0e-6, 1.0e-3 * trial) if largest <= 1.0e-15 else math.sqrt(0.01 / largest)
-    return min(100.0 * trial, size, real[H_MAX])
+    return min(100.0 * trial, size, real[H_MAX], abs(real[T_END] - real[T]))

@@ -49,6 +49,7 @@ SAFETY: Final = SETTINGS + 7
 SAFETY_HIGHER: Final = SETTINGS + 8
 LEAST_GROWTH: Final = SETTINGS + 9
 LARGEST_GROWTH: Final = SETTINGS + 10
+"""Largest growth of the step at once; its square where there is one back value."""
 DISAGREEMENT: Final = SETTINGS + 11
 """Largest distance of y_{n+1} from ȳ1 in units of the tolerance."""
 FORGET: Final = SETTINGS + 12
@@ -69,7 +70,7 @@ DEFAULTS: Final = (
     *(0.24, 0.42, 0.20),
     *(0.05, 40.0, 0.05),
     *(1.44, 1.54, 1.62, 1.05, 6.0),
-    *(1.9, 0.28, 2.0, 1.7, 20.0, 3.0, 0.8),
+    *(1.9, 0.28, 2.0, 1.9, 20.0, 3.0, 0.9),
     0.3,
 )
 N_REAL: Final = SETTINGS + len(DEFAULTS)
