@@ -1,0 +1,142 @@
+"""What keeps the vane mechanism from being smooth, and what each costs: two cycles with and without it.
+
+    python -m benchmarks kinks
+
+Variants change the physics; their motions are other motions. What they tell is what could be won at most by
+treating a kink as the integrator would like it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import Any, Final
+from unittest.mock import patch
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.vsv_case import problem_of, ranges, vsv_case
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Problem
+from tribodyn.integrate import integrate
+from tribodyn.kernels.jit import entry
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+
+RTOL: Final = 1e-4
+LOOKS: Final = "tribodyn.integrate.mebdf.STEPS_BETWEEN_LOOKS"
+
+
+@entry
+def _forget_nothing(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
+    """Leave the memory as it is."""
+
+
+def _frozen(problem: Problem, entry_velocity: float) -> Problem:
+    """Return the problem with one entry velocity everywhere and for ever [m/s]; 0: none."""
+    problem.memory.entry_velocity[:] = entry_velocity
+    return replace(problem, functions=replace(problem.functions, accept=_forget_nothing))
+
+
+def _one_entry_velocity(problem: Problem) -> Problem:
+    return _frozen(problem, problem.data.joint.minimum_entry_velocity)
+
+
+def _no_memory(problem: Problem) -> Problem:
+    return _frozen(problem, 0.0)
+
+
+def _no_collar(problem: Problem) -> Problem:
+    return replace(problem, data=problem.data._replace(collar_radius=0.0))
+
+
+def _same(problem: Problem) -> Problem:
+    return problem
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A change of the default case: keys, and what no key changes."""
+
+    name: str
+    keys: dict[str, Any] = field(default_factory=dict)
+    alter: Callable[[Problem], Problem] = _same
+
+
+_NO_CLIP: Final = {"contact.tensile_clip": False}
+_WIDE: Final = {"loads.switch_width": "0.1 rad"}
+_SLIP: Final = {"joint.slip_velocity": "1 mm/s"}
+VARIANTS: Final = (
+    Variant("as it is"),
+    Variant("no clip", _NO_CLIP),
+    Variant("entry velocity v_min, for ever", alter=_one_entry_velocity),
+    Variant("no memory: |approach| of the moment", alter=_no_memory),
+    Variant("no moment of the collar", alter=_no_collar),
+    Variant("air force switched over 10 times the angle", _WIDE),
+    Variant("traction developed at 100 times the slip", _SLIP),
+    Variant("friction as a moment", {"joint.friction": "moment"}),
+    Variant(
+        "no clip, v_min, no collar, wide switches",
+        {**_NO_CLIP, **_WIDE, **_SLIP},
+        lambda problem: _no_collar(_one_entry_velocity(problem)),
+    ),
+)
+
+
+def count(variant: Variant, cycles: float) -> dict[str, Any]:
+    """Return what a variant takes, where its steps lie after a reversal, and whether the memory matters.
+
+    The last three belong to the first 50 ms: how often points of the bushing came into contact or left it at
+    the end of a step, and the shares [%] of the steps that are shorter than the one before, after such a step
+    and after the others.
+    """
+    case, vsv = vsv_case(cycles, **variant.keys)
+    problem = variant.alter(problem_of(case, vsv))
+    reached: list[float] = []
+    in_contact: list[NDArray[np.bool_]] = []
+
+    def look(t: float) -> None:
+        reached.append(t)
+        in_contact.append(problem.memory.entry_velocity > 0.0)
+
+    with patch(LOOKS, 1):
+        solution = integrate(problem, rtol=RTOL, output_times=[case.duration], progress=look)
+    assert solution.complete, solution.failure
+    statistics = solution.statistics
+    far, between = ranges(np.array(reached))
+    near = ~far & ~between
+    steps = np.diff(reached)
+    shorter = steps[1:] < 0.95 * steps[:-1]
+    changed = np.array([np.any(a != b) for a, b in pairwise(in_contact)])[:-1]
+    after, others = changed & near[2:], ~changed & near[2:]
+    return {
+        "variant": variant.name,
+        "steps": statistics.steps,
+        "rejected": statistics.rejected,
+        "evaluations": statistics.rhs_evaluations,
+        "LU": statistics.lu_decompositions,
+        "steps to 50 ms": int(near.sum()),
+        "50 to 100 ms": int(between.sum()),
+        "later": int(far.sum()),
+        "changes of contact": int(after.sum()),
+        "shorter after them": _percent(shorter[after]),
+        "after others": _percent(shorter[others]),
+    }
+
+
+def _percent(what: NDArray[np.bool_]) -> float:
+    return round(100.0 * float(what.mean()), 1) if what.size else 0.0
+
+
+def run(quick: bool = False) -> list[dict[str, Any]]:
+    """Print and return the counts of all variants; ``quick``: over a moment, for nothing but a trial."""
+    found = [count(variant, 0.05 if quick else 2.0) for variant in VARIANTS]
+    print(f"{'':43s}", *(key for key in found[0] if key != "variant"))
+    for row in found:
+        print(f"{row['variant']:43s}", *(value for key, value in row.items() if key != "variant"))
+    return found
+
+
+if __name__ == "__main__":
+    run()
