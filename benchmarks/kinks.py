@@ -129,13 +129,13 @@ def _percent(what: NDArray[np.bool_]) -> float:
     return round(100.0 * float(what.mean()), 1) if what.size else 0.0
 
 
-def run(quick: bool = False) -> list[dict[str, Any]]:
+def run(quick: bool = False) -> dict[str, Any]:
     """Print and return the counts of all variants; ``quick``: over a moment, for nothing but a trial."""
     found = [count(variant, 0.05 if quick else 2.0) for variant in VARIANTS]
     print(f"{'':43s}", *(key for key in found[0] if key != "variant"))
     for row in found:
         print(f"{row['variant']:43s}", *(value for key, value in row.items() if key != "variant"))
-    return found
+    return {"variants": found}
 
 
 if __name__ == "__main__":
