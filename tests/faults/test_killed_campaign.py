@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import resource
 import subprocess
 import sys
 import time
@@ -14,6 +15,7 @@ import pytest
 import xarray as xr
 
 from tribodyn.cases import load_case
+from tribodyn.cli.main import main
 from tribodyn.results import read
 from tribodyn.simulation import simulate
 
@@ -113,6 +115,34 @@ def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         kills += 1
     assert begin(changes, tmp_path).wait(timeout=900) == 0
     same_to_the_bit(read(tmp_path / "out"), undisturbed)
+
+
+def test_a_campaign_without_room_on_the_disk_ends_in_words(tmp_path: Path) -> None:
+    changes = changed(wear__cycles=1, run__cycles=1)
+
+    def no_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2_000, 2_000))
+
+    done = subprocess.run(
+        command(changes), cwd=tmp_path, capture_output=True, text=True, preexec_fn=no_room, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith("tribodyn: writing or reading failed: ")
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("content", [b"", b"\x93NUMPY\x01\x00", b"PK\x03\x04 torn", b"\x80\x04K\x01."])
+def test_a_damaged_checkpoint_is_refused_and_kept(
+    content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "checkpoint.npz").write_bytes(content)
+    options = [f"--set={name}={value}" for name, value in CHANGES.items()]
+    assert main(["run", "vsv", "--quiet", *options, "-o", str(tmp_path)]) == 2
+    message = capsys.readouterr().err
+    assert "checkpoint.npz: it cannot be read" in message
+    assert message.count("\n") == 1
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("checkpoint.npz", content)]
 
 
 def test_another_case_does_not_go_on_from_it(tmp_path: Path) -> None:

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import os
+import random
+import resource
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import cloudpickle
 import numpy as np
 import psutil
 import pytest
+import xarray as xr
 
 from tribodyn.cases import load_case
+from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.main import main
 from tribodyn.results import read
 from tribodyn.studies import make_plan, runners
 from tribodyn.studies.work import Outcome
@@ -73,6 +80,95 @@ def test_killing_a_worker_and_then_the_sweep_loses_and_repeats_nothing(tmp_path:
     assert 3 <= len(before) < POINTS
     assert not (tmp_path / "out" / "sweep.nc").exists()
     assert_whole(tmp_path, before)
+
+
+def test_of_two_sweeps_into_one_folder_one_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with OutputDirectory(str(tmp_path)).reserved():
+        assert main(["sweep", "vsv", "--vary", "joint.clearance=20,30 um", "-o", str(tmp_path)]) == 2
+    message = capsys.readouterr().err
+    assert "another tribodyn is writing results there" in message
+    assert message.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.long
+def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: Path) -> None:
+    command = [
+        *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--workers", "0", "-o", "out"),
+        *("--vary", "joint.clearance=20,30 um", "--set", "run.duration=0.1 s"),
+    ]
+
+    def no_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
+
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, preexec_fn=no_room)
+    assert done.returncode == 1
+    assert "tribodyn: writing or reading failed: " in done.stderr
+    assert "Traceback" not in done.stderr
+    assert finished(tmp_path) == {}
+    assert not list(tmp_path.rglob("*.nc"))
+    # Without whole results there is less to draw, and the reports of points are no matter here.
+    subprocess.run([*command, "--summary-only"], cwd=tmp_path, capture_output=True, check=True)
+    assert len(finished(tmp_path)) == 2
+
+
+def killed(process: subprocess.Popen[str], after: float) -> bool:
+    """Kill a sweep after a while, as a power cut would, and wait for its workers; False if it was over."""
+    try:
+        process.communicate(timeout=after)
+    except subprocess.TimeoutExpired:
+        left = psutil.Process(process.pid).children(recursive=True)
+        process.kill()
+        process.communicate()
+        assert psutil.wait_procs(left, timeout=60)[1] == []
+        return True
+    assert process.returncode == 0
+    return False
+
+
+def kept(folder: Path) -> dict[str, bytes]:
+    """Return the files of the points that are done, by their names."""
+    done = [path.parent for path in folder.glob("out/points/*/summary.json")]
+    return {
+        str(path): path.read_bytes()
+        for point in done
+        for path in (point / "case.toml", point / "summary.json")
+    }
+
+
+def assert_nothing_torn(folder: Path) -> None:
+    """Assert that what has the name of a result is a whole one."""
+    for path in folder.rglob("*.json"):
+        assert json.loads(path.read_text(encoding="utf-8"))
+    for path in folder.rglob("*.nc"):
+        assert read(path).attrs["kind"] == "sweep"
+
+
+@pytest.mark.long
+def test_a_sweep_killed_at_fifty_moments(tmp_path: Path) -> None:
+    # At any moment of its life: while its workers start, compute, points are kept, merged, drawn.
+    (tmp_path / "undisturbed").mkdir()
+    began, chance = time.monotonic(), random.Random(50)
+    assert not killed(started(tmp_path / "undisturbed"), 600.0)
+    lasts = time.monotonic() - began
+    undisturbed = read(tmp_path / "undisturbed" / "out" / "sweep.nc")
+    kills = rounds = 0
+    while kills < 50:
+        folder = tmp_path / str(rounds)
+        folder.mkdir(exist_ok=True)
+        before = kept(folder)
+        if killed(started(folder), chance.uniform(0.0, lasts)):
+            kills += 1
+        else:
+            rounds += 1  # it came to its end first: the next one begins anew
+            found = read(folder / "out" / "sweep.nc")
+            effort = ["wall_time_s", "real_time_factor"]
+            xr.testing.assert_equal(found.drop_vars(effort), undisturbed.drop_vars(effort))
+        assert before.items() <= kept(folder).items()
+        assert_nothing_torn(folder)
+    assert rounds > 0
 
 
 @pytest.mark.long

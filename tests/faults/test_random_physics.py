@@ -3,8 +3,7 @@
 Every number of a case is drawn from its seed: sizes, masses, surfaces, contact laws and their damping,
 clearances, friction, loads, drive, start and tolerances. The drive of the mechanism is faster than the
 paper's, which changes nothing in kind and shortens the smooth stretches, so that each run sees a reversal and
-its impacts in about a second of computing. All contacts are damped, as all contacts are; the last test is of
-those that are not.
+its impacts in about a second of computing. All contacts are damped, as real ones are, but in one test.
 """
 
 from __future__ import annotations
@@ -26,6 +25,9 @@ from tribodyn.simulation import simulate
 
 ENERGY_LIMIT = 0.01
 """Largest energy residual of a sound run: above it a run warns."""
+TIGHTEN = "ighten solver.rtol"
+"""What a run says that misses energy."""
+SILENT = "of which it says nothing"
 DEEPEST = -4.0
 """Separation over σ at which the journal stops, because contact laws reach no further."""
 PATIENCE = 120.0
@@ -180,11 +182,22 @@ DRY = Kind("journal-dry", dry_journal)
 OIL = Kind("journal-oil", oil_journal)
 
 
-def complaint(case: Any) -> str:
-    """Simulate a case; return what is wrong with the run, nothing where it is sound."""
+def run(case: Any) -> xr.Dataset:
+    """Simulate a case, with a limit to its time."""
     began = time.monotonic()
+    result: xr.Dataset = simulate(case, stop=lambda: time.monotonic() - began > PATIENCE)
+    return result
+
+
+def complaint(case: Any) -> str:
+    """Simulate a case; return what is wrong with the run, nothing where it is sound.
+
+    A run that misses energy must say so, and what it says must help: with a tighter tolerance it is sound.
+    """
     try:
-        result = simulate(case, stop=lambda: time.monotonic() - began > PATIENCE)
+        result = run(case)
+        if TIGHTEN in result.attrs["warnings"]:
+            result = run(case.replace({"solver.rtol": 0.1 * case.solver.rtol}))
     except InputError as error:
         return f"refused: {error}"
     if result.attrs["failure"]:
@@ -202,8 +215,8 @@ def energy_missed(result: xr.Dataset) -> str:
     found = residuals(result)
     if max(found) <= ENERGY_LIMIT:
         return ""
-    told = "nergy" in result.attrs["warnings"]
-    return f"energy residuals {found}, " + ("which it tells" if told else "of which it says NOTHING")
+    told = TIGHTEN in result.attrs["warnings"]
+    return f"energy residuals {found}, " + ("as it tells" if told else SILENT)
 
 
 def not_finite(result: xr.Dataset) -> str:
@@ -243,6 +256,15 @@ def test_mechanisms(seeds: range) -> None:
 @pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(100, 25)])
 def test_dry_journals(seeds: range) -> None:
     assert_sound(DRY, seeds)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(6))
+def test_undamped_contacts_miss_no_energy_in_silence(seed: int) -> None:
+    # No real contact is undamped: it rings to the end, and no tolerance holds its energy for long.
+    result = run(MECHANISM.case(seed, {"contact.damping_factor": "none"}))
+    assert SILENT not in energy_missed(result)
+    assert not not_finite(result)
 
 
 @pytest.mark.parametrize("seeds", chunks(12, 3))

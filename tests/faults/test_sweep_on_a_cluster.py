@@ -90,5 +90,12 @@ def test_a_scheduler_that_goes_away_loses_no_point_that_had_finished(address: st
     _, err = sweep.communicate(timeout=120)
     assert sweep.returncode == 1
     assert "scheduler is gone" in err
-    assert list(tmp_path.glob("there/points/*/summary.json"))
+    assert "Traceback" not in err
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.glob("there/points/*/summary.json")}
+    assert 1 <= len(before) < 4
     assert (tmp_path / "there" / "sweep.nc").exists()
+    # The same command goes on, here or on another cluster.
+    again = [*command, *options[:2], "--workers", "1", "-o", "there"]
+    done = subprocess.run(again, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert f"computing {4 - len(before)} of 4 points" in done.stderr
+    assert {path: path.stat().st_mtime_ns for path in before} == before

@@ -146,8 +146,22 @@ def _remote_client(address: str) -> Iterator[Client]:
             "`dask scheduler` prints, such as tcp://10.0.0.1:8786",
             key="--scheduler",
         ) from None
-    with client:
+    with _quiet(), client:
         yield client
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep Dask from printing tracebacks when the connection is lost: we say it in a sentence."""
+    loggers = [logging.getLogger(name) for name in ("distributed", "distributed.client")]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 def _prepare(client: Client, job: Job) -> None:
