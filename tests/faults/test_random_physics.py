@@ -18,9 +18,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
+from tribodyn.cases import load_case, parse_case
 from tribodyn.contact import DAMPING_FACTORS, LAWS
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.vsv.reach import reachable
 from tribodyn.simulation import simulate
 
 ENERGY_LIMIT = 0.01
@@ -30,6 +31,8 @@ TIGHTEN = "ighten solver.rtol"
 SILENT = "of which it says nothing"
 DEEPEST = -4.0
 """Separation over σ at which the journal stops, because contact laws reach no further."""
+NEAR = math.radians(2.0)
+"""Crank angle by which clearance can shift the limit of reach; the widest here turns the vane by 1°."""
 PATIENCE = 120.0
 """Time after which a run counts as one that hangs [s]."""
 
@@ -231,9 +234,15 @@ def not_finite(result: xr.Dataset) -> str:
 
 def true_reason(result: xr.Dataset) -> bool:
     """Tell whether a run that stopped did so for the reason it gives."""
-    if "closer than the contact law reaches" not in result.attrs["failure"]:
-        return False
-    return bool((result["separation_least"] / result.attrs["roughness"] < 0.9 * DEEPEST).all())
+    if "closer than the contact law reaches" in result.attrs["failure"]:
+        return bool((result["separation_least"] / result.attrs["roughness"] < 0.9 * DEEPEST).all())
+    if "limit of its reach" in result.attrs["failure"]:
+        case = parse_case(result.attrs["case"], "result")
+        drive, t = case.crank, result.attrs["time_reached"]
+        angle = drive.start_angle + 0.5 * drive.swing * (1.0 - math.cos(drive.angular_frequency * t))
+        limits = reachable(case.lengths, angle, angle)
+        return limits is not None and min(abs(angle - limit) for limit in limits) < NEAR
+    return False
 
 
 def assert_sound(kind: Kind, seeds: range | tuple[int, ...]) -> None:
@@ -256,6 +265,15 @@ def test_mechanisms(seeds: range) -> None:
 @pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(100, 25)])
 def test_dry_journals(seeds: range) -> None:
     assert_sound(DRY, seeds)
+
+
+def test_a_mechanism_that_is_shaken_past_the_limit_of_its_reach_says_so() -> None:
+    result = run(MECHANISM.case(327))
+    assert "limit of its reach" in result.attrs["failure"]
+    assert true_reason(result)
+    # The account of energy ended in a state that cannot be, and says so too.
+    assert np.isnan(result.attrs["clearance_energy_residual"])
+    assert "could not be accounted for" in result.attrs["warnings"]
 
 
 @pytest.mark.long

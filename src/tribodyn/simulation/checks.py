@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final
@@ -172,6 +173,11 @@ def of_steps(statistics: Mapping[str, float]) -> list[str]:
 
 def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
     """Say that the ledgers do not close, and why."""
+    if math.isnan(whole + clearance):
+        return (
+            "Energy could not be accounted for to the end: on its way the motion went through a state that "
+            "the mechanism cannot have. Doubt what follows the last finite energy_residual."
+        )
     if max(whole, clearance) <= ENERGY_LIMIT:
         return ""
     numbers = f"Energy is missed: {100 * whole:.2g} % of the whole mechanism's, {100 * clearance:.2g} % of"

@@ -38,7 +38,7 @@ def warnings(
     """
     messages = [
         f"Energy is missed: {100 * residual:.2g} % of all in the ledger. Tighten solver.rtol."
-        if residual > ENERGY_LIMIT
+        if not residual <= ENERGY_LIMIT
         else "",
         *of_contact(
             joint,

@@ -71,14 +71,16 @@ def residual_fractions(columns: Mapping[str, FloatArray]) -> tuple[float, float]
     """Return the largest residuals as fractions of the largest term of their ledger [1].
 
     The clearance ledger is measured against its own largest contact term, stored energy or damping heat.
+    Where a ledger met a state that the mechanism cannot have, its residual is not a number.
     """
     if not columns["energy_drive"].size:
         return 0.0, 0.0
-    whole = max(_largest(columns[name]) for name in ("energy_drive", "energy_loads", "energy_friction"))
-    contact = max(_largest(columns[f"energy_clearance_{name}"]) for name in ("contact", "damping"))
+    # np.max keeps what is not a number; max would lose it.
+    whole = np.max([_largest(columns[f"energy_{name}"]) for name in ("drive", "loads", "friction")])
+    contact = np.max([_largest(columns[f"energy_clearance_{name}"]) for name in ("contact", "damping")])
     return (
-        _fraction(_largest(columns["energy_residual"]), whole),
-        _fraction(_largest(columns["energy_clearance_residual"]), contact),
+        _fraction(_largest(columns["energy_residual"]), float(whole)),
+        _fraction(_largest(columns["energy_clearance_residual"]), float(contact)),
     )
 
 
@@ -91,4 +93,4 @@ def _largest(values: FloatArray) -> float:
 
 
 def _fraction(part: float, whole: float) -> float:
-    return part / whole if whole > 0.0 else 0.0
+    return 0.0 if whole == 0.0 else part / whole

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,11 +14,12 @@ from numpy.typing import NDArray
 from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.integrate import integrate
+from tribodyn.integrate import INTERRUPTED, integrate
 from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Carried, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
+from tribodyn.mechanisms.vsv.reach import at_limit
 from tribodyn.results import build
 from tribodyn.simulation.checks import grid_force_error, peaks, warnings
 from tribodyn.simulation.frames import frame_times, merged, shown
@@ -247,9 +249,20 @@ class Gathered:
             **found,
             "worn_volume": worn_volume(self.depth, self.vsv.joint.node_area),
             "time_reached": t_end,
-            "failure": self.solution.failure or "",
+            "failure": self._failure(),
             "warnings": [*told, *more],
         }
+
+    def _failure(self) -> str:
+        """Return why the run stopped before its end, empty if it did not."""
+        reason, t, y = self.solution.failure or "", self.solution.t_end, self.solution.y_end
+        if reason in ("", INTERRUPTED) or not at_limit(self.problem.data, t, y):
+            return reason
+        angle = math.degrees(float(self._crank_angle(np.array([t]))[0]))
+        return (
+            f"{reason}; the mechanism is at the limit of its reach with the crank at {angle:.4g}° and the "
+            "trunnion where it is: beyond, its parts cannot be joined"
+        )
 
     def _solver(self) -> dict[str, object]:
         return {

@@ -12,11 +12,16 @@ from scipy.optimize import bisect
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.kernels.vsv.closure import closure_residual
+from tribodyn.kernels.vsv.closure import drive as crank
+from tribodyn.kernels.vsv.data import VsvData
 from tribodyn.mechanisms.vsv.parameters import Lengths
 
 _INTERVALS: Final = 512
 _SCAN: Final = 1441
 _BISECTIONS: Final = 60
+_MEETING: Final = 1.0e-4
+"""Depth to which the closure falls between the assemblies, over its height elsewhere, when they meet: 2°."""
 
 
 def closure(lengths: Lengths, theta_a: FloatArray, theta_v: FloatArray) -> FloatArray:
@@ -153,3 +158,20 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
         return float(crank_lever(lengths, np.array([angle]))[0])
 
     return tuple(bisect(lever, float(angles[k]), float(angles[k + 1]), xtol=1e-12) for k in turns)
+
+
+def at_limit(data: VsvData, t: float, y: FloatArray) -> bool:
+    """Tell whether the assemblies meet, or nearly, with the trunnion where it is: beyond, nothing closes.
+
+    Parameters
+    ----------
+    data
+        The mechanism.
+    t, y
+        Time [s] and state, shape (8,).
+    """
+    theta_a, _, _ = crank(data, t)
+    place = (float(y[0]), float(y[1]), math.tan(y[2]), math.tan(y[3]))
+    turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
+    missing = [closure_residual(data, theta_a, *place, theta_v)[0] for theta_v in turn]
+    return bool(-min(missing) < _MEETING * max(missing))
