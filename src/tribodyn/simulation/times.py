@@ -43,6 +43,10 @@ def snapshots(vsv: Vsv, duration: float) -> FloatArray:
     drive = vsv.drive
     crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
     vane = np.unwrap(ideal_vane_angle(vsv.lengths, crank))
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(vane))) != 0.0)
+    if turns.size:
+        # Past a dead centre the vane comes back to where it was, and out of reach it is nowhere.
+        crank, vane = crank[: turns[0] + 2], vane[: turns[0] + 2]
     low, high = float(vane[0]), float(vane[-1])
     switch = vsv.air.switch_angle
     middle = switch if min(low, high) < switch < max(low, high) else 0.5 * (low + high)
