@@ -16,13 +16,15 @@ H_FIRST: Final = -4.0
 H_LAST: Final = 8.0
 INTERVALS: Final = 1536
 """128 to the unit: a cubic Hermite error below 1e-7 of a Gaussian tail's pressure at h* = 8."""
+TAIL: Final = 1.0e-10
+"""Share of the pressure at h* = 0 below which the tail of a law is left out: looking it up costs time."""
 
 _CENTRAL_DIFFERENCE: Final = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 """Sixth-order first difference, in units of the step."""
 
 
 def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.0) -> ContactTable:
-    """Tabulate a contact law over -4 ≤ h* ≤ 8.
+    """Tabulate a contact law from h* = -4 to where its pressure has vanished, at most 8.
 
     Parameters
     ----------
@@ -36,7 +38,8 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     Returns
     -------
     ContactTable
-        P_k and C times the smoothstep of the onset. Slopes are sixth-order differences of the law, so that a
+        P_k and C times the smoothstep of the onset, up to the onset or to where P_k falls below
+        :data:`TAIL`, whatever is farther. Slopes are sixth-order differences of the law, so that a
         law needs to supply no derivative. The damping of ``calibrated`` is scaled so that the design impact
         of the law returns its restitution.
     """
@@ -49,11 +52,18 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
     smoothed_rise = share * damping_rise + step * share_slope * damping
     nodes = np.column_stack([pressure, pressure_rise, share * damping, smoothed_rise])
+    nodes = nodes[: _end(h_star[beyond:-beyond], pressure, onset)]
     table = table_of_nodes(H_FIRST, step, nodes)
     if law.damping_factor == "calibrated":
         nodes[:, 2:] *= _scale(law, table, onset)
         table = table_of_nodes(H_FIRST, step, nodes)
     return table
+
+
+def _end(h_star: FloatArray, pressure: FloatArray, onset: float) -> int:
+    """Return the number of nodes up to the onset or to where the pressure has vanished."""
+    counts = pressure > TAIL * np.interp(0.0, h_star, pressure)
+    return int(np.flatnonzero(counts | (h_star <= onset))[-1]) + 1
 
 
 def table_of_nodes(first: float, step: float, nodes: FloatArray) -> ContactTable:

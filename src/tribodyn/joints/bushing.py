@@ -13,7 +13,7 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
-from tribodyn.kernels.bushing.nodes import N_WORK
+from tribodyn.kernels.bushing.nodes import N_WORK, PART
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -176,6 +176,8 @@ class BushingJoint:
             work=np.zeros(N_WORK),
             pieces=np.zeros((2 * self.field_shape[0] + 3, 3), dtype=np.int64),
             cursor=np.zeros(2, dtype=np.int64),
+            kept=np.zeros(depth.size),
+            kept_pieces=np.zeros((2 * self.field_shape[0] + depth.size // PART + 3, 3), dtype=np.int64),
         )
 
     def no_memory(self) -> FloatArray:

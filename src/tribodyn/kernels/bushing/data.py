@@ -50,6 +50,8 @@ class BushingData(NamedTuple):
     work, pieces, cursor
         Scratch of the kernels: a list of nodes, where they come from, and how far it has been filled (row of
         nodes, nodes of that row). Nothing is carried from one call of a kernel to the next.
+    kept, kept_pieces
+        Pressures of the last report [Pa] and the nodes they belong to, listed as in ``pieces``.
     """
 
     clearance: float
@@ -72,3 +74,5 @@ class BushingData(NamedTuple):
     work: FloatArray
     pieces: IntArray
     cursor: IntArray
+    kept: FloatArray
+    kept_pieces: IntArray

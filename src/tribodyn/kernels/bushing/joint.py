@@ -77,24 +77,17 @@ def pressure_field(
 
 
 @inlined
-def report_and_slide(
-    joint: BushingData,
-    entry_velocity: FloatArray,
-    y: FloatArray,
-    omega: float,
-    sign: float,
-    with_energy: bool,
-    out: FloatArray,
-    distance: float,
-    load: FloatArray,
-) -> None:
-    """As :func:`report`, and add pressure times ``distance`` [m] to ``load`` [N/m]; nothing at a point."""
-    if joint.point > 0.0:
-        point.report(joint, entry_velocity, y, omega, sign, with_energy, out)
-    else:
-        surface_report.report_and_slide(
-            joint, entry_velocity, y, omega, sign, with_energy, out, distance, load
-        )
+def slide(joint: BushingData, distance: float, load: FloatArray) -> None:
+    """Add the pressure of the last report times ``distance`` [m] to ``load`` [N/m]; nothing at a point."""
+    if joint.point == 0.0:
+        surface_report.slide(joint, distance, load)
+
+
+@inlined
+def stored(joint: BushingData, entry_velocity: FloatArray, y: FloatArray) -> float:
+    """Return the stored contact energy [J]."""
+    at_a_point = joint.point > 0.0
+    return point.stored(joint, y) if at_a_point else surface_report.stored(joint, entry_velocity, y)
 
 
 @inlined

@@ -24,4 +24,6 @@ REPORTED: Final = (
     "separation_min",
     "tensile_clip_share",
     "contact_fraction",
+    "M_kx",
+    "M_ky",
 )

@@ -17,7 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.window import contact_window
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.lookup import interval, last_interval, offset
+from tribodyn.kernels.lookup import cubic, interval, last_interval, offset
 
 PART: Final = 512
 """Nodes in a part of the list."""
@@ -39,9 +39,10 @@ MOMENT: Final = 8 * PITCH
 """Area that the node stands for [m²], and that times its axial position [m³]."""
 PRESSURE: Final = 9 * PITCH
 """P_c [Pa]; left by the report."""
-CUBICS: Final = 10 * PITCH
-"""First of eight columns with the coefficients of the contact table, filled by :func:`look_up`."""
-N_WORK: Final = 18 * PITCH
+RIGID: Final = 10 * PITCH
+DAMPING: Final = 11 * PITCH
+"""P_k and C from the contact table [Pa], filled by :func:`look_up`."""
+N_WORK: Final = 12 * PITCH
 
 
 @inlined
@@ -141,9 +142,12 @@ def gather(
 
 @kernel
 def look_up(joint: BushingData, n: int) -> None:
-    """Copy the coefficients of the contact table into the list, for loops that write as well as read."""
+    """Fill in the pressures of the contact table, for loops that write as well as read.
+
+    Such a loop could not take four nodes at once if it read the table, whose places it cannot foresee.
+    """
     work, cubics = joint.work, joint.table.cubics
     for k in range(min(n, PART)):
-        first = offset(work[INTERVAL + k])
-        for m in range(8):
-            work[CUBICS + m * PITCH + k] = cubics[first + np.uint64(m)]
+        first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
+        work[RIGID + k] = cubic(cubics, first, x)
+        work[DAMPING + k] = cubic(cubics, first + np.uint64(4), x)

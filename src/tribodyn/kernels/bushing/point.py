@@ -32,6 +32,8 @@ from tribodyn.kernels.bushing.report import (
     M_JCX,
     M_JCY,
     M_JF,
+    M_KX,
+    M_KY,
     N_REPORT,
     POWER_FRICTION,
     SEPARATION_MIN,
@@ -209,6 +211,8 @@ def report(
         out[M_JCY] -= z * force * c
         out[F_KX] += rigid * c
         out[F_KY] += rigid * s
+        out[M_KX] -= z * rigid * s
+        out[M_KY] -= z * rigid * c
         out[F_FX] += f_fx
         out[F_FY] += f_fy
         out[M_FX] -= z * f_fy
@@ -216,13 +220,25 @@ def report(
         out[M_JF] += joint.journal_radius * tau
         out[HEAT_DAMPING] += (force - rigid) * approach
         out[POWER_FRICTION] += tau * (slip if joint.tangential > 0.0 else omega * joint.journal_radius)
-        if with_energy:
-            out[STORED] += joint.roughness * stored_energy(joint.table, gap / joint.roughness)
         touching += 1
         if force <= 0.0:
             pulling += 1
     if touching > 0:
         out[CLIPPED] = pulling / touching
+    if with_energy:
+        out[STORED] = stored(joint, y)
+
+
+@kernel
+def stored(joint: BushingData, y: FloatArray) -> float:
+    """Return the stored contact energy of both ends [J]."""
+    tan_x, tan_y, total = math.tan(y[2]), math.tan(y[3]), 0.0
+    for k in range(N_ENDS):
+        a, b, _, _ = row_motion(y, tan_x, tan_y, joint.z[_end(joint, k)])
+        gap = joint.clearance - math.sqrt(a * a + b * b)
+        if gap < 0.0:
+            total += joint.roughness * stored_energy(joint.table, gap / joint.roughness)
+    return total
 
 
 @kernel

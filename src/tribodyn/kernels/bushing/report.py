@@ -11,7 +11,7 @@ from tribodyn.kernels.bushing.nodes import gather, look_up, rewind, row_motion
 from tribodyn.kernels.bushing.pressure import reference_velocity, total_pressure
 from tribodyn.kernels.bushing.wrench import friction_law, ratio_at
 from tribodyn.kernels.extremes import larger, smaller
-from tribodyn.kernels.jit import inlined, kernel, summing
+from tribodyn.kernels.jit import kernel, summing
 from tribodyn.kernels.lookup import stored_energy
 
 F_CX, F_CY, M_JCX, M_JCY = 0, 1, 2, 3
@@ -26,7 +26,9 @@ P_MAX, SEPARATION_MIN = 14, 15
 """Peak pressure, edges included [Pa]; smallest gap between mean planes [m]."""
 CLIPPED, CONTACT_FRACTION = 16, 17
 """Share of the nominal contact area where the tensile clip acts, and share of the bushing in contact [1]."""
-N_REPORT = 18
+M_KX, M_KY = 18, 19
+"""Moments of the rigid part [N m]."""
+N_REPORT = 20
 
 
 @kernel
@@ -42,35 +44,22 @@ def report(
     """Fill ``out`` (N_REPORT,) with the quantities named above; arguments as for ``wrench``.
 
     The stored energy takes a look-up of its own at every node and is left at zero unless ``with_energy``.
+    The pressures are kept in ``joint.kept`` until the next report, for :func:`slide`.
     """
-    report_and_slide(joint, entry_velocity, y, omega, sign, with_energy, out, 0.0, joint.wear)
-
-
-@kernel
-def report_and_slide(
-    joint: BushingData,
-    entry_velocity: FloatArray,
-    y: FloatArray,
-    omega: float,
-    sign: float,
-    with_energy: bool,
-    out: FloatArray,
-    distance: float,
-    load: FloatArray,
-) -> None:
-    """As :func:`report`, and add P_c times ``distance`` [m] to the sliding load (n_z + 2, n_theta) [N/m]."""
     for k in range(N_REPORT):
         out[k] = 0.0
     out[SEPARATION_MIN] = math.inf
+    joint.kept_pieces[0, 0] = 0
     rewind(joint)
     n = gather(joint, entry_velocity, y, omega, True)
+    kept = 0
     while n > 0:
         look_up(joint, n)
         _add_nodes(joint, omega, sign, n, out)
         if with_energy:
             out[STORED] += _stored(joint, n)
-        if distance != 0.0:
-            _slide(joint, distance, load)
+        _keep(joint, n, kept)
+        kept += n
         n = gather(joint, entry_velocity, y, omega, True)
     nearest = out[SEPARATION_MIN]
     out[SEPARATION_MIN] = _separation(joint, nearest) if nearest < math.inf else _far_separation(joint, y)
@@ -80,13 +69,40 @@ def report_and_slide(
         out[CLIPPED] /= contact
 
 
-@inlined
-def listed_cubic(work: FloatArray, first: int, k: int, x: float) -> float:
-    """Return the polynomial of node ``k`` with coefficients in four columns from ``first`` on at ``x``."""
-    c_0, c_1 = work[first + k], work[first + nodes.PITCH + k]
-    c_2, c_3 = work[first + 2 * nodes.PITCH + k], work[first + 3 * nodes.PITCH + k]
-    value: float = c_0 + x * (c_1 + x * (c_2 + x * c_3))
-    return value
+@kernel
+def _keep(joint: BushingData, n: int, kept: int) -> None:
+    """Append the pressures of the list to those kept so far, ``kept`` in number."""
+    pieces, kept_pieces = joint.pieces, joint.kept_pieces
+    for k in range(n):
+        joint.kept[kept + k] = joint.work[nodes.PRESSURE + k]
+    before = kept_pieces[0, 0]
+    for piece in range(1, pieces[0, 0] + 1):
+        for column in range(3):
+            kept_pieces[before + piece, column] = pieces[piece, column]
+    kept_pieces[0, 0] = before + pieces[0, 0]
+
+
+@kernel
+def slide(joint: BushingData, distance: float, load: FloatArray) -> None:
+    """Add P_c of the last report times ``distance`` [m] to the sliding load (n_z + 2, n_theta) [N/m]."""
+    pieces, at = joint.kept_pieces, 0
+    for piece in range(1, pieces[0, 0] + 1):
+        row, first, size = pieces[piece, 0], pieces[piece, 1], pieces[piece, 2]
+        for k in range(size):
+            load[row, first + k] += distance * joint.kept[at + k]
+        at += size
+
+
+@kernel
+def stored(joint: BushingData, entry_velocity: FloatArray, y: FloatArray) -> float:
+    """Return the stored contact energy [J] alone; arguments as for ``wrench``."""
+    total = 0.0
+    rewind(joint)
+    n = gather(joint, entry_velocity, y, 0.0, False)
+    while n > 0:
+        total += _stored(joint, n)
+        n = gather(joint, entry_velocity, y, 0.0, False)
+    return total
 
 
 @summing
@@ -97,33 +113,33 @@ def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: Float
     v_min, clip = joint.minimum_entry_velocity, joint.clip
     tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
     onset = (joint.onset - joint.table.h_first) * joint.table.inverse_step + 1.0
-    f_cx = f_cy = m_cx = m_cy = f_kx = f_ky = f_fx = f_fy = m_fx = m_fy = 0.0
+    f_cx = f_cy = m_cx = m_cy = f_kx = f_ky = m_kx = m_ky = f_fx = f_fy = m_fx = m_fy = 0.0
     torque = heat = power = contact = clipped = 0.0
     highest, nearest = out[P_MAX], out[SEPARATION_MIN]
     for k in range(min(n, nodes.PART)):
-        number, x = work[nodes.INTERVAL + k], work[nodes.FRACTION + k]
+        place = work[nodes.INTERVAL + k] + work[nodes.FRACTION + k]
         approach, slip = work[nodes.APPROACH + k], work[nodes.SLIP + k]
         c, s = work[nodes.COS + k], work[nodes.SIN + k]
         area, moment = work[nodes.AREA + k], work[nodes.MOMENT + k]
         reference = reference_velocity(work[nodes.ENTRY + k], approach, v_min)
-        rigid, damping = (
-            listed_cubic(work, nodes.CUBICS, k, x),
-            listed_cubic(work, nodes.CUBICS + 4 * nodes.PITCH, k, x),
-        )
+        rigid, damping = work[nodes.RIGID + k], work[nodes.DAMPING + k]
         p = total_pressure(rigid, damping, approach / reference, clip)
         ratio, _ = ratio_at(law, slip)
         tau = ratio * p
         work[nodes.PRESSURE + k] = p
         highest = larger(highest, p)
-        nearest = smaller(nearest, number + x)
+        nearest = smaller(nearest, place)
         p_c, p_s = p * c, p * s
         tau_c, tau_s = tangential * tau * c, tangential * tau * s
         f_cx += area * p_c
         f_cy += area * p_s
         m_cx -= moment * p_s
         m_cy -= moment * p_c
-        f_kx += area * rigid * c
-        f_ky += area * rigid * s
+        k_c, k_s = rigid * c, rigid * s
+        f_kx += area * k_c
+        f_ky += area * k_s
+        m_kx -= moment * k_s
+        m_ky -= moment * k_c
         f_fx += area * tau_s
         f_fy -= area * tau_c
         m_fx += moment * tau_c
@@ -131,7 +147,7 @@ def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: Float
         torque += area * tau
         heat += area * (p - rigid) * approach
         power += area * tau * (tangential * slip + turning)
-        touching = area if number + x < onset else 0.0
+        touching = area if place < onset else 0.0
         contact += touching
         clipped += touching if p <= 0.0 else 0.0
     sums = (f_cx, f_cy, m_cx, m_cy, f_kx, f_ky, f_fx, f_fy, m_fx, m_fy)
@@ -143,6 +159,8 @@ def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: Float
     out[POWER_FRICTION] += power
     out[CONTACT_FRACTION] += contact
     out[CLIPPED] += clipped
+    out[M_KX] += m_kx
+    out[M_KY] += m_ky
 
 
 @kernel
@@ -172,14 +190,3 @@ def _stored(joint: BushingData, n: int) -> float:
         h_star = joint.table.h_first + (place - 1.0) / joint.table.inverse_step
         total += work[nodes.AREA + k] * stored_energy(joint.table, h_star)
     return joint.roughness * total
-
-
-@kernel
-def _slide(joint: BushingData, distance: float, load: FloatArray) -> None:
-    """Add pressure times ``distance`` to the sliding load of the nodes in the list."""
-    pieces, at = joint.pieces, 0
-    for piece in range(1, pieces[0, 0] + 1):
-        row, first, size = pieces[piece, 0], pieces[piece, 1], pieces[piece, 2]
-        for k in range(size):
-            load[row, first + k] += distance * joint.work[nodes.PRESSURE + at + k]
-        at += size

@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.report import N_REPORT
-from tribodyn.kernels.vsv.layout import N_COLUMNS, N_RATES, N_ROWS, N_UNKNOWNS
+from tribodyn.kernels.vsv.layout import N_COLUMNS, N_RATES, N_ROWS, N_UNKNOWNS, N_WORKS
 
 
 class VsvData(NamedTuple):
@@ -107,15 +107,21 @@ SCRATCH: Final = np.dtype(
         ("gradient", "f8", (3, 5)),
         ("report", "f8", (N_REPORT,)),
         ("rates", "f8", (N_RATES,)),
+        ("forces", "f8", (N_WORKS, 4)),
         ("momentum", "f8", (4,)),
         ("state", "f8", (8,)),
         ("small", "f8", (4, 4)),
         ("system", "f8", (N_UNKNOWNS, N_UNKNOWNS)),
         ("reactions", "f8", (N_UNKNOWNS, 1)),
+        ("ideal", "f8", (N_ROWS, N_COLUMNS)),
+        ("f_cz", "f8"),
+        ("marked", "f8"),
     ],
     align=True,
 )
 """Work arrays of one evaluation; they carry nothing from one evaluation to the next.
+
+``marked`` is 1 while the others hold what the ledger evaluated at its mark.
 
 One record instead of a tuple of arrays: a compiled function takes one address instead of seven numbers for
 each array, and need not count who holds them.
@@ -136,15 +142,16 @@ class VsvMemory(NamedTuple):
         δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta); 0 where there is no contact.
     sliding_load
         ∫P_c |u| dt [N/m], same shape (Eq. 47 and the text below it).
-    last_time
-        Time of the last mark [s], shape (1,).
+    mark
+        When the ledgers were last added to, see ``kernels/vsv/ledger.py``, shape (N_MARK,).
     regime
         Direction of the ideal vane motion, ±1, and the vane speed that traction is told instead of
         the actual one (0: none), shape (2,).
     integrals
-        Path integrals of the energy ledgers [J], shape (N_RATES + 1,).
-    rates
-        Their integrands at the last mark [W], shape (N_RATES,).
+        Path integrals of the energy ledgers [J], shape (N_INTEGRALS,).
+    rates, forces
+        Their integrands at the last mark and at one before: powers [W], shape (2, N_RATES), and forces on the
+        clearance coordinates [N, N m], shape (2, N_WORKS, 4).
     extremes
         Peaks over all accepted steps, see ``kernels/vsv/ledger.py``, shape (N_EXTREMES,).
     last_state
@@ -157,10 +164,11 @@ class VsvMemory(NamedTuple):
 
     entry_velocity: FloatArray
     sliding_load: FloatArray
-    last_time: FloatArray
+    mark: FloatArray
     regime: FloatArray
     integrals: FloatArray
     rates: FloatArray
+    forces: FloatArray
     extremes: FloatArray
     last_state: FloatArray
     last_momentum: FloatArray

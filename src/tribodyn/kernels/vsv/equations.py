@@ -196,6 +196,7 @@ def collar_force(data: VsvData, scratch: Scratch, acceleration: FloatArray) -> f
 def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill motion table and test motions; return the vane speed that traction sees [rad/s]."""
     scratch = memory.scratch
+    scratch.marked = 0.0
     fill_motion(data, t, y, scratch.motion)
     fill_test_motions(data, scratch.motion, scratch.test)
     return slip_speed(memory.regime, scratch.motion)

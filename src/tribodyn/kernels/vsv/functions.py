@@ -62,7 +62,7 @@ def advance(
     t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: VsvData, memory: VsvMemory
 ) -> None:
     """Add the path integrals over ``[t_a, t_b]``: the energy ledgers and the sliding load."""
-    ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
+    ledger.add_part(data, t_b, y_b, memory)
 
 
 @entry

@@ -49,8 +49,10 @@ N_COLUMNS: Final = 8
 
 N_UNKNOWNS: Final = 24
 """Of the full Newton-Euler system: four accelerations and twenty reactions."""
-N_RATES: Final = 9
-"""Powers that the energy ledgers integrate."""
+N_RATES: Final = 5
+"""Powers of the whole mechanism that its energy ledger integrates."""
+N_WORKS: Final = 4
+"""Forces on the clearance motion whose works its energy ledger integrates."""
 
 N_COORDINATES: Final = 4
 """Clearance coordinates e_x, e_y, φ_x, φ_y."""

@@ -1,10 +1,12 @@
 """The two energy ledgers: rates at an instant, and their integrals along the motion.
 
-Works and heats are integrated with Simpson's rule over every part of an accepted step, from forces
-times velocities. Energies are functions of the state. What is left over measures the integration.
+Works and heats are integrated over every part of an accepted step with one evaluation at its end. Energies
+are functions of the state. What is left over measures the integration.
 
 The clearance ledger follows the clearance motion alone, q̇ᵀ(N q̈ − Q), with N = Σ m_r δr δrᵀ and q̈
-taken from the velocities of the numerical solution, not from the equations of motion.
+taken from the velocities of the numerical solution, not from the equations of motion: over a part inertia
+takes in ½ (p_a + p_b)·(q̇_b − q̇_a), p = N q̇, which is exact where N does not change. Its works are
+integrals of forces over displacements, which oscillate between impacts where the forces hardly do.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
-from tribodyn.kernels.bushing.joint import report_and_slide
+from tribodyn.kernels.bushing.joint import report, slide
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
@@ -23,6 +25,7 @@ from tribodyn.kernels.vsv.layout import (
     E_X,
     N_RATES,
     N_ROWS,
+    N_WORKS,
     O1_Z,
     O2_Z,
     O3_Z,
@@ -36,11 +39,20 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 
-DRIVE, LOADS, FRICTION, COLLAR_FRICTION, COLLAR_TILT, DAMPING = 0, 1, 2, 3, 4, 5
-"""Whole mechanism: work of the drive and of the air loads, of friction, of the collar; damping heat."""
-CLEARANCE_LOADS, CLEARANCE_FRICTION, CLEARANCE_COLLAR, CLEARANCE_INERTIA = 6, 7, 8, 9
-"""Clearance motion: work of everything but the joint, of joint friction, of the collar; inertia."""
-N_INTEGRALS = N_RATES + 1
+DRIVE, LOADS, FRICTION, COLLAR_FRICTION, COLLAR_TILT = 0, 1, 2, 3, 4
+"""Whole mechanism: work of the drive and of the air loads, of friction, of the collar."""
+DAMPING, OTHERS, JOINT_FRICTION, COLLAR = 0, 1, 2, 3
+"""Clearance motion, counted from N_RATES on: damping heat, work of everything but the joint, of joint
+friction, of the collar."""
+INERTIA = N_RATES + N_WORKS
+"""Clearance motion: what inertia has taken in."""
+N_INTEGRALS = INERTIA + 1
+
+TIME, EARLIER, SPEED = 0, 1, 2
+"""Time of the last mark and of the one before that is kept [s], sliding speed |ω_v| r_j at the last [m/s]."""
+N_MARK = 3
+NEAR = 0.2
+"""Marks closer than this part of the next interval do not tell how the rates bend."""
 
 PEAK_FORCE, PEAK_FORCE_TIME, PEAK_PRESSURE, PEAK_PRESSURE_TIME = 0, 1, 2, 3
 """Largest contact force [N] and pressure [Pa] at any mark, and when [s]."""
@@ -54,28 +66,12 @@ KINETIC, GRAVITY = 0, 1
 
 
 @kernel
-def evaluate(
-    data: VsvData, t: float, y: FloatArray, memory: VsvMemory, with_energy: bool, duration: float
-) -> float:
-    """Fill all scratch arrays of one instant, joint report included, and return F_cz [N].
-
-    The pressure then is taken to slide for ``duration`` [s], with the speed |ω_v| r_j.
-    """
+def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+    """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch = memory.scratch
     omega = set_up(data, t, y, memory)
-    distance = duration * abs(scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
     out = scratch.report
-    report_and_slide(
-        data.joint,
-        memory.entry_velocity,
-        y,
-        omega,
-        -memory.regime[0],
-        with_energy,
-        out,
-        distance,
-        memory.sliding_load,
-    )
+    report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], False, out)
     scratch.wrench[0] = out[joint_report.F_CX] + out[joint_report.F_FX]
     scratch.wrench[1] = out[joint_report.F_CY] + out[joint_report.F_FY]
     scratch.wrench[2] = out[joint_report.M_JCX] + out[joint_report.M_FX]
@@ -91,55 +87,90 @@ def clearance_velocity(motion: FloatArray, row: int, y: FloatArray) -> float:
 
 
 @kernel
-def fill_rates(data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float) -> None:
-    """Fill ``scratch.rates`` [W] and ``scratch.momentum`` from the scratch arrays of this instant."""
+def fill_rates(y: FloatArray, memory: VsvMemory) -> None:
+    """Fill ``scratch.rates`` [W] from the scratch arrays of this instant."""
     scratch = memory.scratch
     motion, force, collar, rates = scratch.motion, scratch.force, scratch.collar, scratch.rates
-    out = scratch.report
-    omega_v = motion[THETA_V, VELOCITY]
+    omega_v, f_cz = motion[THETA_V, VELOCITY], scratch.f_cz
     air_moment = force[THETA_V] - scratch.wrench[4]
-    tilt_power = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
     rates[DRIVE] = drive_moment(scratch) * motion[THETA_A, VELOCITY]
     rates[LOADS] = (
         force[OV_X] * motion[OV_X, VELOCITY] + force[OV_Y] * motion[OV_Y, VELOCITY] + air_moment * omega_v
     )
-    rates[FRICTION] = out[joint_report.POWER_FRICTION]
+    rates[FRICTION] = scratch.report[joint_report.POWER_FRICTION]
     rates[COLLAR_FRICTION] = f_cz * collar[THETA_V] * omega_v
-    rates[COLLAR_TILT] = tilt_power
-    rates[DAMPING] = out[joint_report.HEAT_DAMPING]
+    rates[COLLAR_TILT] = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
 
-    total = 0.0
+
+@kernel
+def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
+    """Fill ``scratch.forces`` (N_WORKS, 4) on the clearance coordinates and ``scratch.momentum``."""
+    scratch = memory.scratch
+    motion, forces, out = scratch.motion, scratch.forces, scratch.report
+    sec2_x, sec2_y = 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2
+    forces[DAMPING, 0] = out[joint_report.F_KX] - out[joint_report.F_CX]
+    forces[DAMPING, 1] = out[joint_report.F_KY] - out[joint_report.F_CY]
+    forces[DAMPING, 2] = sec2_x * (out[joint_report.M_KX] - out[joint_report.M_JCX])
+    forces[DAMPING, 3] = sec2_y * (out[joint_report.M_KY] - out[joint_report.M_JCY])
+    forces[JOINT_FRICTION, 0] = out[joint_report.F_FX]
+    forces[JOINT_FRICTION, 1] = out[joint_report.F_FY]
+    forces[JOINT_FRICTION, 2] = sec2_x * out[joint_report.M_FX]
+    forces[JOINT_FRICTION, 3] = sec2_y * out[joint_report.M_FY]
     for j in range(4):
+        turning = motion[THETA_V, 1 + j]
+        forces[JOINT_FRICTION, j] += out[joint_report.M_JF] * turning
+        forces[OTHERS, j] = -scratch.wrench[4] * turning
+        forces[COLLAR, j] = scratch.f_cz * scratch.collar[THETA_V] * turning
         scratch.momentum[j] = 0.0
+    forces[COLLAR, 2] += scratch.f_cz * scratch.collar[PHI_X]
+    forces[COLLAR, 3] += scratch.f_cz * scratch.collar[PHI_Y]
     for row in range(N_ROWS):
-        v = clearance_velocity(motion, row, y)
         inertia = data.inertia[row]
-        if row < E_X:
-            total += v * (force[row] - inertia * motion[row, BIAS])
-        if inertia != 0.0:
-            for j in range(4):
-                scratch.momentum[j] += inertia * v * motion[row, 1 + j]
-    omega_c = clearance_velocity(motion, THETA_V, y)
-    rates[CLEARANCE_LOADS] = total - scratch.wrench[4] * omega_c
-    rates[CLEARANCE_FRICTION] = (
-        out[joint_report.F_FX] * y[4]
-        + out[joint_report.F_FY] * y[5]
-        + (1.0 + math.tan(y[2]) ** 2) * out[joint_report.M_FX] * y[6]
-        + (1.0 + math.tan(y[3]) ** 2) * out[joint_report.M_FY] * y[7]
-        + out[joint_report.M_JF] * omega_c
-    )
-    rates[CLEARANCE_COLLAR] = tilt_power + f_cz * collar[THETA_V] * omega_c
+        applied = scratch.force[row] - inertia * motion[row, BIAS] if row < E_X else 0.0
+        momentum = inertia * clearance_velocity(motion, row, y)
+        for j in range(4):
+            forces[OTHERS, j] += applied * motion[row, 1 + j]
+            scratch.momentum[j] += momentum * motion[row, 1 + j]
 
 
 @kernel
 def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
-    f_cz = evaluate(data, t, y, memory, False, 0.0)
-    fill_rates(data, y, memory, f_cz)
-    copy(memory.scratch.rates, memory.rates)
-    copy(memory.scratch.momentum, memory.last_momentum)
+    _evaluate_mark(data, t, y, memory)
+    _set_mark(data, t, y, memory)
+    memory.mark[EARLIER] = t
+
+
+@kernel
+def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
+    """Fill the scratch arrays of one instant, rates and forces included."""
+    scratch = memory.scratch
+    scratch.f_cz = evaluate(data, t, y, memory)
+    fill_rates(y, memory)
+    fill_forces(data, y, memory)
+    scratch.marked = 1.0
+
+
+@kernel
+def is_at_mark(t: float, y: FloatArray, memory: VsvMemory) -> bool:
+    """Tell whether the scratch arrays hold the evaluation of this instant that the ledger made."""
+    same = memory.scratch.marked > 0.0 and memory.mark[TIME] == t
+    for i in range(8):
+        same = same and memory.last_state[i] == y[i]
+    return same
+
+
+@kernel
+def _set_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
+    """Take over what the scratch arrays hold as the values at the mark."""
+    scratch, mark = memory.scratch, memory.mark
+    copy(scratch.rates, memory.rates[0])
+    for k in range(N_WORKS):
+        copy(scratch.forces[k], memory.forces[0, k])
+    copy(scratch.momentum, memory.last_momentum)
     copy(y, memory.last_state)
-    memory.last_time[0] = t
+    mark[TIME] = t
+    mark[SPEED] = abs(scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
 
 
 @kernel
@@ -158,41 +189,71 @@ def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
 
 
 @kernel
-def add_part(
-    data: VsvData, t_a: float, t_b: float, y_m: FloatArray, y_b: FloatArray, memory: VsvMemory
-) -> None:
-    """Add the path integrals over ``[t_a, t_b]`` by Simpson's rule and move the mark to ``t_b``.
+def add_part(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
+    """Add the path integrals from the mark to ``t`` and move the mark there."""
+    mark, scratch = memory.mark, memory.scratch
+    h = t - mark[TIME]
+    slide(data.joint, 0.5 * h * mark[SPEED], memory.sliding_load)
+    _evaluate_mark(data, t, y, memory)
+    note_extremes(t, h, scratch.f_cz, memory)
+    _integrate(h, y, memory)
+    _set_mark(data, t, y, memory)
+    slide(data.joint, 0.5 * h * mark[SPEED], memory.sliding_load)
 
-    The sliding load takes the middle of the part for all of it.
+
+@kernel
+def _integrate(h: float, y: FloatArray, memory: VsvMemory) -> None:
+    """Add the works of a part of length ``h`` [s] that ends at ``y``.
+
+    Rates and forces are the parabolas through three marks: the earliest is the one before the last, or one
+    before that where marks are close together. Where it is too near for its parabola to be trusted, as after
+    a restart, the straight line through the last two is taken.
     """
-    h = t_b - t_a
-    y_a = memory.last_state
-    integrals = memory.integrals
-    inertia = 0.0
-    for i in range(4):
-        v_a, v_m, v_b = y_a[4 + i], y_m[4 + i], y_b[4 + i]
-        inertia += memory.last_momentum[i] * (-3.0 * v_a + 4.0 * v_m - v_b)
+    mark = memory.mark
+    back = mark[TIME] - mark[EARLIER]
+    known = back > NEAR * h
+    _integrate_rates(h, back, known, memory)
+    _integrate_works(h, back, known, y, memory)
+    if h > NEAR * back:
+        copy(memory.rates[0], memory.rates[1])
+        for k in range(N_WORKS):
+            copy(memory.forces[0, k], memory.forces[1, k])
+        mark[EARLIER] = mark[TIME]
+
+
+@kernel
+def _bend(now: float, last: float, earlier: float, h: float, back: float, known: bool) -> float:
+    """Return half the second derivative of the parabola through three values, times h²; 0 if not known."""
+    return h * (now - last - h / back * (last - earlier)) / (h + back) if known else 0.0
+
+
+@kernel
+def _integrate_rates(h: float, back: float, known: bool, memory: VsvMemory) -> None:
+    """Add ∫ f dt = h (f_a + f_b)/2 − h b/6 of the parabola with the bend b."""
+    now, rates = memory.scratch.rates, memory.rates
     for k in range(N_RATES):
-        integrals[k] += h / 6.0 * memory.rates[k]
-    f_cz = evaluate(data, 0.5 * (t_a + t_b), y_m, memory, False, h)
-    fill_rates(data, y_m, memory, f_cz)
+        bend = _bend(now[k], rates[0, k], rates[1, k], h, back, known)
+        memory.integrals[k] += h * (0.5 * (now[k] + rates[0, k]) - bend / 6.0)
+
+
+@kernel
+def _integrate_works(h: float, back: float, known: bool, y: FloatArray, memory: VsvMemory) -> None:
+    """Add ∫ F dq of the parabola F and the cubic Hermite polynomial q, and what inertia takes in.
+
+    With Δq = q_b − q_a and the bend b of the force that is Δq (F_a + F_b)/2 + h ΔF Δq̇/12 −
+    b (Δq/5 − h (q̇_a + q̇_b)/60): exact for a constant force, whatever oscillates.
+    """
+    now, forces, before = memory.scratch.forces, memory.forces, memory.last_state
     for i in range(4):
-        inertia += 4.0 * memory.scratch.momentum[i] * (y_b[4 + i] - y_a[4 + i])
-    for k in range(N_RATES):
-        integrals[k] += h / 6.0 * 4.0 * memory.scratch.rates[k]
-    f_cz = evaluate(data, t_b, y_b, memory, False, 0.0)
-    fill_rates(data, y_b, memory, f_cz)
-    note_extremes(t_b, h, f_cz, memory)
-    for i in range(4):
-        v_a, v_m, v_b = y_a[4 + i], y_m[4 + i], y_b[4 + i]
-        inertia += memory.scratch.momentum[i] * (v_a - 4.0 * v_m + 3.0 * v_b)
-    for k in range(N_RATES):
-        integrals[k] += h / 6.0 * memory.scratch.rates[k]
-    integrals[CLEARANCE_INERTIA] += inertia / 6.0
-    copy(memory.scratch.rates, memory.rates)
-    copy(memory.scratch.momentum, memory.last_momentum)
-    copy(y_b, memory.last_state)
-    memory.last_time[0] = t_b
+        way, change = y[i] - before[i], y[4 + i] - before[4 + i]
+        curved = 0.2 * way - h / 60.0 * (y[4 + i] + before[4 + i])
+        for k in range(N_WORKS):
+            last = forces[0, k, i]
+            bend = _bend(now[k, i], last, forces[1, k, i], h, back, known)
+            work = 0.5 * way * (now[k, i] + last) + h / 12.0 * change * (now[k, i] - last) - bend * curved
+            memory.integrals[N_RATES + k] += work
+        momentum = 0.5 * (memory.last_momentum[i] + memory.scratch.momentum[i])
+        memory.integrals[INERTIA] += momentum * change
 
 
 @kernel

@@ -7,6 +7,7 @@ from typing import Final
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear, copy
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.bushing.joint import stored
 from tribodyn.kernels.bushing.names import REPORTED as JOINT
 from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.jit import entry, kernel
@@ -87,30 +88,36 @@ _INTEGRALS = _ENERGIES + len(ENERGIES)
 
 
 @kernel
-def _actual_vane(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row: FloatArray) -> None:
+def _vanes(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row: FloatArray) -> None:
     """Fill ideal and actual vane angle and speed.
 
     In ``paper`` the actual angle is read from the closure with the offsets e_x, e_y alone.
     """
-    motion = memory.scratch.motion
-    clear(motion)
-    fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
-    row[_MOTION + 3] = motion[THETA_V, VALUE]
-    row[_MOTION + 6] = motion[THETA_V, VELOCITY]
-    tilt = data.exact
-    clear(motion)
-    fill_rods(data, t, y[0], y[1], tilt * y[2], tilt * y[3], y[4], y[5], tilt * y[6], tilt * y[7], motion)
-    row[_MOTION + 2] = motion[THETA_V, VALUE]
-    row[_MOTION + 5] = motion[THETA_V, VELOCITY]
+    motion, table = memory.scratch.motion, memory.scratch.ideal
+    clear(table)
+    fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, table)
+    row[_MOTION + 3] = table[THETA_V, VALUE]
+    row[_MOTION + 6] = table[THETA_V, VELOCITY]
+    if data.exact > 0.0:
+        row[_MOTION + 2] = motion[THETA_V, VALUE]
+        row[_MOTION + 5] = motion[THETA_V, VELOCITY]
+    else:
+        clear(table)
+        fill_rods(data, t, y[0], y[1], 0.0, 0.0, y[4], y[5], 0.0, 0.0, table)
+        row[_MOTION + 2] = table[THETA_V, VALUE]
+        row[_MOTION + 5] = table[THETA_V, VELOCITY]
 
 
 @entry
 def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: FloatArray) -> None:
     """Fill ``row`` with the quantities named in :data:`OBSERVED`, SI units."""
     scratch = memory.scratch
+    if not ledger.is_at_mark(t, y, memory):
+        scratch.f_cz = ledger.evaluate(data, t, y, memory)
+    f_cz = scratch.f_cz
     copy(y, row)
-    _actual_vane(data, t, y, memory, row)
-    f_cz = ledger.evaluate(data, t, y, memory, True, 0.0)
+    _vanes(data, t, y, memory, row)
+    scratch.report[joint_report.STORED] = stored(data.joint, memory.entry_velocity, y)
     motion, force = scratch.motion, scratch.force
     row[_MOTION] = motion[THETA_A, VALUE]
     row[_MOTION + 1] = motion[THETA_B, VALUE]

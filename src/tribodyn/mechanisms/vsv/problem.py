@@ -16,7 +16,7 @@ from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_scratch
 from tribodyn.kernels.vsv.functions import vane_direction
-from tribodyn.kernels.vsv.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
+from tribodyn.kernels.vsv.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS, N_MARK
 from tribodyn.kernels.vsv.observe import OBSERVED, observe
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -118,10 +118,11 @@ def vsv_memory(data: VsvData) -> VsvMemory:
     return VsvMemory(
         entry_velocity=np.zeros(shape),
         sliding_load=np.zeros(shape),
-        last_time=np.zeros(1),
+        mark=np.zeros(N_MARK),
         regime=np.array([1.0, 0.0]),
         integrals=np.zeros(N_INTEGRALS),
-        rates=np.zeros(layout.N_RATES),
+        rates=np.zeros((2, layout.N_RATES)),
+        forces=np.zeros((2, layout.N_WORKS, 4)),
         extremes=extremes,
         last_state=np.zeros(8),
         last_momentum=np.zeros(4),
