@@ -22,7 +22,7 @@ INERTIAS = Inertias(0.82, 0.1232, 0.6744, 0.253, 6.22e-4, 8.33e-4, 7.20e-2, 2.16
 DRIVE = Drive(math.radians(-16.0), math.radians(20.0), 1.0)
 TABLE_3 = AirLoads(0.4, 1.2, 0.84, math.radians(90.0), 0.01)
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
-"""Default absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s]."""
+"""Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s], a twentieth of the default ones."""
 
 Columns = dict[str, FloatArray]
 

@@ -250,10 +250,10 @@ class Wear(Group):
 class Tolerances(Group):
     """Absolute tolerance of each kind of state."""
 
-    position: float = quantity("1e-11 m", "for e_x and e_y", ASSUMED, gt=0)
-    tilt: float = quantity("1e-9 rad", "for phi_x and phi_y", ASSUMED, gt=0)
-    velocity: float = quantity("1e-7 m/s", "for the rates of e_x and e_y", ASSUMED, gt=0)
-    tilt_rate: float = quantity("1e-5 rad/s", "for the rates of phi_x and phi_y", ASSUMED, gt=0)
+    position: float = quantity("2e-10 m", "for e_x and e_y", ASSUMED, gt=0)
+    tilt: float = quantity("2e-8 rad", "for phi_x and phi_y", ASSUMED, gt=0)
+    velocity: float = quantity("2e-6 m/s", "for the rates of e_x and e_y", ASSUMED, gt=0)
+    tilt_rate: float = quantity("2e-4 rad/s", "for the rates of phi_x and phi_y", ASSUMED, gt=0)
 
 
 class Grid(Group):

@@ -16,7 +16,7 @@ H_FIRST: Final = -4.0
 H_LAST: Final = 8.0
 INTERVALS: Final = 1536
 """128 to the unit: a cubic Hermite error below 1e-7 of a Gaussian tail's pressure at h* = 8."""
-TAIL: Final = 1.0e-10
+TAIL: Final = 1.0e-11
 """Share of the pressure at h* = 0 below which the tail of a law is left out: looking it up costs time."""
 
 _CENTRAL_DIFFERENCE: Final = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0

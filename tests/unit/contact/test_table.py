@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.contact import RSDC, KogutEtsion, SurfacePair, tabulate
+from tribodyn.contact import RSDC, ContactLaw, KogutEtsion, SurfacePair, tabulate
 from tribodyn.contact.table import onset_share
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import pressure_and_damping
@@ -79,10 +79,25 @@ def test_law_without_damping_tabulates_to_zero_damping(table_1_pair: SurfacePair
 
 def test_nodes_are_ready_for_a_kernel(table_1_pair: SurfacePair) -> None:
     table = tabulate(RSDC(table_1_pair))
+    n = table.nodes.shape[0]
     assert table.nodes.flags.c_contiguous
-    assert table.nodes.shape == (1537, 4)
-    assert table.energy.shape == (1537,)
-    assert (table.h_first, table.h_last, 1.0 / table.inverse_step) == (-4.0, 8.0, 12.0 / 1536)
+    assert table.nodes.shape == (n, 4)
+    assert table.energy.shape == (n,)
+    assert (table.h_first, 1.0 / table.inverse_step) == (-4.0, 12.0 / 1536)
+    assert table.h_last == -4.0 + (n - 1) * 12.0 / 1536
+
+
+@pytest.mark.parametrize("law", [RSDC, KogutEtsion])
+def test_only_a_tail_without_weight_is_left_out(table_1_pair: SurfacePair, law: type[ContactLaw]) -> None:
+    # Of the pressure at h* = 0, 1e-11: less than the table's own error where a joint carries its load.
+    found = law(table_1_pair)
+    table = tabulate(found)
+    at_end, beyond, at_zero = found.stiffness_pressure(np.array([table.h_last, table.h_last + 0.01, 0.0]))
+    assert beyond <= 1e-11 * at_zero < at_end
+
+
+def test_the_table_reaches_the_onset(table_1_pair: SurfacePair) -> None:
+    assert tabulate(RSDC(table_1_pair), onset=7.5).h_last >= 7.5
 
 
 def test_damping_is_zero_above_the_onset_and_whole_below_it(table_1_pair: SurfacePair) -> None:

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.vsv.data import VsvData
 
 MAX_NEWTON = 30
+CONVERGED = 1.0e-10
+"""Newton step after which another one would be below rounding: each is about the square of the last [rad]."""
 
 
 @kernel
 def drive(data: VsvData, t: float) -> tuple[float, float, float]:
     """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at time ``t`` [s]."""
     nu = data.angular_frequency
-    theta = data.start_angle + data.speed_amplitude / nu * (1.0 - math.cos(nu * t))
-    return theta, data.speed_amplitude * math.sin(nu * t), data.speed_amplitude * nu * math.cos(nu * t)
+    cos, sin = math.cos(nu * t), math.sin(nu * t)
+    theta = data.start_angle + data.speed_amplitude / nu * (1.0 - cos)
+    return theta, data.speed_amplitude * sin, data.speed_amplitude * nu * cos
 
 
 @kernel
@@ -30,28 +33,34 @@ def ideal_guess(data: VsvData, theta_a: float) -> float:
     return p0 + u * (m0 + u * (3.0 * (p1 - p0) - 2.0 * m0 - m1 + u * (2.0 * (p0 - p1) + m0 + m1)))
 
 
+@inlined
+def ring_end(data: VsvData, x3: float, z3: float) -> tuple[float, float]:
+    """Return x and z of S2 [m], the end of the ring's arm at the angle φ − θ_b, with S3 at (x3, z3)."""
+    scale = data.l_3 / math.sqrt(x3 * x3 + z3 * z3)
+    s2_x = scale * (data.ring_sin * z3 + data.ring_cos * x3)
+    s2_z = scale * (data.ring_cos * z3 - data.ring_sin * x3)
+    return s2_x, s2_z
+
+
 @kernel
 def closure_residual(
     data: VsvData,
-    theta_a: float,
+    s1_x: float,
+    s1_z: float,
     e_x: float,
     e_y: float,
     tan_x: float,
     tan_y: float,
     theta_v: float,
 ) -> tuple[float, float]:
-    """Return (|S1S2|² − l_2²)/2 [m²] and its derivative with respect to θ_v [m²/rad]."""
+    """Return (|S1S2|² − l_2²)/2 [m²], S1 at (s1_x, s1_z), and its derivative in θ_v [m²/rad]."""
     sin_v = math.sin(theta_v)
     cos_v = math.cos(theta_v)
     x3 = e_x + data.l_4 * cos_v - data.half_length * tan_y
     y3 = e_y + data.l_4 * sin_v - data.half_length * tan_x
     z3 = data.l_3 + data.l_4 * (sin_v * tan_x + cos_v * tan_y)
-    beta = data.ring_angle - math.atan2(-x3, z3)
-    s2_x = data.l_3 * math.sin(beta)
-    s2_z = data.l_3 * math.cos(beta)
-    d_x = s2_x - data.pivot_x + data.l_1 * math.sin(theta_a)
-    d_y = y3 - data.l_4
-    d_z = s2_z - data.pivot_z - data.l_1 * math.cos(theta_a)
+    s2_x, s2_z = ring_end(data, x3, z3)
+    d_x, d_y, d_z = s2_x - s1_x, y3 - data.l_4, s2_z - s1_z
     dx3 = -data.l_4 * sin_v
     dz3 = data.l_4 * (cos_v * tan_x - sin_v * tan_y)
     d_theta_b = (-z3 * dx3 + x3 * dz3) / (x3 * x3 + z3 * z3)
@@ -64,16 +73,14 @@ def closure_residual(
 def vane_angle(data: VsvData, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float) -> float:
     """Return θ_v [rad] in the assembly of the table, to machine precision; NaN out of reach."""
     theta_v = ideal_guess(data, theta_a)
+    s1_x = data.pivot_x - data.l_1 * math.sin(theta_a)
+    s1_z = data.pivot_z + data.l_1 * math.cos(theta_a)
     for _ in range(MAX_NEWTON):
-        residual, slope = closure_residual(data, theta_a, e_x, e_y, tan_x, tan_y, theta_v)
+        residual, slope = closure_residual(data, s1_x, s1_z, e_x, e_y, tan_x, tan_y, theta_v)
         if slope == 0.0:
             return math.nan
         step = residual / slope
         theta_v -= step
-        if abs(step) < 4.0e-16 * abs(theta_v) + 1.0e-15:
+        if abs(step) < CONVERGED:
             return theta_v
-        if abs(step) < 1.0e-9:
-            # One more Newton step from here is below rounding.
-            residual, slope = closure_residual(data, theta_a, e_x, e_y, tan_x, tan_y, theta_v)
-            return theta_v - residual / slope
     return math.nan

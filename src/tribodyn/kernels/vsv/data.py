@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.report import N_REPORT
-from tribodyn.kernels.vsv.layout import N_COLUMNS, N_RATES, N_ROWS, N_UNKNOWNS, N_WORKS
+from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_RATES, N_ROWS, N_UNKNOWNS, N_WORKS
 
 
 class VsvData(NamedTuple):
@@ -23,8 +23,8 @@ class VsvData(NamedTuple):
         Crank, drag link, ring radius and lever arm [m].
     pivot_x, pivot_z
         Crank pivot A = (l_m cos γ, l_4, l_m sin γ) [m].
-    ring_angle
-        Angle φ between the two arms of the ring [rad].
+    ring_angle, ring_sin, ring_cos
+        Angle φ between the two arms of the ring [rad], its sine and cosine.
     half_length
         l_z/2, height of the lever plane above the trunnion centre O_j [m].
     vane_arm
@@ -62,6 +62,8 @@ class VsvData(NamedTuple):
     pivot_x: float
     pivot_z: float
     ring_angle: float
+    ring_sin: float
+    ring_cos: float
     half_length: float
     vane_arm: float
     m_1: float
@@ -95,9 +97,9 @@ Scratch: TypeAlias = Any
 SCRATCH: Final = np.dtype(
     [
         ("motion", "f8", (N_ROWS, N_COLUMNS)),
-        ("test", "f8", (N_ROWS, 5)),
-        ("force", "f8", (N_ROWS,)),
-        ("collar", "f8", (N_ROWS,)),
+        ("test", "f8", (N_BODY, 5)),
+        ("force", "f8", (N_BODY,)),
+        ("collar", "f8", (N_BODY,)),
         ("mass", "f8", (5, 4)),
         ("load", "f8", (5,)),
         ("solved", "f8", (4, 9)),

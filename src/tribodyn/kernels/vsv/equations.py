@@ -21,7 +21,7 @@ from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
     E_Y,
-    N_ROWS,
+    N_BODY,
     N_X,
     O2_X,
     O3_X,
@@ -48,14 +48,14 @@ TILT_FLOOR = 1.0e-6
 
 @kernel
 def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> None:
-    """Fill the test motions (N_ROWS, 5): along the crank, then four for the clearance motion."""
+    """Fill the bodies' test motions (N_BODY, 5): along the crank, then four for the clearance motion."""
     if data.exact > 0.0:
-        for row in range(N_ROWS):
+        for row in range(N_BODY):
             for k in range(5):
                 test[row, k] = motion[row, k]
         return
     clear(test)
-    for row in range(N_ROWS):
+    for row in range(N_BODY):
         test[row, 0] = motion[row, 0]
     s2_x, s2_z = motion[S2_X, VALUE], motion[S2_Z, VALUE]
     d_x = s2_x - motion[S1_X, VALUE]
@@ -115,7 +115,7 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     scratch = memory.scratch
     motion, force, collar = scratch.motion, scratch.force, scratch.collar
     direction = memory.regime[0]
-    for row in range(N_ROWS):
+    for row in range(N_BODY):
         force[row] = data.weight[row]
     tan_x = math.tan(y[2])
     tan_y = math.tan(y[3])
@@ -141,7 +141,7 @@ def assemble(inertias: FloatArray, scratch: Scratch) -> None:
     clear(mass)
     for i in range(5):
         load[i] = 0.0
-    for row in range(N_ROWS):
+    for row in range(N_BODY):
         inertia = inertias[row]
         applied = force[row] - inertia * motion[row, BIAS]
         for i in range(5):

@@ -39,6 +39,8 @@ S3_X: Final = 25
 S3_Y: Final = 26
 S3_Z: Final = 27
 N_ROWS: Final = 28
+N_BODY: Final = 20
+"""Rows of bodies, with an inertia or a force; the others are points that connect them."""
 
 D_CRANK: Final = 0
 """Column of ∂/∂θ_a; columns 1 to 4 are ∂/∂(e_x, e_y, φ_x, φ_y)."""

@@ -23,8 +23,8 @@ from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerat
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
+    N_BODY,
     N_RATES,
-    N_ROWS,
     N_WORKS,
     O1_Z,
     O2_Z,
@@ -124,7 +124,7 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
         scratch.momentum[j] = 0.0
     forces[COLLAR, 2] += scratch.f_cz * scratch.collar[PHI_X]
     forces[COLLAR, 3] += scratch.f_cz * scratch.collar[PHI_Y]
-    for row in range(N_ROWS):
+    for row in range(N_BODY):
         inertia = data.inertia[row]
         applied = scratch.force[row] - inertia * motion[row, BIAS] if row < E_X else 0.0
         momentum = inertia * clearance_velocity(motion, row, y)
@@ -261,7 +261,7 @@ def fill_energies(data: VsvData, memory: VsvMemory, energies: FloatArray) -> Non
     """Fill kinetic and gravity energy [J] from the scratch arrays of this instant."""
     motion = memory.scratch.motion
     kinetic = 0.0
-    for row in range(N_ROWS):
+    for row in range(N_BODY):
         kinetic += 0.5 * data.inertia[row] * motion[row, VELOCITY] ** 2
     gravity = 0.0
     for row in (O1_Z, O2_Z, O3_Z):

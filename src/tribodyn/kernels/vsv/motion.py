@@ -15,7 +15,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv.closure import drive, vane_angle
+from tribodyn.kernels.vsv.closure import drive, ring_end, vane_angle
 from tribodyn.kernels.vsv.data import VsvData
 from tribodyn.kernels.vsv.layout import (
     BIAS,
@@ -135,9 +135,7 @@ def fill_rods(
     z3 = data.l_3 + l_4 * (sin_v * tan_x + cos_v * tan_y)
     r2 = x3 * x3 + z3 * z3
     theta_b = math.atan2(-x3, z3)
-    beta = data.ring_angle - theta_b
-    s2_x = data.l_3 * math.sin(beta)
-    s2_z = data.l_3 * math.cos(beta)
+    s2_x, s2_z = ring_end(data, x3, z3)
     d_x = s2_x - s1_x
     d_y = y3 - l_4
     d_z = s2_z - s1_z

@@ -58,6 +58,8 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         pivot_x=lengths.l_m * math.cos(lengths.gamma),
         pivot_z=lengths.l_m * math.sin(lengths.gamma),
         ring_angle=lengths.phi,
+        ring_sin=math.sin(lengths.phi),
+        ring_cos=math.cos(lengths.phi),
         half_length=0.5 * vsv.joint.geometry.length,
         vane_arm=vsv.vane_arm,
         m_1=inertias.m_1,
