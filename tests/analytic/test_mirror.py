@@ -24,8 +24,13 @@ from tribodyn.simulation import simulate
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))
 
-CASE = {"run.duration": "3.6 s", "loads.switch_angle": "85 deg"}
-"""Forward, a reversal at π, and backward; a switch that is not its own image."""
+CASE = {
+    "run.duration": "3.6 s",
+    "loads.switch_angle": "85 deg",
+    **{"solver.atol.position": "1e-11 m", "solver.atol.tilt": "1e-9 rad"},
+    **{"solver.atol.velocity": "1e-7 m/s", "solver.atol.tilt_rate": "1e-5 rad/s"},
+}
+"""Forward, a reversal at π, and backward; a switch that is not its own image; ringing followed closely."""
 IMAGE = {
     "mechanism.pivot_angle": "160 deg",
     "mechanism.ring_angle": "-55 deg",
@@ -37,7 +42,7 @@ IMAGE = {
 TURNED = {
     *("e_x", "phi_y", "e_x_dot", "phi_y_dot"),
     *("theta_a", "theta_b", "omega_a", "omega_v", "omega_v_ideal"),
-    *("F_cx", "F_kx", "F_dx", "F_fx", "M_jcy", "M_fy", "M_jf", "M_tcy", "M_tf"),
+    *("F_cx", "F_kx", "F_dx", "F_fx", "M_jcy", "M_ky", "M_fy", "M_jf", "M_tcy", "M_tf"),
     *("F_ax", "M_az", "M_d", "F_21x", "F_32x", "F_43x", "F_bx", "M_bz", "F_airx", "M_air"),
 }
 """Change their sign; vane angles become their supplements; all others stay."""
@@ -137,8 +142,9 @@ def test_every_variable_of_a_run_is_mirrored(both: tuple[xr.Dataset, xr.Dataset]
         expected = seen_in_a_mirror(name, here[name].values)
         off = np.abs(there[name].values - expected)
         scale = np.abs(expected).max()
-        # Steps fall otherwise: ten times the tolerance of the run, and a twentieth of an impact.
-        assert off[quiet].max() <= 1e-3 * scale, name
+        # Steps fall otherwise: ten times the tolerance of the run, and a twentieth of an impact. Works and heats
+        # are sums and carry along what they differed by in the impacts.
+        assert off[quiet].max() <= (3e-3 if name.startswith("energy_") else 1e-3) * scale, name
         assert off.max() <= 0.05 * scale, name
 
 

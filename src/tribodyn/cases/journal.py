@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from tribodyn.cases.base import Case, Group, demand
 from tribodyn.cases.film import Film
-from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces
+from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Tolerances
 from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, switch, text
 
 if TYPE_CHECKING:
@@ -68,12 +68,22 @@ class Loads(Group):
     moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", SECTION_4)
 
 
+class TightTolerances(Tolerances):
+    """Absolute tolerance of each kind of state; the undamped rebounds need them."""
+
+    position: float = quantity("1e-11 m", "for e_x and e_y", ASSUMED, gt=0)
+    tilt: float = quantity("1e-9 rad", "for phi_x and phi_y", ASSUMED, gt=0)
+    velocity: float = quantity("1e-7 m/s", "for the rates of e_x and e_y", ASSUMED, gt=0)
+    tilt_rate: float = quantity("1e-5 rad/s", "for the rates of phi_x and phi_y", ASSUMED, gt=0)
+
+
 class Tight(Solver):
     """The time integration."""
 
     rtol: float = number(
         1e-5, "relative tolerance; undamped rebounds need it to keep their energy", ASSUMED, ge=1e-12, le=0.1
     )
+    atol: TightTolerances = TightTolerances()
 
 
 class Run(Group):

@@ -97,7 +97,7 @@ _JOINT: Final[dict[str, Variable]] = {
         "1", "share of the contact force held back by the clip of tensile pressure"
     ),
     "M_kx": Variable("N m", "moment of the rigid part of the contact pressure about X"),
-    "M_ky": Variable("N m", "moment of the rigid part of the contact pressure about Y, left-handed"),
+    "M_ky": Variable("N m", "moment of the rigid part of the contact pressure about Y (left-handed)"),
     "damping_power": Variable("W", "power of the damping pressure, turned into heat"),
     "friction_power": Variable("W", "power of the bushing friction, turned into heat"),
     "contact_fraction": Variable("1", "share of the bushing surface in contact"),
