@@ -142,8 +142,8 @@ def test_every_variable_of_a_run_is_mirrored(both: tuple[xr.Dataset, xr.Dataset]
         expected = seen_in_a_mirror(name, here[name].values)
         off = np.abs(there[name].values - expected)
         scale = np.abs(expected).max()
-        # Steps fall otherwise: ten times the tolerance of the run, and a twentieth of an impact. Works and heats
-        # are sums and carry along what they differed by in the impacts.
+        # Steps fall otherwise: ten times the tolerance of the run, and a twentieth of an impact. Works and
+        # heats are sums and carry along what they differed by in the impacts.
         assert off[quiet].max() <= (3e-3 if name.startswith("energy_") else 1e-3) * scale, name
         assert off.max() <= 0.05 * scale, name
 
