@@ -13,6 +13,7 @@ from typing import Any
 import numba as nb
 import numpy as np
 
+from benchmarks.mebdf_native import LONG_ENOUGH
 from benchmarks.problems import Benchmark
 from benchmarks.sundials import CV_NORMAL, Cvode, columns, counts, library, numbers
 
@@ -45,16 +46,23 @@ def _callbacks(name: str) -> tuple[Any, Any]:
 
 
 def cvode(problem: Benchmark, rtol: float) -> dict[str, Any]:
-    """Integrate with CVODE; return digits, counts and the time of the integration alone [s]."""
+    """Integrate with CVODE; return digits, counts and the time of the integration alone [s].
+
+    As with the MEBDF, the last step may go beyond the end, and short integrations are repeated.
+    """
     c_rhs, c_jac = _callbacks(problem.name)
     y = problem.y0.copy()
     solver = Cvode(c_rhs.address, c_jac.address, 0.0, y, rtol, problem.atol * rtol)
-    solver("CVodeSetStopTime", ct.c_double(problem.t_end))
-    reached = ct.c_double(0.0)
+    reached, end = ct.c_double(0.0), ct.c_double(problem.t_end)
     function = library()["cvode"].CVode
-    begin = time.perf_counter()
-    flag = function(solver.memory, ct.c_double(problem.t_end), solver.y, ct.byref(reached), CV_NORMAL)
-    seconds = time.perf_counter() - begin
+    flag, repeats, seconds = 0, 0, 0.0
+    while flag >= 0 and seconds < LONG_ENOUGH:
+        y[:] = problem.y0
+        solver("CVodeReInit", ct.c_double(0.0), solver.y)
+        begin = time.thread_time()
+        flag = function(solver.memory, end, solver.y, ct.byref(reached), CV_NORMAL)
+        seconds += time.thread_time() - begin
+        repeats += 1
     found = counts(solver.memory)
     solver.free()
-    return {"failed": flag < 0, "digits": problem.digits(y), **found, "seconds": seconds}
+    return {"failed": flag < 0, "digits": problem.digits(y), **found, "seconds": seconds / repeats}
