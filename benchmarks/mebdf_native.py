@@ -72,14 +72,16 @@ def mebdf(
     rtol: float,
     settings: dict[int, float] | None = None,
     at_least: float = LONG_ENOUGH,
+    differenced: bool = False,
 ) -> dict[str, Any]:
     """Integrate; return digits, counts and the time of the integration alone [s].
 
     Reaching a function that is an argument takes numba some 100 µs, once a call. It is not the method's, so
     short integrations are repeated within the call until it does not count: for ``at_least`` so long [s].
+    ``differenced`` treats the Jacobian as one that costs evaluations.
     """
     loop = _compiled()
-    state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol)
+    state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol, differenced=differenced)
     for place, value in (settings or {}).items():
         state.real[place] = value
     start = (state.real.copy(), state.counts.copy(), state.rows.copy())

@@ -89,6 +89,7 @@ class MEBDF(OdeSolver):
             first_step=starting_step(first_step, t0, t_bound),
             largest_k=max_order - 1,
             inside=True,
+            differenced=jac is None,
         )
         self._jacobian = make_jacobian(self, jac, jac_sparsity, self.atol)
         self._resume = _machine_code()

@@ -183,6 +183,26 @@ def test_the_end_is_met_where_the_spacing_of_numbers_is_not_small_against_a_step
     assert solution.t[-1] == 1e3 + end
 
 
+def test_jacobians_are_rarer_where_they_cost_evaluations():
+    def decay(t, y):
+        return [-1e4 * y[0] * y[1] + y[1], 1e4 * y[0] * y[1] - y[1] - 30.0 * y[1] ** 2, 30.0 * y[1] ** 2]
+
+    def jac(t, y):
+        u, v = y[:2]
+        return [
+            [-1e4 * v, 1.0 - 1e4 * u, 0.0],
+            [1e4 * v, 1e4 * u - 1.0 - 60.0 * v, 0.0],
+            [0.0, 60.0 * v, 0.0],
+        ]
+
+    runs = [
+        solve(decay, (0.0, 100.0), [1.0, 1e-3, 0.0], rtol=1e-6, atol=1e-10, jac=given)
+        for given in (jac, None)
+    ]
+    np.testing.assert_allclose(runs[0].y[:, -1], runs[1].y[:, -1], rtol=1e-4, atol=1e-6)
+    assert runs[1].njev < 0.75 * runs[0].njev
+
+
 def test_a_span_of_no_length():
     solution = solve(swing, (4.0, 4.0), [1.0, 2.0])
     assert solution.success

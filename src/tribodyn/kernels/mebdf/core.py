@@ -44,6 +44,7 @@ from tribodyn.kernels.mebdf.start import start
 from tribodyn.kernels.mebdf.state import (
     BAD,
     CARRIED,
+    DIFFERENCED,
     EQUAL_STEPS,
     FACTORED,
     FAILURES,
@@ -136,7 +137,9 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
         count[PHASE] = START_STAGE
         return 0
     count[PHASE] = FACTORISE
-    old = count[JACOBIAN_AGE] >= real[OLD_JACOBIAN] or real[RATE] > real[SLOW] or count[N_J] == 0
+    # Where every stage took one iteration, RATE is 1 for unknown: a Jacobian that costs little is renewed.
+    slow = real[RATE] > real[SLOW] and (real[RATE] != 1.0 or count[DIFFERENCED] == 0)
+    old = count[JACOBIAN_AGE] >= real[OLD_JACOBIAN] or slow or count[N_J] == 0
     if not old or count[FRESH] == 1:
         return 0
     for i in range(rows.shape[1]):

@@ -113,7 +113,9 @@ RATE_AGE: Final = 24
 """Steps since the convergence rate was measured."""
 MATRIX_AGE: Final = 25
 """Steps since the matrix was factorised."""
-PIVOTS: Final = 26
+DIFFERENCED: Final = 26
+"""Whether the Jacobian comes from differences: each costs as many evaluations as there are equations."""
+PIVOTS: Final = 27
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -185,6 +187,7 @@ def new_state(
     first_step: float = 0.0,
     largest_k: int = MAX_K,
     inside: bool = False,
+    differenced: bool = False,
 ) -> MebdfState:
     """Return the state before the first step.
 
@@ -204,6 +207,8 @@ def new_state(
         Largest number of back values, 1 to MAX_K.
     inside
         Whether the right-hand side may not be evaluated beyond ``t_end``.
+    differenced
+        Whether the Jacobian comes from differences of the right-hand side.
     """
     n = y.size
     real = np.zeros(N_REAL)
@@ -218,6 +223,7 @@ def new_state(
     count[[K, K_LAST]] = 1
     count[LARGEST_K] = largest_k
     count[INSIDE] = inside
+    count[DIFFERENCED] = differenced
     count[[BAD, WORST]] = -1
     rows = np.zeros((N_ROWS, n))
     rows[ATOL] = atol
