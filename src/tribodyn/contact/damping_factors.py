@@ -98,7 +98,9 @@ def calibrated(restitution: FloatArray) -> FloatArray:
 
 def _restitution_of(t: FloatArray) -> FloatArray:
     """Return e = (1 − t/(exp(t) − 1)) / (t/(1 − exp(−t)) − 1), shape of ``t`` > 0."""
-    return np.asarray((1.0 - t / np.expm1(t)) / (-t / np.expm1(-t) - 1.0))
+    # The powers of −t alone: exp(t) overflows for the smallest restitutions.
+    share = -t / np.expm1(-t)
+    return np.asarray((1.0 - share * np.exp(-t)) / (share - 1.0))
 
 
 DAMPING_FACTORS: dict[str, DampingFactor] = {

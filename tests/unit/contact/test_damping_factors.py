@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor, rebound
+from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor, calibrated, rebound
 
 MEANT = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 0.99])
 
@@ -51,3 +51,9 @@ def test_realised_restitution_of_a_single_impact(name: str, meant: float) -> Non
     came_out = impact(float(factor(np.array(meant))), 1.0 if factor.dashpot else 1.5, factor.dashpot)
     # 1e-4 is asked for; see above for what the integration is good to.
     assert factor.realised(np.array(meant)) == pytest.approx(came_out, abs=1e-6)
+
+
+def test_the_smallest_restitutions_are_met_too() -> None:
+    # Deep in contact the restitution of the paper's law falls towards zero; warnings are errors here.
+    wanted = np.array([1e-2, 1e-3, 1e-6])
+    np.testing.assert_allclose(rebound(calibrated(wanted)), wanted, rtol=1e-6)
