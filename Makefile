@@ -28,10 +28,12 @@ demo: $(VENV)/.run
 
 test: $(VENV)/.dev
 	@tools/ensure-browser
+	@tools/compile-kernels $(BIN)/python
 	$(PYTEST) -m "not long"
 
 test-long: $(VENV)/.dev
 	@tools/ensure-browser
+	@tools/compile-kernels $(BIN)/python
 	$(PYTEST)
 
 lint: $(VENV)/.dev
