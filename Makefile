@@ -19,7 +19,7 @@ help:
 	@echo "make lint        style, types and layers"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
-	@echo "make bench       work and precision of the integrators (some minutes)"
+	@echo "make bench       speed against other programs (a quarter of an hour)"
 	@echo "make lock        pin all dependencies anew, with hashes (needs uv)"
 	@echo "make clean       remove .venv and everything built"
 
@@ -51,7 +51,7 @@ docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W --keep-going -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 
-bench: $(VENV)/.dev
+bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks.work_precision
 	$(BIN)/python -m benchmarks
 
@@ -73,6 +73,10 @@ $(VENV)/.run: pyproject.toml $(BIN)/python
 $(VENV)/.dev: pyproject.toml $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev]"
 	@touch $@ $(VENV)/.run
+
+$(VENV)/.bench: pyproject.toml $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,bench]"
+	@touch $@ $(VENV)/.dev $(VENV)/.run
 
 $(VENV)/.docs: pyproject.toml $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,docs]"

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from tribodyn.figures.style import BLUE, GREY, INK, PALE, VERMILION
 
@@ -25,11 +26,12 @@ STYLE: Final = {"svg.hashsalt": "tribodyn", "svg.fonttype": "none", "font.size":
 def draw(found: dict[str, Any], target: Path) -> None:
     """Draw what has been measured so far."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(8.0, 5.6), layout="constrained", facecolor="white")
-        grid = figure.add_gridspec(2, 2, height_ratios=(1.25, 1.0))
-        _ratios(figure.add_subplot(grid[0, :]), bars(found))
-        _growth(figure.add_subplot(grid[1, 0]), found.get("growth", {}))
-        _tolerances(figure.add_subplot(grid[1, 1]), found.get("vsv", {}).get("tolerances", []))
+        figure = Figure(figsize=(7.6, 5.6), layout="constrained", facecolor="white")
+        upper, lower = figure.subfigures(2, 1, height_ratios=(1.2, 1.0))
+        left, right = lower.subplots(1, 2)
+        _ratios(upper.subplots(), bars(found))
+        _growth(left, found.get("growth", {}))
+        _tolerances(right, found.get("vsv", {}).get("tolerances", []))
         figure.savefig(target, metadata={"Date": None} if target.suffix == ".svg" else None, dpi=150)
 
 
@@ -43,7 +45,7 @@ def bars(found: dict[str, Any]) -> list[tuple[str, float, bool]]:
         if "film" in found:
             rows.append((f"oil film, {name}: SuperLU", found["film"][name]["ratio"], True))
     for peer in found.get("vsv", {}).get("peers", []):
-        rows.append((f"mechanism: {peer['name']}, {peer['setting']}", peer["ratio"], False))
+        rows.append((f"{peer['name']}, {peer['setting']}", peer["ratio"], False))
     return rows
 
 
@@ -66,8 +68,9 @@ def _ratios(axes: Axes, rows: list[tuple[str, float, bool]]) -> None:
     axes.set_yticks(places, [name for name, _, _ in rows])
     axes.invert_yaxis()
     largest = max((ratio for _, ratio, _ in rows), default=10.0)
-    axes.set_xlim(min(0.5, *(0.6 * ratio for _, ratio, _ in rows), 0.5), 2.0 * largest)
-    axes.set_title("time over ours (light: a part of a simulation; dark: the mechanism)", fontsize=8)
+    axes.set_xlim(min([0.7, *(0.6 * ratio for _, ratio, _ in rows)]), 1.6 * largest)
+    axes.set_title("time over ours: parts (light) and the vane mechanism as a whole (dark)", fontsize=8)
+    _plain(axes, "x", (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500))
     axes.grid(axis="x", alpha=0.3)
     axes.set_axisbelow(True)
 
@@ -84,9 +87,11 @@ def _growth(axes: Axes, found: dict[str, Any]) -> None:
         axes.loglog(size, cost, color=colour, marker=marker, markersize=4, linestyle=line, label=label)
     span = np.array([0.25, 8.0])
     axes.loglog(span, span, color=PALE, linewidth=3, zorder=0, label="in proportion")
-    axes.set(xlabel="size over the default (one cycle)", ylabel="time over that of the default")
+    axes.set(xlabel="size over the default", ylabel="time over that of the default")
+    _plain(axes, "x", (0.25, 0.5, 1, 2, 4, 8))
+    _plain(axes, "y", (0.25, 0.5, 1, 2, 4, 8))
     axes.legend(fontsize=7)
-    axes.grid(alpha=0.3, which="both")
+    axes.grid(alpha=0.3)
 
 
 def _tolerances(axes: Axes, rows: list[dict[str, Any]]) -> None:
@@ -99,6 +104,17 @@ def _tolerances(axes: Axes, rows: list[dict[str, Any]]) -> None:
         axes.loglog(x, y, color=colour, marker=marker, markersize=4, linestyle=line, label=label)
     axes.invert_xaxis()
     axes.set(xlabel="solver.rtol", ylabel="time of two cycles [s]")
+    _plain(axes, "y", (0.05, 0.1, 0.2, 0.5, 1, 2, 5))
     if rows:
-        axes.legend(fontsize=7)
-    axes.grid(alpha=0.3, which="both")
+        axes.legend(fontsize=7, loc="upper left")
+    axes.grid(alpha=0.3)
+
+
+def _plain(axes: Axes, which: Literal["x", "y"], places: tuple[float, ...]) -> None:
+    """Put plain numbers at some places of a logarithmic axis, as far as it reaches."""
+    axis = axes.xaxis if which == "x" else axes.yaxis
+    low, high = sorted(axis.get_view_interval())
+    inside = [place for place in places if low <= place <= high]
+    axis.set_major_locator(FixedLocator(inside))
+    axis.set_major_formatter(FixedFormatter([f"{place:g}" for place in inside]))
+    axis.set_minor_locator(NullLocator())

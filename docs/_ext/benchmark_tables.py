@@ -1,0 +1,241 @@
+"""Directive ``benchmark``: what ``python -m benchmarks`` found, as tables.
+
+Argument: the name of a table. The numbers are those of ``docs/_static/benchmarks.json``, so that measuring
+again changes the page.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, Final
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+from docutils.statemachine import StringList
+
+SOURCE: Final = Path(__file__).parents[1] / "_static" / "benchmarks.json"
+KERNEL_GRID: Final = "256 × 32"
+
+AIMS: Final = (
+    ("bdf", "10 times as fast as SciPy's BDF with the same compiled functions", 10.0),
+    ("BDF, NumPy", "25 times as fast as SciPy's BDF with NumPy", 25.0),
+    ("cvode-native", "no slower than CVODE called natively", 1.0),
+    ("Exudyn, point contact", "10 times as fast as Exudyn with its point contact", 10.0),
+    ("Exudyn, surface contact", "100 times as fast as Exudyn with our surface contact", 100.0),
+)
+"""Name of a peer, what is aimed at, and the least ratio of times."""
+
+Found = dict[str, Any]
+Lines = Iterator[str]
+
+
+def head(*cells: str) -> Lines:
+    """Give the first two lines of a table."""
+    yield f"| {' | '.join(cells)} |"
+    yield "|---" * len(cells) + "|"
+
+
+def row(*cells: str) -> str:
+    """Return a line of a table."""
+    return f"| {' | '.join(cells)} |"
+
+
+def verdict(text: str, kept: bool) -> str:
+    """Return a number, marked where it misses its goal."""
+    return text if kept else f"**{text}**"
+
+
+def goals(found: Found) -> Lines:
+    """Give what is aimed at, and what was measured; what is missed is bold."""
+    yield from head("aim", "measured")
+    kernel, vsv, command = found["joint_kernel"][KERNEL_GRID], found["vsv"], found["command"]
+    per_node = 1e3 * kernel["with Jacobian"] / kernel["nodes in contact"]
+    speed, default = vsv["speed"]["median"], vsv["runs"][0]
+    yield row(
+        f"joint kernel with Jacobian, {KERNEL_GRID}: at most 15 ns a node in contact",
+        verdict(f"{per_node:.1f} ns", per_node <= 15.0),
+    )
+    yield row("two cycles: 60 times as fast as the mechanism", verdict(f"{speed:.0f} times", speed >= 60.0))
+    yield row(
+        "accuracy: vane angle 1e-5° and contact force 0.5 % far from reversals, angle 5e-5° before",
+        verdict(
+            f"{default['angle']:.0e}°, {100 * default['force']:.2g} %, {default['angle 50-100 ms']:.0e}°",
+            default["accurate"],
+        ),
+    )
+    for name, aim, least in AIMS:
+        for peer in vsv["peers"]:
+            if peer["name"] == name:
+                ratio = verdict(f"{peer['ratio']:.3g} times", peer["ratio"] >= least)
+                yield row(aim, f"{ratio} ({peer['setting']})")
+    many = found["long_run"]["400"]
+    yield row("400 cycles one by one in 90 s", verdict(f"{many['seconds']:.0f} s", many["seconds"] < 90.0))
+    growth = many["peak memory [MB]"] - found["long_run"]["10"]["peak memory [MB]"]
+    rows = many["result [MB]"]
+    yield row(
+        "no more memory for 400 cycles than for 10", f"{growth:.0f} MB more, for a result of {rows:.0f} MB"
+    )
+    for name, key, most in (
+        ("help", "seconds", 0.5),
+        ("second run", "seconds", 15.0),
+        ("first run", "seconds", 90.0),
+    ):
+        seconds = command[name][key]
+        yield row(f"command line, {name}: {most:g} s", verdict(f"{seconds:.2g} s", seconds < most))
+    memory = command["second run"]["peak memory [MB]"]
+    yield row("peak memory of a run: 600 MB", verdict(f"{memory:.0f} MB", memory < 600.0))
+    if "sweep" in found:
+        ratio = found["sweep"]["ratio"]
+        yield row("sweep, 2 workers 1.8 times as fast as 1", verdict(f"{ratio:.2f} times", ratio >= 1.8))
+
+
+def kernel(found: Found) -> Lines:
+    """Give the joint kernels over the grid."""
+    yield from head("grid", "nodes in contact", "wrench [ns]", "with Jacobian [ns]", "NumPy / wrench")
+    for grid, value in found["joint_kernel"].items():
+        if not isinstance(value, dict):
+            continue
+        nodes_in = value["nodes in contact"]
+        wrench, jacobian = (1e3 * value[name] / nodes_in for name in ("wrench", "with Jacobian"))
+        ratio = value["numpy"] / value["wrench"]
+        yield row(grid, f"{nodes_in:.0f}", f"{wrench:.1f}", f"{jacobian:.1f}", f"{ratio:.0f}")
+
+
+def integrators(found: Found) -> Lines:
+    """Give the runs at falling tolerances."""
+    yield from head(
+        "integrator",
+        "`rtol`",
+        "`atol`",
+        "steps",
+        "right-hand sides",
+        "time",
+        "angle",
+        "force",
+        "accurate enough",
+    )
+    for run in found["vsv"]["runs"]:
+        yield row(
+            f"`{run['solver']}`",
+            f"{run['rtol']:.0e}",
+            f"× {run['atol']:g}",
+            f"{run['steps']}",
+            f"{run['rhs']}",
+            f"{run['seconds']:.2f} s",
+            f"{run['angle']:.0e}°",
+            f"{run['force']:.0e}",
+            "yes" if run["accurate"] else "no",
+        )
+
+
+def peers(found: Found) -> Lines:
+    """Give the ratios of times from alternated pairs."""
+    yield from head("peer", "tolerances or step", "over", "time / MEBDF", "range", "error of the angle")
+    for peer in found["vsv"]["peers"]:
+        yield row(
+            peer["name"],
+            peer["setting"],
+            f"{peer['cycles']:g} cycles",
+            f"{peer['ratio']:.3g}",
+            f"{peer['least']:.3g} to {peer['most']:.3g}",
+            f"{peer['angle']:.0e}°",
+        )
+
+
+def tolerances(found: Found) -> Lines:
+    """Give what accuracy costs, with the ratio of each time to that of the tolerance before."""
+    yield from head(
+        "`rtol`", "alone: time", "steps", "angle", "force", "with absolute: time", "steps", "angle", "force"
+    )
+    by = {(run["changed"], run["rtol"]): run for run in found["vsv"]["tolerances"]}
+    before: dict[str, float] = {}
+    for rtol in sorted({rtol for _, rtol in by}, reverse=True):
+        cells = [f"{rtol:.0e}"]
+        for what in ("rtol", "all"):
+            run = by[what, rtol]
+            times = f" (× {run['seconds'] / before[what]:.2f})" if what in before else ""
+            before[what] = run["seconds"]
+            cells += [
+                f"{run['seconds']:.2f} s{times}",
+                f"{run['steps']}",
+                f"{run['angle']:.0e}°",
+                f"{run['force']:.0e}",
+            ]
+        yield row(*cells)
+
+
+def film(found: Found) -> Lines:
+    """Give the film solver beside a general sparse one."""
+    yield from head("journal", "structured", "SuperLU", "ratio", "difference of forces")
+    for name in ("no tilt", "tilt"):
+        value = found["film"][name]
+        ours, theirs = value["ours [ms]"], value["SuperLU [ms]"]
+        yield row(
+            name, f"{ours:.2f} ms", f"{theirs:.1f} ms", f"{value['ratio']:.1f}", f"{value['difference']:.0e}"
+        )
+
+
+def growth(found: Found) -> Lines:
+    """Give cost over grid, clearance and number of cycles."""
+    yield from head("what grows", "size", "time", "steps", "right-hand sides")
+    for what in ("grid", "clearance", "cycles"):
+        for value in found["growth"][what]:
+            yield row(
+                what, value["name"], f"{value['seconds']:.3f} s", f"{value['steps']}", f"{value['rhs']}"
+            )
+
+
+def command(found: Found) -> Lines:
+    """Give what the command line takes."""
+    yield from head("command", "clock", "processor", "peak memory")
+    for name, title in (
+        ("help", "`tribodyn --help`"),
+        ("first run", "`tribodyn run vsv`, the first ever: compiles"),
+        ("second run", "`tribodyn run vsv` after that, figures and report included"),
+    ):
+        value = found["command"][name]
+        clock, processor = value["seconds"], value["processor seconds"]
+        yield row(title, f"{clock:.2g} s", f"{processor:.2g} s", f"{value['peak memory [MB]']:.0f} MB")
+
+
+def machines(found: Found) -> Lines:
+    """Give where and how undisturbed the benchmarks were run."""
+    yield from head("benchmark", "measured on", "programs running before it began (load)")
+    for name, value in found.items():
+        yield row(f"`{name}`", value["on"], f"{value['load']:.1f}")
+
+
+TABLES: Final[dict[str, Callable[[Found], Lines]]] = {
+    "goals": goals,
+    "kernel": kernel,
+    "integrators": integrators,
+    "peers": peers,
+    "tolerances": tolerances,
+    "film": film,
+    "growth": growth,
+    "command": command,
+    "machines": machines,
+}
+
+
+class Benchmark(Directive):
+    """One table."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        self.state.document.settings.record_dependencies.add(str(SOURCE))
+        found = json.loads(SOURCE.read_text(encoding="utf-8"))
+        container = nodes.container()
+        text = StringList(list(TABLES[self.arguments[0]](found)), source=str(SOURCE))
+        self.state.nested_parse(text, self.content_offset, container)
+        return container.children
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register the directive."""
+    app.add_directive("benchmark", Benchmark)
+    return {"parallel_read_safe": True}
