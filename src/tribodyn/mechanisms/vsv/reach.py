@@ -171,7 +171,8 @@ def at_limit(data: VsvData, t: float, y: FloatArray) -> bool:
         Time [s] and state, shape (8,).
     """
     theta_a, _, _ = crank(data, t)
+    s1 = data.pivot_x - data.l_1 * math.sin(theta_a), data.pivot_z + data.l_1 * math.cos(theta_a)
     place = (float(y[0]), float(y[1]), math.tan(y[2]), math.tan(y[3]))
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
-    missing = [closure_residual(data, theta_a, *place, theta_v)[0] for theta_v in turn]
+    missing = [closure_residual(data, *s1, *place, theta_v)[0] for theta_v in turn]
     return bool(-min(missing) < _MEETING * max(missing))
