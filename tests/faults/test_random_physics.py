@@ -288,7 +288,8 @@ def test_a_mechanism_that_is_shaken_past_the_limit_of_its_reach_says_so() -> Non
     result = run(MECHANISM.case(327))
     assert "limit of its reach" in result.attrs["failure"]
     assert true_reason(result)
-    assert not not_finite(result) or "could not be accounted for" in result.attrs["warnings"]
+    # The last step ends where no vane angle is, and with it sliding; all rows before are numbers.
+    assert not_finite(result) in ("", "not finite: ['wear_depth']")
 
 
 @pytest.mark.long
