@@ -52,7 +52,7 @@ class Peer:
 
 def setting(rtol: float, tighter: float) -> str:
     """Return tolerances as shown: the relative one, and the absolute ones where they are not the default."""
-    return f"{rtol:.0e}" if tighter == 1.0 else f"{rtol:.0e}, {tighter:g}"
+    return f"rtol {rtol:.0e}" + (f", atol × {tighter:g}" if tighter != 1.0 else "")
 
 
 def with_numpy(rtol: float, tighter: float, cycles: float) -> dict[str, Any]:

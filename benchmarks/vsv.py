@@ -38,7 +38,7 @@ def run(quick: bool = False) -> dict[str, Any]:
         one(solver, 1e-3, cycles=0.01)
     exact = reference(cycles)
     print(
-        f"{'':24s} {'rtol, atol':>12s} {'steps':>6s} {'rhs':>6s} {'seconds':>8s} {'angle':>8s} {'force':>8s}"
+        f"{'':24s} {'tolerances':24s} {'steps':>6s} {'rhs':>6s} {'seconds':>8s} {'angle':>8s} {'force':>8s}"
     )
     runs, tolerances = _ladder(cycles, exact)
     found = {
@@ -53,7 +53,7 @@ def run(quick: bool = False) -> dict[str, Any]:
         exact_of_peer = reference(peer.cycles, **dict(peer.changes))
         measured |= errors(measured.pop("last"), exact_of_peer)
         found["peers"].append({"name": peer.name, "setting": peer.setting, "cycles": peer.cycles, **measured})
-        print(f"{peer.name:24s} {peer.setting:13s} {measured['ratio']:8.1f} x the time of MEBDF")
+        print(f"{peer.name:24s} {peer.setting:24s} {measured['ratio']:8.1f} x the time of MEBDF")
     return found
 
 
@@ -66,7 +66,7 @@ def _row(
     kept = {name: done[name] for name in ("steps", "rhs", "seconds")}
     shown = " ".join(f"{found[name]:8.1e}" for name in ("angle", "force", "angle 50-100 ms"))
     cost = f"{done['steps']:6d} {done['rhs']:6d} {done['seconds']:8.3f}"
-    print(f"{solver:24s} {setting(rtol, tighter):>12s} {cost} {shown}", flush=True)
+    print(f"{solver:24s} {setting(rtol, tighter):24s} {cost} {shown}", flush=True)
     good = accurate(found)
     return {
         "solver": solver,
