@@ -267,6 +267,6 @@ class Solver(Group):
     """The time integration."""
 
     name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
-    rtol: float = number(1e-4, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
+    rtol: float = number(1e-3, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
     atol: Tolerances = Tolerances()
     grid: Grid = Grid()
