@@ -27,6 +27,7 @@ LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.rad
 CASE = {
     "run.duration": "3.6 s",
     "loads.switch_angle": "85 deg",
+    "solver.rtol": 1e-4,
     **{"solver.atol.position": "1e-11 m", "solver.atol.tilt": "1e-9 rad"},
     **{"solver.atol.velocity": "1e-7 m/s", "solver.atol.tilt_rate": "1e-5 rad/s"},
 }
