@@ -97,6 +97,7 @@ VALUES = [
     ('[joint]\nclearance = "nan um"', "joint.clearance", "finite"),
     ('[joint]\nclearance = "inf um"', "joint.clearance", "finite"),
     ('[joint]\nclearance = "1e999 um"', "joint.clearance", "too large"),
+    ('[asperities]\nradius = "2e-309 um"', "asperities.radius", "too small"),
     ("[joint]\nfriction_coefficient = nan", "joint.friction_coefficient", "finite"),
     ("[joint]\nfriction_coefficient = -inf", "joint.friction_coefficient", "finite"),
     ("[solver]\nrtol = " + "9" * 400, "solver.rtol", "finite"),

@@ -30,6 +30,7 @@ ASSUMED = "assumed"
 
 _SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 _LONGEST_SHOWN = 60
+_LEAST = 1.0e-60
 _LONGEST_FILE_NAME = 4096
 
 
@@ -126,7 +127,7 @@ class Key:
         if not isinstance(value, str):
             raise ValueProblem("")
         try:
-            return to_si(value, self.unit)
+            return _not_tiny(to_si(value, self.unit))
         except MissingUnit:
             raise ValueProblem(self._without_unit(value)) from None
         except UnitProblem as problem:
@@ -330,6 +331,13 @@ def _is_file_name(value: object) -> bool:
     return isinstance(value, str) and 0 < len(value) <= _LONGEST_FILE_NAME and "\0" not in value
 
 
+def _not_tiny(value: float) -> float:
+    """Refuse what is so near to zero that quotients and powers of it are no numbers."""
+    if 0.0 < abs(value) < _LEAST:
+        raise ValueProblem(f"the number is too small to compute with; the least is {_LEAST:g} in SI units")
+    return value
+
+
 def _finite(value: float) -> bool:
     """Tell whether a number fits into a finite float."""
     try:
@@ -344,7 +352,7 @@ def _read_number(value: object, kind: str) -> float | int:
     if not _finite(value):
         raise ValueProblem("the number must be finite")
     if kind == "number":
-        return float(value)
+        return _not_tiny(float(value))
     if value != int(value):
         raise ValueProblem("")
     return int(value)
