@@ -10,6 +10,7 @@ import xarray as xr
 from tribodyn.figures.style import DPI
 from tribodyn.reproduction.base import PaperFigure
 from tribodyn.reproduction.claims.table import Row, as_json, as_markdown
+from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import replacing, write_text
 
 
@@ -26,7 +27,7 @@ def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
         Where to; must exist.
     """
     with replacing(folder / f"{figure.name}.nc") as part:
-        data.to_netcdf(part, engine="h5netcdf")
+        part.write_bytes(netcdf_content(data))
     with replacing(folder / f"{figure.name}.png") as part:
         figure.draw(data).savefig(part, format="png", dpi=DPI)
 

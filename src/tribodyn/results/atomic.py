@@ -50,7 +50,7 @@ def write_text(path: Path, text: str) -> None:
         part.write_text(text, encoding="utf-8", newline="\n")
 
 
-def write_together(contents: Mapping[Path, bytes | memoryview], stale: Iterable[Path]) -> None:
+def write_together(contents: Mapping[Path, bytes], stale: Iterable[Path]) -> None:
     """Write files of one folder that belong together, the first of which the others follow from.
 
     All are on the disk before any takes its name. Then what belongs to the old first file goes, the new first

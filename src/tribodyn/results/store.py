@@ -14,6 +14,7 @@ import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.results.atomic import write_together
+from tribodyn.results.netcdf import netcdf_content
 from tribodyn.results.summary import summarise
 
 RESULT: Final = "result.nc"
@@ -68,28 +69,13 @@ def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] 
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
-    contents: dict[str, bytes | memoryview] = {
-        RESULT: _netcdf(dataset),
+    contents: dict[str, bytes] = {
+        RESULT: netcdf_content(dataset),
         CASE: case_text(dataset).encode(),
         SUMMARY: summary_text(dataset).encode(),
     }
     write_together({folder / name: content for name, content in contents.items()}, stale)
     return [folder / name for name in contents]
-
-
-def _netcdf(dataset: xr.Dataset) -> memoryview:
-    """Return the content of ``result.nc``.
-
-    Made in memory, because the HDF5 library crashes the process when a disk is full. Each array has a
-    checksum, so that damage is seen when it is read.
-    """
-    encoding = {name: {"fletcher32": True} for name, values in dataset.variables.items() if _summable(values)}
-    return memoryview(dataset.to_netcdf(None, engine="h5netcdf", encoding=encoding))
-
-
-def _summable(values: xr.Variable) -> bool:
-    """Tell whether HDF5 can hold a checksum of an array: of numbers, and not of none."""
-    return values.ndim > 0 and values.size > 0 and values.dtype.kind in "fiu"
 
 
 def case_text(dataset: xr.Dataset) -> str:

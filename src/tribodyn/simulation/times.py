@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
 
 from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.vsv import Vsv, ideal_vane_angle
+from tribodyn.mechanisms.vsv import Drive, Lengths, Vsv, ideal_vane_angle
 from tribodyn.mechanisms.vsv.problem import reversals
 
 _END_SHARE: Final = 0.02
@@ -41,20 +42,26 @@ def snapshots(vsv: Vsv, duration: float) -> FloatArray:
     range), and near the largest; in the last complete cycle, or in the first where none is complete.
     """
     drive = vsv.drive
+    forward = np.array(_forward(vsv.lengths, drive, vsv.air.switch_angle))
+    cycle = max(math.floor(duration / drive.period + 1.0e-9) - 1, 0) * drive.period
+    times = cycle + np.concatenate([forward, drive.period - forward[::-1]])
+    return np.asarray(times[times <= duration])
+
+
+# Asked several times by a run, and by every case of a sweep, most of which share lengths and drive.
+@lru_cache(maxsize=64)
+def _forward(lengths: Lengths, drive: Drive, switch: float) -> tuple[float, ...]:
+    """Return the times of the pictures in the forward half of a cycle [s]; ``switch`` is in rad."""
     crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
-    vane = np.unwrap(ideal_vane_angle(vsv.lengths, crank))
+    vane = np.unwrap(ideal_vane_angle(lengths, crank))
     turns = np.flatnonzero(np.diff(np.sign(np.diff(vane))) != 0.0)
     if turns.size:
         # Past a dead centre the vane comes back to where it was, and out of reach it is nowhere.
         crank, vane = crank[: turns[0] + 2], vane[: turns[0] + 2]
     low, high = float(vane[0]), float(vane[-1])
-    switch = vsv.air.switch_angle
     middle = switch if min(low, high) < switch < max(low, high) else 0.5 * (low + high)
     wanted = np.array([low + _END_SHARE * (high - low), middle, high - _END_SHARE * (high - low)])
     order = np.argsort(vane)
     angle = np.interp(wanted, vane[order], crank[order])
     phase = np.arccos(np.clip(1.0 - (angle - drive.start_angle) / (0.5 * drive.swing), -1.0, 1.0))
-    forward = phase / drive.angular_frequency
-    cycle = max(math.floor(duration / drive.period + 1.0e-9) - 1, 0) * drive.period
-    times = cycle + np.concatenate([forward, drive.period - forward[::-1]])
-    return np.asarray(times[times <= duration])
+    return tuple((phase / drive.angular_frequency).tolist())

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.cases import Case, keys_of, load_case
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import replacing, write_text
 from tribodyn.results.store import prepare_directory
 from tribodyn.studies import runners
@@ -217,7 +218,7 @@ def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -
     dataset = merge(plan, summaries)
     if directory is not None:
         with replacing(directory / DATASET) as part:
-            dataset.to_netcdf(part, engine="h5netcdf")
+            part.write_bytes(netcdf_content(dataset))
         record = json.dumps(_record(plan, summaries, dataset), indent=2, ensure_ascii=False, allow_nan=False)
         write_text(directory / RECORD, record + "\n")
     return dataset

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import signal
-import threading
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import Any, TypeAlias
 
 from tribodyn.core.errors import TribodynError
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 Numbers: TypeAlias = dict[str, float | int | str]
 """Headline numbers and texts of a point, as in ``summary.json``."""
-
-_ONE_AT_A_TIME: Final = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -81,20 +75,11 @@ def compute(toml: str, made_by: str, keep_result: bool) -> Outcome:
 
 def _simulated(toml: str, keep_result: bool) -> Outcome:
     from tribodyn.cases import parse_case
-    from tribodyn.results import summarise
+    from tribodyn.results import netcdf_content, summarise
     from tribodyn.simulation import simulate
 
     dataset = simulate(parse_case(toml, "sweep"))
-    return Outcome(summarise(dataset), _netcdf(dataset) if keep_result else b"")
-
-
-def _netcdf(dataset: xr.Dataset) -> bytes:
-    """Return a dataset as the bytes of a NetCDF file."""
-    import dask
-
-    # On a worker xarray would ask the scheduler to lock the file, and a file in memory has no name to lock.
-    with _ONE_AT_A_TIME, dask.config.set(scheduler="synchronous"):
-        return bytes(dataset.to_netcdf(engine="h5netcdf"))
+    return Outcome(summarise(dataset), netcdf_content(dataset) if keep_result else b"")
 
 
 def warm_up(toml: str) -> None:
@@ -103,11 +88,12 @@ def warm_up(toml: str) -> None:
     A case that fails here fails again as a point, which then has the reason. An empty text only imports.
     """
     from tribodyn.cases import parse_case
+    from tribodyn.results import netcdf_content
     from tribodyn.simulation import simulate
 
     with contextlib.suppress(Exception):
         dataset = simulate(parse_case(toml, "sweep"), stop=lambda: True)
-        _netcdf(dataset)
+        netcdf_content(dataset)
 
 
 def dask_setup(worker: Any) -> None:

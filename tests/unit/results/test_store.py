@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from tribodyn.core.errors import InputError
-from tribodyn.results import build, prepare_directory, read, summarise, write_run
+from tribodyn.results import build, prepare_directory, read, store, summarise, write_run
 from tribodyn.results.atomic import replacing, write_text
 from tribodyn.results.store import summary_text
 
@@ -41,7 +41,6 @@ def test_partial_runs_are_stored(make_result, tmp_path, end):
 
 
 def test_a_run_without_a_single_sample_is_stored(tmp_path):
-    # Few variables: h5netcdf takes a dimension of length zero for an unlimited one and is slow about it.
     result = build(
         coordinates={"time": []}, columns={"e_x": [], "F_cx": []}, attributes={"failure": "at once"}
     )
@@ -92,7 +91,7 @@ def test_a_failing_run_leaves_all_three_old_files(make_result, tmp_path, monkeyp
     def fail(*_args, **_kwargs):
         raise OSError("no space left on device")
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
+    monkeypatch.setattr(store, "netcdf_content", fail)
     with pytest.raises(OSError, match="no space left"):
         write_run(make_result(0.2), tmp_path)
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
@@ -126,7 +125,7 @@ def killed_after(monkeypatch, survived):
 
 
 def test_nothing_ever_stands_beside_a_result_of_which_it_is_not(make_result, tmp_path, monkeypatch):
-    # Few variables: writing all of them takes longer than everything else here.
+    # Few variables: reading all of them takes longer than everything else here.
     old, new = (make_result(end, case=name)[["F_cx", "p_max"]] for end, name in ((0.1, "old"), (0.2, "new")))
     seen = []
     for survived in range(20):

@@ -1,0 +1,63 @@
+"""Files that we write ourselves are those that the libraries write."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5netcdf
+import numpy as np
+import pytest
+import xarray as xr
+
+from tribodyn.results import netcdf_content
+
+TEXTS = np.array(["", "two words", "µ"], dtype=object)
+KINDS = {
+    "numbers": xr.Dataset({"a": (("x", "y"), np.arange(6.0).reshape(3, 2))}, {"x": [0.5, np.nan, 2.0]}),
+    "small numbers": xr.Dataset({"a": ("x", np.arange(3, dtype=np.float32)), "n": ("x", [1, 2, 3])}),
+    "truth values": xr.Dataset({"a": ("x", [True, False])}),
+    "one number": xr.Dataset({"a": ((), 2.5, {"units": "m"})}, attrs={"n": 3, "f": 0.25, "text": ""}),
+    "texts": xr.Dataset({"a": ("x", TEXTS)}, {"x": np.array(["p", "q", "r"])}, {"title": "°"}),
+    "other coordinates": xr.Dataset(
+        {"a": (("x", "y"), np.ones((2, 3)))},
+        {"x": [1.0, 2.0], "at": ("x", [3.0, 4.0]), "alone": ("z", [5.0]), "once": 6.0},
+    ),
+    "dotted names": xr.Dataset({"a": ("joint.clearance", [1.0])}, {"joint.clearance": [2e-5]}),
+    "nothing": xr.Dataset({"a": ("x", np.empty(0))}, {"x": np.empty(0)}),
+    "many attributes": xr.Dataset(attrs={f"number {i}": i for i in range(50)}),
+}
+
+
+def read(path: Path) -> xr.Dataset:
+    return xr.load_dataset(path, engine="h5netcdf", decode_times=False)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_reads_back_as_what_xarray_writes_itself(kind: str, tmp_path: Path) -> None:
+    ours, theirs = tmp_path / "ours.nc", tmp_path / "theirs.nc"
+    ours.write_bytes(netcdf_content(KINDS[kind]))
+    KINDS[kind].to_netcdf(theirs, engine="h5netcdf")
+    xr.testing.assert_identical(read(ours), read(theirs))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_dimensions_and_attributes_are_those_of_the_library(kind: str, tmp_path: Path) -> None:
+    ours, theirs = tmp_path / "ours.nc", tmp_path / "theirs.nc"
+    ours.write_bytes(netcdf_content(KINDS[kind]))
+    KINDS[kind].to_netcdf(theirs, engine="h5netcdf")
+    with h5netcdf.File(ours) as a, h5netcdf.File(theirs) as b:
+        assert {name: d.size for name, d in a.dimensions.items()} == {
+            name: d.size for name, d in b.dimensions.items()
+        }
+        assert set(a.variables) == set(b.variables)
+        for name, theirs_too in b.variables.items():
+            assert a.variables[name].dimensions == theirs_too.dimensions
+            assert a.variables[name].dtype == theirs_too.dtype
+            assert set(a.variables[name].attrs) == set(theirs_too.attrs)
+
+
+def test_numbers_have_checksums(tmp_path: Path) -> None:
+    path = tmp_path / "file.nc"
+    path.write_bytes(netcdf_content(KINDS["numbers"]))
+    with h5netcdf.File(path) as file:
+        assert all(variable.fletcher32 for variable in file.variables.values())
