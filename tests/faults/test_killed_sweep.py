@@ -45,8 +45,14 @@ def wait_for(process: subprocess.Popen[str], text: str) -> None:
 
 
 def workers(process: subprocess.Popen[str]) -> list[psutil.Process]:
+    """Return the workers: what the fork server has forked, or what was spawned where there is none."""
     children = psutil.Process(process.pid).children(recursive=True)
-    return [child for child in children if any("spawn_main" in word for word in child.cmdline())]
+    servers = {child.pid for child in children if child.ppid() == process.pid and says(child, "forkserver")}
+    return [child for child in children if child.ppid() in servers or says(child, "spawn_main")]
+
+
+def says(process: psutil.Process, text: str) -> bool:
+    return any(text in word for word in process.cmdline())
 
 
 def finished(folder: Path) -> dict[str, int]:

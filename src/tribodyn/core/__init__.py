@@ -1,1 +1,1 @@
-"""TODO."""
+"""Type aliases, errors, constants, the problem protocol, named tuples of arrays; no other room below."""

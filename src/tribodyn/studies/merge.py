@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from importlib.metadata import version
 from typing import Any, Final
 
 import numpy as np
@@ -13,6 +12,7 @@ import xarray as xr
 
 from tribodyn.cases import Key
 from tribodyn.cases.units import si_unit, to_si
+from tribodyn.core.versions import version
 from tribodyn.results import known
 from tribodyn.studies.plan import POINT, Plan
 from tribodyn.studies.work import Numbers

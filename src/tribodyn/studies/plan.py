@@ -7,12 +7,12 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.metadata import version
 from typing import Final
 
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import Value
 from tribodyn.core.errors import InputError
+from tribodyn.core.versions import version
 from tribodyn.studies.samplers import SAMPLERS
 from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
 

@@ -14,10 +14,11 @@ import uuid
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.versions import version
+from tribodyn.studies import template
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import Outcome, compute, failed, warm_up
 
@@ -87,6 +88,7 @@ def local(job: Job, workers: int | None) -> Finished:
     """
     from dask.system import CPU_COUNT
 
+    template.start(job.points[0].toml, _ONE_THREAD)
     with _local_client(min(workers or CPU_COUNT, len(job.points))) as client:
         yield from _computed(client, job)
 
@@ -113,6 +115,7 @@ def _local_client(workers: int) -> Iterator[Client]:
     settings = {
         "distributed.scheduler.allowed-failures": DEATHS,
         "distributed.nanny.pre-spawn-environ": _ONE_THREAD,
+        "distributed.worker.multiprocessing-method": template.METHOD,
         # Compiled code holds the interpreter for long stretches, which is no news.
         "distributed.admin.tick.limit": "1h",
     }
@@ -169,8 +172,10 @@ def _prepare(client: Client, job: Job) -> None:
 
     Meanwhile the others import what they need.
     """
-    workers = client.scheduler_info()["workers"]
-    first = {about["host"]: address for address, about in workers.items()}.values()
+    from distributed.comm.addressing import get_address_host
+
+    workers = list(client.nthreads())
+    first = {get_address_host(address): address for address in workers}.values()
     tasks = {
         address: client.submit(
             warm_up,
@@ -181,13 +186,18 @@ def _prepare(client: Client, job: Job) -> None:
         )
         for address in workers
     }
-    news = [_PREPARING]
-    began = time.monotonic()
-    while any(tasks[address].status == "pending" for address in first) and not job.stop():
-        if news and time.monotonic() - began > _SOON:
-            job.note(news.pop())
-        _demand_connection(client, time.monotonic())
-        time.sleep(_LISTEN)
+    done: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
+    for address in first:
+        tasks[address].add_done_callback(done.put)
+    left, news, began = len(first), [_PREPARING], time.monotonic()
+    while left and not job.stop():
+        try:
+            done.get(timeout=_LISTEN)
+            left -= 1
+        except queue.Empty:
+            if news and time.monotonic() - began > _SOON:
+                job.note(news.pop())
+            _demand_connection(client, time.monotonic())
 
 
 def _computed(client: Client, job: Job) -> Finished:

@@ -6,12 +6,12 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.cases import Case, keys_of, load_case
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.versions import version
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import replacing, write_text
 from tribodyn.results.store import prepare_directory

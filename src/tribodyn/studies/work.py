@@ -5,10 +5,11 @@ from __future__ import annotations
 import contextlib
 import signal
 from dataclasses import dataclass
-from importlib.metadata import version
+from functools import cache
 from typing import Any, TypeAlias
 
 from tribodyn.core.errors import TribodynError
+from tribodyn.core.versions import version
 
 Numbers: TypeAlias = dict[str, float | int | str]
 """Headline numbers and texts of a point, as in ``summary.json``."""
@@ -87,13 +88,37 @@ def warm_up(toml: str) -> None:
 
     A case that fails here fails again as a point, which then has the reason. An empty text only imports.
     """
+    with contextlib.suppress(Exception):
+        _warm_up(toml)
+
+
+# Once a process, and what a process was forked from has done counts.
+@cache
+def _warm_up(toml: str) -> None:
     from tribodyn.cases import parse_case
     from tribodyn.results import netcdf_content
     from tribodyn.simulation import simulate
 
-    with contextlib.suppress(Exception):
-        dataset = simulate(parse_case(toml, "sweep"), stop=lambda: True)
-        netcdf_content(dataset)
+    netcdf_content(simulate(parse_case(toml, "sweep"), stop=lambda: True))
+
+
+class _NotCompiled(Exception):
+    """Something is not in the cache."""
+
+
+def load(toml: str) -> None:
+    """Do as :func:`warm_up` does with what is in numba's cache already; compile nothing."""
+    from numba.core import event
+
+    class NothingElse(event.Listener):
+        def on_start(self, event: Any) -> None:
+            raise _NotCompiled
+
+        def on_end(self, event: Any) -> None:
+            """Never comes."""
+
+    with event.install_listener("numba:compile", NothingElse()):
+        warm_up(toml)
 
 
 def dask_setup(worker: Any) -> None:
