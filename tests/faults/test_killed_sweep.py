@@ -19,13 +19,13 @@ import pytest
 import xarray as xr
 
 from tribodyn.cases import load_case
-from tribodyn.cli.directory import OutputDirectory
-from tribodyn.cli.main import main
 from tribodyn.results import read
 from tribodyn.studies import make_plan, runners
 from tribodyn.studies.work import Outcome
 
 POINTS = 7
+KILLS, LONGEST = 10, 600.0
+"""Kills of a part of the campaign, and when a part, or one sweep in it, counts as one that hangs [s]."""
 # The seconds of a point are those in which it can be killed.
 SWEEP = [
     *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "-o", "out", "--workers", "2", "--summary-only"),
@@ -88,17 +88,6 @@ def test_killing_a_worker_and_then_the_sweep_loses_and_repeats_nothing(tmp_path:
     assert_whole(tmp_path, before)
 
 
-def test_of_two_sweeps_into_one_folder_one_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with OutputDirectory(str(tmp_path)).reserved():
-        assert main(["sweep", "vsv", "--vary", "joint.clearance=20,30 um", "-o", str(tmp_path)]) == 2
-    message = capsys.readouterr().err
-    assert "another tribodyn is writing results there" in message
-    assert message.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.long
 def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: Path) -> None:
     command = [
@@ -152,29 +141,46 @@ def assert_nothing_torn(folder: Path) -> None:
         assert read(path).attrs["kind"] == "sweep"
 
 
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> tuple[xr.Dataset, float]:
+    """Return the result of a sweep that is left alone, and how long it took [s]."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    began = time.monotonic()
+    assert not killed(started(folder), LONGEST)
+    return read(folder / "out" / "sweep.nc"), time.monotonic() - began
+
+
+def goes_on(folder: Path, alone: xr.Dataset, after: float) -> bool:
+    """Start a sweep or go on with it, kill it after a while, and look at what is there; False at its end."""
+    folder.mkdir(exist_ok=True)
+    before = kept(folder)
+    goes_on = killed(started(folder), after)
+    assert before.items() <= kept(folder).items()
+    assert_nothing_torn(folder)
+    if not goes_on:
+        effort = ["wall_time_s", "real_time_factor"]
+        found = read(folder / "out" / "sweep.nc")
+        xr.testing.assert_equal(found.drop_vars(effort), alone.drop_vars(effort))
+    return goes_on
+
+
+# In parts, each a test: a campaign of minutes shows how far it is, and can be taken up by -k.
 @pytest.mark.long
-def test_a_sweep_killed_at_fifty_moments(tmp_path: Path) -> None:
+@pytest.mark.parametrize("part", range(5))
+def test_a_sweep_killed_at_fifty_moments(
+    part: int, undisturbed: tuple[xr.Dataset, float], tmp_path: Path
+) -> None:
     # At any moment of its life: while its workers start, compute, points are kept, merged, drawn.
-    (tmp_path / "undisturbed").mkdir()
-    began, chance = time.monotonic(), random.Random(50)
-    assert not killed(started(tmp_path / "undisturbed"), 600.0)
-    lasts = time.monotonic() - began
-    undisturbed = read(tmp_path / "undisturbed" / "out" / "sweep.nc")
+    alone, lasts = undisturbed
+    chance, deadline = random.Random(part), time.monotonic() + LONGEST
     kills = rounds = 0
-    while kills < 50:
-        folder = tmp_path / str(rounds)
-        folder.mkdir(exist_ok=True)
-        before = kept(folder)
-        if killed(started(folder), chance.uniform(0.0, lasts)):
+    while kills < KILLS:
+        assert time.monotonic() < deadline, f"{kills} of {KILLS} kills in {LONGEST:g} s"
+        if goes_on(tmp_path / str(rounds), alone, chance.uniform(0.0, lasts)):
             kills += 1
         else:
-            rounds += 1  # it came to its end first: the next one begins anew
-            found = read(folder / "out" / "sweep.nc")
-            effort = ["wall_time_s", "real_time_factor"]
-            xr.testing.assert_equal(found.drop_vars(effort), undisturbed.drop_vars(effort))
-        assert before.items() <= kept(folder).items()
-        assert_nothing_torn(folder)
-    assert rounds > 0
+            rounds += 1  # the next one begins anew
+    assert not goes_on(tmp_path / str(rounds), alone, LONGEST)
 
 
 @pytest.mark.long

@@ -50,7 +50,7 @@ class OutputDirectory:
         try:
             prepare_directory(self.path)
         except (InputError, OSError, ValueError) as error:
-            self.forget()
+            self._forget()
             cause = error.__cause__ or error
             reason = cause.strerror if isinstance(cause, OSError) else None
             raise _refused(os.fspath(self.path), (reason or str(cause)).lower()) from None
@@ -73,6 +73,8 @@ class OutputDirectory:
     def reserved(self) -> Iterator[None]:
         """Keep other processes from writing here while the block runs; a killed process keeps nobody out.
 
+        When the block raises, what was made for it and is still empty goes.
+
         Raises
         ------
         InputError
@@ -86,7 +88,11 @@ class OutputDirectory:
                 raise _refused(os.fspath(self.path), "another tribodyn is writing results there")
             for folder in (self.path, self.path / FIGURES):
                 remove_stale_parts(folder)
-            yield
+            try:
+                yield
+            except BaseException:
+                self._forget()
+                raise
         finally:
             os.close(handle)
 
@@ -95,7 +101,7 @@ class OutputDirectory:
         """File in which a wear campaign is kept."""
         return self.path / CHECKPOINT
 
-    def forget(self) -> None:
+    def _forget(self) -> None:
         """Remove what was made, as far as it is still empty."""
         for path in self._made:
             with contextlib.suppress(OSError, ValueError):

@@ -46,7 +46,7 @@ def execute(args: Namespace) -> int:
         )
     console = Console.of(args)
     directory = OutputDirectory(args.output)
-    with announced_compilation(console.note):
+    with directory.reserved(), announced_compilation(console.note):
         runs = Runs(note=console.note)
         for name in wanted:
             if name == CLAIMS:

@@ -38,12 +38,8 @@ def execute(args: Namespace) -> int:
     directory = OutputDirectory(_name(args) if args.output is None else args.output)
     with directory.reserved():
         with Interruption() as interruption:
-            try:
-                dataset = _simulate(case, directory, console, interruption)
-                summary = _save(dataset, directory)
-            except BaseException:
-                directory.forget()
-                raise
+            dataset = _simulate(case, directory, console, interruption)
+            summary = _save(dataset, directory)
             if case.campaign_cycles and not dataset.attrs.get("failure"):
                 directory.checkpoint.unlink(missing_ok=True)
         drawn = _draw(dataset, directory, console, args.debug, skip=interruption.requested)

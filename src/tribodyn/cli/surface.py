@@ -71,7 +71,9 @@ def _measure(args: Namespace, console: Console) -> None:
     if args.output is not None:
         console.note("drawing the figure")
         figure = _drawn(surface, others)
-        _save(OutputDirectory(args.output).path, outcome, block, figure)
+        directory = OutputDirectory(args.output)
+        with directory.reserved():
+            _save(directory.path, outcome, block, figure)
     _tell(outcome, block, args.output, console)
 
 

@@ -73,12 +73,8 @@ def execute(args: Namespace) -> int:
     means = Means(args.workers, args.scheduler, args.retry, args.fresh, not args.summary_only)
     directory = OutputDirectory(f"sweep-{Path(args.case).stem}" if args.output is None else args.output)
     with directory.reserved():
-        try:
-            with Interruption(_STOPPING) as interruption:
-                dataset = _computed(plan, directory.path, means, console, interruption)
-        except BaseException:
-            directory.forget()
-            raise
+        with Interruption(_STOPPING) as interruption:
+            dataset = _computed(plan, directory.path, means, console, interruption)
         # That of an earlier sweep would contradict this one.
         (directory.path / REPORT).unlink(missing_ok=True)
         drawn = not interruption.requested and _draw(dataset, directory.path, console, args.debug)
