@@ -45,14 +45,17 @@ def test_the_output_interval_does_not_change_the_solution(base):
         np.testing.assert_allclose(often[name].values, base[name].values, rtol=1e-9, atol=0.0, err_msg=name)
 
 
-def test_units_do_not_matter(base):
-    spelled = run(
-        joint__clearance="0.02 mm",
-        mechanism__lever_length="5 cm",
-        drive__start_angle=f"{float(np.radians(-16.0))} rad",
-        surfaces__bushing__young_modulus="7170 N/mm^2",
-        loads__air_moment="84 N cm",
-    )
+def test_units_do_not_matter(base, tmp_path):
+    changes = BRIEF | {
+        "joint.clearance": "0.02 mm",
+        "mechanism.lever_length": "5 cm",
+        "drive.start_angle": f"{float(np.radians(-16.0))} rad",
+        "surfaces.bushing.young_modulus": "7170 N/mm^2",
+        "loads.air_moment": "84 N cm",
+    }
+    lines = ['case = "vsv"', *(f'{key} = "{value}"' for key, value in changes.items())]
+    (tmp_path / "case.toml").write_text("\n".join(lines), encoding="utf-8")
+    spelled = simulate(load_case(tmp_path / "case.toml"))
     quiet = base["time"].values > 0.1
     for name in ("e_x", "e_y", "phi_x", "phi_y", "F_cx", "theta_v"):
         scale = np.abs(base[name].values).max()
