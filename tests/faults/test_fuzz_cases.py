@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import time
 
 import pytest
@@ -22,9 +23,9 @@ from tribodyn.simulation import simulate
 FEW, MANY = 40, 4000
 """Examples of each test in ``make test`` and, five tests of them, in ``make test-long``."""
 TIME_LIMIT = 5.0
-"""No file may keep the reader longer than this [s]."""
+"""No file may keep the reader longer than this [s], nor a case the simulation that was told to stop."""
 MOMENT, PATIENCE = 2e-3, 0.5
-"""Simulated time of a case that was found valid [s], and when it is stopped at the latest [s]."""
+"""Simulated time of a case that was found valid [s], and after which time it is told to stop [s]."""
 
 KEYS = sorted({path for kind in KINDS.values() for path in keys_of(kind)})
 UNITS = [
@@ -62,9 +63,30 @@ paths = st.one_of(
 )
 
 
-def examples(request):
-    """Return the settings of a test, fewer examples in the quick one."""
-    return settings(max_examples=request, deadline=None, suppress_health_check=list(HealthCheck))
+def tried(count, *strategies):
+    """Return what calls a function with ``count`` examples of what the strategies give."""
+
+    def run(function):
+        made = 0
+
+        @settings(max_examples=count, deadline=None, suppress_health_check=list(HealthCheck))
+        @given(st.tuples(*strategies))
+        def each(drawn):
+            nonlocal made
+            made += 1
+            function(*drawn)
+
+        each()
+        assert made >= count
+
+    return run
+
+
+@pytest.fixture(scope="module", autouse=True)
+def compiled():
+    """Simulate each case once, since the first time may take minutes."""
+    for name in CASES:
+        run_for_a_moment(load_case(name), limit=math.inf)
 
 
 def outcome(*arguments):
@@ -91,7 +113,7 @@ def hold(status, message):
         assert len(message) < 3000
 
 
-def run_for_a_moment(case):
+def run_for_a_moment(case, limit=TIME_LIMIT):
     """Simulate the beginning of a valid case, or be told which key forbids it."""
     began = time.perf_counter()
     refusal = None
@@ -101,6 +123,7 @@ def run_for_a_moment(case):
     except InputError as error:
         refusal = error
     assert refusal is None or refusal.key
+    assert time.perf_counter() - began < limit
 
 
 def quoted(text):
@@ -151,29 +174,22 @@ def check_file(folder, content):
 @pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])
 class TestFuzz:
     def test_files_with_random_keys_and_values(self, count, tmp_path):
-        @examples(count)
-        @given(st.sampled_from([*KINDS, "vvs"]), entries)
+        @tried(count, st.sampled_from([*KINDS, "vvs"]), entries)
         def run(kind, changes):
             check_file(tmp_path, write(kind, changes).encode())
 
-        run()
-
     def test_files_with_real_keys_and_likely_values(self, count, tmp_path):
-        @examples(count)
-        @given(st.data(), st.sampled_from(sorted(KINDS)))
+        @tried(count, st.data(), st.sampled_from(sorted(KINDS)))
         def run(data, kind):
             keys = keys_of(KINDS[kind])
             chosen = data.draw(st.lists(st.sampled_from(sorted(keys)), min_size=1, max_size=5, unique=True))
             changes = [(path, data.draw(likely(keys[path]))) for path in chosen if path != "case"]
             check_file(tmp_path, write(kind, changes).encode())
 
-        run()
-
     def test_damaged_files(self, count, tmp_path):
         whole = {name: load_case(name).to_toml(comments=True).encode() for name in CASES}
 
-        @examples(count)
-        @given(st.sampled_from(sorted(whole)), st.data())
+        @tried(count, st.sampled_from(sorted(whole)), st.data())
         def run(name, data):
             text = whole[name]
             first = data.draw(st.integers(0, len(text)))
@@ -181,15 +197,10 @@ class TestFuzz:
             filling = data.draw(st.binary(max_size=20) | st.sampled_from([b"[" * 3000, b"\xff\xfe", b"\0"]))
             check_file(tmp_path, text[:first] + filling + text[last:])
 
-        run()
-
     def test_random_bytes(self, count, tmp_path):
-        @examples(count)
-        @given(st.binary(max_size=300))
+        @tried(count, st.binary(max_size=300))
         def run(content):
             assert check_file(tmp_path, content) == 2
-
-        run()
 
     def test_set_on_the_command_line(self, count):
         options = st.one_of(
@@ -197,12 +208,9 @@ class TestFuzz:
             st.text(max_size=60),
         )
 
-        @examples(count)
-        @given(st.sampled_from(sorted(CASES)), st.lists(options, min_size=1, max_size=4))
+        @tried(count, st.sampled_from(sorted(CASES)), st.lists(options, min_size=1, max_size=4))
         def run(name, changes):
             hold(*outcome("check", name, *(f"--set={change}" for change in changes)))
-
-        run()
 
 
 def likely(key):
