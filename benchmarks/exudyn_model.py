@@ -21,6 +21,7 @@ import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from numpy.typing import NDArray
 
+from benchmarks.vsv_case import constants
 from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.problem import Problem
 from tribodyn.joints.point_contact import point_damping
@@ -51,9 +52,9 @@ class ExudynModel:
 
     def __init__(self, case: VsvCase, vsv: Vsv, problem: Problem, contact: str) -> None:
         self.case, self.vsv, self.surface = case, vsv, contact == "surface"
-        self.data, self.entry = problem.data, problem.memory.entry_velocity
+        self.data, self.entry = constants(problem.data), problem.memory.entry_velocity
         self.motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
-        fill_motion(self.data, 0.0, problem.y0, self.motion)
+        fill_motion(problem.data.mechanism, 0.0, problem.y0, self.motion)
         self.container = exu.SystemContainer()
         self.mbs = self.container.AddSystem()
         self.ground = self.mbs.AddObject(items.ObjectGround())

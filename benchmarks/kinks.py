@@ -17,14 +17,14 @@ from unittest.mock import patch
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.vsv_case import problem_of, ranges, vsv_case
+from benchmarks.vsv_case import RTOL, problem_of, ranges, vsv_case
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
 from tribodyn.kernels.jit import entry
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 
-TOLERANCES: Final = (0.9e-4, 1e-4, 1.1e-4)
+TOLERANCES: Final = (0.9 * RTOL, RTOL, 1.1 * RTOL)
 """About the default, whose counts alone scatter by some percent: means are taken."""
 LOOKS: Final = "tribodyn.integrate.mebdf.STEPS_BETWEEN_LOOKS"
 
@@ -49,7 +49,9 @@ def _no_memory(problem: Problem) -> Problem:
 
 
 def _no_collar(problem: Problem) -> Problem:
-    return replace(problem, data=problem.data._replace(collar_radius=0.0))
+    mechanism = problem.data.mechanism.copy()
+    mechanism.collar_radius = mechanism.collar_friction = 0.0
+    return replace(problem, data=problem.data._replace(mechanism=mechanism))
 
 
 def _same(problem: Problem) -> Problem:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.integrate import BDF
 
 from benchmarks.numpy_joint import numpy_update, numpy_wrench
+from benchmarks.vsv_case import constants
 from tribodyn.core.problem import Problem
 from tribodyn.kernels.vsv.data import VsvData
 from tribodyn.kernels.vsv.layout import O2_X, O3_Z, OV_X, OV_Y, PHI_X, PHI_Y, THETA_B, THETA_V
@@ -59,12 +60,12 @@ class NumpyVsv:
     """
 
     def __init__(self, data: VsvData, entry: FloatArray) -> None:
-        self.data = data
+        self.data = constants(data)
         self.entry = entry
         self.direction = 1.0
-        self.theta_v = float(data.ideal[0, 0])
+        self.theta_v = float(self.data.ideal[0, 0])
         rows = np.r_[O2_X : O3_Z + 1, THETA_B, THETA_V, OV_X, OV_Y, PHI_X, PHI_Y]
-        self.inertia, self.force = data.inertia[rows], data.weight[rows]
+        self.inertia, self.force = self.data.inertia[rows], self.data.weight[rows]
 
     def closed(self, theta_a: float, e: FloatArray, tan: FloatArray) -> tuple[float, FloatArray, FloatArray]:
         """Solve the closure; return θ_v, S3 and S1 [m]."""
@@ -197,7 +198,7 @@ def integrate_with_scipy(problem: Problem, rtol: float, output_times: FloatArray
     y, rows, steps, calls = problem.y0, [], 0, 0
     edges = [problem.t_span[0], *problem.breakpoints, problem.t_span[1]]
     for start, end in pairwise(edges):
-        model.direction = 1.0 if np.sin(problem.data.angular_frequency * 0.5 * (start + end)) > 0.0 else -1.0
+        model.direction = 1.0 if np.sin(model.data.angular_frequency * 0.5 * (start + end)) > 0.0 else -1.0
         solver = BDF(model.rhs, start, y, end, rtol=rtol, atol=problem.atol)
         while solver.status == "running":
             solver.step()

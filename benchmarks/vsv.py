@@ -19,12 +19,10 @@ from typing import Any
 import numpy as np
 
 from benchmarks.peers import paired, peers, setting
-from benchmarks.vsv_case import NATIVE, accurate, errors, one, reference
+from benchmarks.vsv_case import NATIVE, RTOL, accurate, errors, one, reference
 from tribodyn.simulation.ledger import ledger_columns, residual_fractions
 
 SOLVERS = (NATIVE, "cvode", "bdf", "radau", "lsoda")
-RTOL = 1e-3
-"""Default of ``solver.rtol``, at which MEBDF is measured."""
 LADDER = ((1e-3, 1.0), (1e-4, 1.0), (1e-4, 0.1), (1e-5, 0.1), (1e-5, 0.01))
 """Relative tolerances, and what the absolute ones are multiplied by."""
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
@@ -35,7 +33,7 @@ def run(quick: bool = False) -> dict[str, Any]:
     """Measure, print ratios and return everything; ``quick``: over a moment, for nothing but a trial."""
     cycles, pairs = (0.02, 1) if quick else (2.0, PAIRS)
     for solver in ("mebdf", *SOLVERS):  # compile
-        one(solver, 1e-3, cycles=0.01)
+        one(solver, RTOL, cycles=0.01)
     exact = reference(cycles)
     print(
         f"{'':24s} {'tolerances':24s} {'steps':>6s} {'rhs':>6s} {'seconds':>8s} {'angle':>8s} {'force':>8s}"

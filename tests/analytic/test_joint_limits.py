@@ -16,7 +16,7 @@ from scipy.interpolate import CubicHermiteSpline
 from tribodyn.contact import law
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.kernels.bushing import report as report_kernel
-from tribodyn.kernels.bushing.report import report
+from tribodyn.kernels.bushing.report import report, stored
 
 C, R_J, LENGTH = 20e-6, 6e-3, 20e-3
 R_B = R_J + C
@@ -29,8 +29,9 @@ def state(e_x=0.0, e_y=0.0, phi_x=0.0, phi_y=0.0, rates=(0.0, 0.0, 0.0, 0.0)):
 
 def seen(data, y, *, omega=0.0, sign=1.0, entry=None):
     """Return the joint's report by name."""
-    out = np.empty(report_kernel.N_REPORT)
-    report(data, np.zeros(data.wear.shape) if entry is None else entry, y, omega, sign, True, out)
+    out, entry = np.empty(report_kernel.N_REPORT), np.zeros(data.wear.shape) if entry is None else entry
+    report(data, entry, y, omega, sign, out)
+    out[report_kernel.STORED] = stored(data, entry, y)
     return {name: out[k] for name, k in vars(report_kernel).items() if name.isupper() and name != "N_REPORT"}
 
 

@@ -8,6 +8,7 @@ import pytest
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.kernels.bushing import report as names
 from tribodyn.kernels.bushing.report import report
+from tribodyn.kernels.bushing.report import stored as stored_energy
 
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
@@ -19,7 +20,8 @@ AGREE = 1e-8
 
 def out_of(data, y, omega, sign, entry):
     out = np.empty(names.N_REPORT)
-    report(data, entry, y, omega, sign, True, out)
+    report(data, entry, y, omega, sign, out)
+    out[names.STORED] = stored_energy(data, entry, y)
     return out
 
 

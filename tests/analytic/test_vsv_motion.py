@@ -26,7 +26,7 @@ FORMULATIONS = ("exact", "paper")
 
 def motion_table(vsv, t, q, rates):
     motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
-    fill_motion(vsv_data(vsv), t, np.concatenate([q, rates]), motion)
+    fill_motion(vsv_data(vsv).mechanism, t, np.concatenate([q, rates]), motion)
     return motion
 
 

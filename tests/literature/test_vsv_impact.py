@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tribodyn.integrate import integrate
-from tribodyn.kernels.vsv.ledger import PEAK_FORCE, PEAK_FORCE_TIME
+from tribodyn.kernels.vsv.books import PEAK_FORCE, PEAK_FORCE_TIME
 from tribodyn.mechanisms.vsv import vsv_problem
 
 
@@ -20,7 +20,7 @@ def peak(vsv, rtol):
     problem = vsv_problem(vsv, duration=3.3, start="equilibrium", atol=atol)
     solution = integrate(problem, solver="mebdf", rtol=rtol, output_times=[0.0])
     assert solution.complete, solution.failure
-    extremes = problem.memory.extremes
+    extremes = problem.memory.books.extremes
     return extremes[PEAK_FORCE], extremes[PEAK_FORCE_TIME] - np.pi
 
 

@@ -19,8 +19,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints.bushing import BushingJoint
 from tribodyn.joints.point_contact import SURFACE
-from tribodyn.kernels.bushing.joint import report, update_entry_velocity, wrench
-from tribodyn.kernels.bushing.report import N_REPORT, STORED
+from tribodyn.kernels.bushing.joint import stored, update_entry_velocity, wrench
 
 _MOST_STEPS: Final = 20_000
 _LONGEST_STEP: Final = 0.05
@@ -120,7 +119,6 @@ def design_speed(joint: BushingJoint, *, mass: float, pressure: float) -> float:
 
 def stored_energy(joint: BushingJoint, eccentricity: float) -> float:
     """Return the energy stored in the contact of an untilted journal [J]."""
-    out, y = np.empty(N_REPORT), np.zeros(8)
+    y = np.zeros(8)
     y[0] = eccentricity
-    report(joint.data(), joint.no_memory(), y, 0.0, 1.0, True, out)
-    return float(out[STORED])
+    return float(stored(joint.data(), joint.no_memory(), y))

@@ -1,9 +1,21 @@
-"""Copying and filling of vectors: loops compile an order of magnitude faster than slice assignments."""
+"""Records, and copying and filling of arrays: loops compile ten times as fast as slice assignments."""
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
+
+
+def new_record(fields: np.dtype[np.void]) -> Any:
+    """Return a cleared record whose fields are attributes.
+
+    A compiled function takes one address instead of every number and seven for every array.
+    """
+    return np.zeros(1, dtype=fields).view(np.recarray)[0]
 
 
 @kernel

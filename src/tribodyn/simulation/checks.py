@@ -12,7 +12,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import SURFACE, BushingJoint, Grid
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv import books
 from tribodyn.mechanisms.vsv import Vsv
 from tribodyn.wear import resampled
 
@@ -29,13 +29,13 @@ _SAMPLES: Final = 24
 def peaks(extremes: FloatArray) -> dict[str, float]:
     """Return the peaks over all accepted steps by name, SI units."""
     return {
-        "contact_force_peak": float(extremes[ledger.PEAK_FORCE]),
-        "contact_force_peak_time": float(extremes[ledger.PEAK_FORCE_TIME]),
-        "pressure_peak": float(extremes[ledger.PEAK_PRESSURE]),
-        "pressure_peak_time": float(extremes[ledger.PEAK_PRESSURE_TIME]),
-        "separation_least": float(extremes[ledger.LEAST_SEPARATION]),
-        "collar_lift_off_time": float(extremes[ledger.LIFT_OFF]),
-        "tensile_clip_time": float(extremes[ledger.CLIPPED]),
+        "contact_force_peak": float(extremes[books.PEAK_FORCE]),
+        "contact_force_peak_time": float(extremes[books.PEAK_FORCE_TIME]),
+        "pressure_peak": float(extremes[books.PEAK_PRESSURE]),
+        "pressure_peak_time": float(extremes[books.PEAK_PRESSURE_TIME]),
+        "separation_least": float(extremes[books.LEAST_SEPARATION]),
+        "collar_lift_off_time": float(extremes[books.LIFT_OFF]),
+        "tensile_clip_time": float(extremes[books.CLIPPED]),
     }
 
 

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv import books
 
 History = dict[str, FloatArray]
 """Columns over the stops of a campaign, by their names in the result, each of shape (n_jumps,)."""
@@ -57,7 +57,7 @@ def of_motion(t: FloatArray, rows: Mapping[str, FloatArray], extremes: FloatArra
     """
     error = rows["theta_v"] - rows["theta_v_ideal"]
     return {
-        "wear_pressure_max": float(extremes[ledger.PEAK_PRESSURE]),
+        "wear_pressure_max": float(extremes[books.PEAK_PRESSURE]),
         "wear_pressure_mean": _mean(t, rows["p_max"]),
         "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
         "wear_angle_error_max": float(np.abs(error).max()),

@@ -196,7 +196,7 @@ class Gathered:
             "frame_time": frames,
             "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, theta_a),
             "snapshot_direction": np.array(
-                [vane_direction(self.problem.data, t, self.problem.memory) for t in times]
+                [vane_direction(self.problem.data.mechanism, t, self.problem.memory) for t in times]
             ),
             "theta": self.vsv.joint.theta,
             "z": self.vsv.joint.z,
@@ -228,7 +228,7 @@ class Gathered:
     ) -> dict[str, object]:
         whole, clearance = residual_fractions(ledger)
         grid_error = grid_force_error(self.vsv.joint, rows, self.problem.data.joint.wear)
-        found = peaks(self.problem.memory.extremes)
+        found = peaks(self.problem.memory.books.extremes)
         t_end = float(self.solution.t_end)
         told = warnings(self.vsv, found, whole, clearance, grid_error, t_end, self._cost())
         return {
@@ -256,7 +256,7 @@ class Gathered:
     def _failure(self) -> str:
         """Return why the run stopped before its end, empty if it did not."""
         reason, t, y = self.solution.failure or "", self.solution.t_end, self.solution.y_end
-        if reason in ("", INTERRUPTED) or not at_limit(self.problem.data, t, y):
+        if reason in ("", INTERRUPTED) or not at_limit(self.problem.data.mechanism, t, y):
             return reason
         angle = math.degrees(float(self._crank_angle(np.array([t]))[0]))
         return (

@@ -12,8 +12,7 @@ import xarray as xr
 from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.kernels.bushing.joint import report
-from tribodyn.kernels.bushing.report import N_REPORT, STORED
+from tribodyn.kernels.bushing.joint import stored
 from tribodyn.kernels.vsv.observe import OBSERVED
 from tribodyn.mechanisms.vsv import Carried
 from tribodyn.simulation import checkpoint as checkpoints
@@ -90,16 +89,14 @@ class _WearingVane:
         return Cycle(
             carried=Carried(solution.y_end, memory.entry_velocity),
             sliding_load=memory.sliding_load,
-            motion=of_motion(solution.t, rows, memory.extremes) if solution.complete else {},
+            motion=of_motion(solution.t, rows, memory.books.extremes) if solution.complete else {},
             statistics=solution.statistics,
             failure=solution.failure,
         )
 
     def contact_energy(self, wear: FloatArray, carried: Carried) -> float:
         """Return the energy stored in the contact [J]."""
-        out = np.zeros(N_REPORT)
-        report(self.vsv.joint.data(wear), carried.entry_velocity, carried.state, 0.0, 1.0, True, out)
-        return float(out[STORED])
+        return float(stored(self.vsv.joint.data(wear), carried.entry_velocity, carried.state))
 
 
 def _more(case: VsvCase, worn: Worn, told: list[str]) -> More:

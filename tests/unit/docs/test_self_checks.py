@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv import books
 from tribodyn.simulation import checks
 from tribodyn.simulation.checks import peaks
 
@@ -34,7 +34,7 @@ def test_the_attributes_of_the_table_are_those_of_a_run() -> None:
     cells = [line.split("|")[3] for line in lines if line.startswith("| ")][1:]
     named = set(re.findall(r"`(\w+)`", " ".join(cells)))
     stored = {
-        *peaks(np.zeros(ledger.N_EXTREMES)),
+        *peaks(np.zeros(books.N_EXTREMES)),
         "energy_residual",
         "clearance_energy_residual",
         "grid_force_error",

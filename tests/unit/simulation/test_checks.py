@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tribodyn.kernels.journal import ledger as journal_ledger
-from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv import books
 from tribodyn.mechanisms.vsv import Vsv
 from tribodyn.simulation import checks, journal_checks
 from tribodyn.simulation.checks import (
@@ -54,10 +54,10 @@ def statistics(seen: dict[str, float]) -> dict[str, float]:
 
 
 def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    extremes = np.zeros(ledger.N_EXTREMES)
-    extremes[ledger.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
-    extremes[ledger.CLIPPED] = seen["clipped"] * T_END
-    extremes[ledger.LIFT_OFF] = seen["lift_off"]
+    extremes = np.zeros(books.N_EXTREMES)
+    extremes[books.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
+    extremes[books.CLIPPED] = seen["clipped"] * T_END
+    extremes[books.LIFT_OFF] = seen["lift_off"]
     residuals = seen["energy"], seen["clearance_energy"]
     return checks.warnings(vsv, peaks(extremes), *residuals, seen["grid"], T_END, cost)
 

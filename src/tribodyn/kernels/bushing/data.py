@@ -51,7 +51,8 @@ class BushingData(NamedTuple):
         Scratch of the kernels: a list of nodes, where they come from, and how far it has been filled (row of
         nodes, nodes of that row). Nothing is carried from one call of a kernel to the next.
     kept, kept_pieces
-        Pressures of the last report [Pa] and the nodes they belong to, listed as in ``pieces``.
+        Pressures of the last report [Pa] and the nodes they belong to, listed as in ``pieces``, with the
+        number of nodes beside that of pieces.
     """
 
     clearance: float

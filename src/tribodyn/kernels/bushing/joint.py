@@ -55,14 +55,13 @@ def report(
     y: FloatArray,
     omega: float,
     sign: float,
-    with_energy: bool,
     out: FloatArray,
 ) -> None:
     """Fill ``out`` with the quantities named in ``kernels/bushing/report.py``."""
     if joint.point > 0.0:
-        point.report(joint, entry_velocity, y, omega, sign, with_energy, out)
+        point.report(joint, entry_velocity, y, omega, sign, out)
     else:
-        surface_report.report(joint, entry_velocity, y, omega, sign, with_energy, out)
+        surface_report.report(joint, entry_velocity, y, omega, sign, out)
 
 
 @inlined

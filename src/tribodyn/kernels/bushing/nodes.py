@@ -105,7 +105,7 @@ def rewind(joint: BushingData) -> None:
 
 @kernel
 def gather(
-    joint: BushingData, entry_velocity: FloatArray, y: FloatArray, omega: float, with_edges: bool
+    joint: BushingData, entry_velocity: FloatArray, y: FloatArray, omega: float, with_edges: float
 ) -> int:
     """Fill the next part of the list and return the number of its nodes, 0 after the last one.
 
@@ -114,7 +114,7 @@ def gather(
     joint, entry_velocity, y, omega
         As for ``wrench``.
     with_edges
-        Whether the rows on the edges, which stand for no area, are wanted too.
+        1 if the rows on the edges, which stand for no area, are wanted too, 0 otherwise.
     """
     cursor, pieces, n_theta = joint.cursor, joint.pieces, joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
@@ -123,7 +123,7 @@ def gather(
     slip = omega * joint.journal_radius
     while row < joint.z.size and n < PART:
         left = 0
-        if with_edges or joint.area[row] > 0.0:
+        if with_edges > 0.0 or joint.area[row] > 0.0:
             a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[row])
             first, count = contact_window(joint.clearance, a, b, limit, n_theta)
             left = count - taken

@@ -37,7 +37,6 @@ from tribodyn.kernels.bushing.report import (
     N_REPORT,
     POWER_FRICTION,
     SEPARATION_MIN,
-    STORED,
 )
 from tribodyn.kernels.bushing.wrench import friction_ratio
 from tribodyn.kernels.jit import inlined, kernel
@@ -180,7 +179,6 @@ def report(
     y: FloatArray,
     omega: float,
     sign: float,
-    with_energy: bool,
     out: FloatArray,
 ) -> None:
     """Fill ``out`` (N_REPORT,) as that of the surface contact does; pressure and contact area are zero."""
@@ -225,8 +223,6 @@ def report(
             pulling += 1
     if touching > 0:
         out[CLIPPED] = pulling / touching
-    if with_energy:
-        out[STORED] = stored(joint, y)
 
 
 @kernel

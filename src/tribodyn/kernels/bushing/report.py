@@ -38,44 +38,43 @@ def report(
     y: FloatArray,
     omega: float,
     sign: float,
-    with_energy: bool,
     out: FloatArray,
 ) -> None:
     """Fill ``out`` (N_REPORT,) with the quantities named above; arguments as for ``wrench``.
 
-    The stored energy takes a look-up of its own at every node and is left at zero unless ``with_energy``.
+    The stored energy takes a look-up of its own at every node and is left to :func:`stored`.
     The pressures are kept in ``joint.kept`` until the next report, for :func:`slide`.
     """
     for k in range(N_REPORT):
         out[k] = 0.0
     out[SEPARATION_MIN] = math.inf
-    joint.kept_pieces[0, 0] = 0
+    joint.kept_pieces[0, 0] = joint.kept_pieces[0, 1] = 0
     rewind(joint)
-    n = gather(joint, entry_velocity, y, omega, True)
-    kept = 0
+    n = gather(joint, entry_velocity, y, omega, 1.0)
     while n > 0:
         look_up(joint, n)
         _add_nodes(joint, omega, sign, n, out)
-        if with_energy:
-            out[STORED] += _stored(joint, n)
-        _keep(joint, n, kept)
-        kept += n
-        n = gather(joint, entry_velocity, y, omega, True)
+        _keep(joint, n)
+        n = gather(joint, entry_velocity, y, omega, 1.0)
     nearest = out[SEPARATION_MIN]
     out[SEPARATION_MIN] = _separation(joint, nearest) if nearest < math.inf else _far_separation(joint, y)
-    contact, total = out[CONTACT_FRACTION], joint.cos_theta.size * joint.area.sum()
+    total = 0.0
+    for j in range(joint.area.size):
+        total += joint.cos_theta.size * joint.area[j]
+    contact = out[CONTACT_FRACTION]
     out[CONTACT_FRACTION] = contact / total
     if contact > 0.0:
         out[CLIPPED] /= contact
 
 
 @kernel
-def _keep(joint: BushingData, n: int, kept: int) -> None:
-    """Append the pressures of the list to those kept so far, ``kept`` in number."""
+def _keep(joint: BushingData, n: int) -> None:
+    """Append the pressures of the list to those kept so far."""
     pieces, kept_pieces = joint.pieces, joint.kept_pieces
+    before, kept = kept_pieces[0, 0], kept_pieces[0, 1]
     for k in range(n):
         joint.kept[kept + k] = joint.work[nodes.PRESSURE + k]
-    before = kept_pieces[0, 0]
+    kept_pieces[0, 1] = kept + n
     for piece in range(1, pieces[0, 0] + 1):
         for column in range(3):
             kept_pieces[before + piece, column] = pieces[piece, column]
@@ -98,10 +97,10 @@ def stored(joint: BushingData, entry_velocity: FloatArray, y: FloatArray) -> flo
     """Return the stored contact energy [J] alone; arguments as for ``wrench``."""
     total = 0.0
     rewind(joint)
-    n = gather(joint, entry_velocity, y, 0.0, False)
+    n = gather(joint, entry_velocity, y, 0.0, 0.0)
     while n > 0:
         total += _stored(joint, n)
-        n = gather(joint, entry_velocity, y, 0.0, False)
+        n = gather(joint, entry_velocity, y, 0.0, 0.0)
     return total
 
 

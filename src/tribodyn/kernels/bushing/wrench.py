@@ -100,10 +100,10 @@ def wrench(
     for k in range(5):
         out[k] = 0.0
     rewind(joint)
-    n = gather(joint, entry_velocity, y, omega, False)
+    n = gather(joint, entry_velocity, y, omega, 0.0)
     while n > 0:
         _add_nodes(joint, sign, n, out)
-        n = gather(joint, entry_velocity, y, omega, False)
+        n = gather(joint, entry_velocity, y, omega, 0.0)
 
 
 @summing
@@ -204,16 +204,13 @@ def wrench_and_jacobian(
         motion = (a, b, v_a, v_b, omega * joint.journal_radius)
         clear(gradient)
         until = min(first + count, n_theta)
-        f_x, f_y, torque = _add_piece(joint, entry_velocity, j, first, until, motion, sign, gradient)
-        if first + count > n_theta:
-            until = first + count - n_theta
-            more_x, more_y, more = _add_piece(joint, entry_velocity, j, 0, until, motion, sign, gradient)
-            f_x, f_y, torque = f_x + more_x, f_y + more_y, torque + more
-        out[0] += area * f_x
-        out[1] += area * f_y
-        out[2] -= area * z * f_y
-        out[3] -= area * z * f_x
-        out[4] += area * joint.journal_radius * torque
+        for start, stop in ((first, until), (0, first + count - until)):
+            f_x, f_y, torque = _add_piece(joint, entry_velocity, j, start, stop, motion, sign, gradient)
+            out[0] += area * f_x
+            out[1] += area * f_y
+            out[2] -= area * z * f_y
+            out[3] -= area * z * f_x
+            out[4] += area * joint.journal_radius * torque
         _add_row(area, z, y, joint.journal_radius, gradient, jacobian)
 
 

@@ -33,19 +33,11 @@ N_EXTREMES = 10
 
 
 @kernel
-def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory, with_energy: bool) -> None:
+def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.state``, ``scratch.report`` and ``scratch.film`` of one instant."""
     scratch = memory.scratch
     spread(y, scratch.state)
-    report(
-        data.joint,
-        memory.entry_velocity,
-        scratch.state,
-        data.speed,
-        data.sign,
-        with_energy,
-        scratch.report,
-    )
+    report(data.joint, memory.entry_velocity, scratch.state, data.speed, data.sign, scratch.report)
     film_force(data.film, memory.film, data.speed, scratch)
 
 
@@ -74,7 +66,7 @@ def fill_rates(data: JournalData, memory: JournalMemory) -> None:
 @kernel
 def begin(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
-    evaluate(data, y, memory, False)
+    evaluate(data, y, memory)
     fill_rates(data, memory)
     copy(memory.scratch.rates, memory.rates)
     memory.last_time[0] = t
@@ -105,11 +97,11 @@ def add_part(
     integrals, rates = memory.integrals, memory.scratch.rates
     for k in range(N_INTEGRALS):
         integrals[k] += sixth * memory.rates[k]
-    evaluate(data, y_m, memory, False)
+    evaluate(data, y_m, memory)
     fill_rates(data, memory)
     for k in range(N_INTEGRALS):
         integrals[k] += 4.0 * sixth * rates[k]
-    evaluate(data, y_b, memory, False)
+    evaluate(data, y_b, memory)
     fill_rates(data, memory)
     for k in range(N_INTEGRALS):
         integrals[k] += sixth * rates[k]

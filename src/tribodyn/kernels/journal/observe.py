@@ -7,6 +7,7 @@ from typing import Final
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
+from tribodyn.kernels.bushing.joint import stored
 from tribodyn.kernels.bushing.names import REPORTED as JOINT
 from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.jit import entry
@@ -28,7 +29,8 @@ _INTEGRALS = _ENERGIES + len(ENERGIES)
 def observe(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, row: FloatArray) -> None:
     """Fill ``row`` with the quantities named in :data:`OBSERVED`, SI units."""
     scratch = memory.scratch
-    ledger.evaluate(data, y, memory, True)
+    ledger.evaluate(data, y, memory)
+    scratch.report[joint_report.STORED] = stored(data.joint, memory.entry_velocity, scratch.state)
     copy(scratch.state, row)
     for k in range(joint_report.N_REPORT):
         row[_JOINT + k] = scratch.report[k]

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import clear, copy
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mebdf.core import resume
 from tribodyn.kernels.mebdf.history import value_at
@@ -100,7 +101,7 @@ def run(
             rhs(real[T_EVAL], y, data, memory, f)
             continue
         if request == NEED_JACOBIAN:
-            jacobian[:, :] = 0.0
+            clear(jacobian)
             jac(real[T_EVAL], y, data, memory, f, jacobian)
             continue
         if request == FAILED:
@@ -116,7 +117,7 @@ def run(
             if inside:
                 state_at(real, count, rows, t_part, end)
             else:
-                end[:] = newest
+                copy(newest, end)
             advance(reached[0], t_part, middle, end, data, memory)
             reached[0] = t_part
             if times[mark] <= t + tolerance:

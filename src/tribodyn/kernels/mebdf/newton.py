@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from tribodyn.kernels.mebdf.control import newton_failed, norm, reject
@@ -68,12 +69,23 @@ MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
 
 
+@inlined
+def _all_finite(matrix: FloatArray) -> bool:
+    """Tell whether no entry is infinite or NaN."""
+    total = 0.0
+    for i in range(matrix.shape[0]):
+        for j in range(matrix.shape[1]):
+            total += matrix[i, j]
+    return math.isfinite(total)
+
+
 @kernel
 def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
     """Take over a new Jacobian, if it is finite, and factorise."""
     if count[FRESH] == 1:
-        if math.isfinite(matrices[JACOBIAN].sum()):
-            matrices[LAST_JACOBIAN] = matrices[JACOBIAN]
+        if _all_finite(matrices[JACOBIAN]):
+            for i in range(matrices.shape[1]):
+                copy(matrices[JACOBIAN, i], matrices[LAST_JACOBIAN, i])
         elif count[N_J] == 1:
             count[REASON] = JACOBIAN_NOT_FINITE
             return FAILED

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.vsv.data import VsvData
+from tribodyn.kernels.vsv.data import Mechanism
 
 MAX_NEWTON = 30
 CONVERGED = 1.0e-10
@@ -13,38 +13,46 @@ CONVERGED = 1.0e-10
 
 
 @kernel
-def drive(data: VsvData, t: float) -> tuple[float, float, float]:
+def drive(mechanism: Mechanism, t: float) -> tuple[float, float, float]:
     """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at time ``t`` [s]."""
-    nu = data.angular_frequency
+    nu = mechanism.angular_frequency
     cos, sin = math.cos(nu * t), math.sin(nu * t)
-    theta = data.start_angle + data.speed_amplitude / nu * (1.0 - cos)
-    return theta, data.speed_amplitude * sin, data.speed_amplitude * nu * cos
+    theta = mechanism.start_angle + mechanism.speed_amplitude / nu * (1.0 - cos)
+    return theta, mechanism.speed_amplitude * sin, mechanism.speed_amplitude * nu * cos
 
 
 @kernel
-def ideal_guess(data: VsvData, theta_a: float) -> float:
+def ideal_guess(mechanism: Mechanism, theta_a: float) -> float:
     """Return the tabulated vane angle of the ideal mechanism [rad], a start for Newton's method."""
-    n = data.ideal.shape[0]
-    x = (theta_a - data.ideal_first) * data.ideal_inverse_step
+    n = mechanism.ideal.shape[0]
+    x = (theta_a - mechanism.ideal_first) * mechanism.ideal_inverse_step
     i = min(max(int(x), 0), n - 2)
     u = x - i
-    p0, m0 = data.ideal[i, 0], data.ideal[i, 1]
-    p1, m1 = data.ideal[i + 1, 0], data.ideal[i + 1, 1]
+    p0, m0 = mechanism.ideal[i, 0], mechanism.ideal[i, 1]
+    p1, m1 = mechanism.ideal[i + 1, 0], mechanism.ideal[i + 1, 1]
     return p0 + u * (m0 + u * (3.0 * (p1 - p0) - 2.0 * m0 - m1 + u * (2.0 * (p0 - p1) + m0 + m1)))
 
 
 @inlined
-def ring_end(data: VsvData, x3: float, z3: float) -> tuple[float, float]:
+def crank_end(mechanism: Mechanism, theta_a: float) -> tuple[float, float]:
+    """Return x and z of S1 [m], the end of the crank."""
+    s1_x = mechanism.pivot_x - mechanism.l_1 * math.sin(theta_a)
+    s1_z = mechanism.pivot_z + mechanism.l_1 * math.cos(theta_a)
+    return s1_x, s1_z
+
+
+@inlined
+def ring_end(mechanism: Mechanism, x3: float, z3: float) -> tuple[float, float]:
     """Return x and z of S2 [m], the end of the ring's arm at the angle φ − θ_b, with S3 at (x3, z3)."""
-    scale = data.l_3 / math.sqrt(x3 * x3 + z3 * z3)
-    s2_x = scale * (data.ring_sin * z3 + data.ring_cos * x3)
-    s2_z = scale * (data.ring_cos * z3 - data.ring_sin * x3)
+    scale = mechanism.l_3 / math.sqrt(x3 * x3 + z3 * z3)
+    s2_x = scale * (mechanism.ring_sin * z3 + mechanism.ring_cos * x3)
+    s2_z = scale * (mechanism.ring_cos * z3 - mechanism.ring_sin * x3)
     return s2_x, s2_z
 
 
 @kernel
 def closure_residual(
-    data: VsvData,
+    mechanism: Mechanism,
     s1_x: float,
     s1_z: float,
     e_x: float,
@@ -56,27 +64,28 @@ def closure_residual(
     """Return (|S1S2|² − l_2²)/2 [m²], S1 at (s1_x, s1_z), and its derivative in θ_v [m²/rad]."""
     sin_v = math.sin(theta_v)
     cos_v = math.cos(theta_v)
-    x3 = e_x + data.l_4 * cos_v - data.half_length * tan_y
-    y3 = e_y + data.l_4 * sin_v - data.half_length * tan_x
-    z3 = data.l_3 + data.l_4 * (sin_v * tan_x + cos_v * tan_y)
-    s2_x, s2_z = ring_end(data, x3, z3)
-    d_x, d_y, d_z = s2_x - s1_x, y3 - data.l_4, s2_z - s1_z
-    dx3 = -data.l_4 * sin_v
-    dz3 = data.l_4 * (cos_v * tan_x - sin_v * tan_y)
+    x3 = e_x + mechanism.l_4 * cos_v - mechanism.half_length * tan_y
+    y3 = e_y + mechanism.l_4 * sin_v - mechanism.half_length * tan_x
+    z3 = mechanism.l_3 + mechanism.l_4 * (sin_v * tan_x + cos_v * tan_y)
+    s2_x, s2_z = ring_end(mechanism, x3, z3)
+    d_x, d_y, d_z = s2_x - s1_x, y3 - mechanism.l_4, s2_z - s1_z
+    dx3 = -mechanism.l_4 * sin_v
+    dz3 = mechanism.l_4 * (cos_v * tan_x - sin_v * tan_y)
     d_theta_b = (-z3 * dx3 + x3 * dz3) / (x3 * x3 + z3 * z3)
-    residual = 0.5 * (d_x * d_x + d_y * d_y + d_z * d_z - data.l_2 * data.l_2)
-    slope = (d_z * s2_x - d_x * s2_z) * d_theta_b + d_y * data.l_4 * cos_v
+    residual = 0.5 * (d_x * d_x + d_y * d_y + d_z * d_z - mechanism.l_2 * mechanism.l_2)
+    slope = (d_z * s2_x - d_x * s2_z) * d_theta_b + d_y * mechanism.l_4 * cos_v
     return residual, slope
 
 
 @kernel
-def vane_angle(data: VsvData, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float) -> float:
+def vane_angle(
+    mechanism: Mechanism, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float
+) -> float:
     """Return θ_v [rad] in the assembly of the table, to machine precision; NaN out of reach."""
-    theta_v = ideal_guess(data, theta_a)
-    s1_x = data.pivot_x - data.l_1 * math.sin(theta_a)
-    s1_z = data.pivot_z + data.l_1 * math.cos(theta_a)
+    theta_v = ideal_guess(mechanism, theta_a)
+    s1_x, s1_z = crank_end(mechanism, theta_a)
     for _ in range(MAX_NEWTON):
-        residual, slope = closure_residual(data, s1_x, s1_z, e_x, e_y, tan_x, tan_y, theta_v)
+        residual, slope = closure_residual(mechanism, s1_x, s1_z, e_x, e_y, tan_x, tan_y, theta_v)
         if slope == 0.0:
             return math.nan
         step = residual / slope

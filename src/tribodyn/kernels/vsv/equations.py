@@ -16,7 +16,7 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import Mechanism, Scratch, VsvData, VsvMemory
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -47,9 +47,9 @@ TILT_FLOOR = 1.0e-6
 
 
 @kernel
-def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> None:
+def fill_test_motions(mechanism: Mechanism, motion: FloatArray, test: FloatArray) -> None:
     """Fill the bodies' test motions (N_BODY, 5): along the crank, then four for the clearance motion."""
-    if data.exact > 0.0:
+    if mechanism.exact > 0.0:
         for row in range(N_BODY):
             for k in range(5):
                 test[row, k] = motion[row, k]
@@ -59,16 +59,16 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
         test[row, 0] = motion[row, 0]
     s2_x, s2_z = motion[S2_X, VALUE], motion[S2_Z, VALUE]
     d_x = s2_x - motion[S1_X, VALUE]
-    d_y = motion[S2_X + 1, VALUE] - data.l_4
+    d_y = motion[S2_X + 1, VALUE] - mechanism.l_4
     d_z = s2_z - motion[S1_Z, VALUE]
     kappa = -d_y / (d_z * s2_x - d_x * s2_z)
-    o3_x, o3_z = ring_centre(data.l_3, data.ring_angle, motion[THETA_B, VALUE])
+    o3_x, o3_z = ring_centre(mechanism.l_3, mechanism.ring_angle, motion[THETA_B, VALUE])
     test[THETA_B, 1] = kappa
     d_s2 = (-s2_z * kappa, 1.0, s2_x * kappa)
     d_o3 = (-o3_z * kappa, 1.0, o3_x * kappa)
     for axis in range(3):
         test[O2_X + axis, 1] = 0.5 * d_s2[axis]
-        test[N_X + axis, 1] = d_s2[axis] / data.l_2
+        test[N_X + axis, 1] = d_s2[axis] / mechanism.l_2
         test[O3_X + axis, 1] = d_o3[axis]
     for row in (E_X, OV_X):
         # F_43 has no part along Z here, so it drops out only where vane and ring keep together along X.
@@ -78,8 +78,8 @@ def fill_test_motions(data: VsvData, motion: FloatArray, test: FloatArray) -> No
     theta_v = motion[THETA_V, VALUE]
     test[THETA_V, 2] = 1.0
     for row in (E_X, OV_X):
-        test[row, 2] = data.l_4 * math.sin(theta_v)
-        test[row + 1, 2] = -data.l_4 * math.cos(theta_v)
+        test[row, 2] = mechanism.l_4 * math.sin(theta_v)
+        test[row + 1, 2] = -mechanism.l_4 * math.cos(theta_v)
     test[PHI_X, 3] = 1.0
     test[OV_Y, 3] = motion[OV_Y, 3]
     test[PHI_Y, 4] = 1.0
@@ -95,10 +95,10 @@ def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, f
 
 
 @kernel
-def air_loads(data: VsvData, theta_v: float, direction: float) -> tuple[float, float, float]:
+def air_loads(mechanism: Mechanism, theta_v: float, direction: float) -> tuple[float, float, float]:
     """Return F_airx, F_airy [N] and M_air [N m], Table 3."""
-    f_x = data.air_force_x * math.tanh((theta_v - data.switch_angle) / data.switch_width)
-    return f_x, data.air_force_y, -data.air_moment * direction
+    f_x = mechanism.air_force_x * math.tanh((theta_v - mechanism.switch_angle) / mechanism.switch_width)
+    return f_x, mechanism.air_force_y, -mechanism.air_moment * direction
 
 
 @kernel
@@ -110,16 +110,16 @@ def slip_speed(regime: FloatArray, motion: FloatArray) -> float:
 
 
 @kernel
-def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
+def fill_forces(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) -> None:
     """Fill the force of each row and the collar's share per unit of F_cz from the joint wrench."""
     scratch = memory.scratch
     motion, force, collar = scratch.motion, scratch.force, scratch.collar
     direction = memory.regime[0]
     for row in range(N_BODY):
-        force[row] = data.weight[row]
+        force[row] = mechanism.weight[row]
     tan_x = math.tan(y[2])
     tan_y = math.tan(y[3])
-    f_x, f_y, m_z = air_loads(data, motion[THETA_V, VALUE], direction)
+    f_x, f_y, m_z = air_loads(mechanism, motion[THETA_V, VALUE], direction)
     force[E_X] = scratch.wrench[0]
     force[E_Y] = scratch.wrench[1]
     force[PHI_X] = (1.0 + tan_x * tan_x) * scratch.wrench[2]
@@ -128,9 +128,9 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     force[OV_X] = f_x
     force[OV_Y] = f_y
     tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
-    collar[PHI_X] = -data.collar_radius * y[2] / tilt
-    collar[PHI_Y] = -data.collar_radius * y[3] / tilt
-    collar[THETA_V] = -direction * data.joint.friction_coefficient * data.collar_radius
+    collar[PHI_X] = -mechanism.collar_radius * y[2] / tilt
+    collar[PHI_Y] = -mechanism.collar_radius * y[3] / tilt
+    collar[THETA_V] = -direction * mechanism.collar_friction
 
 
 @kernel
@@ -169,41 +169,41 @@ def lever_lift(exact: float, theta_b: float) -> float:
 
 
 @kernel
-def add_collar(data: VsvData, scratch: Scratch, factor: float) -> None:
+def add_collar(mechanism: Mechanism, scratch: Scratch, factor: float) -> None:
     """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
-    lift = lever_lift(data.exact, scratch.motion[THETA_B, VALUE])
-    at_rest = data.vane_weight + lift * (
-        scratch.wrench[0] + scratch.force[OV_X] - data.m_v * scratch.motion[OV_X, BIAS]
+    lift = lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE])
+    at_rest = mechanism.vane_weight + lift * (
+        scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * scratch.motion[OV_X, BIAS]
     )
     for i in range(5):
         share = factor * collar_share(scratch.test, scratch.collar, i)
         scratch.load[i] += share * at_rest
         for j in range(4):
-            scratch.mass[i, j] += share * lift * data.m_v * scratch.motion[OV_X, 1 + j]
+            scratch.mass[i, j] += share * lift * mechanism.m_v * scratch.motion[OV_X, 1 + j]
 
 
 @kernel
-def collar_force(data: VsvData, scratch: Scratch, acceleration: FloatArray) -> float:
+def collar_force(mechanism: Mechanism, scratch: Scratch, acceleration: FloatArray) -> float:
     """Return m_v g + F_43z [N] for given clearance accelerations; negative means lift-off."""
     x_ov = scratch.motion[OV_X, BIAS]
     for j in range(4):
         x_ov += scratch.motion[OV_X, 1 + j] * acceleration[j]
-    f_43x = scratch.wrench[0] + scratch.force[OV_X] - data.m_v * x_ov
-    return data.vane_weight + lever_lift(data.exact, scratch.motion[THETA_B, VALUE]) * f_43x
+    f_43x = scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * x_ov
+    return mechanism.vane_weight + lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE]) * f_43x
 
 
 @kernel
-def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+def set_up(mechanism: Mechanism, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill motion table and test motions; return the vane speed that traction sees [rad/s]."""
     scratch = memory.scratch
     scratch.marked = 0.0
-    fill_motion(data, t, y, scratch.motion)
-    fill_test_motions(data, scratch.motion, scratch.test)
+    fill_motion(mechanism, t, y, scratch.motion)
+    fill_test_motions(mechanism, scratch.motion, scratch.test)
     return slip_speed(memory.regime, scratch.motion)
 
 
 @kernel
-def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns: int) -> float:
+def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory, columns: int) -> float:
     """Solve for the clearance accelerations with the joint wrench in ``memory.scratch``.
 
     Column 0 of ``solved`` becomes q̈; columns 1 to ``columns`` − 1, which the caller fills, are solved
@@ -214,19 +214,19 @@ def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory, columns
     float
         F_cz [N].
     """
-    fill_forces(data, y, memory)
-    assemble(data.inertia, memory.scratch)
-    add_collar(data, memory.scratch, 1.0)
-    f_cz = _solve(data, memory.scratch, columns)
+    fill_forces(mechanism, y, memory)
+    assemble(mechanism.inertia, memory.scratch)
+    add_collar(mechanism, memory.scratch, 1.0)
+    f_cz = _solve(mechanism, memory.scratch, columns)
     if f_cz < 0.0:
-        add_collar(data, memory.scratch, -1.0)
-        _solve(data, memory.scratch, columns)
+        add_collar(mechanism, memory.scratch, -1.0)
+        _solve(mechanism, memory.scratch, columns)
         return 0.0
     return f_cz
 
 
 @kernel
-def _solve(data: VsvData, scratch: Scratch, columns: int) -> float:
+def _solve(mechanism: Mechanism, scratch: Scratch, columns: int) -> float:
     """Solve the four clearance equations and return the collar force that follows."""
     for i in range(4):
         scratch.solved[i, 0] = scratch.load[1 + i]
@@ -235,7 +235,7 @@ def _solve(data: VsvData, scratch: Scratch, columns: int) -> float:
     solve_in_place(scratch.small, scratch.solved, 0, columns)
     for i in range(4):
         scratch.acceleration[i] = scratch.solved[i, 0]
-    return collar_force(data, scratch, scratch.acceleration)
+    return collar_force(mechanism, scratch, scratch.acceleration)
 
 
 @kernel
@@ -250,26 +250,26 @@ def drive_moment(scratch: Scratch) -> float:
 @kernel
 def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
-    omega = set_up(data, t, y, memory)
+    omega = set_up(data.mechanism, t, y, memory)
     wrench(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], memory.scratch.wrench)
-    return solve_accelerations(data, y, memory, 1)
+    return solve_accelerations(data.mechanism, y, memory, 1)
 
 
 @kernel
 def fill_load_gradient(
-    data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
+    mechanism: Mechanism, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
 ) -> None:
     """Fill columns 1 to 8 with ∂(generalised joint and collar forces)/∂y, the motion table held fixed."""
     scratch = memory.scratch
     motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
     sec2_x = 1.0 + math.tan(y[2]) ** 2
     sec2_y = 1.0 + math.tan(y[3]) ** 2
-    lift = lever_lift(data.exact, motion[THETA_B, VALUE]) if f_cz > 0.0 else 0.0
+    lift = lever_lift(mechanism.exact, motion[THETA_B, VALUE]) if f_cz > 0.0 else 0.0
     free_slip = 1.0 if memory.regime[1] == 0.0 else 0.0
     tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
-    collar_xx = -data.collar_radius * f_cz * (tilt * tilt - y[2] * y[2]) / tilt**3
-    collar_yy = -data.collar_radius * f_cz * (tilt * tilt - y[3] * y[3]) / tilt**3
-    collar_xy = data.collar_radius * f_cz * y[2] * y[3] / tilt**3
+    collar_xx = -mechanism.collar_radius * f_cz * (tilt * tilt - y[2] * y[2]) / tilt**3
+    collar_yy = -mechanism.collar_radius * f_cz * (tilt * tilt - y[3] * y[3]) / tilt**3
+    collar_xy = mechanism.collar_radius * f_cz * y[2] * y[3] / tilt**3
     for i in range(4):
         c_i = collar_share(test, scratch.collar, 1 + i)
         t_x = test[E_X, 1 + i] + c_i * lift
@@ -307,7 +307,7 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
     clearance coordinates, smaller by five orders than the contact stiffness, is left out.
     """
     scratch = memory.scratch
-    omega = set_up(data, t, y, memory)
+    omega = set_up(data.mechanism, t, y, memory)
     wrench_and_jacobian(
         data.joint,
         memory.entry_velocity,
@@ -318,8 +318,8 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
         scratch.wrench_jacobian,
         scratch.gradient,
     )
-    f_cz = solve_accelerations(data, y, memory, 1)
-    fill_load_gradient(data, y, memory, f_cz, scratch.solved)
+    f_cz = solve_accelerations(data.mechanism, y, memory, 1)
+    fill_load_gradient(data.mechanism, y, memory, f_cz, scratch.solved)
     for i in range(4):
         for j in range(4):
             scratch.small[i, j] = scratch.mass[1 + i, j]

@@ -7,7 +7,7 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.bushing.joint import pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import Mechanism, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
 from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
 from tribodyn.kernels.vsv.motion import fill_rods
@@ -41,19 +41,19 @@ def jac(
 
 
 @kernel
-def vane_direction(data: VsvData, t: float, memory: VsvMemory) -> float:
+def vane_direction(mechanism: Mechanism, t: float, memory: VsvMemory) -> float:
     """Return the direction of the ideal vane motion just after ``t``, ±1: at a reversal it does not move."""
     motion = memory.scratch.motion
     clear(motion)
-    soon = t + JUST_AFTER / data.angular_frequency
-    fill_rods(data, soon, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+    soon = t + JUST_AFTER / mechanism.angular_frequency
+    fill_rods(mechanism, soon, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
     return 1.0 if motion[THETA_V, VELOCITY] >= 0.0 else -1.0
 
 
 @entry
 def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Begin a segment: set the direction of the ideal vane motion."""
-    memory.regime[0] = vane_direction(data, t, memory)
+    memory.regime[0] = vane_direction(data.mechanism, t, memory)
     ledger.begin(data, t, y, memory)
 
 
@@ -79,7 +79,7 @@ def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: F
 
 @kernel
 def kinetostatic_residual(
-    t: float, q: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatArray
+    t: float, y: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatArray
 ) -> None:
     """Fill the generalised load that remains with q̇ = q̈ = 0, and its derivative.
 
@@ -87,8 +87,8 @@ def kinetostatic_residual(
     ----------
     t
         Time [s]; the ideal motion at that time is included.
-    q
-        Attitude (e_x, e_y, φ_x, φ_y), shape (4,).
+    y
+        State with all velocities zero, shape (8,).
     data, memory
         As for ``rhs``.
     residual
@@ -96,10 +96,6 @@ def kinetostatic_residual(
     jacobian
         Derivative with the geometry of the rods held fixed, shape (4, 4).
     """
-    y = memory.scratch.state
-    for i in range(4):
-        y[i] = q[i]
-        y[4 + i] = 0.0
     accelerations_and_gradient(data, t, y, memory)
     for i in range(4):
         residual[i] = memory.scratch.load[1 + i]

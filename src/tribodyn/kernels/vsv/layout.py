@@ -49,6 +49,9 @@ BIAS: Final = 6
 VALUE: Final = 7
 N_COLUMNS: Final = 8
 
+N_IDEAL: Final = 512
+"""Intervals of the table of the ideal mechanism."""
+
 N_UNKNOWNS: Final = 24
 """Of the full Newton-Euler system: four accelerations and twenty reactions."""
 N_RATES: Final = 5

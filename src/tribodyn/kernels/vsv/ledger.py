@@ -18,7 +18,29 @@ from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.bushing import report as joint_report
 from tribodyn.kernels.bushing.joint import report, slide
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.books import (
+    CLIPPED,
+    COLLAR,
+    COLLAR_FRICTION,
+    COLLAR_TILT,
+    DAMPING,
+    DRIVE,
+    EARLIER,
+    FRICTION,
+    INERTIA,
+    JOINT_FRICTION,
+    LEAST_SEPARATION,
+    LIFT_OFF,
+    LOADS,
+    OTHERS,
+    PEAK_FORCE,
+    PEAK_FORCE_TIME,
+    PEAK_PRESSURE,
+    PEAK_PRESSURE_TIME,
+    SPEED,
+    TIME,
+)
+from tribodyn.kernels.vsv.data import Mechanism, Scratch, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
     BIAS,
@@ -39,28 +61,8 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 
-DRIVE, LOADS, FRICTION, COLLAR_FRICTION, COLLAR_TILT = 0, 1, 2, 3, 4
-"""Whole mechanism: work of the drive and of the air loads, of friction, of the collar."""
-DAMPING, OTHERS, JOINT_FRICTION, COLLAR = 0, 1, 2, 3
-"""Clearance motion, counted from N_RATES on: damping heat, work of everything but the joint, of joint
-friction, of the collar."""
-INERTIA = N_RATES + N_WORKS
-"""Clearance motion: what inertia has taken in."""
-N_INTEGRALS = INERTIA + 1
-
-TIME, EARLIER, SPEED = 0, 1, 2
-"""Time of the last mark and of the one before that is kept [s], sliding speed |ω_v| r_j at the last [m/s]."""
-N_MARK = 3
 NEAR = 0.2
 """Marks closer than this part of the next interval do not tell how the rates bend."""
-
-PEAK_FORCE, PEAK_FORCE_TIME, PEAK_PRESSURE, PEAK_PRESSURE_TIME = 0, 1, 2, 3
-"""Largest contact force [N] and pressure [Pa] at any mark, and when [s]."""
-LEAST_SEPARATION, LIFT_OFF = 4, 5
-"""Smallest gap between mean planes [m]; time during which the collar carries nothing [s]."""
-CLIPPED = 6
-"""Time integral of the share of the contact area where the tensile clip acts [s]."""
-N_EXTREMES = 7
 
 KINETIC, GRAVITY = 0, 1
 
@@ -69,15 +71,15 @@ KINETIC, GRAVITY = 0, 1
 def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch = memory.scratch
-    omega = set_up(data, t, y, memory)
+    omega = set_up(data.mechanism, t, y, memory)
     out = scratch.report
-    report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], False, out)
+    report(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], out)
     scratch.wrench[0] = out[joint_report.F_CX] + out[joint_report.F_FX]
     scratch.wrench[1] = out[joint_report.F_CY] + out[joint_report.F_FY]
     scratch.wrench[2] = out[joint_report.M_JCX] + out[joint_report.M_FX]
     scratch.wrench[3] = out[joint_report.M_JCY] + out[joint_report.M_FY]
     scratch.wrench[4] = out[joint_report.M_JF]
-    return solve_accelerations(data, y, memory, 1)
+    return solve_accelerations(data.mechanism, y, memory, 1)
 
 
 @kernel
@@ -103,7 +105,7 @@ def fill_rates(y: FloatArray, memory: VsvMemory) -> None:
 
 
 @kernel
-def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
+def fill_clearance_forces(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) -> None:
     """Fill ``scratch.forces`` (N_WORKS, 4) on the clearance coordinates and ``scratch.momentum``."""
     scratch = memory.scratch
     motion, forces, out = scratch.motion, scratch.forces, scratch.report
@@ -125,7 +127,7 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     forces[COLLAR, 2] += scratch.f_cz * scratch.collar[PHI_X]
     forces[COLLAR, 3] += scratch.f_cz * scratch.collar[PHI_Y]
     for row in range(N_BODY):
-        inertia = data.inertia[row]
+        inertia = mechanism.inertia[row]
         applied = scratch.force[row] - inertia * motion[row, BIAS] if row < E_X else 0.0
         momentum = inertia * clearance_velocity(motion, row, y)
         for j in range(4):
@@ -138,7 +140,7 @@ def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
     _evaluate_mark(data, t, y, memory)
     _set_mark(data, t, y, memory)
-    memory.mark[EARLIER] = t
+    memory.books.mark[EARLIER] = t
 
 
 @kernel
@@ -147,28 +149,28 @@ def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) ->
     scratch = memory.scratch
     scratch.f_cz = evaluate(data, t, y, memory)
     fill_rates(y, memory)
-    fill_forces(data, y, memory)
+    fill_clearance_forces(data.mechanism, y, memory)
     scratch.marked = 1.0
 
 
 @kernel
 def is_at_mark(t: float, y: FloatArray, memory: VsvMemory) -> bool:
     """Tell whether the scratch arrays hold the evaluation of this instant that the ledger made."""
-    same = memory.scratch.marked > 0.0 and memory.mark[TIME] == t
+    same = memory.scratch.marked > 0.0 and memory.books.mark[TIME] == t
     for i in range(8):
-        same = same and memory.last_state[i] == y[i]
+        same = same and memory.books.last_state[i] == y[i]
     return same
 
 
 @kernel
 def _set_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Take over what the scratch arrays hold as the values at the mark."""
-    scratch, mark = memory.scratch, memory.mark
-    copy(scratch.rates, memory.rates[0])
+    scratch, mark = memory.scratch, memory.books.mark
+    copy(scratch.rates, memory.books.rates[0])
     for k in range(N_WORKS):
-        copy(scratch.forces[k], memory.forces[0, k])
-    copy(scratch.momentum, memory.last_momentum)
-    copy(y, memory.last_state)
+        copy(scratch.forces[k], memory.books.forces[0, k])
+    copy(scratch.momentum, memory.books.last_momentum)
+    copy(y, memory.books.last_state)
     mark[TIME] = t
     mark[SPEED] = abs(scratch.motion[THETA_V, VELOCITY]) * data.joint.journal_radius
 
@@ -176,7 +178,7 @@ def _set_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None
 @kernel
 def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
     """Keep the peaks at the end ``t`` of a part of length ``h`` [s]; output times would miss them."""
-    extremes, out = memory.extremes, memory.scratch.report
+    extremes, out = memory.books.extremes, memory.scratch.report
     force = math.hypot(out[joint_report.F_CX], out[joint_report.F_CY])
     if force > extremes[PEAK_FORCE]:
         extremes[PEAK_FORCE], extremes[PEAK_FORCE_TIME] = force, t
@@ -191,7 +193,7 @@ def note_extremes(t: float, h: float, f_cz: float, memory: VsvMemory) -> None:
 @kernel
 def add_part(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Add the path integrals from the mark to ``t`` and move the mark there."""
-    mark, scratch = memory.mark, memory.scratch
+    mark, scratch = memory.books.mark, memory.scratch
     h = t - mark[TIME]
     slide(data.joint, 0.5 * h * mark[SPEED], memory.sliding_load)
     _evaluate_mark(data, t, y, memory)
@@ -209,15 +211,15 @@ def _integrate(h: float, y: FloatArray, memory: VsvMemory) -> None:
     before that where marks are close together. Where it is too near for its parabola to be trusted, as after
     a restart, the straight line through the last two is taken.
     """
-    mark = memory.mark
+    mark = memory.books.mark
     back = mark[TIME] - mark[EARLIER]
     known = back > NEAR * h
     _integrate_rates(h, back, known, memory)
     _integrate_works(h, back, known, y, memory)
     if h > NEAR * back:
-        copy(memory.rates[0], memory.rates[1])
+        copy(memory.books.rates[0], memory.books.rates[1])
         for k in range(N_WORKS):
-            copy(memory.forces[0, k], memory.forces[1, k])
+            copy(memory.books.forces[0, k], memory.books.forces[1, k])
         mark[EARLIER] = mark[TIME]
 
 
@@ -230,10 +232,10 @@ def _bend(now: float, last: float, earlier: float, h: float, back: float, known:
 @kernel
 def _integrate_rates(h: float, back: float, known: bool, memory: VsvMemory) -> None:
     """Add ∫ f dt = h (f_a + f_b)/2 − h b/6 of the parabola with the bend b."""
-    now, rates = memory.scratch.rates, memory.rates
+    now, rates = memory.scratch.rates, memory.books.rates
     for k in range(N_RATES):
         bend = _bend(now[k], rates[0, k], rates[1, k], h, back, known)
-        memory.integrals[k] += h * (0.5 * (now[k] + rates[0, k]) - bend / 6.0)
+        memory.books.integrals[k] += h * (0.5 * (now[k] + rates[0, k]) - bend / 6.0)
 
 
 @kernel
@@ -243,7 +245,7 @@ def _integrate_works(h: float, back: float, known: bool, y: FloatArray, memory: 
     With Δq = q_b − q_a and the bend b of the force that is Δq (F_a + F_b)/2 + h ΔF Δq̇/12 −
     b (Δq/5 − h (q̇_a + q̇_b)/60): exact for a constant force, whatever oscillates.
     """
-    now, forces, before = memory.scratch.forces, memory.forces, memory.last_state
+    now, forces, before = memory.scratch.forces, memory.books.forces, memory.books.last_state
     for i in range(4):
         way, change = y[i] - before[i], y[4 + i] - before[4 + i]
         curved = 0.2 * way - h / 60.0 * (y[4 + i] + before[4 + i])
@@ -251,20 +253,20 @@ def _integrate_works(h: float, back: float, known: bool, y: FloatArray, memory: 
             last = forces[0, k, i]
             bend = _bend(now[k, i], last, forces[1, k, i], h, back, known)
             work = 0.5 * way * (now[k, i] + last) + h / 12.0 * change * (now[k, i] - last) - bend * curved
-            memory.integrals[N_RATES + k] += work
-        momentum = 0.5 * (memory.last_momentum[i] + memory.scratch.momentum[i])
-        memory.integrals[INERTIA] += momentum * change
+            memory.books.integrals[N_RATES + k] += work
+        momentum = 0.5 * (memory.books.last_momentum[i] + memory.scratch.momentum[i])
+        memory.books.integrals[INERTIA] += momentum * change
 
 
 @kernel
-def fill_energies(data: VsvData, memory: VsvMemory, energies: FloatArray) -> None:
+def fill_energies(mechanism: Mechanism, scratch: Scratch, energies: FloatArray) -> None:
     """Fill kinetic and gravity energy [J] from the scratch arrays of this instant."""
-    motion = memory.scratch.motion
+    motion = scratch.motion
     kinetic = 0.0
     for row in range(N_BODY):
-        kinetic += 0.5 * data.inertia[row] * motion[row, VELOCITY] ** 2
+        kinetic += 0.5 * mechanism.inertia[row] * motion[row, VELOCITY] ** 2
     gravity = 0.0
     for row in (O1_Z, O2_Z, O3_Z):
-        gravity -= data.weight[row] * motion[row, VALUE]
+        gravity -= mechanism.weight[row] * motion[row, VALUE]
     energies[KINETIC] = kinetic
     energies[GRAVITY] = gravity

@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.closure import drive, ring_end, vane_angle
-from tribodyn.kernels.vsv.data import VsvData
+from tribodyn.kernels.vsv.data import Mechanism
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -51,21 +51,21 @@ SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
 
 
 @kernel
-def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> None:
+def fill_motion(mechanism: Mechanism, t: float, y: FloatArray, motion: FloatArray) -> None:
     """Fill the motion table (N_ROWS, N_COLUMNS) at time ``t`` [s] and state ``y`` (8,)."""
     clear(motion)
-    if data.exact > 0.0:
-        _fill_trunnion(data, y, motion)
-        fill_rods(data, t, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)
+    if mechanism.exact > 0.0:
+        _fill_trunnion(mechanism, y, motion)
+        fill_rods(mechanism, t, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)
     else:
-        fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+        fill_rods(mechanism, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
         for row in range(E_X):
             for column in range(1, 5):
                 motion[row, column] = 0.0
         for row in range(S1_X, S3_Z + 1):
             for column in range(1, 5):
                 motion[row, column] = 0.0
-        _fill_trunnion(data, y, motion)
+        _fill_trunnion(mechanism, y, motion)
         for k in range(SHIFTED.size):
             row, coordinate, share = SHIFTED[k], SHIFTS[k], SHARES[k]
             motion[row, 1 + coordinate] = share
@@ -74,13 +74,13 @@ def fill_motion(data: VsvData, t: float, y: FloatArray, motion: FloatArray) -> N
 
 
 @kernel
-def _fill_trunnion(data: VsvData, y: FloatArray, motion: FloatArray) -> None:
+def _fill_trunnion(mechanism: Mechanism, y: FloatArray, motion: FloatArray) -> None:
     """Fill the rows of the trunnion and of the vane centre O_v."""
     for k in range(4):
         motion[E_X + k, 1 + k] = 1.0
         motion[E_X + k, VELOCITY] = y[4 + k]
         motion[E_X + k, VALUE] = y[k]
-    arm = data.vane_arm
+    arm = mechanism.vane_arm
     tan_x = math.tan(y[2])
     tan_y = math.tan(y[3])
     sec2_x = 1.0 + tan_x * tan_x
@@ -99,7 +99,7 @@ def _fill_trunnion(data: VsvData, y: FloatArray, motion: FloatArray) -> None:
 
 @kernel
 def fill_rods(
-    data: VsvData,
+    mechanism: Mechanism,
     t: float,
     e_x: float,
     e_y: float,
@@ -112,30 +112,30 @@ def fill_rods(
     motion: FloatArray,
 ) -> None:
     """Fill the rows of crank, drag link, ring and vane rotation from the closure."""
-    theta_a, omega_a, alpha_a = drive(data, t)
+    theta_a, omega_a, alpha_a = drive(mechanism, t)
     tan_x = math.tan(phi_x)
     tan_y = math.tan(phi_y)
     sec2_x = 1.0 + tan_x * tan_x
     sec2_y = 1.0 + tan_y * tan_y
-    theta_v = vane_angle(data, theta_a, e_x, e_y, tan_x, tan_y)
+    theta_v = vane_angle(mechanism, theta_a, e_x, e_y, tan_x, tan_y)
     sin_v = math.sin(theta_v)
     cos_v = math.cos(theta_v)
-    l_4 = data.l_4
-    half = data.half_length
+    l_4 = mechanism.l_4
+    half = mechanism.half_length
 
     sin_a = math.sin(theta_a)
     cos_a = math.cos(theta_a)
-    s1_x = data.pivot_x - data.l_1 * sin_a
-    s1_z = data.pivot_z + data.l_1 * cos_a
-    s1_x_a = -data.l_1 * cos_a
-    s1_z_a = -data.l_1 * sin_a
+    s1_x = mechanism.pivot_x - mechanism.l_1 * sin_a
+    s1_z = mechanism.pivot_z + mechanism.l_1 * cos_a
+    s1_x_a = -mechanism.l_1 * cos_a
+    s1_z_a = -mechanism.l_1 * sin_a
 
     x3 = e_x + l_4 * cos_v - half * tan_y
     y3 = e_y + l_4 * sin_v - half * tan_x
-    z3 = data.l_3 + l_4 * (sin_v * tan_x + cos_v * tan_y)
+    z3 = mechanism.l_3 + l_4 * (sin_v * tan_x + cos_v * tan_y)
     r2 = x3 * x3 + z3 * z3
     theta_b = math.atan2(-x3, z3)
-    s2_x, s2_z = ring_end(data, x3, z3)
+    s2_x, s2_z = ring_end(mechanism, x3, z3)
     d_x = s2_x - s1_x
     d_y = y3 - l_4
     d_z = s2_z - s1_z
@@ -175,8 +175,8 @@ def fill_rods(
     motion[THETA_B, VALUE] = theta_b
     motion[S1_X, VALUE] = s1_x
     motion[S1_Z, VALUE] = s1_z
-    motion[S1_X, BIAS] = s1_x_a * alpha_a + data.l_1 * sin_a * omega_a * omega_a
-    motion[S1_Z, BIAS] = s1_z_a * alpha_a - data.l_1 * cos_a * omega_a * omega_a
+    motion[S1_X, BIAS] = s1_x_a * alpha_a + mechanism.l_1 * sin_a * omega_a * omega_a
+    motion[S1_Z, BIAS] = s1_z_a * alpha_a - mechanism.l_1 * cos_a * omega_a * omega_a
     motion[S3_X, VALUE] = x3
     motion[S3_Y, VALUE] = y3
     motion[S3_Z, VALUE] = z3
@@ -211,17 +211,17 @@ def fill_rods(
     motion[S3_X, BIAS] = x3_2 + x3_v * v_2
     motion[S3_Y, BIAS] = y3_2 + y3_v * v_2
     motion[S3_Z, BIAS] = z3_2 + z3_v * v_2
-    _fill_bodies(data, motion, s2_x, s2_z, omega_b, theta_b)
+    _fill_bodies(mechanism, motion, s2_x, s2_z, omega_b, theta_b)
 
 
 @kernel
 def _fill_bodies(
-    data: VsvData, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
+    mechanism: Mechanism, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
 ) -> None:
     """Fill S2, the mass centres O1, O2, O3 and the direction n of the drag link."""
-    radius = 0.5 * data.l_3 * math.cos(0.5 * data.ring_angle)
-    o3_x = -radius * math.sin(theta_b - 0.5 * data.ring_angle)
-    o3_z = radius * math.cos(theta_b - 0.5 * data.ring_angle)
+    radius = 0.5 * mechanism.l_3 * math.cos(0.5 * mechanism.ring_angle)
+    o3_x = -radius * math.sin(theta_b - 0.5 * mechanism.ring_angle)
+    o3_z = radius * math.cos(theta_b - 0.5 * mechanism.ring_angle)
     for k in range(7):
         b_k = motion[THETA_B, k]
         motion[S2_X, k] = -s2_z * b_k
@@ -243,10 +243,10 @@ def _fill_bodies(
     motion[O3_Z, VALUE] = o3_z
     for k in range(8):
         at_value = 1.0 if k == VALUE else 0.0
-        s1 = (motion[S1_X, k], at_value * data.l_4, motion[S1_Z, k])
-        pivot = (at_value * data.pivot_x, 0.0, at_value * data.pivot_z)
+        s1 = (motion[S1_X, k], at_value * mechanism.l_4, motion[S1_Z, k])
+        pivot = (at_value * mechanism.pivot_x, 0.0, at_value * mechanism.pivot_z)
         motion[O1_X, k] = 0.5 * (pivot[0] + s1[0])
         motion[O1_X + 1, k] = 0.5 * (pivot[2] + s1[2])
         for axis in range(3):
             motion[O2_X + axis, k] = 0.5 * (s1[axis] + motion[S2_X + axis, k])
-            motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) / data.l_2
+            motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) / mechanism.l_2

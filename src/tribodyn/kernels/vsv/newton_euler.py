@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import Mechanism, VsvMemory
 from tribodyn.kernels.vsv.equations import air_loads, ring_centre
 from tribodyn.kernels.vsv.layout import (
     BIAS,
@@ -71,21 +71,23 @@ ROWS_OF_EQUATIONS: Final = np.array(
 
 
 @kernel
-def _inertia_and_weight(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+def _inertia_and_weight(
+    mechanism: Mechanism, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
+) -> None:
     """Enter −m a and the weight of every mass centre and rotation into its equation."""
     for k in range(ROWS_OF_EQUATIONS.shape[0]):
         row, equation = ROWS_OF_EQUATIONS[k, 0], ROWS_OF_EQUATIONS[k, 1]
         for j in range(4):
-            matrix[equation, j] -= data.inertia[row] * motion[row, 1 + j]
-        rhs[equation, 0] += data.inertia[row] * motion[row, BIAS] - data.weight[row]
+            matrix[equation, j] -= mechanism.inertia[row] * motion[row, 1 + j]
+        rhs[equation, 0] += mechanism.inertia[row] * motion[row, BIAS] - mechanism.weight[row]
 
 
 @kernel
-def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray) -> None:
+def _crank(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 20 to 25; arms from the mass centre O_1."""
     theta_a = motion[THETA_A, VALUE]
-    x_a = 0.5 * data.l_1 * math.sin(theta_a)
-    z_a = -0.5 * data.l_1 * math.cos(theta_a)
+    x_a = 0.5 * mechanism.l_1 * math.sin(theta_a)
+    z_a = -0.5 * mechanism.l_1 * math.cos(theta_a)
     x_1, z_1 = -x_a, -z_a
     matrix[0, F_AX] = 1.0
     matrix[0, F_21] = 1.0
@@ -107,7 +109,7 @@ def _crank(data: VsvData, motion: FloatArray, matrix: FloatArray) -> None:
 
 
 @kernel
-def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+def _drag_link(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Equations 26 to 31, the moments projected on two directions across the thin rod.
 
     The inertia moment is −J n × n̈, so every term of the moment balance is n × (…), and the balance
@@ -123,17 +125,17 @@ def _drag_link(data: VsvData, motion: FloatArray, matrix: FloatArray, rhs: Float
     for eq, across in ((9, first), (10, second)):
         for axis in range(3):
             row = N_X + axis
-            matrix[eq, F_32 + axis] = 0.5 * data.l_2 * across[axis]
-            matrix[eq, F_21 + axis] = 0.5 * data.l_2 * across[axis]
+            matrix[eq, F_32 + axis] = 0.5 * mechanism.l_2 * across[axis]
+            matrix[eq, F_21 + axis] = 0.5 * mechanism.l_2 * across[axis]
             for j in range(4):
-                matrix[eq, j] -= across[axis] * data.link_inertia * motion[row, 1 + j]
-            rhs[eq, 0] += across[axis] * data.link_inertia * motion[row, BIAS]
+                matrix[eq, j] -= across[axis] * mechanism.link_inertia * motion[row, 1 + j]
+            rhs[eq, 0] += across[axis] * mechanism.link_inertia * motion[row, BIAS]
 
 
 @kernel
-def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray) -> None:
+def _ring(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 32 to 37 with F_43z; arms from the mass centre O_3."""
-    o3_x, o3_z = ring_centre(data.l_3, data.ring_angle, motion[THETA_B, VALUE])
+    o3_x, o3_z = ring_centre(mechanism.l_3, mechanism.ring_angle, motion[THETA_B, VALUE])
     x_2, z_2 = motion[S2_X, VALUE] - o3_x, motion[S2_Z, VALUE] - o3_z
     x_3, z_3 = motion[S3_X, VALUE] - o3_x, motion[S3_Z, VALUE] - o3_z
     x_b, z_b = -o3_x, -o3_z
@@ -158,7 +160,7 @@ def _ring(data: VsvData, motion: FloatArray, matrix: FloatArray) -> None:
 
 @kernel
 def _vane(
-    data: VsvData,
+    mechanism: Mechanism,
     y: FloatArray,
     memory: VsvMemory,
     lifted: float,
@@ -170,11 +172,11 @@ def _vane(
     motion, collar, joint = scratch.motion, scratch.collar, scratch.wrench
     direction = memory.regime[0]
     theta_v = motion[THETA_V, VALUE]
-    f_x, f_y, m_z = air_loads(data, theta_v, direction)
+    f_x, f_y, m_z = air_loads(mechanism, theta_v, direction)
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     sec2_x, sec2_y = 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
-    arm_x, arm_y = data.vane_arm * sec2_x, data.vane_arm * sec2_y
-    lever = data.exact
+    arm_x, arm_y = mechanism.vane_arm * sec2_x, mechanism.vane_arm * sec2_y
+    lever = mechanism.exact
     sin_v, cos_v = math.sin(theta_v), math.cos(theta_v)
 
     matrix[17, F_43] = -1.0
@@ -184,25 +186,25 @@ def _vane(
     matrix[19, F_CZ] = 1.0
     if lifted == 0.0:
         matrix[19, F_43 + 2] = -1.0
-        rhs[19, 0] += data.vane_weight
+        rhs[19, 0] += mechanism.vane_weight
 
-    matrix[20, F_43 + 1] = lever * data.half_length * sec2_x
-    matrix[20, F_43 + 2] = -lever * data.l_4 * sin_v * sec2_x
+    matrix[20, F_43 + 1] = lever * mechanism.half_length * sec2_x
+    matrix[20, F_43 + 2] = -lever * mechanism.l_4 * sin_v * sec2_x
     matrix[20, F_CZ] = collar[PHI_X]
     rhs[20, 0] -= sec2_x * joint[2] + arm_x * f_y
-    matrix[21, F_43] = lever * data.half_length * sec2_y
-    matrix[21, F_43 + 2] = -lever * data.l_4 * cos_v * sec2_y
+    matrix[21, F_43] = lever * mechanism.half_length * sec2_y
+    matrix[21, F_43 + 2] = -lever * mechanism.l_4 * cos_v * sec2_y
     matrix[21, F_CZ] = collar[PHI_Y]
     rhs[21, 0] -= sec2_y * joint[3] + arm_y * f_x
     for j in range(4):
-        matrix[20, j] -= arm_x * data.m_v * motion[OV_Y, 1 + j]
-        matrix[21, j] -= arm_y * data.m_v * motion[OV_X, 1 + j]
-    rhs[20, 0] += arm_x * data.m_v * motion[OV_Y, BIAS]
-    rhs[21, 0] += arm_y * data.m_v * motion[OV_X, BIAS]
+        matrix[20, j] -= arm_x * mechanism.m_v * motion[OV_Y, 1 + j]
+        matrix[21, j] -= arm_y * mechanism.m_v * motion[OV_X, 1 + j]
+    rhs[20, 0] += arm_x * mechanism.m_v * motion[OV_Y, BIAS]
+    rhs[21, 0] += arm_y * mechanism.m_v * motion[OV_X, BIAS]
 
-    matrix[22, F_43] = data.l_4 * sin_v
-    matrix[22, F_43 + 1] = -data.l_4 * cos_v
-    matrix[22, F_43 + 2] = -lever * data.l_4 * (cos_v * tan_x - sin_v * tan_y)
+    matrix[22, F_43] = mechanism.l_4 * sin_v
+    matrix[22, F_43 + 1] = -mechanism.l_4 * cos_v
+    matrix[22, F_43 + 2] = -lever * mechanism.l_4 * (cos_v * tan_x - sin_v * tan_y)
     matrix[22, F_CZ] = collar[THETA_V]
     rhs[22, 0] -= joint[4] + m_z
 
@@ -211,7 +213,7 @@ def _vane(
 
 
 @kernel
-def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float) -> None:
+def newton_euler(mechanism: Mechanism, y: FloatArray, memory: VsvMemory, lifted: float) -> None:
     """Fill ``memory.scratch.reactions`` (24, 1) from the motion table and joint wrench in scratch.
 
     Parameters
@@ -229,9 +231,9 @@ def newton_euler(data: VsvData, y: FloatArray, memory: VsvMemory, lifted: float)
     motion = memory.scratch.motion
     clear(matrix)
     clear(rhs)
-    _inertia_and_weight(data, motion, matrix, rhs)
-    _crank(data, motion, matrix)
-    _drag_link(data, motion, matrix, rhs)
-    _ring(data, motion, matrix)
-    _vane(data, y, memory, lifted, matrix, rhs)
+    _inertia_and_weight(mechanism, motion, matrix, rhs)
+    _crank(mechanism, motion, matrix)
+    _drag_link(mechanism, motion, matrix, rhs)
+    _ring(mechanism, motion, matrix)
+    _vane(mechanism, y, memory, lifted, matrix, rhs)
     solve_in_place(matrix, rhs, 0, 1)

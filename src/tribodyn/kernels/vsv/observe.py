@@ -13,7 +13,8 @@ from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.books import N_INTEGRALS
+from tribodyn.kernels.vsv.data import Mechanism, VsvData, VsvMemory
 from tribodyn.kernels.vsv.layout import (
     N_UNKNOWNS,
     OV_X,
@@ -88,22 +89,22 @@ _INTEGRALS = _ENERGIES + len(ENERGIES)
 
 
 @kernel
-def _vanes(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, row: FloatArray) -> None:
+def _vanes(mechanism: Mechanism, t: float, y: FloatArray, memory: VsvMemory, row: FloatArray) -> None:
     """Fill ideal and actual vane angle and speed.
 
     In ``paper`` the actual angle is read from the closure with the offsets e_x, e_y alone.
     """
     motion, table = memory.scratch.motion, memory.scratch.ideal
     clear(table)
-    fill_rods(data, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, table)
+    fill_rods(mechanism, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, table)
     row[_MOTION + 3] = table[THETA_V, VALUE]
     row[_MOTION + 6] = table[THETA_V, VELOCITY]
-    if data.exact > 0.0:
+    if mechanism.exact > 0.0:
         row[_MOTION + 2] = motion[THETA_V, VALUE]
         row[_MOTION + 5] = motion[THETA_V, VELOCITY]
     else:
         clear(table)
-        fill_rods(data, t, y[0], y[1], 0.0, 0.0, y[4], y[5], 0.0, 0.0, table)
+        fill_rods(mechanism, t, y[0], y[1], 0.0, 0.0, y[4], y[5], 0.0, 0.0, table)
         row[_MOTION + 2] = table[THETA_V, VALUE]
         row[_MOTION + 5] = table[THETA_V, VELOCITY]
 
@@ -116,13 +117,13 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
         scratch.f_cz = ledger.evaluate(data, t, y, memory)
     f_cz = scratch.f_cz
     copy(y, row)
-    _vanes(data, t, y, memory, row)
+    _vanes(data.mechanism, t, y, memory, row)
     scratch.report[joint_report.STORED] = stored(data.joint, memory.entry_velocity, y)
     motion, force = scratch.motion, scratch.force
     row[_MOTION] = motion[THETA_A, VALUE]
     row[_MOTION + 1] = motion[THETA_B, VALUE]
     row[_MOTION + 4] = motion[THETA_A, VELOCITY]
-    row[_MOTION + 7] = motion[S3_Y, VALUE] - data.l_4
+    row[_MOTION + 7] = motion[S3_Y, VALUE] - data.mechanism.l_4
     for k in range(joint_report.N_REPORT):
         row[_JOINT + k] = scratch.report[k]
     row[_COLLAR] = f_cz * scratch.collar[PHI_X]
@@ -131,9 +132,9 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     row[_AIR] = force[OV_X]
     row[_AIR + 1] = force[OV_Y]
     row[_AIR + 2] = force[THETA_V] - scratch.wrench[4]
-    ledger.fill_energies(data, memory, row[_ENERGIES:])
-    ne.newton_euler(data, y, memory, 1.0 if f_cz == 0.0 else 0.0)
+    ledger.fill_energies(data.mechanism, scratch, row[_ENERGIES:])
+    ne.newton_euler(data.mechanism, y, memory, 1.0 if f_cz == 0.0 else 0.0)
     for k in range(N_UNKNOWNS - ne.F_AX):
         row[_REACTIONS + k] = scratch.reactions[ne.F_AX + k, 0]
-    for k in range(ledger.N_INTEGRALS):
-        row[_INTEGRALS + k] = memory.integrals[k]
+    for k in range(N_INTEGRALS):
+        row[_INTEGRALS + k] = memory.books.integrals[k]

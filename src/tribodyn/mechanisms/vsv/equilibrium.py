@@ -56,7 +56,8 @@ def equilibrium(
     InputError
         If no equilibrium is found: the loads are more than the contact law can carry.
     """
-    scale = np.array([1.0, 1.0, 1.0 / data.half_length, 1.0 / data.half_length])
+    half = data.mechanism.half_length
+    scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])
     regime = memory.regime.copy()
     memory.regime[0] = direction
     memory.regime[1] = direction * FULLY_SLIDING if slip_speed is None else slip_speed
@@ -77,7 +78,7 @@ def equilibrium(
 
 def _residual(data: VsvData, memory: VsvMemory, t: float, q: FloatArray) -> tuple[FloatArray, FloatArray]:
     residual, jacobian = np.empty(4), np.empty((4, 4))
-    kinetostatic_residual(t, q, data, memory, residual, jacobian)
+    kinetostatic_residual(t, np.append(q, np.zeros(4)), data, memory, residual, jacobian)
     return residual, jacobian
 
 
@@ -87,12 +88,13 @@ def _starts(data: VsvData, memory: VsvMemory, t: float) -> list[FloatArray]:
     Along its length, or tilted with the ends at opposite sides; first the one that the load asks for.
     """
     load, _ = _residual(data, memory, t, np.zeros(4))
+    half = data.mechanism.half_length
     laid, tilted = [], []
     for depth in _START_DEPTHS:
         e = max(data.joint.clearance - depth * data.joint.roughness, 0.1 * data.joint.clearance)
         laid.append(np.append(_along(load[:2], e), [0.0, 0.0]))
-        tilted.append(np.append([0.0, 0.0], _along(load[2:], e / data.half_length)))
-    moments = math.hypot(load[2], load[3]) / data.half_length
+        tilted.append(np.append([0.0, 0.0], _along(load[2:], e / half)))
+    moments = math.hypot(load[2], load[3]) / half
     turns = moments > _MOMENTS_RULE * math.hypot(load[0], load[1])
     return tilted + laid if turns else laid + tilted
 

@@ -14,9 +14,9 @@ from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.kernels.bushing.joint import update_entry_velocity
 from tribodyn.kernels.bushing.names import STATES
 from tribodyn.kernels.vsv import functions, layout
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_scratch
+from tribodyn.kernels.vsv.books import new_books
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_mechanism, new_scratch
 from tribodyn.kernels.vsv.functions import vane_direction
-from tribodyn.kernels.vsv.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS, N_MARK
 from tribodyn.kernels.vsv.observe import OBSERVED, observe
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -49,7 +49,7 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
     """
     lengths, inertias = vsv.lengths, vsv.inertias
     ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, *vsv.drive.crank_range(duration))
-    return VsvData(
+    mechanism = new_mechanism(
         exact=1.0 if vsv.exact else 0.0,
         l_1=lengths.l_1,
         l_2=lengths.l_2,
@@ -81,11 +81,12 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         switch_angle=vsv.air.switch_angle,
         switch_width=vsv.air.switch_width,
         collar_radius=vsv.collar_radius,
+        collar_friction=vsv.collar_radius * vsv.joint.friction.coefficient,
         ideal_first=ideal_first,
         ideal_inverse_step=ideal_inverse_step,
         ideal=ideal,
-        joint=vsv.joint.data(wear),
     )
+    return VsvData(mechanism, vsv.joint.data(wear))
 
 
 def _row_inertia(vsv: Vsv) -> FloatArray:
@@ -115,19 +116,11 @@ def _row_weight(vsv: Vsv) -> FloatArray:
 def vsv_memory(data: VsvData) -> VsvMemory:
     """Return an empty memory: no contact, no work done yet, direction forward."""
     shape = data.joint.wear.shape
-    extremes = np.zeros(N_EXTREMES)
-    extremes[LEAST_SEPARATION] = data.joint.clearance
     return VsvMemory(
         entry_velocity=np.zeros(shape),
         sliding_load=np.zeros(shape),
-        mark=np.zeros(N_MARK),
         regime=np.array([1.0, 0.0]),
-        integrals=np.zeros(N_INTEGRALS),
-        rates=np.zeros((2, layout.N_RATES)),
-        forces=np.zeros((2, layout.N_WORKS, 4)),
-        extremes=extremes,
-        last_state=np.zeros(8),
-        last_momentum=np.zeros(4),
+        books=new_books(data.joint.clearance),
         scratch=new_scratch(),
     )
 
@@ -147,7 +140,7 @@ def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
         raise InputError(f"given {start!r}; allowed: {', '.join(STARTS)}", key="run.start")
     y0 = np.zeros(8)
     if start == "equilibrium":
-        y0[:4] = equilibrium(data, memory, 0.0, direction=vane_direction(data, 0.0, memory))
+        y0[:4] = equilibrium(data, memory, 0.0, direction=vane_direction(data.mechanism, 0.0, memory))
     return y0
 
 

@@ -12,12 +12,12 @@ from scipy.optimize import bisect
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.vsv.closure import closure_residual
+from tribodyn.kernels.vsv.closure import closure_residual, crank_end
 from tribodyn.kernels.vsv.closure import drive as crank
-from tribodyn.kernels.vsv.data import VsvData
+from tribodyn.kernels.vsv.data import Mechanism
+from tribodyn.kernels.vsv.layout import N_IDEAL
 from tribodyn.mechanisms.vsv.parameters import Lengths
 
-_INTERVALS: Final = 512
 _SCAN: Final = 1441
 _BISECTIONS: Final = 60
 _MEETING: Final = 1.0e-4
@@ -123,9 +123,9 @@ def check_reach(lengths: Lengths, first: float, last: float) -> None:
 def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, float, FloatArray]:
     """Return first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
     check_reach(lengths, first, last)
-    angles = np.linspace(first, last, _INTERVALS + 1)
+    angles = np.linspace(first, last, N_IDEAL + 1)
     theta_v = np.unwrap(ideal_vane_angle(lengths, angles))
-    step = (last - first) / _INTERVALS
+    step = (last - first) / N_IDEAL
     slope = CubicSpline(angles, theta_v)(angles, 1)
     return first, 1.0 / step, np.column_stack([theta_v, step * slope])
 
@@ -150,7 +150,7 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     first, last
         Smallest and largest crank angle [rad].
     """
-    angles = np.linspace(first, last, _INTERVALS + 1)
+    angles = np.linspace(first, last, N_IDEAL + 1)
     forward = crank_lever(lengths, angles) > 0.0
     turns = np.flatnonzero(forward[1:] != forward[:-1])
 
@@ -160,19 +160,20 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     return tuple(bisect(lever, float(angles[k]), float(angles[k + 1]), xtol=1e-12) for k in turns)
 
 
-def at_limit(data: VsvData, t: float, y: FloatArray) -> bool:
+def at_limit(mechanism: Mechanism, t: float, y: FloatArray) -> bool:
     """Tell whether the assemblies meet, or nearly, with the trunnion where it is: beyond, nothing closes.
 
     Parameters
     ----------
-    data
-        The mechanism.
+    mechanism
+        Its constants.
     t, y
         Time [s] and state, shape (8,).
     """
-    theta_a, _, _ = crank(data, t)
-    s1 = data.pivot_x - data.l_1 * math.sin(theta_a), data.pivot_z + data.l_1 * math.cos(theta_a)
+    theta_a, _, _ = crank(mechanism, t)
     place = (float(y[0]), float(y[1]), math.tan(y[2]), math.tan(y[3]))
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
-    missing = [closure_residual(data, *s1, *place, theta_v)[0] for theta_v in turn]
+    missing = [
+        closure_residual(mechanism, *crank_end(mechanism, theta_a), *place, theta_v)[0] for theta_v in turn
+    ]
     return bool(-min(missing) < _MEETING * max(missing))

@@ -18,6 +18,6 @@ def test_every_clearance_has_an_equilibrium(clearance, friction):
     # Some point of the axis lies within three σ of the wall, and none beyond it by more than that.
     ends = [
         np.hypot(attitude[0] - z * np.tan(attitude[3]), attitude[1] - z * np.tan(attitude[2]))
-        for z in (-data.half_length, data.half_length)
+        for z in (-data.mechanism.half_length, data.mechanism.half_length)
     ]
     assert max(ends) == pytest.approx(data.joint.clearance, abs=3.0 * data.joint.roughness)
