@@ -76,9 +76,9 @@ class Problem:
     functions
         Compiled functions, see :class:`CompiledFunctions`.
     data
-        Constant arguments of the functions: a (nested) named tuple of arrays and numbers.
+        Constant arguments of the functions: a (nested) named tuple of arrays, numbers and records.
     memory
-        What accepted steps change: a named tuple of arrays, changed in place.
+        What accepted steps change: a named tuple of arrays and records, changed in place.
     y0
         Initial state, shape (n,).
     t_span

@@ -13,37 +13,62 @@ from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
 
 
-def machine_code(problem: Problem) -> CompiledFunctions:
+def is_compiled(function: Callable[..., None]) -> bool:
+    """Tell whether numba compiles a function."""
+    return hasattr(function, "compile")
+
+
+def kernel_types(problem: Problem) -> tuple[Any, Any]:
+    """Return numba's types of data and memory, which take a millisecond to find out.
+
+    ``None`` and ``None`` where no function of the problem is compiled.
+    """
+    if not any(map(is_compiled, vars(problem.functions).values())):
+        return None, None
+    import numba
+
+    typeof: Callable[[Any], Any] = numba.typeof
+    return typeof(problem.data), typeof(problem.memory)
+
+
+def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
     """Return the functions of a problem compiled for the types of its data and memory.
 
     A call of a numba function first finds out the types of its arguments, which takes 10 µs
     for the nested data of a mechanism, more than many right-hand sides. These types never
     change during an integration, so the compiled code is asked for once. Functions that are
     not compiled are returned as they are.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    types
+        From :func:`kernel_types`.
     """
-    data, memory, state = problem.data, problem.memory, np.empty(problem.y0.size)
-    square, row = np.empty((state.size, state.size)), np.empty(problem.n_observed)
-    fields = np.empty(problem.field_shape)
     functions = problem.functions
+    if types == (None, None):
+        return functions
+    from numba import float64
+    from numba.core.types import Array
+
+    data, memory = types
+    vector, square = float64[::1], float64[:, ::1]
+    fields = Array(float64, len(problem.field_shape), "C")
     return CompiledFunctions(
-        rhs=_compiled(functions.rhs, 0.0, state, data, memory, state),
-        jac=_compiled(functions.jac, 0.0, state, data, memory, state, square),
-        enter=_compiled(functions.enter, 0.0, state, data, memory),
-        advance=_compiled(functions.advance, 0.0, 0.0, state, state, data, memory),
-        accept=_compiled(functions.accept, 0.0, state, data, memory),
-        observe=_compiled(functions.observe, 0.0, state, data, memory, row),
-        picture=_compiled(functions.picture, 0.0, state, data, memory, fields),
+        rhs=_compiled(functions.rhs, float64, vector, data, memory, vector),
+        jac=_compiled(functions.jac, float64, vector, data, memory, vector, square),
+        enter=_compiled(functions.enter, float64, vector, data, memory),
+        advance=_compiled(functions.advance, float64, float64, vector, vector, data, memory),
+        accept=_compiled(functions.accept, float64, vector, data, memory),
+        observe=_compiled(functions.observe, float64, vector, data, memory, vector),
+        picture=_compiled(functions.picture, float64, vector, data, memory, fields),
     )
 
 
-def _compiled(function: Callable[..., None], *example: Any) -> Callable[..., None]:
-    """Return the code of a numba function for arguments of the types of ``example``."""
-    if not hasattr(function, "compile"):
-        return function
-    import numba
-
-    types: tuple[Any, ...] = tuple(map(numba.typeof, example))
-    code: Callable[..., None] = function.compile(types)
+def _compiled(function: Any, *types: Any) -> Callable[..., None]:
+    """Return the code of a numba function for arguments of the given types."""
+    code: Callable[..., None] = function.compile(types) if is_compiled(function) else function
     return code
 
 

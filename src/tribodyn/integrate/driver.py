@@ -17,7 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate.base import Method, Step
-from tribodyn.integrate.binding import Binding, all_finite, machine_code
+from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 from tribodyn.integrate.schedule import Schedule
 
 INTERRUPTED = "interrupted"
@@ -95,7 +95,8 @@ class Walk:
         self.progress = progress
         self.stop = stop
         self.statistics = Statistics()
-        self.functions = machine_code(problem)
+        self.types = kernel_types(problem)
+        self.functions = machine_code(problem, self.types)
         self.binding = Binding(problem, self.functions, self.statistics)
         self.t = float(schedule.edges[0])
         self.step_size = 0.0

@@ -15,6 +15,7 @@ import numpy as np
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.integrate.binding import is_compiled
 from tribodyn.integrate.driver import INTERRUPTED, Walk
 from tribodyn.integrate.schedule import Schedule
 
@@ -66,7 +67,7 @@ class _CompiledWalk(Walk):
         """Compile, or find the compiled code; not counted as integration."""
         from tribodyn.kernels.mebdf.drive import run
 
-        problem, functions = self.problem, self.problem.functions
+        functions = self.problem.functions
         self._rtol = rtol
         self._marks = self._new_marks()
         self._functions = (
@@ -77,9 +78,9 @@ class _CompiledWalk(Walk):
             functions.observe,
             functions.picture,
         )
-        if all(hasattr(function, "compile") for function in self._functions):
+        if all(map(is_compiled, self._functions)):
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
-            self._loop = _compiled(run, self._functions, state, problem, self._marks)
+            self._loop = _compiled(run, self._functions, state, self.types, self._marks)
             self._at_once = STEPS_BETWEEN_LOOKS
         else:
             self._loop = run.py_func
@@ -152,7 +153,7 @@ class _CompiledWalk(Walk):
         return reason(state, self.problem.state_names)
 
 
-def _compiled(run: Any, functions: tuple[Any, ...], state: Any, problem: Problem, marks: Any) -> Any:
+def _compiled(run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any, Any], marks: Any) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
     With the functions of a problem as ordinary arguments the loop would be compiled for each of them
@@ -164,7 +165,7 @@ def _compiled(run: Any, functions: tuple[Any, ...], state: Any, problem: Problem
 
     typeof: Callable[[Any], Any] = numba.typeof
     vector, matrix = float64[::1], float64[:, ::1]
-    data, memory = typeof(problem.data), typeof(problem.memory)
+    data, memory = types
     row, fields = typeof(marks.rows[:1].reshape(-1)), typeof(np.empty(marks.pictures.shape[1:]))
     signatures = (
         void(float64, vector, data, memory, vector),
@@ -176,8 +177,8 @@ def _compiled(run: Any, functions: tuple[Any, ...], state: Any, problem: Problem
     )
     for function, signature in zip(functions, signatures, strict=True):
         function.compile(signature.args)
-    types = tuple(map(FunctionType, signatures))
-    return run.compile((*types, typeof(state), data, memory, typeof(marks), int64))
+    handed = map(FunctionType, signatures)
+    return run.compile((*handed, typeof(state), data, memory, typeof(marks), int64))
 
 
 MEBDF = CompiledMebdf()

@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
-from tribodyn.integrate.binding import Binding, all_finite, machine_code
+from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 
 
 def nothing(*_):
@@ -34,7 +34,7 @@ def make_problem(rhs=nothing, jac=nothing, data=None, memory=None):
 
 def bind(problem):
     statistics = Statistics()
-    return Binding(problem, machine_code(problem), statistics), statistics
+    return Binding(problem, machine_code(problem, kernel_types(problem)), statistics), statistics
 
 
 def linear(t, y, data, memory, f):
@@ -106,7 +106,7 @@ def compiled_rhs(t, y, data, memory, f):
 def test_compiled_functions_are_called_directly_and_see_the_memory_change():
     memory = Memory(np.array([1.0]))
     problem = make_problem(compiled_rhs, data=Data(Springs(np.array([6.0]), 2.0)), memory=memory)
-    assert numba.config.DISABLE_JIT or machine_code(problem).rhs is not compiled_rhs
+    assert numba.config.DISABLE_JIT or machine_code(problem, kernel_types(problem)).rhs is not compiled_rhs
     binding, _ = bind(problem)
     np.testing.assert_array_equal(binding.rhs(0.0, problem.y0), [2.0, -3.0])
     memory.factor[0] = 2.0
