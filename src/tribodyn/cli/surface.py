@@ -126,12 +126,11 @@ def _drawn(surface: Roughness, others: list[Roughness]) -> Figure:
 
 def _save(folder: Path, outcome: dict[str, Any], block: str, figure: Figure) -> None:
     """Write numbers, block and figure."""
-    from tribodyn.figures.style import DPI
-    from tribodyn.results.atomic import replacing, write_text
+    from tribodyn.figures.save import save_png
+    from tribodyn.results.atomic import write_text
 
     (folder / FIGURES).mkdir(exist_ok=True)
-    with replacing(folder / FIGURES / _FIGURE) as part:
-        figure.savefig(part, format="png", dpi=DPI)
+    save_png(figure, folder / FIGURES / _FIGURE)
     write_text(folder / _DOCUMENT, json.dumps(outcome, indent=2, allow_nan=False) + "\n")
     write_text(folder / _BLOCK, block)
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 
-from tribodyn.figures.style import DPI
 from tribodyn.results.atomic import replacing
 
 FORMATS = (".png", ".pdf")
@@ -30,14 +31,28 @@ def save(figure: Figure, folder: Path, name: str) -> Path:
         The PNG file; the PDF stands beside it.
     """
     path = folder / f"{name}.png"
-    with replacing(path) as part:
-        figure.savefig(part, format="png", dpi=DPI)
+    save_png(figure, path)
     # Arranging the parts of a figure takes longer than drawing it: once is enough.
     figure.set_layout_engine("none")
     with replacing(path.with_suffix(".pdf")) as part:
         # Without a date the same result gives the same file.
-        figure.savefig(part, format="pdf", metadata={"CreationDate": None})
+        FigureCanvasPdf(figure).print_pdf(part, metadata={"CreationDate": None})
     return path
+
+
+def save_png(figure: Figure, path: Path) -> None:
+    """Write a figure as PNG.
+
+    Parameters
+    ----------
+    figure
+        Drawn.
+    path
+        File to write; its folder must exist.
+    """
+    with replacing(path) as part:
+        # Figure.savefig would draw it twice, the first time only to arrange its parts.
+        FigureCanvasAgg(figure).print_png(part)
 
 
 def remove(folder: Path, name: str) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from tribodyn.figures.style import DPI
+from tribodyn.figures.save import save_png
 from tribodyn.reproduction.base import PaperFigure
 from tribodyn.reproduction.claims.table import Row, as_json, as_markdown
 from tribodyn.results import netcdf_content
@@ -28,8 +28,7 @@ def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
     """
     with replacing(folder / f"{figure.name}.nc") as part:
         part.write_bytes(netcdf_content(data))
-    with replacing(folder / f"{figure.name}.png") as part:
-        figure.draw(data).savefig(part, format="png", dpi=DPI)
+    save_png(figure.draw(data), folder / f"{figure.name}.png")
 
 
 def save_claims(rows: list[Row], folder: Path) -> None:
