@@ -11,6 +11,7 @@ import json
 import os
 import platform
 import sys
+import time
 from pathlib import Path
 from typing import Final
 
@@ -26,8 +27,10 @@ def main(names: list[str]) -> None:
     found = json.loads(TARGET.read_text(encoding="utf-8")) if TARGET.exists() else {}
     for name in names or NAMES:
         print(f"== {name}", flush=True)
-        before = os.getloadavg()[0]
-        found[name] = {"on": machine(), "load": before, **importlib.import_module(f"benchmarks.{name}").run()}
+        before, began = os.getloadavg()[0], time.perf_counter()
+        measured = importlib.import_module(f"benchmarks.{name}").run()
+        found[name] = {"on": machine(), "load": before, "took": time.perf_counter() - began, **measured}
+        print(f"took {found[name]['took']:.0f} s", flush=True)
         TARGET.write_text(json.dumps(found, indent=1), encoding="utf-8")
     draw(found, TARGET.with_suffix(".svg"))
 

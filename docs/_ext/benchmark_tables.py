@@ -87,8 +87,12 @@ def goals(found: Found) -> Lines:
     memory = command["second run"]["peak memory [MB]"]
     yield row("peak memory of a run: 600 MB", verdict(f"{memory:.0f} MB", memory < 600.0))
     if "sweep" in found:
-        ratio = found["sweep"]["ratio"]
-        yield row("sweep, 2 workers 1.8 times as fast as 1", verdict(f"{ratio:.2f} times", ratio >= 1.8))
+        first, later, plain = found["sweep"]["ratios"].values()
+        measured = verdict(f"{first:.2f} times", first >= 1.8)
+        yield row(
+            "sweep of 16 points, 2 workers 1.8 times as fast as 1",
+            f"{measured}, {later:.2f} times in later sweeps of a process; plain processes {plain:.2f} times",
+        )
 
 
 def kernel(found: Found) -> Lines:

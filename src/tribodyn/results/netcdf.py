@@ -7,7 +7,7 @@ as long on the many short variables of a result; the reference library in C does
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from typing import Any, Final
 
 import h5py
@@ -31,12 +31,13 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
     """
     variables, attributes = xr.conventions.cf_encoder(*xr.conventions.encode_dataset_coordinates(dataset))
     with h5py.File("dataset.nc", "w", driver="core", backing_store=False, track_order=True) as file:
+        made = {name: _create(file, str(name), variable) for name, variable in variables.items()}
+        scales = {name: _scale(file, str(name), size, made.get(name)) for name, size in dataset.sizes.items()}
         for name, variable in variables.items():
-            _describe(_create(file, str(name), variable), variable.attrs)
-        for dimension, size in dataset.sizes.items():
-            _make_scale(file, str(dimension), size)
-        for name, variable in variables.items():
-            _attach_scales(file, str(name), variable.dims)
+            _describe(made[name], variable.attrs)
+            # One that is a dimension knows its own.
+            for axis, dimension in enumerate(variable.dims if name not in scales else ()):
+                made[name].dims[axis].attach_scale(scales[dimension])
         _describe(file, attributes)
         file.flush()
         content: bytes = file.id.get_file_image()
@@ -58,18 +59,10 @@ def _describe(holder: h5py.File | h5py.Dataset, attributes: Mapping[Any, Any]) -
         holder.attrs[name] = value if isinstance(value, str) else np.atleast_1d(value)
 
 
-def _make_scale(file: h5py.File, dimension: str, size: int) -> None:
-    """Make a dimension of the variable that has its name, or of one without values."""
-    if dimension in file:
-        file[dimension].make_scale(dimension)
-    else:
-        file.create_dataset(dimension, shape=(size,), dtype=">f4").make_scale(_NO_VARIABLE.format(size))
-
-
-def _attach_scales(file: h5py.File, name: str, dimensions: tuple[Hashable, ...]) -> None:
-    """Tell a variable its dimensions; one that is a dimension knows its own."""
-    if dimensions == (name,):
-        return
-    values = file[name]
-    for axis, dimension in enumerate(dimensions):
-        values.dims[axis].attach_scale(file[str(dimension)])
+def _scale(file: h5py.File, name: str, size: int, variable: h5py.Dataset | None) -> h5py.Dataset:
+    """Return a dimension, made of the variable that has its name or of one without values."""
+    if variable is None:
+        variable = file.create_dataset(name, shape=(size,), dtype=">f4")
+        name = _NO_VARIABLE.format(size)
+    variable.make_scale(name)
+    return variable
