@@ -83,7 +83,7 @@ class _CompiledWalk(Walk):
             self._loop = _compiled(run, self._functions, state, self.types, self._marks)
             self._at_once = STEPS_BETWEEN_LOOKS
         else:
-            self._loop = run.py_func
+            self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
             self._at_once = 1
 
     def compiled_segment(self, t_end: float) -> None:

@@ -1,0 +1,30 @@
+"""A developer can step through the kernels with a debugger."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+SCRIPT = """
+from tribodyn import simulate
+from tribodyn.cases import load_case
+
+case = load_case("vsv").replace({"run.duration": "0.02 ms", "run.output_interval": "0.01 ms"})
+print(float(simulate(case)["F_cx"][-1]))
+"""
+
+
+def force(disabled: str) -> float:
+    """Return the contact force at the end of a short run [N]."""
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": disabled}
+    done = subprocess.run([sys.executable, "-c", SCRIPT], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return float(done.stdout)
+
+
+def test_a_run_without_compilation_is_the_same() -> None:
+    # Compiled sums run in another order and contract products.
+    assert force("1") == pytest.approx(force("0"), rel=1e-9)
