@@ -1,21 +1,13 @@
-"""A dataset as the content of a NetCDF-4 file.
-
-NetCDF-4 is HDF5 whose dimensions are HDF5 dimension scales (NetCDF User's Guide, Interoperability with HDF5),
-and h5py writes HDF5. h5netcdf, which reads our files and which xarray would have write them, spends ten times
-as long on the many short variables of a result; the reference library in C does not run beside h5py.
-"""
+"""A dataset as the content of a NetCDF-4 file."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Final
+import threading
+from typing import Final
 
-import h5py
-import numpy as np
 import xarray as xr
 
-_NO_VARIABLE: Final = "This is a netCDF dimension but not a netCDF variable.{:10d}"
-"""Name of a dimension scale without values, fixed by NetCDF."""
+_ONE_AT_A_TIME: Final = threading.Lock()
 
 
 def netcdf_content(dataset: xr.Dataset) -> bytes:
@@ -29,40 +21,14 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
     dataset
         Numbers and texts over named dimensions; the attributes are numbers and texts.
     """
-    variables, attributes = xr.conventions.cf_encoder(*xr.conventions.encode_dataset_coordinates(dataset))
-    with h5py.File("dataset.nc", "w", driver="core", backing_store=False, track_order=True) as file:
-        made = {name: _create(file, str(name), variable) for name, variable in variables.items()}
-        scales = {name: _scale(file, str(name), size, made.get(name)) for name, size in dataset.sizes.items()}
-        for name, variable in variables.items():
-            _describe(made[name], variable.attrs)
-            # One that is a dimension knows its own.
-            for axis, dimension in enumerate(variable.dims if name not in scales else ()):
-                made[name].dims[axis].attach_scale(scales[dimension])
-        _describe(file, attributes)
-        file.flush()
-        content: bytes = file.id.get_file_image()
-    return content
+    import dask
+
+    encoding = {name: {"fletcher32": True} for name, values in dataset.variables.items() if _summable(values)}
+    # On a worker xarray would ask the scheduler to lock the file, and a file in memory has no name to lock.
+    with _ONE_AT_A_TIME, dask.config.set(scheduler="synchronous"):
+        return bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
 
 
-def _create(file: h5py.File, name: str, variable: xr.Variable) -> h5py.Dataset:
-    """Write the values of a variable."""
-    values = variable.values
-    if values.dtype.kind in "OU":
-        return file.create_dataset(name, data=values.astype(object), dtype=h5py.string_dtype())
-    # HDF5 has no checksum of a single number, nor of none.
-    return file.create_dataset(name, data=values, fletcher32=True if values.ndim and values.size else None)
-
-
-def _describe(holder: h5py.File | h5py.Dataset, attributes: Mapping[Any, Any]) -> None:
-    """Write attributes; a number is an array of one, as NetCDF has it."""
-    for name, value in attributes.items():
-        holder.attrs[name] = value if isinstance(value, str) else np.atleast_1d(value)
-
-
-def _scale(file: h5py.File, name: str, size: int, variable: h5py.Dataset | None) -> h5py.Dataset:
-    """Return a dimension, made of the variable that has its name or of one without values."""
-    if variable is None:
-        variable = file.create_dataset(name, shape=(size,), dtype=">f4")
-        name = _NO_VARIABLE.format(size)
-    variable.make_scale(name)
-    return variable
+def _summable(values: xr.Variable) -> bool:
+    """Tell whether HDF5 can hold a checksum of an array: of numbers, and not of none."""
+    return values.ndim > 0 and values.size > 0 and values.dtype.kind in "fiu"
