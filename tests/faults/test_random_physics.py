@@ -23,14 +23,12 @@ from tribodyn.contact import DAMPING_FACTORS, LAWS
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.vsv.reach import reachable
 from tribodyn.simulation import simulate
+from tribodyn.simulation.checks import TIGHTEN
 
 ENERGY_LIMIT = 0.01
 """Largest energy residual of a sound run: above it a run warns."""
-TIGHTEN = "ighten solver.rtol"
-"""What a run says that misses energy."""
+ATOL = {"position": "m", "tilt": "rad", "velocity": "m/s", "tilt_rate": "rad/s"}
 TOLD, SILENT = "as it tells", "of which it says nothing"
-CHUNK = 25
-"""Seeds in one test of the long campaign."""
 DEEPEST = -4.0
 """Separation over σ at which the journal stops, because contact laws reach no further."""
 NEAR = math.radians(2.0)
@@ -213,7 +211,10 @@ def complaint(case: Any) -> str:
 
 def advised(case: Any, warnings: str, times: int) -> Changes:
     """Return what the warnings of a run ask for, done so many times."""
-    changes: Changes = {"solver.rtol": 0.1**times * case.solver.rtol}
+    tenth = 0.1**times
+    changes: Changes = {"solver.rtol": tenth * case.solver.rtol}
+    for name, unit in ATOL.items():
+        changes[f"solver.atol.{name}"] = f"{tenth * case.at(f'solver.atol.{name}')} {unit}"
     if "raise solver.grid" in warnings:
         for key in ("solver.grid.theta", "solver.grid.z"):
             changes[key] = 2**times * case.at(key)
@@ -257,29 +258,33 @@ def true_reason(result: xr.Dataset) -> bool:
     return False
 
 
-def assert_sound(kind: Kind, seeds: range, doubtful: int = 0) -> None:
-    """Assert that the runs of all seeds are sound, after all of them have been made.
-
-    Of so many (``doubtful``) energy may still be missed if they tell so: where a contact is far smaller than
-    the grid, or rings for long, the ledger's own quadrature is what is left. The manual names this limit.
-    """
+def assert_sound(kind: Kind, seeds: range) -> None:
+    """Assert that the runs of all seeds are sound, after all of them have been made."""
     found = {seed: complaint(kind.case(seed)) for seed in seeds}
-    assert not {seed: text for seed, text in found.items() if text and TOLD not in text}
-    assert len([text for text in found.values() if text]) <= doubtful, found
+    assert not {seed: text for seed, text in found.items() if text}
 
 
-def chunks(count: int, size: int) -> list[Any]:
+def chunks(count: int, size: int = 25) -> list[Any]:
     """Return seeds in chunks, each a test: a campaign can be taken up where it was left, by ``-k``."""
     ranges = [range(first, first + size) for first in range(0, count, size)]
     return [pytest.param(seeds, id=f"from_{seeds.start}", marks=pytest.mark.long) for seeds in ranges]
 
 
-@pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(500, CHUNK)])
+@pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(500)])
 def test_mechanisms(seeds: range) -> None:
-    assert_sound(MECHANISM, seeds, doubtful=len(seeds) // CHUNK)
+    assert_sound(MECHANISM, seeds)
 
 
-@pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(100, 25)])
+def test_what_a_run_advises_that_misses_energy_helps() -> None:
+    # Hardly any slip: the work of friction hangs on velocities as small as their absolute tolerance.
+    case = MECHANISM.case(57)
+    result = run(case)
+    assert TIGHTEN in result.attrs["warnings"]
+    assert residuals(result)[1] > 10.0 * ENERGY_LIMIT
+    assert max(residuals(run(case.replace(advised(case, TIGHTEN, 2))))) < ENERGY_LIMIT
+
+
+@pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(100)])
 def test_dry_journals(seeds: range) -> None:
     assert_sound(DRY, seeds)
 

@@ -23,6 +23,8 @@ REJECTED_LIMIT: Final = 0.2
 """Share of rejected steps among those tried; built-in cases and rough variations of them have 1 to 6 %."""
 RESTART_LIMIT: Final = 0.05
 """Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
+TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
+"""What makes ledgers close: absolute tolerances alone hold small slips and long ringing."""
 _SAMPLES: Final = 24
 
 
@@ -182,7 +184,7 @@ def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
         return ""
     numbers = f"Energy is missed: {100 * whole:.2g} % of the whole mechanism's, {100 * clearance:.2g} % of"
     if vsv.exact:
-        return f"{numbers} the clearance motion's. Tighten solver.rtol."
+        return f"{numbers} the clearance motion's. {TIGHTEN}"
     return (
         f"{numbers} the clearance motion's. The paper's equations do not come from one virtual work, so "
         "their ledger cannot close; mechanism.formulation = 'exact' does."

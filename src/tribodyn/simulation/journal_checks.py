@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import BushingJoint
 from tribodyn.kernels.journal import ledger
-from tribodyn.simulation.checks import ENERGY_LIMIT, of_contact, of_steps
+from tribodyn.simulation.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
 
 
 def warnings(
@@ -37,7 +37,7 @@ def warnings(
         As for :func:`tribodyn.simulation.checks.warnings`.
     """
     messages = [
-        f"Energy is missed: {100 * residual:.2g} % of all in the ledger. Tighten solver.rtol."
+        f"Energy is missed: {100 * residual:.2g} % of all in the ledger. {TIGHTEN}"
         if not residual <= ENERGY_LIMIT
         else "",
         *of_contact(
