@@ -11,9 +11,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE
+from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.bushing.data import BushingData
 from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
-from tribodyn.kernels.bushing.nodes import N_WORK, PART
+from tribodyn.kernels.bushing.nodes import LISTED, PART
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -173,9 +174,7 @@ class BushingJoint:
             z=self.z,
             area=self.node_area,
             wear=depth,
-            work=np.zeros(N_WORK),
-            pieces=np.zeros((2 * self.field_shape[0] + 3, 3), dtype=np.int64),
-            cursor=np.zeros(2, dtype=np.int64),
+            listed=new_record(LISTED),
             kept=np.zeros(depth.size),
             kept_pieces=np.zeros((2 * self.field_shape[0] + depth.size // PART + 3, 3), dtype=np.int64),
         )

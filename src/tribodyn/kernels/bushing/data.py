@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.tables import ContactTable
@@ -47,12 +47,11 @@ class BushingData(NamedTuple):
         Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges.
     wear
         Wear depth at the nodes [m], shape (n_z + 2, n_theta).
-    work, pieces, cursor
-        Scratch of the kernels: a list of nodes, where they come from, and how far it has been filled (row of
-        nodes, nodes of that row). Nothing is carried from one call of a kernel to the next.
+    listed
+        Scratch of the kernels: a list of nodes, see ``kernels/bushing/nodes.py``.
     kept, kept_pieces
-        Pressures of the last report [Pa] and the nodes they belong to, listed as in ``pieces``, with the
-        number of nodes beside that of pieces.
+        Pressures of the last report [Pa], and the nodes they belong to as in ``listed.pieces``, with
+        the number of nodes beside that of pieces.
     """
 
     clearance: float
@@ -72,8 +71,6 @@ class BushingData(NamedTuple):
     z: FloatArray
     area: FloatArray
     wear: FloatArray
-    work: FloatArray
-    pieces: IntArray
-    cursor: IntArray
+    listed: Any
     kept: FloatArray
     kept_pieces: IntArray

@@ -2,14 +2,13 @@
 
 Sums over nodes are loops over this list: long enough for the processor to take four nodes at once, whatever
 the width of the window in a row. The list is filled and summed a part at a time, so that it stays in the
-nearest cache. Where its nodes come from is listed in ``BushingData.pieces``: number of pieces in row 0, then
-(row of nodes, first node, count). Its columns lie ``PITCH`` numbers apart in ``BushingData.work``.
+nearest cache. It is held by ``BushingData.listed``, see :data:`LISTED`.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -44,6 +43,22 @@ DAMPING: Final = 11 * PITCH
 """P_k and C from the contact table [Pa], filled by :func:`look_up`."""
 N_WORK: Final = 12 * PITCH
 
+Listed: TypeAlias = Any
+"""The list, of the type :data:`LISTED`."""
+
+LISTED: Final = np.dtype(
+    [("work", "f8", (N_WORK,)), ("pieces", "i8", (PART + 1, 3)), ("cursor", "i8", (2,))], align=True
+)
+"""The list. Nothing is carried from one call of a kernel to the next.
+
+work
+    Its columns, which begin at the places above.
+pieces
+    Where the nodes come from: number of pieces in row 0, then (row of nodes, first node, count).
+cursor
+    How far all nodes have been listed: row of nodes, and nodes of that row.
+"""
+
 
 @inlined
 def row_motion(y: FloatArray, tan_x: float, tan_y: float, z: float) -> tuple[float, float, float, float]:
@@ -73,7 +88,7 @@ def _load(
     slip: float,
 ) -> None:
     """Write ``size`` nodes of a row with given offset and velocity into the list, from place ``at`` on."""
-    work, cos, sin, wear = joint.work, joint.cos_theta, joint.sin_theta, joint.wear
+    work, cos, sin, wear = joint.listed.work, joint.cos_theta, joint.sin_theta, joint.wear
     area = joint.area[row]
     moment = area * joint.z[row]
     last = last_interval(joint.table)
@@ -100,7 +115,8 @@ def _load(
 @kernel
 def rewind(joint: BushingData) -> None:
     """Begin the list anew."""
-    joint.cursor[0] = joint.cursor[1] = 0
+    cursor = joint.listed.cursor
+    cursor[0] = cursor[1] = 0
 
 
 @kernel
@@ -116,7 +132,7 @@ def gather(
     with_edges
         1 if the rows on the edges, which stand for no area, are wanted too, 0 otherwise.
     """
-    cursor, pieces, n_theta = joint.cursor, joint.pieces, joint.cos_theta.size
+    cursor, pieces, n_theta = joint.listed.cursor, joint.listed.pieces, joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     row, taken, n, n_pieces = cursor[0], cursor[1], 0, 0
@@ -146,7 +162,7 @@ def look_up(joint: BushingData, n: int) -> None:
 
     Such a loop could not take four nodes at once if it read the table, whose places it cannot foresee.
     """
-    work, cubics = joint.work, joint.table.cubics
+    work, cubics = joint.listed.work, joint.table.cubics
     for k in range(min(n, PART)):
         first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
         work[RIGID + k] = cubic(cubics, first, x)

@@ -70,10 +70,10 @@ def report(
 @kernel
 def _keep(joint: BushingData, n: int) -> None:
     """Append the pressures of the list to those kept so far."""
-    pieces, kept_pieces = joint.pieces, joint.kept_pieces
+    pieces, kept_pieces = joint.listed.pieces, joint.kept_pieces
     before, kept = kept_pieces[0, 0], kept_pieces[0, 1]
     for k in range(n):
-        joint.kept[kept + k] = joint.work[nodes.PRESSURE + k]
+        joint.kept[kept + k] = joint.listed.work[nodes.PRESSURE + k]
     kept_pieces[0, 1] = kept + n
     for piece in range(1, pieces[0, 0] + 1):
         for column in range(3):
@@ -107,7 +107,7 @@ def stored(joint: BushingData, entry_velocity: FloatArray, y: FloatArray) -> flo
 @summing
 def _add_nodes(joint: BushingData, omega: float, sign: float, n: int, out: FloatArray) -> None:
     """Add the sums over the ``n`` nodes in the list to ``out``; separations are places in the table."""
-    work = joint.work
+    work = joint.listed.work
     law = friction_law(joint, sign)
     v_min, clip = joint.minimum_entry_velocity, joint.clip
     tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
@@ -183,7 +183,7 @@ def _far_separation(joint: BushingData, y: FloatArray) -> float:
 @kernel
 def _stored(joint: BushingData, n: int) -> float:
     """Return the stored contact energy of the nodes in the list [J]."""
-    work, total = joint.work, 0.0
+    work, total = joint.listed.work, 0.0
     for k in range(n):
         place = work[nodes.INTERVAL + k] + work[nodes.FRACTION + k]
         h_star = joint.table.h_first + (place - 1.0) / joint.table.inverse_step

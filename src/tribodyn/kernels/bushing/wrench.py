@@ -109,7 +109,7 @@ def wrench(
 @summing
 def _add_nodes(joint: BushingData, sign: float, n: int, out: FloatArray) -> None:
     """Add the wrench of the ``n`` nodes in the list."""
-    work, cubics = joint.work, joint.table.cubics
+    work, cubics = joint.listed.work, joint.table.cubics
     law = friction_law(joint, sign)
     v_min, clip, tangential = joint.minimum_entry_velocity, joint.clip, joint.tangential
     f_x = f_y = m_x = m_y = torque = 0.0
