@@ -59,8 +59,7 @@ def _variable(name: str, values: ArrayLike, first: tuple[str, ...] = ()) -> xr.V
     dims = first + about.dims
     if array.ndim != len(dims):
         raise ValueError(f"{name} has shape {array.shape} but the table says it runs over {dims}")
-    # Otherwise xarray imports dask.array, which takes long, to see whether this is one of its arrays.
-    return xr.Variable(dims, array, {"units": about.units, "long_name": about.long_name}, fastpath=True)
+    return xr.Variable(dims, array, {"units": about.units, "long_name": about.long_name})
 
 
 def plain_attribute(value: object) -> str | int | float:

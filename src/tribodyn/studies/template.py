@@ -16,7 +16,6 @@ import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from multiprocessing import forkserver
 from typing import Final
 
 METHOD: Final = "forkserver" if sys.platform == "linux" else "spawn"
@@ -36,6 +35,8 @@ def start(toml: str, environment: Mapping[str, str]) -> None:
         Environment variables that workers need from their beginning.
     """
     if METHOD == "forkserver":
+        from multiprocessing import forkserver
+
         multiprocessing.get_context(METHOD).set_forkserver_preload([__name__])
         with _set({**environment, _CASE: toml}):
             forkserver.ensure_running()

@@ -50,6 +50,6 @@ def test_where_processes_cannot_be_forked_nothing_is_started(monkeypatch: pytest
         raise AssertionError
 
     monkeypatch.setattr(template, "METHOD", "spawn")
-    monkeypatch.setattr(template.forkserver, "ensure_running", never)
+    monkeypatch.setattr("multiprocessing.forkserver.ensure_running", never)
     template.start(load_case("vsv").to_toml(), {})
     assert template._CASE not in os.environ
