@@ -19,7 +19,7 @@ help:
 	@echo "make lint        style, types and layers"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
-	@echo "make bench       speed against other programs (a quarter of an hour)"
+	@echo "make bench       speed against other programs (some twenty minutes)"
 	@echo "make lock        pin all dependencies anew, with hashes (needs uv)"
 	@echo "make clean       remove .venv and everything built"
 
