@@ -78,6 +78,20 @@ def same_to_the_bit(one: xr.Dataset, other: xr.Dataset) -> None:
     assert facts == other_facts
 
 
+def stopped_without_room(changes: dict[str, object], folder: Path) -> None:
+    """Begin a campaign or go on with it where there is no room for a checkpoint: one line says so."""
+
+    def no_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2_000, 2_000))
+
+    done = subprocess.run(
+        command(changes), cwd=folder, capture_output=True, text=True, preexec_fn=no_room, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith("tribodyn: writing or reading failed: ")
+    assert done.stderr.count("\n") == 1
+
+
 def test_killed_twice_it_ends_as_one_left_alone(tmp_path: Path) -> None:
     changes, chance = changed(), random.Random(19)
     undisturbed = simulate(load_case("vsv").replace(changes))
@@ -87,12 +101,17 @@ def test_killed_twice_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         wait_for_a_jump(process, tmp_path, before)
         time.sleep(chance.uniform(0.0, 0.4))  # a cycle takes about 0.2 s
         assert end(process)
-    assert not (tmp_path / "out" / "result.nc").exists()
-    with np.load(tmp_path / "out" / "checkpoint.npz", allow_pickle=False) as archive:
+    checkpoint = tmp_path / "out" / "checkpoint.npz"
+    kept = checkpoint.read_bytes()
+    with np.load(checkpoint, allow_pickle=False) as archive:
         assert 0.0 < archive["depth"].max() < float(undisturbed["wear_depth"].max())
+    # A full disk takes nothing of it.
+    stopped_without_room(changes, tmp_path)
+    assert checkpoint.read_bytes() == kept
+    assert not (tmp_path / "out" / "result.nc").exists()
     assert begin(changes, tmp_path).wait(timeout=600) == 0
     same_to_the_bit(read(tmp_path / "out"), undisturbed)
-    assert not (tmp_path / "out" / "checkpoint.npz").exists()
+    assert not checkpoint.exists()
 
 
 @pytest.mark.long
@@ -118,17 +137,7 @@ def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
 
 
 def test_a_campaign_without_room_on_the_disk_ends_in_words(tmp_path: Path) -> None:
-    changes = changed(wear__cycles=1, run__cycles=1)
-
-    def no_room() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (2_000, 2_000))
-
-    done = subprocess.run(
-        command(changes), cwd=tmp_path, capture_output=True, text=True, preexec_fn=no_room, check=False
-    )
-    assert done.returncode == 1
-    assert done.stderr.startswith("tribodyn: writing or reading failed: ")
-    assert done.stderr.count("\n") == 1
+    stopped_without_room(changed(wear__cycles=1, run__cycles=1), tmp_path)
     assert not (tmp_path / "out").exists()
 
 

@@ -24,7 +24,7 @@ from tribodyn.studies import make_plan, runners
 from tribodyn.studies.work import Outcome
 
 POINTS = 7
-KILLS, LONGEST = 10, 600.0
+KILLS, LONGEST = 10, 1800.0
 """Kills of a part of the campaign, and when a part, or one sweep in it, counts as one that hangs [s]."""
 # The seconds of a point are those in which it can be killed.
 SWEEP = [
