@@ -1,4 +1,4 @@
-"""The same case gives the same bits in every process of a machine, but for one that compiles the equations."""
+"""The same case gives the same bits in every process of a machine, but for the one that compiles."""
 
 from __future__ import annotations
 
