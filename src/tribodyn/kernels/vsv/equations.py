@@ -203,11 +203,10 @@ def set_up(mechanism: Mechanism, t: float, y: FloatArray, memory: VsvMemory) -> 
 
 
 @kernel
-def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory, columns: int) -> float:
+def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) -> float:
     """Solve for the clearance accelerations with the joint wrench in ``memory.scratch``.
 
-    Column 0 of ``solved`` becomes q̈; columns 1 to ``columns`` − 1, which the caller fills, are solved
-    with the same matrix. Where the collar would have to pull, it lets go (F_cz = 0).
+    Where the collar would have to pull, it lets go (F_cz = 0).
 
     Returns
     -------
@@ -217,22 +216,22 @@ def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory, 
     fill_forces(mechanism, y, memory)
     assemble(mechanism.inertia, memory.scratch)
     add_collar(mechanism, memory.scratch, 1.0)
-    f_cz = _solve(mechanism, memory.scratch, columns)
+    f_cz = _solve(mechanism, memory.scratch)
     if f_cz < 0.0:
         add_collar(mechanism, memory.scratch, -1.0)
-        _solve(mechanism, memory.scratch, columns)
+        _solve(mechanism, memory.scratch)
         return 0.0
     return f_cz
 
 
 @kernel
-def _solve(mechanism: Mechanism, scratch: Scratch, columns: int) -> float:
+def _solve(mechanism: Mechanism, scratch: Scratch) -> float:
     """Solve the four clearance equations and return the collar force that follows."""
     for i in range(4):
         scratch.solved[i, 0] = scratch.load[1 + i]
         for j in range(4):
             scratch.small[i, j] = scratch.mass[1 + i, j]
-    solve_in_place(scratch.small, scratch.solved, 0, columns)
+    solve_in_place(scratch.small, scratch.solved, 0, 1)
     for i in range(4):
         scratch.acceleration[i] = scratch.solved[i, 0]
     return collar_force(mechanism, scratch, scratch.acceleration)
@@ -252,7 +251,7 @@ def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> 
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
     omega = set_up(data.mechanism, t, y, memory)
     wrench(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], memory.scratch.wrench)
-    return solve_accelerations(data.mechanism, y, memory, 1)
+    return solve_accelerations(data.mechanism, y, memory)
 
 
 @kernel
@@ -318,7 +317,7 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
         scratch.wrench_jacobian,
         scratch.gradient,
     )
-    f_cz = solve_accelerations(data.mechanism, y, memory, 1)
+    f_cz = solve_accelerations(data.mechanism, y, memory)
     fill_load_gradient(data.mechanism, y, memory, f_cz, scratch.solved)
     for i in range(4):
         for j in range(4):

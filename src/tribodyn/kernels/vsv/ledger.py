@@ -79,7 +79,7 @@ def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float
     scratch.wrench[2] = out[joint_report.M_JCX] + out[joint_report.M_FX]
     scratch.wrench[3] = out[joint_report.M_JCY] + out[joint_report.M_FY]
     scratch.wrench[4] = out[joint_report.M_JF]
-    return solve_accelerations(data.mechanism, y, memory, 1)
+    return solve_accelerations(data.mechanism, y, memory)
 
 
 @kernel
