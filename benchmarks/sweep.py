@@ -5,8 +5,8 @@
 The time is that of ``tribodyn.studies.sweep`` as a whole, from the call to the merged dataset, with all files
 and the start and end of its processes: of the first sweep of a process, as on the command line, and of a
 later one, whose workers are forked from a process that is there already. Beside it stands what the machine
-gives: the same points in one plain process and in two at once, without Dask, files or a start. One and two
-take turns, and the shortest time of each counts.
+gives: the same points in one plain process and in two at once, without Dask, files or a start; and a sweep of
+longer points. One and two take turns, and the shortest time of each counts.
 """
 
 from __future__ import annotations
@@ -31,8 +31,9 @@ from tribodyn.studies.work import compute
 POINTS = 16
 TARGET = 1.8
 ROUNDS = 3
-DURATION = "12.566 s"
-KINDS = ("first sweep", "later sweep", "plain processes")
+DURATION, LONG = "12.566 s", "125.66 s"
+"""Two drive cycles, and twenty, for which the start of the workers counts less."""
+KINDS = ("first sweep", "later sweep", "plain processes", "first sweep, twenty cycles")
 
 
 def case_and_clearances(duration: str, points: int) -> tuple[Case, list[str]]:
@@ -53,11 +54,13 @@ def timed(workers: int, duration: str, points: int = POINTS) -> float:
     return elapsed
 
 
-def swept(workers: int, duration: str) -> dict[str, float]:
-    """Return the wall times [s] of the first sweep of a process, and of its second."""
+def swept(workers: int, duration: str, rounds: int) -> list[float]:
+    """Return the wall times [s] of the first sweeps of a process."""
     command = [sys.executable, "-m", "benchmarks.sweep", "--duration", duration, "--workers", str(workers)]
+    command += ["--rounds", str(rounds)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
-    return dict(zip(KINDS[:2], json.loads(done.stdout), strict=True))
+    seconds: list[float] = json.loads(done.stdout)
+    return seconds
 
 
 def plain(processes: int, duration: str) -> float:
@@ -101,14 +104,19 @@ def measure(duration: str, rounds: int) -> dict[str, Any]:
     times: dict[str, dict[str, list[float]]] = {kind: {"1": [], "2": []} for kind in KINDS}
     for number in range(rounds):
         for workers in (1, 2) if number % 2 == 0 else (2, 1):
-            found = swept(workers, duration) | {KINDS[2]: plain(workers, duration)}
+            seconds = [
+                *swept(workers, duration, 2),
+                plain(workers, duration),
+                *swept(workers, LONG, 1),
+            ]
+            found = dict(zip(KINDS, seconds, strict=True))
             for kind, seconds in found.items():
                 times[kind][str(workers)].append(seconds)
             told = ", ".join(f"{kind} {seconds:.2f} s" for kind, seconds in found.items())
             print(f"on {workers}: {told}", flush=True)
     ratios = {kind: float(np.min(found["1"]) / np.min(found["2"])) for kind, found in times.items()}
     for kind, ratio in ratios.items():
-        print(f"{kind:16s} {POINTS} points on 2 are {ratio:.2f} times as fast as on 1")
+        print(f"{kind:26s} {POINTS} points on 2 are {ratio:.2f} times as fast as on 1")
     print(f"asked of a sweep: {TARGET}; more than the plain processes no sweep can reach here")
     return {"points": POINTS, "seconds": times, "ratios": ratios}
 
@@ -118,10 +126,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--duration", default=DURATION, help="simulated time of each point")
     parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often each is timed")
-    parser.add_argument("--workers", type=int, help="only print the times of two sweeps on so many, as JSON")
+    parser.add_argument("--workers", type=int, help="only print the times of sweeps on so many, as JSON")
     options = parser.parse_args(arguments)
     if options.workers is not None:
-        print(json.dumps([timed(options.workers, options.duration) for _ in range(2)]))
+        print(json.dumps([timed(options.workers, options.duration) for _ in range(options.rounds)]))
         return 0
     ratio: float = measure(options.duration, options.rounds)["ratios"][KINDS[0]]
     return 0 if ratio >= TARGET else 1
