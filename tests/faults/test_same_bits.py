@@ -1,4 +1,4 @@
-"""The same case gives the same bits in every process of a machine, but for the one that compiles."""
+"""The same case gives the same bits in every process of a machine."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 BEGIN = """
@@ -39,12 +38,7 @@ def test_what_a_process_did_before_changes_no_bit() -> None:
 
 
 @pytest.mark.long
-def test_a_process_that_compiles_agrees_to_rounding(tmp_path: Path) -> None:
-    # Its functions were made one by one, in the cache they are woven into each other: sums round otherwise.
-    cache = str(tmp_path)
-    first, second, third = (numbers(BEGIN + RUN, NUMBA_CACHE_DIR=cache) for _ in range(3))
-    assert second == third
-    for name in ("e_x", "e_y", "phi_x", "phi_y", "F_cx", "F_cy", "theta_v"):
-        # Errors of the integration itself, with rtol = 1e-3, are thousands of times larger.
-        scale = np.abs(second[name]).max()
-        np.testing.assert_allclose(first[name], second[name], rtol=0.0, atol=1e-8 * scale, err_msg=name)
+def test_the_first_run_of_all_is_the_second_to_the_bit(tmp_path: Path) -> None:
+    first = numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path))
+    assert any(tmp_path.rglob("*.nbc"))
+    assert numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path)) == first

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError
+from tribodyn.simulation.compilation import Simulator, compile_elsewhere, loaded
 from tribodyn.simulation.journal import simulate_journal
 from tribodyn.simulation.vsv import simulate_vsv
 from tribodyn.simulation.vsv_wear import simulate_vsv_wear
@@ -57,16 +58,43 @@ def simulate(
     InputError
         If the case asks for something that cannot be.
     """
-    kind: str = getattr(case, "case", "")
-    if kind not in SIMULATORS:
-        raise InputError(f"given {kind!r}; allowed: {', '.join(SIMULATORS)}", key="case")
+    simulator = _simulator(case)
+    prepare(case)
     dataset: xr.Dataset
     if case.campaign_cycles > 0:
         kept = None if checkpoint is None else Path(checkpoint)
-        dataset = CAMPAIGNS[kind](case, progress=progress, stop=stop, checkpoint=kept)
+        dataset = CAMPAIGNS[str(case.case)](case, progress=progress, stop=stop, checkpoint=kept)
     else:
-        dataset = SIMULATORS[kind](case, progress=progress, stop=stop)
+        dataset = simulator(case, progress=progress, stop=stop)
     return dataset
 
 
-__all__ = ["CAMPAIGNS", "SIMULATORS", "simulate"]
+def _simulator(case: Case) -> Simulator:
+    kind: str = getattr(case, "case", "")
+    if kind not in SIMULATORS:
+        raise InputError(f"given {kind!r}; allowed: {', '.join(SIMULATORS)}", key="case")
+    return SIMULATORS[kind]
+
+
+def prepare(case: Case) -> None:
+    """Have the equations of a case compiled, if they are not, and load them."""
+    simulator = _simulator(case)
+    if not loaded(case, simulator):
+        compile_elsewhere(case)
+        loaded(case, simulator)
+
+
+def load_equations(case: Case) -> None:
+    """Load the equations of a case if they are compiled."""
+    loaded(case, _simulator(case))
+
+
+def compile_case(toml: str) -> None:
+    """Compile the equations of a case, given as TOML, and leave them in numba's cache: a few steps do."""
+    from tribodyn.cases import parse_case
+
+    case = parse_case(toml, "case")
+    _simulator(case)(case, stop=lambda: True)
+
+
+__all__ = ["CAMPAIGNS", "SIMULATORS", "compile_case", "load_equations", "prepare", "simulate"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import signal
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, TypeAlias
 
 from tribodyn.core.errors import TribodynError
@@ -84,41 +83,28 @@ def _simulated(toml: str, keep_result: bool) -> Outcome:
 
 
 def warm_up(toml: str) -> None:
-    """Compile what a case needs and leave it in numba's cache on disk: a few steps do.
+    """Have what a case needs compiled, if it is not, and load it.
 
     A case that fails here fails again as a point, which then has the reason. An empty text only imports.
     """
-    with contextlib.suppress(Exception):
-        _warm_up(toml)
-
-
-# Once a process, and what a process was forked from has done counts.
-@cache
-def _warm_up(toml: str) -> None:
     from tribodyn.cases import parse_case
-    from tribodyn.results import netcdf_content
-    from tribodyn.simulation import simulate
+    from tribodyn.simulation import prepare
 
-    netcdf_content(simulate(parse_case(toml, "sweep"), stop=lambda: True))
-
-
-class _NotCompiled(Exception):
-    """Something is not in the cache."""
+    with contextlib.suppress(Exception):
+        prepare(parse_case(toml, "sweep"))
 
 
 def load(toml: str) -> None:
-    """Do as :func:`warm_up` does with what is in numba's cache already; compile nothing."""
-    from numba.core import event
+    """Import what workers need, and load the equations of a case if they are compiled."""
+    import xarray as xr
 
-    class NothingElse(event.Listener):
-        def on_start(self, event: Any) -> None:
-            raise _NotCompiled
+    from tribodyn.cases import parse_case
+    from tribodyn.results import netcdf_content
+    from tribodyn.simulation import load_equations
 
-        def on_end(self, event: Any) -> None:
-            """Never comes."""
-
-    with event.install_listener("numba:compile", NothingElse()):
-        warm_up(toml)
+    with contextlib.suppress(Exception):
+        netcdf_content(xr.Dataset())
+        load_equations(parse_case(toml, "sweep"))
 
 
 def dask_setup(worker: Any) -> None:

@@ -3,7 +3,6 @@ from __future__ import annotations
 from importlib.metadata import version
 from typing import Any
 
-import numba as nb
 import pytest
 
 from tribodyn.cases import load_case
@@ -37,22 +36,3 @@ def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
 
 def test_warming_up_never_fails() -> None:
     work.warm_up("nonsense")
-
-
-def test_loading_compiles_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    @nb.njit  # type: ignore[untyped-decorator]
-    def never_compiled(number: float) -> float:
-        return number
-
-    asked = []
-
-    def warm_up(toml: str) -> None:
-        asked.append(toml)
-        never_compiled(1.0)
-
-    monkeypatch.setattr(work, "_warm_up", warm_up)
-    work.load(TOML)
-    assert asked == [TOML]
-    assert never_compiled.signatures == []
-    # It is not forbidden for good.
-    assert never_compiled(1.0) == 1.0
