@@ -18,13 +18,11 @@ import subprocess
 import sys
 import tempfile
 import time
-from importlib.metadata import version
 from multiprocessing.synchronize import Barrier
 from typing import Any
 
-import numpy as np
-
 from tribodyn.cases import Case, load_case
+from tribodyn.core.versions import version
 from tribodyn.studies import sweep
 from tribodyn.studies.work import compute
 
@@ -104,17 +102,13 @@ def measure(duration: str, rounds: int) -> dict[str, Any]:
     times: dict[str, dict[str, list[float]]] = {kind: {"1": [], "2": []} for kind in KINDS}
     for number in range(rounds):
         for workers in (1, 2) if number % 2 == 0 else (2, 1):
-            seconds = [
-                *swept(workers, duration, 2),
-                plain(workers, duration),
-                *swept(workers, LONG, 1),
-            ]
-            found = dict(zip(KINDS, seconds, strict=True))
+            measured = [*swept(workers, duration, 2), plain(workers, duration), *swept(workers, LONG, 1)]
+            found = dict(zip(KINDS, measured, strict=True))
             for kind, seconds in found.items():
                 times[kind][str(workers)].append(seconds)
             told = ", ".join(f"{kind} {seconds:.2f} s" for kind, seconds in found.items())
             print(f"on {workers}: {told}", flush=True)
-    ratios = {kind: float(np.min(found["1"]) / np.min(found["2"])) for kind, found in times.items()}
+    ratios = {kind: min(found["1"]) / min(found["2"]) for kind, found in times.items()}
     for kind, ratio in ratios.items():
         print(f"{kind:26s} {POINTS} points on 2 are {ratio:.2f} times as fast as on 1")
     print(f"asked of a sweep: {TARGET}; more than the plain processes no sweep can reach here")

@@ -30,13 +30,6 @@ CHANGES = {
 }
 
 
-@pytest.fixture(scope="module", autouse=True)
-def compiled(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Compile in a process of its own: in the last bits one that compiles differs from those that follow."""
-    brief = ["--quiet", "--set", "run.duration=20 ms", "-o", str(tmp_path_factory.mktemp("compiled"))]
-    subprocess.run([sys.executable, "-m", "tribodyn", "run", "vsv", *brief], check=True)
-
-
 def changed(**more: object) -> dict[str, object]:
     return CHANGES | {name.replace("__", "."): value for name, value in more.items()}
 

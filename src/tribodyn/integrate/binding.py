@@ -46,13 +46,10 @@ def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
     types
         From :func:`kernel_types`.
     """
-    functions = problem.functions
-    if types == (None, None):
-        return functions
     from numba import float64
     from numba.core.types import Array
 
-    data, memory = types
+    functions, (data, memory) = problem.functions, types
     vector, square = float64[::1], float64[:, ::1]
     fields = Array(float64, len(problem.field_shape), "C")
     return CompiledFunctions(

@@ -63,7 +63,7 @@ def simulate(
     dataset: xr.Dataset
     if case.campaign_cycles > 0:
         kept = None if checkpoint is None else Path(checkpoint)
-        dataset = CAMPAIGNS[str(case.case)](case, progress=progress, stop=stop, checkpoint=kept)
+        dataset = CAMPAIGNS[case.case](case, progress=progress, stop=stop, checkpoint=kept)
     else:
         dataset = simulator(case, progress=progress, stop=stop)
     return dataset

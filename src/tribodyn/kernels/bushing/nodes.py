@@ -8,7 +8,7 @@ nearest cache. It is held by ``BushingData.listed``, see :data:`LISTED`.
 from __future__ import annotations
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final
 
 import numpy as np
 
@@ -42,9 +42,6 @@ RIGID: Final = 10 * PITCH
 DAMPING: Final = 11 * PITCH
 """P_k and C from the contact table [Pa], filled by :func:`look_up`."""
 N_WORK: Final = 12 * PITCH
-
-Listed: TypeAlias = Any
-"""The list, of the type :data:`LISTED`."""
 
 LISTED: Final = np.dtype(
     [("work", "f8", (N_WORK,)), ("pieces", "i8", (PART + 1, 3)), ("cursor", "i8", (2,))], align=True

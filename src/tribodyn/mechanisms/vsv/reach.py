@@ -170,10 +170,8 @@ def at_limit(mechanism: Mechanism, t: float, y: FloatArray) -> bool:
     t, y
         Time [s] and state, shape (8,).
     """
-    theta_a, _, _ = crank(mechanism, t)
+    s1 = crank_end(mechanism, crank(mechanism, t)[0])
     place = (float(y[0]), float(y[1]), math.tan(y[2]), math.tan(y[3]))
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
-    missing = [
-        closure_residual(mechanism, *crank_end(mechanism, theta_a), *place, theta_v)[0] for theta_v in turn
-    ]
+    missing = [closure_residual(mechanism, *s1, *place, theta_v)[0] for theta_v in turn]
     return bool(-min(missing) < _MEETING * max(missing))
