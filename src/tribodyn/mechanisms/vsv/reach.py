@@ -19,6 +19,7 @@ from tribodyn.kernels.vsv.layout import N_IDEAL
 from tribodyn.mechanisms.vsv.parameters import Lengths
 
 _SCAN: Final = 1441
+_BLOCK: Final = 32
 _BISECTIONS: Final = 60
 _MEETING: Final = 1.0e-4
 """Depth to which the closure falls between the assemblies, over its height elsewhere, when they meet: 2°."""
@@ -55,19 +56,25 @@ def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
     theta_a
         Crank angles [rad], shape (n,).
     """
-    scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)
     sign = sense(lengths)
-    above = sign * closure(lengths, theta_a[:, None], scan[None, :]) > 0.0
-    crossing = ~above[:, :-1] & above[:, 1:]
-    found = crossing.any(axis=1)
-    first = np.argmax(np.where(crossing, np.sin(0.5 * (scan[:-1] + scan[1:])), -math.inf), axis=1)
-    low, high = scan[first], scan[first + 1]
+    # In blocks whose arrays stay in the cache of the processor.
+    blocks = np.array_split(theta_a, theta_a.size // _BLOCK + 1)
+    low, high = np.concatenate([_bracket(lengths, sign, block) for block in blocks], axis=1)
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         above = sign * closure(lengths, theta_a, middle) > 0.0
         high = np.where(above, middle, high)
         low = np.where(above, low, middle)
-    return np.where(found, 0.5 * (low + high), np.nan)
+    return np.asarray(0.5 * (low + high))
+
+
+def _bracket(lengths: Lengths, sign: float, theta_a: FloatArray) -> FloatArray:
+    """Return between which θ_v [rad] of a scan the closure rises through zero, shape (2, n), or NaN."""
+    scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)
+    above = sign * closure(lengths, theta_a[:, None], scan[None, :]) > 0.0
+    crossing = ~above[:, :-1] & above[:, 1:]
+    first = np.argmax(np.where(crossing, np.sin(0.5 * (scan[:-1] + scan[1:])), -math.inf), axis=1)
+    return np.where(crossing.any(axis=1), [scan[first], scan[first + 1]], np.nan)
 
 
 def reachable(lengths: Lengths, first: float, last: float) -> tuple[float, float] | None:
