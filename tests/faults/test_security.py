@@ -53,7 +53,7 @@ def _unsafe(node: ast.AST) -> bool:
     """Tell whether a node executes text, unpickles, or allows one of both."""
     match node:
         case ast.Call(func=ast.Attribute(attr=name), keywords=keywords) if name in XARRAY_READERS:
-            return not _says(keywords, "engine", "h5netcdf")
+            return not _says(keywords, "engine", "netcdf4")
         case ast.Call(func=ast.Attribute(value=ast.Name(id="np" | "numpy"), attr="load"), keywords=keywords):
             return not _says(keywords, "allow_pickle", False)
         case ast.Attribute(attr="read_pickle" | "open_zarr" | "open_datatree"):

@@ -104,7 +104,7 @@ def reading(names: Iterable[str], file: str = "result.nc") -> str:
     listed = ", ".join(f'"{name}"' for name in names)
     lines = [
         "import xarray as xr",
-        f'result = xr.open_dataset("{file}", engine="h5netcdf", decode_timedelta=False)',
+        f'result = xr.open_dataset("{file}", engine="netcdf4", decode_timedelta=False)',
     ]
     return "\n".join([*lines, f"result[[{listed}]]"] if listed else lines)
 

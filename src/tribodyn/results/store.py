@@ -8,13 +8,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
-import h5py
 import numpy as np
 import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.results.atomic import write_together
-from tribodyn.results.netcdf import netcdf_content
+from tribodyn.results.netcdf import dataset_of, netcdf_content
 from tribodyn.results.summary import summarise
 
 RESULT: Final = "result.nc"
@@ -121,20 +120,14 @@ def read(path: str | Path) -> xr.Dataset:
     file = Path(path)
     file = file / RESULT if file.is_dir() else file
     try:
-        _check(file)
-        dataset = xr.load_dataset(file, engine="h5netcdf", decode_times=False, decode_timedelta=False)
+        dataset = dataset_of(file.read_bytes())
     except FileNotFoundError as error:
         raise InputError(f"there is no result at {file}; run a case with `-o {file.parent}` first") from error
-    except (OSError, ValueError, KeyError, RuntimeError) as error:
+    # A damaged file makes its readers raise what they like, AttributeError among it.
+    except Exception as error:
         raise InputError(f"cannot read the result in {file}; it is damaged or no result: {error}") from error
     dataset.attrs = {name: _python(value) for name, value in dataset.attrs.items()}
     return dataset
-
-
-def _check(file: Path) -> None:
-    """Walk through a file before it is read: h5netcdf writes tracebacks to stderr where a file is damaged."""
-    with h5py.File(file, "r") as content:
-        content.visititems(lambda name, node: dict(node.attrs) and None)
 
 
 def _python(value: object) -> object:

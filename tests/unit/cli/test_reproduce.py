@@ -16,7 +16,7 @@ def test_one_run_gives_its_figures_with_their_data(tmp_path, capsys):
         "fig13.nc",
         "fig13.png",
     ]
-    with xr.open_dataset(tmp_path / "fig13.nc", engine="h5netcdf") as data:
+    with xr.open_dataset(tmp_path / "fig13.nc", engine="netcdf4") as data:
         assert set(data.data_vars) >= {"e_x", "e_y", "phi_x", "phi_y"}
         assert data["e_x"].attrs["units"] == "m"
         assert data.attrs["formulation"] == "paper"

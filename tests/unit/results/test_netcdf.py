@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import h5netcdf
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.results import netcdf_content
+from tribodyn.results.netcdf import dataset_of, netcdf_content
 
 TEXTS = np.array(["", "two words", "µ"], dtype=object)
 KINDS = {
@@ -32,11 +32,28 @@ KINDS = {
 def test_it_reads_back_as_it_was(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "file.nc"
     path.write_bytes(netcdf_content(KINDS[kind]))
-    xr.testing.assert_identical(xr.load_dataset(path, engine="h5netcdf", decode_times=False), KINDS[kind])
+    # Plain xarray, which knows nothing of the checksum that follows the file.
+    xr.testing.assert_identical(xr.load_dataset(path, engine="netcdf4", decode_times=False), KINDS[kind])
+    xr.testing.assert_identical(dataset_of(path.read_bytes()), KINDS[kind])
+
+
+def test_a_file_that_another_program_wrote_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "file.nc"
+    KINDS["numbers"].to_netcdf(path, engine="netcdf4")
+    xr.testing.assert_identical(dataset_of(path.read_bytes()), KINDS["numbers"])
+
+
+def test_any_changed_byte_is_seen() -> None:
+    content = netcdf_content(KINDS["one number"])
+    # What describes the arrays has no checksum within the file: this reads as another name.
+    changed = content.replace(b"units", b"Units")
+    assert changed != content
+    with pytest.raises(ValueError, match="checksum"):
+        dataset_of(changed)
 
 
 def test_numbers_have_checksums(tmp_path: Path) -> None:
     path = tmp_path / "file.nc"
     path.write_bytes(netcdf_content(KINDS["numbers"]))
-    with h5netcdf.File(path) as file:
-        assert all(variable.fletcher32 for variable in file.variables.values())
+    with netCDF4.Dataset(path) as file:
+        assert all(variable.filters()["fletcher32"] for variable in file.variables.values())

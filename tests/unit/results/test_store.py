@@ -26,7 +26,7 @@ def test_a_run_reads_back_identical(make_result, tmp_path):
 
 def test_plain_xarray_opens_it(make_result, tmp_path):
     path = write_run(make_result(0.5), tmp_path)[0]
-    with xr.open_dataset(path, engine="h5netcdf", decode_timedelta=False) as opened:
+    with xr.open_dataset(path, engine="netcdf4", decode_timedelta=False) as opened:
         assert opened["theta_v"].attrs["units"] == "rad"
         assert opened["time"].dtype == np.float64
 
