@@ -30,10 +30,22 @@ def chosen_case(args: Namespace) -> Case:
     from tribodyn.cases import load_case
 
     case = load_case(args.case)
-    changes = dict(_change(text) for text in args.changes)
-    if changes:
-        case = case.replace(changes, source="--set")
-    return case if args.solver is None else case.replace({"solver.name": args.solver}, source="--solver")
+    if args.changes:
+        case = case.replace(_set(args), source="--set")
+    return case.replace(_solver(args), source="--solver") if args.solver is not None else case
+
+
+def changes(args: Namespace) -> dict[str, str]:
+    """Return the changes that the arguments ask for, by dotted path."""
+    return _set(args) | _solver(args)
+
+
+def _set(args: Namespace) -> dict[str, str]:
+    return dict(_change(text) for text in args.changes)
+
+
+def _solver(args: Namespace) -> dict[str, str]:
+    return {} if args.solver is None else {"solver.name": args.solver}
 
 
 def _change(text: str) -> tuple[str, str]:

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
@@ -18,6 +18,7 @@ from tribodyn.cli.interrupt import Interruption
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
+from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -64,6 +65,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Run the sweep; 0 when every point has a result and everything is written, else 1."""
+    if args.workers != 0 and args.scheduler is None:
+        # It imports and loads while this process imports, too.
+        fork_server.start(args.case, changes(args))
     from tribodyn.studies import Means, Sampling, make_plan
 
     console = Console.of(args)
@@ -102,6 +106,8 @@ def _variations(texts: list[str]) -> dict[str, str]:
 
 
 def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
+    # What draws in the end is imported here, while the fork server still gets ready.
+    from tribodyn import figures, report  # noqa: F401
     from tribodyn.studies import Watcher, run
 
     with ExitStack() as stack:

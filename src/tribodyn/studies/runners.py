@@ -16,9 +16,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
+from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
-from tribodyn.studies import template
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import Outcome, compute, failed, warm_up
 
@@ -39,11 +39,6 @@ _PREPARING: Final = (
 _PATIENCE: Final = 15.0
 """How long a scheduler may be out of reach [s]."""
 _GONE: Final = "the Dask scheduler is gone; all points that had finished are saved"
-
-# The threads of a worker would only take time from the other workers.
-_ONE_THREAD: Final = {
-    name: "1" for name in ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-}
 
 
 @dataclass(frozen=True)
@@ -88,7 +83,8 @@ def local(job: Job, workers: int | None) -> Finished:
     """
     from dask.system import CPU_COUNT
 
-    template.start(job.points[0].toml, _ONE_THREAD)
+    # The command line has started it already, before all else.
+    fork_server.start(job.points[0].toml, {})
     with _local_client(min(workers or CPU_COUNT, len(job.points))) as client:
         yield from _computed(client, job)
 
@@ -114,8 +110,8 @@ def _local_client(workers: int) -> Iterator[Client]:
 
     settings = {
         "distributed.scheduler.allowed-failures": DEATHS,
-        "distributed.nanny.pre-spawn-environ": _ONE_THREAD,
-        "distributed.worker.multiprocessing-method": template.METHOD,
+        "distributed.nanny.pre-spawn-environ": fork_server.ENVIRONMENT,
+        "distributed.worker.multiprocessing-method": fork_server.METHOD,
         # Compiled code holds the interpreter for long stretches, which is no news.
         "distributed.admin.tick.limit": "1h",
     }
@@ -132,7 +128,7 @@ def _local_client(workers: int) -> Iterator[Client]:
             silence_logs=logging.CRITICAL,
             preload=["tribodyn.studies.work"],
         ) as processes,
-        Client(processes) as client,
+        Client(processes, direct_to_workers=True) as client,
     ):
         yield client
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import signal
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -94,17 +95,26 @@ def warm_up(toml: str) -> None:
         prepare(parse_case(toml, "sweep"))
 
 
-def load(toml: str) -> None:
-    """Import what workers need, and load the equations of a case if they are compiled."""
+def load(case: str, changes: Mapping[str, str]) -> None:
+    """Import what workers need, and load the equations of a case if they are compiled.
+
+    Parameters
+    ----------
+    case
+        Its TOML, or the name of a file or of a built-in one.
+    changes
+        Values to change in it, by dotted path.
+    """
     import xarray as xr
 
-    from tribodyn.cases import parse_case
+    from tribodyn.cases import load_case, parse_case
     from tribodyn.results import netcdf_content
     from tribodyn.simulation import load_equations
 
     with contextlib.suppress(Exception):
         netcdf_content(xr.Dataset())
-        load_equations(parse_case(toml, "sweep"))
+        chosen = parse_case(case, "sweep") if "\n" in case else load_case(case)
+        load_equations(chosen.replace(changes))
 
 
 def dask_setup(worker: Any) -> None:

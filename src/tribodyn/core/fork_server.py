@@ -1,0 +1,71 @@
+"""The fork server of :mod:`multiprocessing`: a process that prepares itself and that others are forked from.
+
+A process that begins from nothing takes seconds to import and load what it needs. Forked from a process that
+has done so it begins at once. The server has a single thread, which makes forking safe, and it ends with the
+process that started it. Only on Linux: Windows cannot fork, and what macOS brings along does not survive it.
+There, processes begin from nothing.
+
+This module imports nothing of weight, so that a command can start the server before all else.
+"""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Final
+
+METHOD: Final = "forkserver" if sys.platform == "linux" else "spawn"
+"""How processes are started, as :mod:`multiprocessing` calls it."""
+# The threads of a worker would only take time from the other workers.
+ENVIRONMENT: Final = {
+    name: "1" for name in ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+}
+"""Environment variables that the processes need from their beginning."""
+_MODULE: Final = "tribodyn.studies.template"
+"""What the server imports: a name, for the module is of a higher layer."""
+_CASE: Final = "TRIBODYN_FORK_SERVER_CASE"
+"""Environment variable with what :func:`start` is given, as JSON."""
+
+
+def start(case: str, changes: Mapping[str, str]) -> None:
+    """Start the server, unless there is one; return at once.
+
+    Parameters
+    ----------
+    case
+        The case to be prepared for, or one with the same equations: its TOML, or the name of a file or of a
+        built-in one.
+    changes
+        Values to change in it, by dotted path.
+    """
+    if METHOD == "forkserver":
+        from multiprocessing import forkserver
+
+        multiprocessing.get_context(METHOD).set_forkserver_preload([_MODULE])
+        with _set({**ENVIRONMENT, _CASE: json.dumps([case, changes])}):
+            forkserver.ensure_running()
+
+
+def take_case() -> tuple[str, dict[str, str]] | None:
+    """Return case and changes to the server; None to any other process, and to whoever asks again."""
+    given = os.environ.pop(_CASE, None)
+    return None if given is None else tuple(json.loads(given))
+
+
+@contextmanager
+def _set(variables: Mapping[str, str]) -> Iterator[None]:
+    """Set environment variables for a while."""
+    before = {name: os.environ.get(name) for name in variables}
+    os.environ.update(variables)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
