@@ -87,13 +87,13 @@ def goals(found: Found) -> Lines:
     memory = command["second run"]["peak memory [MB]"]
     yield row("peak memory of a run: 600 MB", verdict(f"{memory:.0f} MB", memory < 600.0))
     if "sweep" in found:
-        first, later, plain, long = found["sweep"]["ratios"].values()
-        measured = verdict(f"{first:.2f} times", first >= 1.8)
-        yield row(
-            "sweep of 16 points, 2 workers 1.8 times as fast as 1",
-            f"{measured}; {long:.2f} times with points of 20 cycles instead of 2, {later:.2f} times in later "
-            f"sweeps of a process, {plain:.2f} times in plain processes",
-        )
+        ratios = found["sweep"]["ratios"]
+        lengths = [(2, "first sweep"), (20, "first sweep, 20 cycles"), (50, "first sweep, 50 cycles")]
+        measured = [
+            f"{verdict(f'{ratios[name]:.2f} times', ratios[name] >= 1.8)} with points of {cycles} cycles"
+            for cycles, name in lengths
+        ]
+        yield row("sweep of 16 points, 2 workers 1.8 times as fast as 1", ", ".join(measured))
 
 
 def kernel(found: Found) -> Lines:
@@ -205,6 +205,21 @@ def command(found: Found) -> Lines:
         yield row(title, f"{clock:.2g} s", f"{processor:.2g} s", f"{value['peak memory [MB]']:.0f} MB")
 
 
+def sweep(found: Found) -> Lines:
+    """Give what 16 points take on one worker and on two."""
+    yield from head("16 points", "cycles a point", "on 1", "on 2", "ratio")
+    for name, title, cycles in (
+        ("first sweep", "`studies.sweep`, the first of a process", 2),
+        ("first sweep, 20 cycles", "the same", 20),
+        ("first sweep, 50 cycles", "the same", 50),
+        ("later sweep", "a later sweep of the process", 2),
+        ("plain processes", "plain processes, without Dask, files and start", 2),
+        ("command", "`tribodyn sweep`, imports, figures and reports included", 2),
+    ):
+        one, two = (min(found["sweep"]["seconds"][name][workers]) for workers in ("1", "2"))
+        yield row(title, str(cycles), f"{one:.1f} s", f"{two:.1f} s", f"{one / two:.2f}")
+
+
 def machines(found: Found) -> Lines:
     """Give where and how undisturbed the benchmarks were run."""
     yield from head("benchmark", "measured on", "programs running before it began (load)")
@@ -221,6 +236,7 @@ TABLES: Final[dict[str, Callable[[Found], Lines]]] = {
     "film": film,
     "growth": growth,
     "command": command,
+    "sweep": sweep,
     "machines": machines,
 }
 

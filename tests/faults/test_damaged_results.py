@@ -32,7 +32,9 @@ for line in sys.stdin:
     try:
         said = "read" if read(line.strip()).identical(whole) else "changed"
     except InputError as error:
-        said = "refused" if line.strip() in str(error) and "\\n" not in str(error) else repr(error)
+        text = str(error)
+        expected = f"cannot read the result in {{line.strip()}}; it is damaged or no result: "
+        said = "refused" if text.startswith(expected) and "\\n" not in text else text
     if time.perf_counter() - began > {TIME_LIMIT}:
         said += ", too slowly"
     print(json.dumps(said), flush=True)
@@ -99,4 +101,6 @@ def test_damaged_results_are_read_or_refused(count: int, brief: bytes, tmp_path:
     _, stderr = reader.communicate()
     assert reader.returncode == 0
     assert stderr == ""
+    # Damage to the checksum's own words, or to what pads the file behind its end, leaves the numbers whole.
     assert set(outcomes) == {"read", "refused"}, outcomes
+    assert outcomes["refused"] > 0.9 * count, outcomes

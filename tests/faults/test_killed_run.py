@@ -14,12 +14,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-import xarray as xr
 
 from tribodyn.cases import parse_case
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
-from tribodyn.core.errors import InputError
 from tribodyn.results import read, summarise
 from tribodyn.results.atomic import remove_stale_parts
 
@@ -181,42 +179,9 @@ def copy(made: tuple[Path, list[tuple[int, str]]], tmp_path: Path) -> Path:
     return folder
 
 
-def damaged(content: bytes, how: str, chance: random.Random) -> bytes:
-    """Return a file cut short, or with one or many bytes changed."""
-    if how == "cut":
-        return content[: chance.randrange(len(content))]
-    changed = bytearray(content)
-    for _ in range(1 if how == "bit" else 300):
-        changed[chance.randrange(len(content))] ^= chance.randrange(1, 256)
-    return bytes(changed)
-
-
-def attempt(folder: Path) -> xr.Dataset | InputError:
-    try:
-        return read(folder)
-    except InputError as error:
-        return error
-
-
-@pytest.mark.parametrize("how", ["cut", "bit", "noise"])
-def test_a_damaged_result_is_refused_or_unharmed(
-    how: str, copy: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_damaged_result_is_not_drawn(copy: Path, capfd: pytest.CaptureFixture[str]) -> None:
     file = copy / "result.nc"
-    whole, content = read(copy), file.read_bytes()
-    chance = random.Random(how)
-    refused = 0
-    for _ in range(12):
-        file.write_bytes(damaged(content, how, chance))
-        found = attempt(copy)
-        if isinstance(found, InputError):
-            refused += 1
-            assert "it is damaged or no result" in str(found)
-        else:
-            # The byte fell into a gap, or into a text, which has no checksum.
-            xr.testing.assert_equal(found, whole)
-        assert capfd.readouterr() == ("", "")
-    assert refused == 12 if how != "bit" else refused > 6
+    content = file.read_bytes()
     file.write_bytes(content[: len(content) // 2])
     assert main(["report", str(copy)]) == 2
     out, err = capfd.readouterr()

@@ -31,6 +31,31 @@ def kernel_types(problem: Problem) -> tuple[Any, Any]:
     return typeof(problem.data), typeof(problem.memory)
 
 
+def argument_types(types: tuple[Any, Any], field_dimensions: int) -> dict[str, tuple[Any, ...]]:
+    """Return numba's types of the arguments of each function of a problem, by its name.
+
+    Parameters
+    ----------
+    types
+        Of data and memory, from :func:`kernel_types`.
+    field_dimensions
+        Of an array with the fields of a picture.
+    """
+    from numba import float64
+    from numba.core.types import Array
+
+    vector, square = float64[::1], float64[:, ::1]
+    return {
+        "rhs": (float64, vector, *types, vector),
+        "jac": (float64, vector, *types, vector, square),
+        "enter": (float64, vector, *types),
+        "advance": (float64, float64, vector, vector, *types),
+        "accept": (float64, vector, *types),
+        "observe": (float64, vector, *types, vector),
+        "picture": (float64, vector, *types, Array(float64, field_dimensions, "C")),
+    }
+
+
 def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
     """Return the functions of a problem compiled for the types of its data and memory.
 
@@ -46,27 +71,14 @@ def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
     types
         From :func:`kernel_types`.
     """
-    from numba import float64
-    from numba.core.types import Array
-
-    functions, (data, memory) = problem.functions, types
-    vector, square = float64[::1], float64[:, ::1]
-    fields = Array(float64, len(problem.field_shape), "C")
+    arguments = argument_types(types, len(problem.field_shape))
+    functions = {name: getattr(problem.functions, name) for name in arguments}
     return CompiledFunctions(
-        rhs=_compiled(functions.rhs, float64, vector, data, memory, vector),
-        jac=_compiled(functions.jac, float64, vector, data, memory, vector, square),
-        enter=_compiled(functions.enter, float64, vector, data, memory),
-        advance=_compiled(functions.advance, float64, float64, vector, vector, data, memory),
-        accept=_compiled(functions.accept, float64, vector, data, memory),
-        observe=_compiled(functions.observe, float64, vector, data, memory, vector),
-        picture=_compiled(functions.picture, float64, vector, data, memory, fields),
+        **{
+            name: function.compile(arguments[name]) if is_compiled(function) else function
+            for name, function in functions.items()
+        }
     )
-
-
-def _compiled(function: Any, *types: Any) -> Callable[..., None]:
-    """Return the code of a numba function for arguments of the given types."""
-    code: Callable[..., None] = function.compile(types) if is_compiled(function) else function
-    return code
 
 
 def all_finite(values: FloatArray) -> bool:

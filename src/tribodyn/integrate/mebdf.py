@@ -15,7 +15,7 @@ import numpy as np
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.integrate.binding import is_compiled
+from tribodyn.integrate.binding import argument_types, is_compiled
 from tribodyn.integrate.driver import INTERRUPTED, Walk
 from tribodyn.integrate.schedule import Schedule
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from tribodyn.kernels.mebdf.drive import Marks
     from tribodyn.kernels.mebdf.state import MebdfState
 
+HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
+"""Functions of a problem that the compiled loop is handed, in the order of its arguments."""
 STEPS_BETWEEN_LOOKS: Final = 500
 """Steps in compiled code between two looks at ``progress`` and ``stop``: some milliseconds."""
 
@@ -67,17 +69,9 @@ class _CompiledWalk(Walk):
         """Compile, or find the compiled code; not counted as integration."""
         from tribodyn.kernels.mebdf.drive import run
 
-        functions = self.problem.functions
         self._rtol = rtol
         self._marks = self._new_marks()
-        self._functions = (
-            functions.rhs,
-            functions.jac,
-            functions.advance,
-            functions.accept,
-            functions.observe,
-            functions.picture,
-        )
+        self._functions = tuple(getattr(self.problem.functions, name) for name in HANDED)
         if all(map(is_compiled, self._functions)):
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
             self._loop = _compiled(run, self._functions, state, self.types, self._marks)
@@ -160,25 +154,15 @@ def _compiled(run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any
     and never found in the cache by another process.
     """
     import numba
-    from numba import float64, int64, void
+    from numba import int64, void
     from numba.core.types import FunctionType
 
     typeof: Callable[[Any], Any] = numba.typeof
-    vector, matrix = float64[::1], float64[:, ::1]
-    data, memory = types
-    row, fields = typeof(marks.rows[:1].reshape(-1)), typeof(np.empty(marks.pictures.shape[1:]))
-    signatures = (
-        void(float64, vector, data, memory, vector),
-        void(float64, vector, data, memory, vector, matrix),
-        void(float64, float64, vector, vector, data, memory),
-        void(float64, vector, data, memory),
-        void(float64, vector, data, memory, row),
-        void(float64, vector, data, memory, fields),
-    )
-    for function, signature in zip(functions, signatures, strict=True):
-        function.compile(signature.args)
-    handed = map(FunctionType, signatures)
-    return run.compile((*handed, typeof(state), data, memory, typeof(marks), int64))
+    arguments = argument_types(types, marks.pictures.ndim - 1)
+    for name, function in zip(HANDED, functions, strict=True):
+        function.compile(arguments[name])
+    handed = [FunctionType(void(*arguments[name])) for name in HANDED]
+    return run.compile((*handed, typeof(state), *types, typeof(marks), int64))
 
 
 MEBDF = CompiledMebdf()
