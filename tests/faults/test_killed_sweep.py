@@ -199,7 +199,7 @@ def test_an_interrupted_sweep_saves_what_it_has(tmp_path: Path) -> None:
     assert_whole(tmp_path, before)
 
 
-def deadly(toml: str, made_by: str, keep_result: bool) -> Outcome:
+def deadly(toml: str, made_by: str, keep_result: bool, staging: str) -> Outcome:
     """Stand for a point that no worker survives."""
     if 'clearance = "30 um"' in toml:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -216,7 +216,7 @@ def test_a_point_that_kills_its_workers_has_no_result_and_the_rest_go_on(
     plan = make_plan(load_case("vsv"), {"joint.clearance": "20,30,40 um"})
     found = {
         point.changes["joint.clearance"]: outcome
-        for point, outcome in runners.local(runners.Job(plan.points, False, lambda: False, print), 2)
+        for point, outcome in runners.local(runners.Job(plan.points, False, "", lambda: False, print), 2)
     }
     assert found["20 um"].failure == found["40 um"].failure == ""
     assert "worker process died" in found["30 um"].failure

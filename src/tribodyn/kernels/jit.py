@@ -27,6 +27,9 @@ entry: Final[Any] = _njit(**_OPTIONS)
 kernel: Final[Any] = _njit(**_OPTIONS, no_cfunc_wrapper=True)
 """Any other function; without the wrapper for being handed on, it compiles faster."""
 
+unlocked: Final[Any] = _njit(**_OPTIONS, nogil=True, no_cfunc_wrapper=True)
+"""A function that takes so long that other threads of the process should go on meanwhile."""
+
 inlined: Final[Any] = _njit(**_OPTIONS, inline="always", no_cfunc_wrapper=True)
 """The same, for the few lines that every node of a joint runs through."""
 

@@ -36,6 +36,37 @@ def replacing(path: Path) -> Iterator[Path]:
     _flush_folder(path.parent)
 
 
+def stage(path: Path, content: bytes) -> Path:
+    """Write what is to become a file to a temporary path beside it, on the disk when this returns.
+
+    Parameters
+    ----------
+    path
+        Any name in a folder that exists.
+    content
+        Of the file.
+
+    Returns
+    -------
+    pathlib.Path
+        The temporary path, for :func:`adopt`; when the file cannot be written whole, it is gone.
+    """
+    part = _part(path)
+    try:
+        part.write_bytes(content)
+        _flush(part)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
+    return part
+
+
+def adopt(part: Path, path: Path) -> None:
+    """Give a file from :func:`stage` its name, of the same file system."""
+    os.replace(part, path)
+    _flush_folder(path.parent)
+
+
 def write_text(path: Path, text: str) -> None:
     """Write a UTF-8 text file whole or not at all.
 
@@ -64,12 +95,11 @@ def write_together(contents: Mapping[Path, bytes], stale: Iterable[Path]) -> Non
     stale
         Other files that belong to the old first file; they need not exist.
     """
-    parts = {path: _part(path) for path in contents}
-    folder = next(iter(parts)).parent
+    parts: dict[Path, Path] = {}
+    folder = next(iter(contents)).parent
     try:
-        for path, part in parts.items():
-            part.write_bytes(contents[path])
-            _flush(part)
+        for path, content in contents.items():
+            parts[path] = stage(path, content)
         for path in (*list(parts)[1:], *stale):
             path.unlink(missing_ok=True)
         _flush_folder(folder)

@@ -6,11 +6,14 @@
 from __future__ import annotations
 
 import json
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
 from tribodyn.core.errors import InputError
-from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.atomic import adopt, remove_stale_parts, replacing, write_text
 from tribodyn.results.store import CASE, RESULT, SUMMARY
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import Numbers, Outcome
@@ -24,7 +27,7 @@ class Archive:
     Parameters
     ----------
     directory
-        Folder of the sweep; ``points/`` in it is made when the first point is kept.
+        Folder of the sweep; ``points/`` in it is made when there is a point to compute.
 
     Raises
     ------
@@ -34,6 +37,8 @@ class Archive:
 
     def __init__(self, directory: Path) -> None:
         self.folder = directory / POINTS
+        self.staging = self.folder / secrets.token_hex(4)
+        """Path beside which workers of this machine leave whole results, under names of this sweep."""
         if self.folder.exists() and not self.folder.is_dir():
             raise InputError(f"{self.folder} is a file; choose another directory", key="--output")
 
@@ -45,6 +50,19 @@ class Archive:
             return None
         return content if isinstance(content, dict) and "status" in content else None
 
+    @contextmanager
+    def open(self) -> Iterator[None]:
+        """Have the folder while the block runs; in the end remove what nobody kept, and it too if empty."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        remove_stale_parts(self.folder)
+        try:
+            yield
+        finally:
+            for part in self.folder.glob(f".{self.staging.name}.*.part"):
+                part.unlink(missing_ok=True)
+            with suppress(OSError):
+                self.folder.rmdir()
+
     def keep(self, point: Point, outcome: Outcome) -> None:
         """Write a point, each file whole or not at all."""
         folder = self.folder / point.name
@@ -52,7 +70,9 @@ class Archive:
         for part in folder.glob(".*.part"):
             part.unlink(missing_ok=True)
         write_text(folder / CASE, point.toml)
-        if outcome.result:
+        if outcome.staged:
+            adopt(Path(outcome.staged), folder / RESULT)
+        elif outcome.result:
             with replacing(folder / RESULT) as part:
                 part.write_bytes(outcome.result)
         text = json.dumps(outcome.summary, indent=2, ensure_ascii=False, allow_nan=False)

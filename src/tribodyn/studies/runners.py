@@ -51,6 +51,8 @@ class Job:
         One or more.
     keep_result
         Whether outcomes hold the whole result beside the headline numbers.
+    staging
+        Path beside which workers of this machine leave it instead; empty for none.
     stop
         Asked several times a second; when true, what is still to be done is called off.
     note
@@ -59,6 +61,7 @@ class Job:
 
     points: Sequence[Point]
     keep_result: bool
+    staging: str
     stop: Callable[[], bool]
     note: Callable[[str], None]
 
@@ -86,7 +89,7 @@ def local(job: Job, workers: int | None) -> Finished:
     # The command line has started it already, before all else.
     fork_server.start(job.points[0].toml, {})
     with _local_client(min(workers or CPU_COUNT, len(job.points))) as client:
-        yield from _computed(client, job)
+        yield from _computed(client, job, job.staging)
 
 
 def cluster(job: Job, address: str) -> Finished:
@@ -100,7 +103,7 @@ def cluster(job: Job, address: str) -> Finished:
         Such as ``tcp://10.0.0.1:8786``.
     """
     with _remote_client(address) as client:
-        yield from _computed(client, job)
+        yield from _computed(client, job, staging="")
 
 
 @contextmanager
@@ -112,6 +115,7 @@ def _local_client(workers: int) -> Iterator[Client]:
         "distributed.scheduler.allowed-failures": DEATHS,
         "distributed.nanny.pre-spawn-environ": fork_server.ENVIRONMENT,
         "distributed.worker.multiprocessing-method": fork_server.METHOD,
+        "distributed.worker.profile.enabled": False,
         # Compiled code holds the interpreter for long stretches, which is no news.
         "distributed.admin.tick.limit": "1h",
     }
@@ -196,7 +200,7 @@ def _prepare(client: Client, job: Job) -> None:
             _demand_connection(client, time.monotonic())
 
 
-def _computed(client: Client, job: Job) -> Finished:
+def _computed(client: Client, job: Job, staging: str) -> Finished:
     """Yield points as they finish; what is still to be done when the job stops is called off."""
     _prepare(client, job)
     run, own = uuid.uuid4().hex[:8], version("tribodyn")
@@ -204,7 +208,7 @@ def _computed(client: Client, job: Job) -> Finished:
     done: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
     for point in job.points:
         key = f"{point.name}-{run}"
-        future = client.submit(compute, point.toml, own, job.keep_result, key=key, pure=False)
+        future = client.submit(compute, point.toml, own, job.keep_result, staging, key=key, pure=False)
         waiting[key] = (point, future)
         future.add_done_callback(done.put)
     try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -200,12 +201,15 @@ def _compute(
     watcher.arrived(Arrival(0, len(missing)))
     if not missing:
         return
-    job = runners.Job(missing, means.keep_results and archive is not None, watcher.stop, watcher.note)
-    for done, (point, outcome) in enumerate(_finished(job, means), 1):
-        if archive is not None and outcome.final:
-            archive.keep(point, outcome)
-        summaries[point.name] = outcome.summary
-        watcher.arrived(Arrival(done, len(missing), point, outcome.failure))
+    staging = "" if archive is None else str(archive.staging.absolute())
+    keep_results = means.keep_results and archive is not None
+    job = runners.Job(missing, keep_results, staging, watcher.stop, watcher.note)
+    with nullcontext() if archive is None else archive.open():
+        for done, (point, outcome) in enumerate(_finished(job, means), 1):
+            if archive is not None and outcome.final:
+                archive.keep(point, outcome)
+            summaries[point.name] = outcome.summary
+            watcher.arrived(Arrival(done, len(missing), point, outcome.failure))
 
 
 def _finished(job: runners.Job, means: Means) -> runners.Finished:

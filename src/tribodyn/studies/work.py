@@ -1,11 +1,16 @@
-"""What a worker does: one point, from the text of a case to bytes. It writes no file."""
+"""What a worker does: one point, from the text of a case to numbers and bytes.
+
+It writes no file but the whole result, where it is told a folder for that.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TypeAlias
 
 from tribodyn.core.errors import TribodynError
@@ -24,13 +29,16 @@ class Outcome:
     summary
         As :func:`tribodyn.results.summarise` gives it; of a point that could not be computed only texts.
     result
-        The dataset as NetCDF; empty where there is none or none is wanted.
+        The dataset as NetCDF; empty where there is none, or none is wanted, or it is staged.
+    staged
+        File with the dataset, from :func:`tribodyn.results.atomic.stage`; empty where there is none.
     final
         Whether computing it again would give the same. Not so where a worker died.
     """
 
     summary: Numbers
     result: bytes = b""
+    staged: str = ""
     final: bool = True
 
     @property
@@ -44,7 +52,7 @@ def failed(reason: str, *, final: bool) -> Outcome:
     return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": ""}, final=final)
 
 
-def compute(toml: str, made_by: str, keep_result: bool) -> Outcome:
+def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Outcome:
     """Simulate one case.
 
     Parameters
@@ -55,6 +63,9 @@ def compute(toml: str, made_by: str, keep_result: bool) -> Outcome:
         Version of tribodyn that planned it; another one does not compute it.
     keep_result
         Whether the whole result is returned beside the headline numbers.
+    staging
+        Path beside which it is left as a file, on a machine whose disk the caller sees: bytes of a worker go
+        through two processes before they are written. Where that fails, the result is returned all the same.
 
     Returns
     -------
@@ -65,7 +76,7 @@ def compute(toml: str, made_by: str, keep_result: bool) -> Outcome:
     if own != made_by:
         return failed(f"the worker has tribodyn {own}, the sweep was planned by {made_by}", final=False)
     try:
-        return _simulated(toml, keep_result)
+        return _simulated(toml, keep_result, staging)
     except TribodynError as error:
         return failed(str(error), final=True)
     except MemoryError:
@@ -74,13 +85,18 @@ def compute(toml: str, made_by: str, keep_result: bool) -> Outcome:
         return failed(f"internal error: {type(error).__name__}: {error}", final=True)
 
 
-def _simulated(toml: str, keep_result: bool) -> Outcome:
+def _simulated(toml: str, keep_result: bool, staging: str) -> Outcome:
     from tribodyn.cases import parse_case
     from tribodyn.results import netcdf_content, summarise
+    from tribodyn.results.atomic import stage
     from tribodyn.simulation import simulate
 
     dataset = simulate(parse_case(toml, "sweep"))
-    return Outcome(summarise(dataset), netcdf_content(dataset) if keep_result else b"")
+    summary, content = summarise(dataset), netcdf_content(dataset) if keep_result else b""
+    if content and staging:
+        with contextlib.suppress(OSError):
+            return Outcome(summary, staged=os.fspath(stage(Path(staging), content)))
+    return Outcome(summary, content)
 
 
 def warm_up(toml: str) -> None:

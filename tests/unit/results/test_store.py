@@ -10,7 +10,7 @@ import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.results import build, prepare_directory, read, store, summarise, write_run
-from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.atomic import replacing, stage, write_text
 from tribodyn.results.store import summary_text
 
 
@@ -175,3 +175,13 @@ def test_reading_a_torn_file_is_an_input_error(make_result, tmp_path):
     path.write_bytes(path.read_bytes()[:2000])
     with pytest.raises(InputError, match="cannot read the result"):
         read(tmp_path)
+
+
+def test_what_cannot_be_staged_leaves_nothing(tmp_path, monkeypatch):
+    def fail(_):
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(OSError, match="no space left"):
+        stage(tmp_path / "result.nc", b"content")
+    assert list(tmp_path.iterdir()) == []

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,7 +20,7 @@ def test_another_version_computes_nothing_and_that_is_not_final(simulated: list[
 
 
 def test_lack_of_memory_is_the_fault_of_the_worker(monkeypatch: pytest.MonkeyPatch) -> None:
-    def exhausted(toml: str, keep: bool) -> None:
+    def exhausted(*_: object) -> None:
         raise MemoryError
 
     monkeypatch.setattr(work, "_simulated", exhausted)
@@ -36,3 +37,17 @@ def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
 
 def test_warming_up_never_fails() -> None:
     work.warm_up("nonsense")
+
+
+def test_a_result_is_staged_where_there_is_a_place_and_returned_where_not(
+    simulated: list[Any], tmp_path: Path
+) -> None:
+    staged = work.compute(TOML, version("tribodyn"), True, str(tmp_path / "sweep"))
+    assert staged.result == b""
+    assert Path(staged.staged).parent == tmp_path
+    returned = work.compute(TOML, version("tribodyn"), True, str(tmp_path / "nowhere" / "sweep"))
+    assert returned.staged == ""
+    assert returned.result == Path(staged.staged).read_bytes()
+    assert returned.summary == staged.summary
+    assert not work.compute(TOML, version("tribodyn"), False, str(tmp_path / "sweep")).staged
+    assert len(list(tmp_path.iterdir())) == 1

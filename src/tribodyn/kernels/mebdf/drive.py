@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear, copy
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import kernel, unlocked
 from tribodyn.kernels.mebdf.core import resume
 from tribodyn.kernels.mebdf.history import value_at
 from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, NEED_JACOBIAN
@@ -74,7 +74,7 @@ def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: fl
         y[i] = value_at(rows, HISTORY, count[K_LAST] + 1, s, i)
 
 
-@kernel
+@unlocked
 def run(
     rhs: Callable[..., None],
     jac: Callable[..., None],
