@@ -88,7 +88,7 @@ def goals(found: Found) -> Lines:
     yield row("peak memory of a run: 600 MB", verdict(f"{memory:.0f} MB", memory < 600.0))
     if "sweep" in found:
         ratios = found["sweep"]["ratios"]
-        lengths = [(2, "first sweep"), (20, "first sweep, 20 cycles"), (50, "first sweep, 50 cycles")]
+        lengths = [(2, "first sweep"), (50, "first sweep, 50 cycles")]
         measured = [
             f"{verdict(f'{ratios[name]:.2f} times', ratios[name] >= 1.8)} with points of {cycles} cycles"
             for cycles, name in lengths
@@ -210,7 +210,6 @@ def sweep(found: Found) -> Lines:
     yield from head("16 points", "cycles a point", "on 1", "on 2", "ratio")
     for name, title, cycles in (
         ("first sweep", "`studies.sweep`, the first of a process", 2),
-        ("first sweep, 20 cycles", "the same", 20),
         ("first sweep, 50 cycles", "the same", 50),
         ("later sweep", "a later sweep of the process", 2),
         ("plain processes", "plain processes, without Dask, files and start", 2),
