@@ -67,17 +67,17 @@ $(BIN)/python:
 	@tools/make-venv $(VENV)
 
 $(VENV)/.run: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --no-compile --quiet --disable-pip-version-check --editable .
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 	@touch $@
 
 $(VENV)/.dev: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --no-compile --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev]"
 	@touch $@ $(VENV)/.run
 
 $(VENV)/.bench: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --no-compile --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,bench]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,bench]"
 	@touch $@ $(VENV)/.dev $(VENV)/.run
 
 $(VENV)/.docs: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --no-compile --quiet --disable-pip-version-check --editable ".[sundials,surfaces,docs]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,docs]"
 	@touch $@ $(VENV)/.run
