@@ -67,8 +67,10 @@ def swept(workers: int, duration: str, rounds: int) -> list[float]:
 
 def command(workers: int) -> float:
     """Return the wall time [s] of the command."""
+    _, clearances = case_and_clearances(TWO, POINTS)
     with tempfile.TemporaryDirectory() as folder:
-        said = ["sweep", "vsv", "--vary", "joint.clearance=20 um:42.5 um:1.5 um", "--quiet", "-o", folder]
+        said = ["sweep", "vsv", "--set", f"run.duration={TWO}", "--quiet", "-o", folder]
+        said += ["--vary", f"joint.clearance={','.join(clearances)}"]
         began = time.perf_counter()
         subprocess.run(
             [sys.executable, "-m", "tribodyn", *said, "--workers", str(workers)],

@@ -30,9 +30,10 @@ def chosen_case(args: Namespace) -> Case:
     from tribodyn.cases import load_case
 
     case = load_case(args.case)
-    if args.changes:
-        case = case.replace(_set(args), source="--set")
-    return case.replace(_solver(args), source="--solver") if args.solver is not None else case
+    for asked, source in ((_set(args), "--set"), (_solver(args), "--solver")):
+        if asked:
+            case = case.replace(asked, source=source)
+    return case
 
 
 def changes(args: Namespace) -> dict[str, str]:

@@ -11,7 +11,7 @@ from tribodyn.figures.save import save_png
 from tribodyn.reproduction.base import PaperFigure
 from tribodyn.reproduction.claims.table import Row, as_json, as_markdown
 from tribodyn.results import netcdf_content
-from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.atomic import write_bytes, write_text
 
 
 def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
@@ -26,8 +26,7 @@ def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
     folder
         Where to; must exist.
     """
-    with replacing(folder / f"{figure.name}.nc") as part:
-        part.write_bytes(netcdf_content(data))
+    write_bytes(folder / f"{figure.name}.nc", netcdf_content(data))
     save_png(figure.draw(data), folder / f"{figure.name}.png")
 
 

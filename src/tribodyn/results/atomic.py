@@ -62,9 +62,25 @@ def stage(path: Path, content: bytes) -> Path:
 
 
 def adopt(part: Path, path: Path) -> None:
-    """Give a file from :func:`stage` its name, of the same file system."""
-    os.replace(part, path)
+    """Give a file from :func:`stage` its name, of the same file system; where that fails, it is gone."""
+    try:
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
     _flush_folder(path.parent)
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all.
+
+    Parameters
+    ----------
+    path
+        File to write; its folder must exist.
+    content
+        Its whole content.
+    """
+    adopt(stage(path, content), path)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -77,8 +93,7 @@ def write_text(path: Path, text: str) -> None:
     text
         Its whole content.
     """
-    with replacing(path) as part:
-        part.write_text(text, encoding="utf-8", newline="\n")
+    write_bytes(path, text.encode())
 
 
 def write_together(contents: Mapping[Path, bytes], stale: Iterable[Path]) -> None:

@@ -50,9 +50,7 @@ def dataset_of(content: bytes) -> xr.Dataset:
     if mark and len(checksum) == _DIGITS and checksum != _checksum(netcdf):
         raise ValueError("its checksum is wrong")
     with _ONE_AT_A_TIME:
-        return xr.load_dataset(
-            netcdf if mark else content, engine="netcdf4", decode_times=False, decode_timedelta=False
-        )
+        return xr.load_dataset(content, engine="netcdf4", decode_times=False, decode_timedelta=False)
 
 
 def _checksum(content: bytes) -> bytes:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Final
 
 from tribodyn.core.errors import InputError
-from tribodyn.results.atomic import adopt, remove_stale_parts, replacing, write_text
+from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.store import CASE, RESULT, SUMMARY
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import Numbers, Outcome
@@ -37,7 +37,7 @@ class Archive:
 
     def __init__(self, directory: Path) -> None:
         self.folder = directory / POINTS
-        self.staging = self.folder / secrets.token_hex(4)
+        self.staging = self.folder.absolute() / secrets.token_hex(4)
         """Path beside which workers of this machine leave whole results, under names of this sweep."""
         if self.folder.exists() and not self.folder.is_dir():
             raise InputError(f"{self.folder} is a file; choose another directory", key="--output")
@@ -73,7 +73,6 @@ class Archive:
         if outcome.staged:
             adopt(Path(outcome.staged), folder / RESULT)
         elif outcome.result:
-            with replacing(folder / RESULT) as part:
-                part.write_bytes(outcome.result)
+            write_bytes(folder / RESULT, outcome.result)
         text = json.dumps(outcome.summary, indent=2, ensure_ascii=False, allow_nan=False)
         write_text(folder / SUMMARY, text + "\n")

@@ -115,7 +115,6 @@ def _local_client(workers: int) -> Iterator[Client]:
         "distributed.scheduler.allowed-failures": DEATHS,
         "distributed.nanny.pre-spawn-environ": fork_server.ENVIRONMENT,
         "distributed.worker.multiprocessing-method": fork_server.METHOD,
-        "distributed.worker.profile.enabled": False,
         # Compiled code holds the interpreter for long stretches, which is no news.
         "distributed.admin.tick.limit": "1h",
     }
@@ -132,7 +131,7 @@ def _local_client(workers: int) -> Iterator[Client]:
             silence_logs=logging.CRITICAL,
             preload=["tribodyn.studies.work"],
         ) as processes,
-        Client(processes, direct_to_workers=True) as client,
+        Client(processes) as client,
     ):
         yield client
 

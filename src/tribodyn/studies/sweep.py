@@ -14,7 +14,7 @@ from tribodyn.cases import Case, keys_of, load_case
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.results import netcdf_content
-from tribodyn.results.atomic import replacing, write_text
+from tribodyn.results.atomic import write_bytes, write_text
 from tribodyn.results.store import prepare_directory
 from tribodyn.studies import runners
 from tribodyn.studies.archive import Archive
@@ -201,7 +201,7 @@ def _compute(
     watcher.arrived(Arrival(0, len(missing)))
     if not missing:
         return
-    staging = "" if archive is None else str(archive.staging.absolute())
+    staging = "" if archive is None else str(archive.staging)
     keep_results = means.keep_results and archive is not None
     job = runners.Job(missing, keep_results, staging, watcher.stop, watcher.note)
     with nullcontext() if archive is None else archive.open():
@@ -221,8 +221,7 @@ def _finished(job: runners.Job, means: Means) -> runners.Finished:
 def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -> xr.Dataset:
     dataset = merge(plan, summaries)
     if directory is not None:
-        with replacing(directory / DATASET) as part:
-            part.write_bytes(netcdf_content(dataset))
+        write_bytes(directory / DATASET, netcdf_content(dataset))
         record = json.dumps(_record(plan, summaries, dataset), indent=2, ensure_ascii=False, allow_nan=False)
         write_text(directory / RECORD, record + "\n")
     return dataset
