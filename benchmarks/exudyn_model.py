@@ -22,13 +22,13 @@ from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from numpy.typing import NDArray
 
 from benchmarks.vsv_case import constants
-from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.problem import Problem
 from tribodyn.joints.point_contact import point_damping
 from tribodyn.kernels.bushing.joint import update_entry_velocity, wrench
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.motion import fill_motion
-from tribodyn.mechanisms.vsv import Vsv
+from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.mechanisms.vsv.parameters import Vsv
 
 FloatArray = NDArray[np.float64]
 

@@ -14,10 +14,10 @@ import numpy as np
 
 from benchmarks.numpy_joint import numpy_wrench
 from benchmarks.repeated import many_jacobians, many_wrenches
-from tribodyn.cases import load_case
 from tribodyn.joints import BushingJoint, Grid
 from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
-from tribodyn.simulation.vsv import mechanism
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.vsv.system import mechanism
 
 STATE = np.array([-3.9e-6, 6.57e-6, 6.46e-4, 1.31e-3, 3.6e-6, -2.4e-6, -2.8e-4, 3.8e-4])
 """Attitude and rates while the vane turns under load, a tilted trunnion [m, rad, m/s, rad/s]."""

@@ -15,7 +15,7 @@ import time
 from typing import Any
 
 from benchmarks.child import measured
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 
 FEW, MANY = 10, 400
 OUTPUT = {"run.output_interval": "100 ms", "run.impact_window": "0 s"}

@@ -22,8 +22,9 @@ import time
 from multiprocessing.synchronize import Barrier
 from typing import Any
 
-from tribodyn.cases import Case, load_case
+from tribodyn.cases import Case
 from tribodyn.core.versions import version
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.studies import sweep
 from tribodyn.studies.work import compute
 

@@ -10,16 +10,17 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.cases import load_case
-from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
 from tribodyn.integrate.schedule import make_schedule
 from tribodyn.kernels.vsv.data import MECHANISM, VsvData
 from tribodyn.kernels.vsv.observe import OBSERVED
-from tribodyn.mechanisms.vsv import Vsv, vsv_problem
-from tribodyn.simulation.times import output_times
-from tribodyn.simulation.vsv import mechanism
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.mechanisms.vsv.problem import vsv_problem
+from tribodyn.mechanisms.vsv.system import mechanism
+from tribodyn.mechanisms.vsv.times import output_times
 
 FloatArray = NDArray[np.float64]
 

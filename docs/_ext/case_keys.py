@@ -10,7 +10,8 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
 
-from tribodyn.cases import KINDS, Case, Key, keys_of
+from tribodyn.cases import Case, Key, keys_of
+from tribodyn.mechanisms.catalogue import KINDS
 
 
 class CaseKeys(Directive):

@@ -13,11 +13,11 @@ import numpy as np
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.cases.vsv import Vsv
 from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, law, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
 from tribodyn.joints import CONTACTS, SURFACE
+from tribodyn.mechanisms.vsv.case import Vsv
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c564b")
 STYLES = ("-", "--", "-.", ":")

@@ -14,10 +14,10 @@ import numpy as np
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.joints import Grid
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.simulation.vsv import mechanism
+from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.mechanisms.vsv.system import mechanism
 
 REVERSAL = np.pi
 DURATION = "4 s"

@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 
 import tribodyn as td
 from tribodyn.figures import JOURNAL_FIGURES
-from tribodyn.mechanisms.journal import Journal, journal_problem, stribeck
-from tribodyn.simulation.journal import journal_of
+from tribodyn.mechanisms.journal.parameters import Journal
+from tribodyn.mechanisms.journal.problem import journal_problem
+from tribodyn.mechanisms.journal.stribeck import stribeck
+from tribodyn.mechanisms.journal.system import journal_of
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)

@@ -11,10 +11,10 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tribodyn.reproduction import FIGURES, Runs
-from tribodyn.reproduction.claims import CLAIMS, judge
-from tribodyn.reproduction.runs import CLEARANCES, FORMULATIONS, smooth
-from tribodyn.reproduction.save import save_claims, save_figure
+from tribodyn.papers.cheng_2022 import FIGURES, Runs
+from tribodyn.papers.cheng_2022.claims import CLAIMS, judge
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, FORMULATIONS, smooth
+from tribodyn.papers.cheng_2022.save import save_claims, save_figure
 
 LOOKS = {"paper": ("0.55", "--"), "exact": ("#0072b2", "-")}
 

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
-    from tribodyn.cases import load_case
+    from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.simulation import simulate
 
 __all__ = ["__version__", "contact", "integrate", "load_case", "simulate", "studies"]
 
-_HOME = {"load_case": "tribodyn.cases", "simulate": "tribodyn.simulation"}
+_HOME = {"load_case": "tribodyn.mechanisms.catalogue", "simulate": "tribodyn.simulation"}
 
 
 def __getattr__(name: str) -> Any:

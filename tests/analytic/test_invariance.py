@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import joint_wrench
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import write_run
 from tribodyn.simulation import simulate
 

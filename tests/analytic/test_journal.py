@@ -17,14 +17,9 @@ from tribodyn.joints import BushingJoint
 from tribodyn.kernels.journal.functions import jac, rhs, static_residual
 from tribodyn.kernels.journal.observe import OBSERVED
 from tribodyn.lubrication import Film, FilmGrid, Roughness
-from tribodyn.mechanisms.journal import (
-    Journal,
-    Loads,
-    equilibrium,
-    journal_data,
-    journal_memory,
-    journal_problem,
-)
+from tribodyn.mechanisms.journal.equilibrium import equilibrium
+from tribodyn.mechanisms.journal.parameters import Journal, Loads
+from tribodyn.mechanisms.journal.problem import journal_data, journal_memory, journal_problem
 
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
 TIGHT = (1e-15, 1e-13, 1e-11, 1e-9)

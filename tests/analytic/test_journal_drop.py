@@ -15,7 +15,8 @@ from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
 from tribodyn.kernels.journal.observe import OBSERVED
-from tribodyn.mechanisms.journal import Journal, Loads, journal_problem
+from tribodyn.mechanisms.journal.parameters import Journal, Loads
+from tribodyn.mechanisms.journal.problem import journal_problem
 
 MakeJoint = Callable[..., BushingJoint]
 MASS = 0.253

@@ -14,7 +14,7 @@ from scipy.integrate import trapezoid
 
 from tribodyn.integrate import integrate
 from tribodyn.kernels.vsv.observe import OBSERVED
-from tribodyn.mechanisms.vsv import vsv_problem
+from tribodyn.mechanisms.vsv.problem import vsv_problem
 
 ALLOWED = 0.01
 """A user is warned above this."""

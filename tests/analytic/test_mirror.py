@@ -15,11 +15,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.vsv import Lengths, Vsv, ideal_vane_angle
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.vsv.parameters import Lengths, Vsv
 from tribodyn.mechanisms.vsv.problem import vsv_problem
-from tribodyn.mechanisms.vsv.reach import closure
+from tribodyn.mechanisms.vsv.reach import closure, ideal_vane_angle
 from tribodyn.simulation import simulate
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))

@@ -18,7 +18,7 @@ from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.equations import drive_moment
 from tribodyn.kernels.vsv.newton_euler import M_D
 from tribodyn.kernels.vsv.observe import OBSERVED, observe
-from tribodyn.mechanisms.vsv import vsv_data, vsv_memory
+from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
 
 FORMULATIONS = ("exact", "paper")
 EXCURSION = 1e-3

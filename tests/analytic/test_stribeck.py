@@ -12,7 +12,9 @@ import pytest
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film, FilmGrid, Roughness
-from tribodyn.mechanisms.journal import Journal, Loads, Stribeck, equilibrium, stribeck
+from tribodyn.mechanisms.journal.equilibrium import equilibrium
+from tribodyn.mechanisms.journal.parameters import Journal, Loads
+from tribodyn.mechanisms.journal.stribeck import Stribeck, stribeck
 
 FRICTION = 0.1
 SPEEDS = np.geomspace(0.1, 3e4, 45)

@@ -12,7 +12,8 @@ import pytest
 
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.motion import fill_motion
-from tribodyn.mechanisms.vsv import Drive, vsv_data
+from tribodyn.mechanisms.vsv.parameters import Drive
+from tribodyn.mechanisms.vsv.problem import vsv_data
 
 SCALE = np.array([1e-3, 1e-3, 0.05, 0.05])
 """Offsets [m] and tilts [rad]; rates are as many per second."""

@@ -11,8 +11,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tribodyn.cases import load_case
-from tribodyn.simulation import simulate, vsv_wear
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.simulation import simulate
+from tribodyn.simulation import wear as vsv_wear
 
 COARSE = {
     "solver.grid.theta": 48,

@@ -12,12 +12,12 @@ import xarray as xr
 from axe_playwright_python.sync_playwright import Axe
 
 import tribodyn as td
-from tribodyn.cases import load_case
 from tribodyn.figures.trajectory import centre
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import Run, write, write_comparison
-from tribodyn.report.film import film_times
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge
+from tribodyn.views.playback import film_times
 
 Opened = Callable[..., Any]
 HOSTILE = '<img src=x onerror="alert(1)"><script>alert(2)</script> & </script> </title> {{ 7*7 }} \u2028 “µ”'

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 

@@ -15,9 +15,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tribodyn.cases import CASES, KINDS, keys_of, load_case
+from tribodyn.cases import keys_of
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import CASES, KINDS, load_case
 from tribodyn.simulation import simulate
 
 FEW, MANY = 40, 4000

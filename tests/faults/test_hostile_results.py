@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import Run, write, write_comparison
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep

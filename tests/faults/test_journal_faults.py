@@ -16,7 +16,9 @@ from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film
-from tribodyn.mechanisms.journal import Journal, Loads, equilibrium, journal_problem
+from tribodyn.mechanisms.journal.equilibrium import equilibrium
+from tribodyn.mechanisms.journal.parameters import Journal, Loads
+from tribodyn.mechanisms.journal.problem import journal_problem
 
 REFUSED = [
     ("journal-oil", "film.viscosity", "0 Pa s", "> 0"),

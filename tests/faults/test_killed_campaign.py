@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
 from tribodyn.cli.main import main
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import read
 from tribodyn.simulation import simulate
 

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cases import parse_case
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
+from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.results import read, summarise
 from tribodyn.results.atomic import remove_stale_parts
 

@@ -18,7 +18,7 @@ import psutil
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import read
 from tribodyn.studies import make_plan, runners
 from tribodyn.studies.work import Outcome

@@ -18,12 +18,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case, parse_case
 from tribodyn.contact import DAMPING_FACTORS, LAWS
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import load_case, parse_case
+from tribodyn.mechanisms.checks import TIGHTEN
 from tribodyn.mechanisms.vsv.reach import reachable
 from tribodyn.simulation import simulate
-from tribodyn.simulation.checks import TIGHTEN
 
 ENERGY_LIMIT = 0.01
 """Largest energy residual of a sound run: above it a run warns."""

@@ -12,7 +12,7 @@ import pytest
 
 BEGIN = """
 import json, sys
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
 """
 BEFORE = """

@@ -16,12 +16,12 @@ import xarray as xr
 
 import tribodyn
 from tribodyn import report
-from tribodyn.cases import load_case
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.figures.style import sheet
-from tribodyn.report.sections.parallel import points_of
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.report.parallel import points_of
 from tribodyn.results import write_run
 from tribodyn.simulation import simulate
 

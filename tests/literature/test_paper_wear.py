@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from tribodyn.integrate import integrate
 from tribodyn.kernels.vsv.books import PEAK_FORCE, PEAK_FORCE_TIME
-from tribodyn.mechanisms.vsv import vsv_problem
+from tribodyn.mechanisms.vsv.problem import vsv_problem
 
 
 def peak(vsv, rtol):

@@ -153,17 +153,16 @@ class Contact(Group):
         )
         return {"contact.damping_factor": "none"}
 
-    def law_of(self, surfaces: SurfacePair, name: str | None = None) -> ContactLaw:
-        """Return the contact law, or another one with the same options, for a pair of surfaces.
+    def law_of(self, surfaces: SurfacePair) -> ContactLaw:
+        """Return the contact law for a pair of surfaces.
 
         A law that has no restitution of its own and is given none is left undamped.
         """
         from tribodyn.contact import LAWS, law
 
-        chosen = name or self.law
-        damped = self.restitution is not None or LAWS[chosen].knows_restitution
+        damped = self.restitution is not None or LAWS[self.law].knows_restitution
         return law(
-            chosen,
+            self.law,
             surfaces,
             damping_factor=self.damping_factor if damped else "none",
             restitution=self.restitution,
@@ -209,12 +208,6 @@ class PlainJoint(Group):
         )
 
 
-class Joint(PlainJoint):
-    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
-
-    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
-
-
 class Wear(Group):
     """Wear of the bushing."""
 
@@ -254,6 +247,11 @@ class Tolerances(Group):
     tilt: float = quantity("2e-8 rad", "for phi_x and phi_y", ASSUMED, gt=0)
     velocity: float = quantity("2e-6 m/s", "for the rates of e_x and e_y", ASSUMED, gt=0)
     tilt_rate: float = quantity("2e-4 rad/s", "for the rates of phi_x and phi_y", ASSUMED, gt=0)
+
+    @property
+    def as_tuple(self) -> tuple[float, float, float, float]:
+        """Tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s]."""
+        return self.position, self.tilt, self.velocity, self.tilt_rate
 
 
 class Grid(Group):

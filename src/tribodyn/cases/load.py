@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import tomllib
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
 from tribodyn.cases.base import Case
 from tribodyn.cases.build import Entry, build, closest
-from tribodyn.cases.catalogue import CASES, KINDS
 from tribodyn.cases.keys import shown
 from tribodyn.core.errors import InputError
 
@@ -18,30 +18,57 @@ _LARGEST_FILE: Final = 1_000_000
 _LONGEST_NAME: Final = 200
 
 
-def load_case(case: str | os.PathLike[str]) -> Case:
+@dataclass(frozen=True)
+class BuiltIn:
+    """A case that can be run by name.
+
+    Attributes
+    ----------
+    model
+        Its kind.
+    summary
+        One line for ``tribodyn cases``.
+    given
+        What differs from the defaults of the kind, by dotted path.
+    """
+
+    model: type[Case]
+    summary: str
+    given: Mapping[str, object] = field(default_factory=dict)
+
+
+Kinds = Mapping[str, type[Case]]
+"""Case models by what stands under ``case =`` in a file."""
+
+
+def load_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str, BuiltIn]) -> Case:
     """Return a case by built-in name or from a TOML file.
 
     Parameters
     ----------
     case
-        One of :data:`CASES`, or the path of a file.
+        One of ``built_in``, or the path of a file.
+    kinds
+        What a file may hold.
+    built_in
+        What can be had by name.
 
     Raises
     ------
     InputError
         There is no such case or file, or something in the file is wrong.
     """
-    if isinstance(case, str) and case in CASES:
-        entry = CASES[case]
+    if isinstance(case, str) and case in built_in:
+        entry = built_in[case]
         source = f"built-in case {case}"
         given = {path: Entry(value, source) for path, value in entry.given.items()}
         return build(entry.model, given, source)
     name = os.fspath(case)
     source = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}..."
-    return parse_case(_text(Path(name), source), source, Path(name).parent)
+    return parse_case(_text(Path(name), source, built_in), source, kinds, Path(name).parent)
 
 
-def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
+def parse_case(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> Case:
     """Return the case that a TOML text describes.
 
     Parameters
@@ -50,31 +77,37 @@ def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
         Content of a case file.
     source
         Where it comes from, for messages.
+    kinds
+        What the text may hold.
     folder
         Where the names of files in it begin; None is the current directory.
     """
     entries = {path: Entry(value, source, folder=folder) for path, value in _flat(_tables(text, source))}
     if not entries:
-        raise InputError("the file is empty; `tribodyn show vsv` prints a complete one", source=source)
-    return build(_kind(entries, source), entries, source)
+        raise InputError(
+            f"the file is empty; `tribodyn show {next(iter(kinds))}` prints a complete one", source=source
+        )
+    return build(_kind(entries, kinds, source), entries, source)
 
 
-def _kind(entries: Mapping[str, Entry], source: str) -> type[Case]:
+def _kind(entries: Mapping[str, Entry], kinds: Kinds, source: str) -> type[Case]:
     """Return the kind of case that the key ``case`` names."""
-    allowed = ", ".join(KINDS)
+    allowed = ", ".join(kinds)
     if "case" not in entries:
         raise InputError(
-            f'this key is missing; write case = "vsv" at the top; known: {allowed}', key="case", source=source
+            f'this key is missing; write case = "{next(iter(kinds))}" at the top; known: {allowed}',
+            key="case",
+            source=source,
         )
     name = entries["case"].value
-    if not isinstance(name, str) or name not in KINDS:
-        near = closest(str(name), KINDS)
+    if not isinstance(name, str) or name not in kinds:
+        near = closest(str(name), kinds)
         hint = f'; did you mean "{near}"?' if near else ""
         raise InputError(f"given {shown(name)}; allowed: {allowed}{hint}", key="case", source=source)
-    return KINDS[name]
+    return kinds[name]
 
 
-def _text(path: Path, source: str) -> str:
+def _text(path: Path, source: str, built_in: Mapping[str, BuiltIn]) -> str:
     """Read a file as UTF-8 text."""
     # Not path.is_dir, which fails on names that are too long.
     if os.path.isdir(path):
@@ -83,7 +116,7 @@ def _text(path: Path, source: str) -> str:
         with path.open("rb") as file:
             content = file.read(_LARGEST_FILE + 1)
     except FileNotFoundError:
-        raise InputError(_no_such_file(source), source=source) from None
+        raise InputError(_no_such_file(source, built_in), source=source) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise InputError(f"the file cannot be read: {reason}", source=source) from None
@@ -103,10 +136,10 @@ def _decoded(content: bytes, source: str) -> str:
     return text
 
 
-def _no_such_file(name: str) -> str:
-    near = closest(name, CASES)
+def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
+    near = closest(name, built_in)
     hint = f"; did you mean {near}?" if near else ""
-    return f"there is no such file, and no built-in case of this name (built in: {', '.join(CASES)}){hint}"
+    return f"there is no such file, and no built-in case of this name (built in: {', '.join(built_in)}){hint}"
 
 
 def _tables(text: str, source: str) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from tribodyn.cli.console import Console, show_json
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
-    from tribodyn.simulation.bounce import HasContact
+    from tribodyn.mechanisms.bushing import HasBushing
 
 HELP = "drop the journal on every contact law and damping factor, and show which restitution comes out"
 _COLUMNS = ("wanted", "point", "plate", "journal")
@@ -42,7 +42,7 @@ def execute(args: Namespace) -> int:
     console.note("Restitution wanted, and realised by a point, a plate and a journal on these surfaces.")
     console.say(f"{'law':<8}{'damping factor':<22}" + "".join(f"{name:>9}" for name in _COLUMNS))
     rows = []
-    for row in bounces(cast("HasContact", case), names):
+    for row in bounces(cast("HasBushing", case), names):
         rows.append(asdict(row))
         numbers = "".join(f"{rows[-1][name]:>9.4f}" for name in _COLUMNS)
         console.say(f"{row.law:<8}{row.factor:<22}{numbers}")

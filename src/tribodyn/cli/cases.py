@@ -15,12 +15,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Print one line for each case."""
-    from tribodyn.cases import CASES
+    from tribodyn.mechanisms.catalogue import built_in
 
     if args.json:
-        show_json({name: entry.summary for name, entry in CASES.items()})
+        show_json({name: entry.summary for name, entry in built_in().items()})
         return 0
-    width = max(len(name) for name in CASES)
-    for name, entry in CASES.items():
+    width = max(len(name) for name in built_in())
+    for name, entry in built_in().items():
         print(f"{name:<{width}}  {entry.summary}")
     return 0

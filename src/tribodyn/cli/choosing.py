@@ -27,7 +27,7 @@ def add_case_arguments(parser: ArgumentParser) -> None:
 
 def chosen_case(args: Namespace) -> Case:
     """Return the case that the arguments name, with the changes they ask for."""
-    from tribodyn.cases import load_case
+    from tribodyn.mechanisms.catalogue import load_case
 
     case = load_case(args.case)
     for asked, source in ((_set(args), "--set"), (_solver(args), "--solver")):

@@ -91,6 +91,6 @@ def _link(directory: Path, target: Path) -> str:
 
 
 def _summaries(runs: Sequence[Run]) -> dict[str, object]:
-    from tribodyn.results.summary import summarise
+    from tribodyn.mechanisms.summary import summarise
 
     return {run.name: summarise(run.dataset) for run in runs}

@@ -13,9 +13,9 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     summary
         Content of ``summary.json``.
     """
-    from tribodyn.results.summary import known
+    from tribodyn.mechanisms.summary import known
 
-    headlines = known(summary)
+    headlines = known(summary, str(summary.get("kind", "")))
     width = max((len(headline.label) for headline in headlines.values()), default=0)
     for name, headline in headlines.items():
         yield f"  {headline.label:<{width}}  {_number(summary[name])} {headline.unit}".rstrip()

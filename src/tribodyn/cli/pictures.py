@@ -17,9 +17,9 @@ FEW_POINTS: Final = 24
 
 def draw(dataset: xr.Dataset, directory: Path) -> None:
     """Draw all figures and write the report of a result into its directory."""
-    from tribodyn import figures, report
+    from tribodyn import report
 
-    figures.draw_all(dataset, directory / FIGURES)
+    report.draw_all(dataset, directory / FIGURES)
     report.write(dataset, directory / REPORT)
 
 

@@ -28,7 +28,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Draw figures and report beside the stored result."""
-    from tribodyn.results.summary import summarise
+    from tribodyn.mechanisms.summary import summarise
 
     if not os.path.isdir(args.directory):
         raise InputError(
@@ -55,6 +55,7 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
 
     A case file that is there stays as it is: somebody may have edited it on the way to the next run.
     """
+    from tribodyn.mechanisms.summary import summarise
     from tribodyn.results.atomic import write_text
     from tribodyn.results.store import CASE, RESULT, SUMMARY, case_text, summary_text
 
@@ -62,7 +63,7 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
         return
     if not (directory / CASE).exists():
         write_text(directory / CASE, case_text(dataset))
-    summary, text = directory / SUMMARY, summary_text(dataset)
+    summary, text = directory / SUMMARY, summary_text(summarise(dataset))
     if not summary.is_file() or summary.read_bytes() != text.encode():
         write_text(summary, text)
         complain(

@@ -12,7 +12,7 @@ from tribodyn.cli.directory import OutputDirectory
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
-    from tribodyn.reproduction import PaperFigure, Runs
+    from tribodyn.papers.cheng_2022 import PaperFigure, Runs
 
 HELP = "make the figures of the source paper, and judge its claims"
 CLAIMS: Final = "claims"
@@ -37,7 +37,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Make what is asked for."""
-    from tribodyn.reproduction import FIGURES, FORMULATIONS, Runs
+    from tribodyn.papers.cheng_2022 import FIGURES, FORMULATIONS, Runs
 
     wanted = _wanted(args.what or [ALL], list(FIGURES))
     if args.formulation not in FORMULATIONS:
@@ -67,7 +67,7 @@ def _wanted(given: list[str], figures: list[str]) -> list[str]:
 
 
 def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, console: Console) -> None:
-    from tribodyn.reproduction.save import save_figure
+    from tribodyn.papers.cheng_2022.save import save_figure
 
     data = figure.data(runs, formulation)
     console.note(f"drawing {figure.name}: {figure.title}")
@@ -75,8 +75,8 @@ def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, con
 
 
 def _claims(runs: Runs, folder: Path, console: Console) -> None:
-    from tribodyn.reproduction import claims
-    from tribodyn.reproduction.save import save_claims
+    from tribodyn.papers.cheng_2022 import claims
+    from tribodyn.papers.cheng_2022.save import save_claims
 
     console.note("measuring the claims of the paper")
     rows = claims.judge(runs, claims.CLAIMS)

@@ -73,11 +73,12 @@ def _progress(case: Case, console: Console) -> Progress:
 
 
 def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
+    from tribodyn.mechanisms.summary import summarise
     from tribodyn.results.store import write_run
-    from tribodyn.results.summary import summarise
 
-    write_run(dataset, directory.path, stale=directory.pictures())
-    return dict(summarise(dataset))
+    summary = summarise(dataset)
+    write_run(dataset, directory.path, summary, stale=directory.pictures())
+    return summary
 
 
 def _draw(

@@ -107,7 +107,7 @@ def _variations(texts: list[str]) -> dict[str, str]:
 
 def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
     # What draws in the end is imported here, while the fork server still gets ready.
-    from tribodyn import figures, report  # noqa: F401
+    from tribodyn import report  # noqa: F401
     from tribodyn.studies import Watcher, run
 
     with ExitStack() as stack:

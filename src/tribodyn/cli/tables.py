@@ -23,21 +23,21 @@ def sweep_in_words(record: Mapping[str, Any]) -> Iterator[str]:
         Content of ``sweep.json``.
     """
     if record["statistics"]:
-        yield from _statistics(record["statistics"])
+        yield from _statistics(record["statistics"], record["kind"])
     else:
-        yield from _points(record["points"])
+        yield from _points(record["points"], record["kind"])
 
 
-def _headlines(given: Sequence[str]) -> dict[str, str]:
+def _headlines(given: Sequence[str], kind: str) -> dict[str, str]:
     """Return the headings of the numbers that a user wants to see, by name."""
-    from tribodyn.results import known
+    from tribodyn.mechanisms.summary import known
 
-    wanted = {name: entry for name, entry in known(given).items() if entry.group not in _LEFT_OUT}
+    wanted = {name: entry for name, entry in known(given, kind).items() if entry.group not in _LEFT_OUT}
     return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}
 
 
-def _points(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    numbers = _headlines([name for point in points for name in point])
+def _points(points: Sequence[Mapping[str, Any]], kind: str) -> Iterator[str]:
+    numbers = _headlines([name for point in points for name in point], kind)
     widths = {name: _width(name, points) for name in points[0]["changes"]}
     room = shutil.get_terminal_size((120, 40)).columns - sum(widths.values()) - 2 * len(widths)
     shown = dict(list(numbers.items())[: max(room // (_COLUMN + 2), 1)])
@@ -71,15 +71,15 @@ def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) ->
         yield "  ".join(cells).rstrip()
 
 
-def _statistics(records: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+def _statistics(records: Sequence[Mapping[str, Any]], kind: str) -> Iterator[str]:
     for record in records:
         at = ", ".join(f"{path} = {value}" for path, value in record["at"].items())
         yield from [at] if at else []
-        yield from _one_statistic(record["numbers"])
+        yield from _one_statistic(record["numbers"], kind)
 
 
-def _one_statistic(record: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
-    labels = _headlines(list(record))
+def _one_statistic(record: Mapping[str, Mapping[str, float]], kind: str) -> Iterator[str]:
+    labels = _headlines(list(record), kind)
     names = list(next(iter(record.values()), {}))
     width = max((len(label) for label in labels.values()), default=0)
     yield "  ".join([" " * (width + 2), *(f"{name:>{_COLUMN}}" for name in names)])

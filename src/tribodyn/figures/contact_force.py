@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
-from tribodyn.figures.events import SETTLING, limit_to_smooth, mark_reversals, reversal_times
+from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
 from tribodyn.figures.style import (
     BLUE,
     DASHED,
@@ -22,12 +22,11 @@ from tribodyn.figures.style import (
     Curves,
     caption,
     finish,
-    finite,
     lines,
-    peak,
-    series,
     sheet,
 )
+from tribodyn.views.events import SETTLING, reversal_times
+from tribodyn.views.series import finite, peak, series
 
 TITLE: Final = "Contact force on the trunnion"
 TOTAL: Final = "#b4b4b4"

@@ -1,7 +1,9 @@
-"""The two energy ledgers: what each term amounts to, and what they miss."""
+"""Energy ledgers: what each term amounts to, and what they miss."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -27,35 +29,14 @@ from tribodyn.figures.style import (
     VERMILION,
     caption,
     finish,
-    finite,
     note,
-    peak,
-    series,
     sheet,
 )
+from tribodyn.views.ledger import Ledger
+from tribodyn.views.playback import time_unit
+from tribodyn.views.series import finite, peak, series
 
 TITLE: Final = "Energy ledgers"
-WHOLE: Final = {
-    "energy_drive": "drive work, in",
-    "energy_loads": "load work, in",
-    "energy_gravity": "gravity",
-    "energy_kinetic": "kinetic",
-    "energy_contact": "stored in contact",
-    "energy_friction": "bushing friction, out",
-    "energy_collar_friction": "collar friction, out",
-    "energy_collar_tilt": "collar tilt, out",
-    "energy_damping": "contact damping, out",
-    "energy_residual": "residual",
-}
-CLEARANCE: Final = {
-    "energy_clearance_loads": "loads and reactions, in",
-    "energy_clearance_inertia": "inertia",
-    "energy_clearance_contact": "stored in contact",
-    "energy_clearance_friction": "friction, out",
-    "energy_clearance_collar": "collar, out",
-    "energy_clearance_damping": "contact damping, out",
-    "energy_clearance_residual": "residual",
-}
 LOOKS: Final = (
     (INK, SOLID),
     (BLUE, DASHED),
@@ -66,25 +47,38 @@ LOOKS: Final = (
 )
 
 
-def draw(dataset: xr.Dataset) -> Figure:
-    """Draw the histories of the large terms [J] and the sizes of all of them, for both ledgers."""
-    figure = sheet(dataset, TITLE, 6.8)
-    grid = figure.subplots(2, 2, width_ratios=(1.35, 1.0))
-    ledgers = (
-        ("Whole mechanism", WHOLE, "energy_residual", "largest term"),
-        ("Motion in the clearance alone", CLEARANCE, "clearance_energy_residual", "largest contact term"),
+def family(ledgers: Sequence[Ledger]) -> Family:
+    """Return the figure of the ledgers of a mechanism."""
+    return Family(
+        name="energy",
+        title=TITLE,
+        caption=(
+            "A way to check the integration: what was put in, stored and turned into heat, and what the sum "
+            "misses, for everything that moves and for the motion in the clearance, where an error in the "
+            "small contact heat cannot hide."
+        ),
+        needs=("time", *(ledger.residual for ledger in ledgers)),
+        draw=partial(draw, ledgers),
     )
-    for (history, sizes), (name, terms, attribute, yardstick) in zip(grid, ledgers, strict=True):
+
+
+def draw(ledgers: Sequence[Ledger], dataset: xr.Dataset) -> Figure:
+    """Draw the histories of the large terms [J] and the sizes of all of them, for each ledger."""
+    figure = sheet(dataset, TITLE, 0.6 + 3.1 * len(ledgers))
+    grid = figure.subplots(len(ledgers), 2, width_ratios=(1.35, 1.0), squeeze=False)
+    time_name, time_scale = time_unit(dataset)
+    for (history, sizes), ledger in zip(grid, ledgers, strict=True):
+        terms = {name: label for name, label in ledger.terms.items() if name in dataset}
         unit, scale = _unit(dataset, terms)
-        _history(history, dataset, terms, scale)
-        _sizes(sizes, dataset, terms)
-        caption(history, name)
-        finish(history, "time [s]", f"energy [{unit}]")
-        caption(sizes, _verdict(dataset, attribute, yardstick), side="right")
+        _history(history, dataset, ledger, terms, (time_scale, scale))
+        _sizes(sizes, dataset, terms | {ledger.residual: "residual"})
+        caption(history, ledger.title)
+        finish(history, f"time [{time_name}]", f"energy [{unit}]")
+        caption(sizes, _verdict(dataset, ledger), side="right")
     return figure
 
 
-def _unit(dataset: xr.Dataset, terms: dict[str, str]) -> tuple[str, float]:
+def _unit(dataset: xr.Dataset, terms: Mapping[str, str]) -> tuple[str, float]:
     """Return the unit in which the largest term of a ledger reads well, and the factor to it."""
     largest = max(peak(series(dataset, name)) for name in terms)
     return next(
@@ -92,27 +86,26 @@ def _unit(dataset: xr.Dataset, terms: dict[str, str]) -> tuple[str, float]:
     )
 
 
-def _history(axes: Axes, dataset: xr.Dataset, terms: dict[str, str], scale: float) -> None:
+def _history(
+    axes: Axes, dataset: xr.Dataset, ledger: Ledger, terms: Mapping[str, str], scales: tuple[float, float]
+) -> None:
     """Draw the terms that are seen beside the largest, at most six, and always the residual."""
-    time = series(dataset, "time")
-    others = sorted(
-        (name for name in terms if not name.endswith("residual")),
-        key=lambda name: -peak(series(dataset, name)),
-    )
+    time, scale = series(dataset, "time", scales[0]), scales[1]
+    others = sorted(terms, key=lambda name: -peak(series(dataset, name)))
     largest = peak(series(dataset, others[0]))
     for name, (colour, dash) in zip(others, LOOKS, strict=False):
         values = series(dataset, name, scale)
         if finite(values).size and peak(values) >= 0.01 * largest * scale:
             axes.plot(time, values, color=colour, linestyle=dash, linewidth=1.3, label=terms[name])
-    residual = next(name for name in terms if name.endswith("residual"))
-    axes.plot(time, series(dataset, residual, scale), color=GREY, linewidth=2.6, alpha=0.55, label="residual")
+    residual = series(dataset, ledger.residual, scale)
+    axes.plot(time, residual, color=GREY, linewidth=2.6, alpha=0.55, label="residual")
     if finite(series(dataset, others[0])).size:
         axes.legend(fontsize=SMALL - 0.5, frameon=False, loc="best", handlelength=3.0, labelspacing=0.25)
     else:
         note(axes, "nothing computed")
 
 
-def _sizes(axes: Axes, dataset: xr.Dataset, terms: dict[str, str]) -> None:
+def _sizes(axes: Axes, dataset: xr.Dataset, terms: Mapping[str, str]) -> None:
     """Draw the largest size of each term on a logarithmic axis, with its number."""
     sizes = np.array([peak(series(dataset, name)) for name in terms])
     colours = [VERMILION if name.endswith("residual") else PALE for name in terms]
@@ -146,21 +139,9 @@ def _joule(size: float) -> str:
     return "0" if size == 0.0 else f"{size:.1e} J"
 
 
-def _verdict(dataset: xr.Dataset, attribute: str, yardstick: str) -> str:
+def _verdict(dataset: xr.Dataset, ledger: Ledger) -> str:
     """Return the residual in words."""
-    value = dataset.attrs.get(attribute)
+    value = dataset.attrs.get(ledger.attribute)
     if not isinstance(value, float) or not np.isfinite(value):
         return "residual not known"
-    return f"residual {100.0 * value:.2g} % of {yardstick}"
-
-
-FAMILY: Final = Family(
-    name="energy",
-    title=TITLE,
-    caption=(
-        "Two ways to check the integration. Above: all bodies, drive and loads. Below: the motion in the "
-        "clearance alone, where an error in the small contact heat cannot hide behind the work of the drive."
-    ),
-    needs=("time", *WHOLE, *CLEARANCE),
-    draw=draw,
-)
+    return f"residual {100.0 * value:.2g} % of {ledger.yardstick}"

@@ -12,8 +12,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, series, sheet, signed
-from tribodyn.figures.unrolled import best_cut, draw_map, threshold_line, unloaded_middle, z_label
+from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, sheet
+from tribodyn.figures.unrolled import draw_map, threshold_line
+from tribodyn.views.series import series, signed
+from tribodyn.views.unrolled import best_cut, unloaded_middle, z_label
 
 TITLE: Final = "Contact pressure on the unrolled bushing"
 Panels: TypeAlias = NDArray[np.object_]

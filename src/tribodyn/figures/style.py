@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any, Final, Literal, TypeAlias
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -16,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.views.series import finite
 
 INK: Final = "#1b1b1b"
 BLUE: Final = "#0072b2"
@@ -131,31 +131,9 @@ def legend(axes: Axes, columns: int, **options: Any) -> Legend:
     )
 
 
-def signed(value: float) -> str:
-    """Return a number with its sign, a true minus as in the tick labels."""
-    return f"{value:+.3g}".replace("-", "−")
-
-
 def note(axes: Axes, text: str) -> None:
     """Write a note into the middle of axes that have nothing to show."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", size=TEXT, color=GREY)
-
-
-def series(dataset: xr.Dataset, name: str, scale: float = 1.0) -> FloatArray:
-    """Return a variable as an array times ``scale``, shape (n_t,); infinities become NaN."""
-    values = np.asarray(dataset[name].values, dtype=np.float64) * scale
-    return np.where(np.isfinite(values), values, np.nan)
-
-
-def finite(values: FloatArray) -> FloatArray:
-    """Return the finite entries."""
-    return values[np.isfinite(values)]
-
-
-def peak(values: FloatArray) -> float:
-    """Return the largest finite size, 0 when there is none."""
-    good = finite(values)
-    return float(np.abs(good).max()) if good.size else 0.0
 
 
 def lines(

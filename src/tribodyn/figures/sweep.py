@@ -36,12 +36,12 @@ from tribodyn.figures.style import (
     VERMILION,
     caption,
     finish,
-    finite,
     legend,
     note,
     plain,
     sheet,
 )
+from tribodyn.views.series import finite
 
 SAMPLES: Final = "point"
 _COLOURS: Final = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, INK)

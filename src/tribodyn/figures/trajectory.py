@@ -12,7 +12,6 @@ from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
-from tribodyn.figures.events import direction
 from tribodyn.figures.style import (
     BLUE,
     DASHED,
@@ -24,25 +23,14 @@ from tribodyn.figures.style import (
     VERMILION,
     caption,
     finish,
-    finite,
     lines,
-    peak,
-    series,
     sheet,
-    signed,
 )
+from tribodyn.views.events import direction
+from tribodyn.views.orbit import centre
+from tribodyn.views.series import finite, peak, signed
 
 TITLE: Final = "Trunnion trajectory in the clearance circle"
-
-
-def centre(dataset: xr.Dataset, z: float) -> tuple[FloatArray, FloatArray]:
-    """Return the displacement of the trunnion axis at height ``z`` [m], two arrays of shape (n_t,) [µm].
-
-    It is (e_x - z tan phi_y, e_y - z tan phi_x).
-    """
-    x = series(dataset, "e_x") - z * np.tan(series(dataset, "phi_y"))
-    y = series(dataset, "e_y") - z * np.tan(series(dataset, "phi_x"))
-    return x * 1e6, y * 1e6
 
 
 def draw(dataset: xr.Dataset) -> Figure:

@@ -25,18 +25,13 @@ from tribodyn.figures.style import (
     legend,
     lines,
     sheet,
-    signed,
 )
-from tribodyn.figures.unrolled import best_cut, draw_map, rolled, unloaded_middle, z_label
+from tribodyn.figures.unrolled import draw_map
+from tribodyn.views.depth import fitting_unit
+from tribodyn.views.series import signed
+from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
 
 TITLE: Final = "Wear depth of the bushing"
-UNITS: Final = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}
-"""Units of depth [m], the coarsest first."""
-
-
-def fitting_unit(largest: float) -> tuple[str, float]:
-    """Return name and size [m] of the coarsest unit in which ``largest`` [m] is at least one."""
-    return next(((name, size) for name, size in UNITS.items() if largest >= size), ("pm", UNITS["pm"]))
 
 
 def draw(dataset: xr.Dataset) -> Figure:

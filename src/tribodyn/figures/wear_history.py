@@ -11,21 +11,9 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    GREY,
-    INK,
-    SOLID,
-    caption,
-    finish,
-    legend,
-    lines,
-    note,
-    series,
-    sheet,
-)
-from tribodyn.figures.wear import fitting_unit
+from tribodyn.figures.style import BLUE, DASHED, GREY, INK, SOLID, caption, finish, legend, lines, note, sheet
+from tribodyn.views.depth import fitting_unit, no_feedback
+from tribodyn.views.series import series
 
 TITLE: Final = "Wear over the cycles"
 
@@ -44,11 +32,6 @@ def draw(dataset: xr.Dataset) -> Figure:
     finish(above, "", above.get_ylabel())
     finish(below, "drive cycles", "pressure [MPa]")
     return figure
-
-
-def no_feedback(dataset: xr.Dataset) -> FloatArray:
-    """Return the depth if the first rate had gone on [m], shape (n_jumps,)."""
-    return series(dataset, "wear_cycles") * series(dataset, "wear_rate")[:1]
 
 
 def _depth(axes: Axes, dataset: xr.Dataset, cycles: FloatArray) -> None:

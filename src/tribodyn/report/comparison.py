@@ -11,13 +11,14 @@ from typing import Any, Final
 
 import xarray as xr
 
-from tribodyn.report.base import Chapter
+from tribodyn.mechanisms.summary import known, mechanism_of, summarise
 from tribodyn.report.content import chapters, reading
-from tribodyn.report.numbers import in_words
 from tribodyn.report.page import page
-from tribodyn.report.sections.overlay import overlays
-from tribodyn.results import json_attribute, known, summarise
+from tribodyn.results import json_attribute
 from tribodyn.results.atomic import write_text
+from tribodyn.views.numbers import in_words
+from tribodyn.views.overlay import Overlay, overlays
+from tribodyn.views.section import Chapter
 
 NOTABLE: Final = 0.01
 """Relative difference from the first run above which a number stands out."""
@@ -66,8 +67,9 @@ def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
 def render(runs: Sequence[Run]) -> str:
     """Return the page as text."""
     lead = "Press the name of a run below a plot to hide or show it."
-    planned = [Chapter("curves", "Curves over each other", lead, overlays({r.name: r.dataset for r in runs}))]
-    shown, payloads = chapters(runs[0].dataset, planned, ())
+    datasets = {run.name: run.dataset for run in runs}
+    planned = Chapter("curves", "Curves over each other", lead, overlays(_overlays(runs), datasets))
+    shown, payloads = chapters(runs[0].dataset, [planned])
     summaries = [summarise(run.dataset) for run in runs]
     return page(
         "compare.html",
@@ -80,6 +82,12 @@ def render(runs: Sequence[Run]) -> str:
         chapters=shown,
         reading=reading(()),
     )
+
+
+def _overlays(runs: Sequence[Run]) -> list[Overlay]:
+    """Return what the mechanisms of the runs lay over each other, each once."""
+    found = {overlay.name: overlay for run in runs for overlay in mechanism_of(run.dataset).overlays()}
+    return list(found.values())
 
 
 def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -97,6 +105,8 @@ def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:
 def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Return, in groups, every headline number that any run has, with the difference from the first run."""
     names = {name: None for summary in summaries for name in summary}
+    kinds = {str(summary["kind"]) for summary in summaries}
+    kind = kinds.pop() if len(kinds) == 1 else ""
     rows = [
         {
             "label": headline.label,
@@ -106,7 +116,7 @@ def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
                 _cell(summary.get(name), summaries[0].get(name), headline.group) for summary in summaries
             ],
         }
-        for name, headline in known(names).items()
+        for name, headline in known(names, kind).items()
     ]
     return [
         {"name": name, "rows": list(members)} for name, members in groupby(rows, lambda row: row["group"])

@@ -5,18 +5,22 @@ from __future__ import annotations
 import base64
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import xarray as xr
 
-from tribodyn.figures import Family, figures_of
-from tribodyn.report.base import Chapter, Section
+from tribodyn.figures.base import Family
+from tribodyn.views.section import Chapter, Section
 
 Shown = dict[str, Any]
 
 
 def chapters(
-    dataset: xr.Dataset, planned: Iterable[Chapter], stills: Sequence[Path]
+    dataset: xr.Dataset,
+    planned: Iterable[Chapter],
+    stills: Sequence[Path] = (),
+    families: Mapping[str, Family] = MappingProxyType({}),
 ) -> tuple[list[Shown], dict[str, Any]]:
     """Return the chapters that a result has data for, and what their scripts read.
 
@@ -28,29 +32,32 @@ def chapters(
         Chapters of its kind.
     stills
         PNG files. One that no section stands for gets a place at the end: no figure is lost.
+    families
+        What is known of figures, by the names of the files.
 
     Returns
     -------
     shown, payloads
         Chapters for the template; data by name of the section.
     """
-    families = figures_of(dataset)
     pictures = {path.stem: path for path in stills}
     shown: list[Shown] = []
     payloads: dict[str, Any] = {}
-    for chapter in planned:
-        found = {section: section.payload(dataset) for section in chapter.sections}
+    for plan in planned:
+        found = {section: section.payload(dataset) for section in plan.sections}
         drawn = {section: payload for section, payload in found.items() if payload is not None}
         payloads |= {section.name: payload for section, payload in drawn.items()}
         still = [section for section in found if section in drawn or section.still in pictures]
         sections = [_section(section, section in drawn, pictures, families) for section in still]
         if sections:
-            shown.append(_chapter(chapter, sections))
+            shown.append(_chapter(plan, sections))
     used = {section.still for chapter in planned for section in chapter.sections}
     others = [_still(path, families.get(name)) for name, path in pictures.items() if name not in used]
     if others:
         lead = "Also in the folder figures."
-        shown.append({"name": "figures", "title": "Figures", "lead": lead, "film": False, "sections": others})
+        shown.append(
+            {"name": "figures", "title": "Figures", "lead": lead, "playback": False, "sections": others}
+        )
     return shown, payloads
 
 
@@ -59,7 +66,7 @@ def _chapter(chapter: Chapter, sections: list[Shown]) -> Shown:
         "name": chapter.name,
         "title": chapter.title,
         "lead": chapter.lead,
-        "film": chapter.film and any(section["widget"] for section in sections),
+        "playback": chapter.playback and any(section["widget"] for section in sections),
         "sections": sections,
     }
 

@@ -8,8 +8,9 @@ from typing import Any
 
 import xarray as xr
 
-from tribodyn.report.numbers import in_words
-from tribodyn.results import Headline, known
+from tribodyn.mechanisms.summary import known
+from tribodyn.results import Headline
+from tribodyn.views.numbers import in_words
 
 Number = dict[str, str]
 """A headline number with ``label``, ``value``, ``unit`` and ``meaning``."""
@@ -27,15 +28,16 @@ def number(headline: Headline, value: object) -> Number:
 
 def chosen(summary: Mapping[str, Any], names: Iterable[str]) -> list[Number]:
     """Return those of the named numbers that a summary holds."""
-    found = known(summary)
+    found = known(summary, str(summary["kind"]))
     return [number(found[name], summary[name]) for name in names if name in found]
 
 
 def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return all headline numbers of a summary in their groups."""
+    numbers = known(summary, str(summary["kind"])).items()
     return [
         {"name": group, "numbers": [number(headline, summary[name]) for name, headline in members]}
-        for group, members in groupby(known(summary).items(), key=lambda entry: entry[1].group)
+        for group, members in groupby(numbers, key=lambda entry: entry[1].group)
     ]
 
 

@@ -9,21 +9,22 @@ from typing import Any
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from tribodyn.mechanisms.summary import mechanism_of, summarise
 from tribodyn.report import assets
 from tribodyn.report.content import chapters, reading, variables
-from tribodyn.report.encode import safe_json
-from tribodyn.report.film import clock
+from tribodyn.report.figures import figures_of
 from tribodyn.report.headlines import chosen, facts, grouped, versions
-from tribodyn.report.kinds import CHAPTERS, KEY_NUMBERS, kind_of
-from tribodyn.report.numbers import in_words
-from tribodyn.results import json_attribute, summarise
+from tribodyn.results import json_attribute
+from tribodyn.views.encode import safe_json
+from tribodyn.views.numbers import in_words
+from tribodyn.views.playback import clock
 
 
 def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
     """Return the page of a result as text."""
     summary = summarise(dataset)
-    kind = kind_of(dataset)
-    shown, payloads = chapters(dataset, CHAPTERS[kind], stills)
+    mechanism = mechanism_of(dataset)
+    shown, payloads = chapters(dataset, mechanism.chapters(), stills, figures_of(dataset))
     return page(
         payload={"clock": clock(dataset), "figures": payloads} if payloads else None,
         title=summary["title"] or "Result",
@@ -32,7 +33,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
         time_reached=in_words(summary.get("simulated_time_s", 0.0)),
         warnings=json_attribute(dataset, "warnings", []),
         facts=facts(dataset),
-        key=chosen(summary, KEY_NUMBERS[kind]),
+        key=chosen(summary, mechanism.key_numbers),
         groups=grouped(summary),
         chapters=shown,
         solver=_solver(dataset),

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from tribodyn.report.base import Chapter, Section
+from tribodyn.mechanisms.summary import key_numbers_of
 from tribodyn.report.content import chapters, reading, variables
+from tribodyn.report.figures import figures_of
 from tribodyn.report.page import page
-from tribodyn.report.sections.parallel import Axis, Point, at_first, axes_of, payload, points_of
+from tribodyn.report.parallel import Axis, Point, at_first, axes_of, payload, points_of
+from tribodyn.views.section import Chapter, Section
 
 
 def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | None) -> str:
@@ -27,6 +29,7 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         Where the sweep is stored: reports of points that are there are linked.
     """
     axes, points = axes_of(dataset), points_of(dataset, folder)
+    first = key_numbers_of(str(dataset.attrs.get("swept_kind", "")))
     section = Section(
         name="parallel",
         title="All points",
@@ -36,10 +39,12 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         ),
         needs=(),
         widget="parallel",
-        data=lambda _: payload(axes, points),
+        data=lambda _: payload(axes, points, first),
     )
     lead = "Parameters at the left, what came out at the right."
-    shown, payloads = chapters(dataset, [Chapter("all", "Side by side", lead, (section,))], stills)
+    shown, payloads = chapters(
+        dataset, [Chapter("all", "Side by side", lead, (section,))], stills, figures_of(dataset)
+    )
     lost = [point for point in points if point.failure]
     return page(
         "sweep.html",
@@ -51,17 +56,17 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         failures=_reasons(lost),
         ranges=[_range(axis) for axis in axes],
         chapters=shown,
-        columns=[axis.label for axis in _columns(axes)],
-        rows=[_row(k, point, _columns(axes)) for k, point in enumerate(points)],
+        columns=[axis.label for axis in _columns(axes, first)],
+        rows=[_row(k, point, _columns(axes, first)) for k, point in enumerate(points)],
         case=dataset.attrs.get("case", ""),
         variables=variables(dataset),
         reading=reading((), "sweep.nc"),
     )
 
 
-def _columns(axes: Sequence[Axis]) -> list[Axis]:
+def _columns(axes: Sequence[Axis], first: Collection[str]) -> list[Axis]:
     """Return what the table of points shows."""
-    names = at_first(list(axes))
+    names = at_first(list(axes), first)
     return [axis for axis in axes if axis.name in names]
 
 

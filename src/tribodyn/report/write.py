@@ -8,7 +8,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.figures import figures_of
+from tribodyn.report.figures import figures_of
 from tribodyn.report.page import render
 from tribodyn.report.sweep import render_sweep
 from tribodyn.results.atomic import write_text
@@ -27,7 +27,7 @@ def write(dataset: xr.Dataset, target: str | Path, figures: Sequence[str | Path]
         File ending in ``.html``, or the folder in which ``report.html`` is to be.
     figures
         PNG files that stand for the live figures on paper, in order; by default those of
-        :func:`tribodyn.figures.draw_all` in ``figures/`` beside the report.
+        :func:`tribodyn.report.draw_all` in ``figures/`` beside the report.
 
     Returns
     -------

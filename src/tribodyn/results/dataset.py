@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from tribodyn.results.variables import VARIABLES
+from tribodyn.results.variables import VARIABLES, Variable
 
 
 def build(
@@ -19,6 +20,7 @@ def build(
     columns: Mapping[str, ArrayLike],
     fields: Mapping[str, ArrayLike] | None = None,
     attributes: Mapping[str, object] | None = None,
+    variables: Mapping[str, Variable] = MappingProxyType({}),
 ) -> xr.Dataset:
     """Assemble a result.
 
@@ -28,13 +30,14 @@ def build(
         Values of names in :data:`~tribodyn.results.variables.COORDINATES`, SI; ``time`` of shape (n_t,) at
         least.
     columns
-        Values over ``time``, each of shape (n_t,), SI. Where there is a coordinate ``law``, all values
-        that are no coordinates run over it first.
+        Values over ``time``, each of shape (n_t,), SI.
     fields
         Values over other dimensions, shaped as the variable table says, SI.
     attributes
         Facts about the run. NetCDF knows numbers and text only: truth values become 0 or 1, ``None`` becomes
         an empty text, lists and mappings become JSON (read back by :func:`json_attribute`).
+    variables
+        What is known of variables beside those that mechanisms share.
 
     Returns
     -------
@@ -42,24 +45,23 @@ def build(
         Each variable with ``units`` and ``long_name``.
     """
     data = {**columns, **(fields or {})}
-    first = ("law",) if "law" in coordinates else ()
+    known = {**VARIABLES, **variables}
     return xr.Dataset(
-        data_vars={name: _variable(name, values, first) for name, values in data.items()},
-        coords={name: _variable(name, values) for name, values in coordinates.items()},
+        data_vars={name: _variable(name, values, known) for name, values in data.items()},
+        coords={name: _variable(name, values, known) for name, values in coordinates.items()},
         attrs={name: plain_attribute(value) for name, value in (attributes or {}).items()},
     )
 
 
-def _variable(name: str, values: ArrayLike, first: tuple[str, ...] = ()) -> xr.Variable:
-    """Return the values as a variable described by the table, with dimensions in front of its own."""
-    if name not in VARIABLES:
-        raise KeyError(f"{name!r} is not in tribodyn.results.variables.VARIABLES: add its line there")
-    about = VARIABLES[name]
+def _variable(name: str, values: ArrayLike, known: Mapping[str, Variable]) -> xr.Variable:
+    """Return the values as a variable described by its line."""
+    if name not in known:
+        raise KeyError(f"{name!r} has no line in the variables of its mechanism, nor in results.variables")
+    about = known[name]
     array = np.asarray(values)
-    dims = first + about.dims
-    if array.ndim != len(dims):
-        raise ValueError(f"{name} has shape {array.shape} but the table says it runs over {dims}")
-    return xr.Variable(dims, array, {"units": about.units, "long_name": about.long_name})
+    if array.ndim != len(about.dims):
+        raise ValueError(f"{name} has shape {array.shape} but its line says it runs over {about.dims}")
+    return xr.Variable(about.dims, array, {"units": about.units, "long_name": about.long_name})
 
 
 def plain_attribute(value: object) -> str | int | float:

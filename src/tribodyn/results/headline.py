@@ -24,6 +24,8 @@ class Headline:
         Why an engineer cares, in a sentence.
     compute
         Returns the number, NaN or an error of lookup where the result does not hold it.
+    count
+        Whether it is a whole number.
     """
 
     label: str
@@ -31,3 +33,4 @@ class Headline:
     group: str
     meaning: str
     compute: Callable[[xr.Dataset], float]
+    count: bool = False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -14,7 +14,6 @@ import xarray as xr
 from tribodyn.core.errors import InputError
 from tribodyn.results.atomic import write_together
 from tribodyn.results.netcdf import dataset_of, netcdf_content
-from tribodyn.results.summary import summarise
 
 RESULT: Final = "result.nc"
 SUMMARY: Final = "summary.json"
@@ -49,7 +48,12 @@ def prepare_directory(directory: str | Path) -> Path:
         raise InputError(f"cannot write results to {folder} ({reason}); choose another folder") from error
 
 
-def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:
+def write_run(
+    dataset: xr.Dataset,
+    directory: str | Path,
+    summary: Mapping[str, float | int | str],
+    stale: Iterable[Path] = (),
+) -> list[Path]:
     """Write a run; summary and case of an earlier one never stand beside its result.
 
     Parameters
@@ -58,6 +62,8 @@ def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] 
         A result; ``attrs["case"]`` is the text of the case file.
     directory
         Folder to write to; made if missing.
+    summary
+        Its headline numbers.
     stale
         What else was made from the earlier result; removed once the new one is on the disk.
 
@@ -71,7 +77,7 @@ def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] 
     contents: dict[str, bytes] = {
         RESULT: netcdf_content(dataset),
         CASE: case_text(dataset).encode(),
-        SUMMARY: summary_text(dataset).encode(),
+        SUMMARY: summary_text(summary).encode(),
     }
     write_together({folder / name: content for name, content in contents.items()}, stale)
     return [folder / name for name in contents]
@@ -88,15 +94,9 @@ def case_text(dataset: xr.Dataset) -> str:
     return str(dataset.attrs.get("case", ""))
 
 
-def summary_text(dataset: xr.Dataset) -> str:
-    """Return the content of ``summary.json``.
-
-    Parameters
-    ----------
-    dataset
-        A result.
-    """
-    return json.dumps(summarise(dataset), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+def summary_text(summary: Mapping[str, float | int | str]) -> str:
+    """Return the content of ``summary.json``."""
+    return json.dumps(summary, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def read(path: str | Path) -> xr.Dataset:

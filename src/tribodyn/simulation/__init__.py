@@ -1,28 +1,23 @@
-"""From a case to a dataset: build the problem, integrate it, gather what a user asks for."""
+"""From a case to a dataset: build its system, integrate it, gather what a user asks for."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, cast
 
 from tribodyn.core.errors import InputError
-from tribodyn.simulation.compilation import Simulator, compile_elsewhere, loaded
-from tribodyn.simulation.journal import simulate_journal
-from tribodyn.simulation.vsv import simulate_vsv
-from tribodyn.simulation.vsv_wear import simulate_vsv_wear
+from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.base import Part, SystemCase
+from tribodyn.simulation.compilation import compile_elsewhere, loaded
+from tribodyn.simulation.session import Progress, Session, Stop
+from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from tribodyn.cases.base import Case
-
-SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv, "journal": simulate_journal}
-"""What runs each kind of case."""
-
-CAMPAIGNS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv_wear}
-"""What runs a wear campaign of each kind of case that has one."""
 
 
 def simulate(
@@ -58,43 +53,50 @@ def simulate(
     InputError
         If the case asks for something that cannot be.
     """
-    simulator = _simulator(case)
     prepare(case)
-    dataset: xr.Dataset
-    if case.campaign_cycles > 0:
-        kept = None if checkpoint is None else Path(checkpoint)
-        dataset = CAMPAIGNS[case.case](case, progress=progress, stop=stop, checkpoint=kept)
-    else:
-        dataset = simulator(case, progress=progress, stop=stop)
-    return dataset
+    return _simulated(case, progress, stop, None if checkpoint is None else Path(checkpoint))
 
 
-def _simulator(case: Case) -> Simulator:
+def _simulated(
+    case: Case, progress: Progress = None, stop: Stop = None, checkpoint: Path | None = None
+) -> xr.Dataset:
+    session = _session(case, progress, stop)
+    if not session.mechanism.of_cycle:
+        return session.dataset(session.integrated(case.duration), Part())
+    return simulate_campaign(session, checkpoint) if case.campaign_cycles else simulate_plain(session)
+
+
+def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Session:
     kind: str = getattr(case, "case", "")
-    if kind not in SIMULATORS:
-        raise InputError(f"given {kind!r}; allowed: {', '.join(SIMULATORS)}", key="case")
-    return SIMULATORS[kind]
+    if kind not in MECHANISMS:
+        raise InputError(f"given {kind!r}; allowed: {', '.join(MECHANISMS)}", key="case")
+    mechanism = MECHANISMS[kind]
+    return Session(cast(SystemCase, case), mechanism, mechanism.system(case), progress, stop)
+
+
+def _first_steps(case: Case) -> None:
+    """Call every compiled function that a case needs: a few steps do."""
+    session = _session(case, stop=lambda: True)
+    session.dataset(session.integrated(case.duration), Part())
 
 
 def prepare(case: Case) -> None:
     """Have the equations of a case compiled, if they are not, and load them."""
-    simulator = _simulator(case)
-    if not loaded(case, simulator):
+    if not loaded(case, _first_steps):
         compile_elsewhere(case)
-        loaded(case, simulator)
+        loaded(case, _first_steps)
 
 
 def load_equations(case: Case) -> None:
     """Load the equations of a case if they are compiled."""
-    loaded(case, _simulator(case))
+    loaded(case, _first_steps)
 
 
 def compile_case(toml: str) -> None:
-    """Compile the equations of a case, given as TOML, and leave them in numba's cache: a few steps do."""
-    from tribodyn.cases import parse_case
+    """Compile the equations of a case, given as TOML, and leave them in numba's cache."""
+    from tribodyn.mechanisms.catalogue import parse_case
 
-    case = parse_case(toml, "case")
-    _simulator(case)(case, stop=lambda: True)
+    _first_steps(parse_case(toml, "case"))
 
 
-__all__ = ["CAMPAIGNS", "SIMULATORS", "compile_case", "load_equations", "prepare", "simulate"]
+__all__ = ["compile_case", "load_equations", "prepare", "simulate"]

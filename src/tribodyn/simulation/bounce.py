@@ -4,35 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
-from tribodyn.cases import groups
-from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, tabulate
+from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.drop import design_speed, drop
-
-
-class HasContact(Protocol):
-    """A case with one clearance joint."""
-
-    @property
-    def contact(self) -> groups.Contact:
-        """Its table ``[contact]``."""
-
-    @property
-    def joint(self) -> groups.PlainJoint:
-        """Its table ``[joint]``."""
-
-    @property
-    def solver(self) -> groups.Solver:
-        """Its table ``[solver]``."""
-
-    @property
-    def surface_pair(self) -> SurfacePair:
-        """The surfaces in contact."""
+from tribodyn.mechanisms.bushing import HasBushing
 
 
 @dataclass(frozen=True)
@@ -59,7 +38,7 @@ class Row:
     journal: float
 
 
-def bounces(case: HasContact, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
+def bounces(case: HasBushing, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
     """Drop a plate and a journal on laws with every damping factor, on the surfaces of a case.
 
     Both arrive with the energy that takes them to ``contact.design_pressure`` without damping.
@@ -80,15 +59,15 @@ def bounces(case: HasContact, names: Iterable[str] = LAWS, *, mass: float = 0.25
             yield _row(case, name, factor, wanted, mass)
 
 
-def _own_restitution(case: HasContact) -> float:
+def _own_restitution(case: HasBushing) -> float:
     law = RSDC(case.surface_pair, design_pressure=case.contact.design_pressure)
     return float(law.meant_restitution(np.array([law.design_separation()]))[0])
 
 
-def _row(case: HasContact, name: str, factor: str, wanted: float, mass: float) -> Row:
-    contact = case.contact.model_copy(update={"damping_factor": factor, "restitution": wanted})
+def _row(case: HasBushing, name: str, factor: str, wanted: float, mass: float) -> Row:
+    contact = case.contact.model_copy(update={"law": name, "damping_factor": factor, "restitution": wanted})
     onset, pressure = contact.onset_separation, contact.design_pressure
-    chosen = contact.law_of(case.surface_pair, name)
+    chosen = contact.law_of(case.surface_pair)
     table = tabulate(chosen, onset=onset, smoothing_width=contact.smoothing_width)
     joint = BushingJoint(
         geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),

@@ -3,7 +3,7 @@
 A campaign stops at some cycles. At each stop one drive cycle is simulated with the bushing as worn as it is
 then, from the state and the memory of contact in which the cycle simulated before it ended. Its sliding load
 is repeated over the cycles of the jump that follows, the simulated one among them. What lies between two
-simulated cycles is a :class:`Worn`, and nothing else: a campaign goes on from it to the same bits.
+simulated cycles is a :class:`Campaign`, and nothing else: a campaign goes on from it to the same bits.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Statistics
-from tribodyn.mechanisms.vsv import Carried
+from tribodyn.mechanisms.base import Carried
 from tribodyn.simulation.history import History, appended, empty_history, thinned
 from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
 
@@ -42,6 +42,8 @@ class Plan:
         Area that a node of each row stands for [m²], shape (n_z + 2,).
     field_shape
         Shape (n_z + 2, n_theta) of a field over the nodes.
+    of_cycle
+        What is written down about the motion of each cycle, by name.
     """
 
     cycles: int
@@ -52,6 +54,7 @@ class Plan:
     control: JumpControl
     node_area: FloatArray
     field_shape: tuple[int, int]
+    of_cycle: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -79,8 +82,8 @@ class Cycle:
     failure: str | None
 
 
-class Mechanism(Protocol):
-    """What a campaign needs of a mechanism whose joint wears."""
+class Cycles(Protocol):
+    """The cycles of a system whose bushing wears."""
 
     def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
         """Simulate one cycle with a worn bushing, from the start of a run or from where one ended.
@@ -102,7 +105,7 @@ class Mechanism(Protocol):
 
 
 @dataclass(frozen=True)
-class Worn:
+class Campaign:
     """A campaign between two simulated cycles.
 
     Attributes
@@ -140,13 +143,13 @@ class Worn:
 
 
 def run_campaign(
-    mechanism: Mechanism, plan: Plan, resumed: Worn | None, keep: Callable[[Worn], None]
-) -> tuple[Worn, Cycle]:
+    system: Cycles, plan: Plan, resumed: Campaign | None, keep: Callable[[Campaign], None]
+) -> tuple[Campaign, Cycle]:
     """Run a campaign to its end, or to a cycle that fails.
 
     Parameters
     ----------
-    mechanism
+    system
         What wears.
     plan
         What is asked.
@@ -160,36 +163,36 @@ def run_campaign(
     worn, cycle
         The bushing at the end, and the cycle simulated with it.
     """
-    worn, cycle = (resumed, None) if resumed is not None else _settled(mechanism, plan)
+    worn, cycle = (resumed, None) if resumed is not None else _settled(system, plan)
     while cycle is None or cycle.failure is None:
-        cycle = mechanism.cycle(_gap(worn, plan), worn.carried, worn.cycles)
+        cycle = system.cycle(_gap(worn, plan), worn.carried, worn.cycles)
         worn = replace(worn, statistics=_added(worn.statistics, cycle.statistics))
         if cycle.failure is None:
             if worn.cycles >= plan.cycles or math.isfinite(worn.life):
                 return _noted(worn, cycle, plan), cycle
-            worn = _jumped(mechanism, worn, cycle, plan)
+            worn = _jumped(system, worn, cycle, plan)
             keep(worn)
     return worn, cycle
 
 
-def _settled(mechanism: Mechanism, plan: Plan) -> tuple[Worn, Cycle | None]:
+def _settled(system: Cycles, plan: Plan) -> tuple[Campaign, Cycle | None]:
     """Simulate the cycles that let the start die away; return also the last of them, if there is any."""
     nothing = np.zeros(plan.field_shape)
-    worn = Worn(
+    worn = Campaign(
         cycles=0,
         depth=nothing,
         carried=None,
         load=nothing,
         gain=0.0,
         life=math.inf,
-        history=empty_history(),
+        history=empty_history(plan.of_cycle),
         stage_cycles=np.empty(0),
         stage_depth=np.empty((0, *plan.field_shape)),
         statistics=vars(Statistics()),
     )
     cycle: Cycle | None = None
     for _ in range(plan.settling):
-        cycle = mechanism.cycle(nothing, worn.carried, 0)
+        cycle = system.cycle(nothing, worn.carried, 0)
         statistics = _added(worn.statistics, cycle.statistics)
         worn = replace(worn, carried=cycle.carried, statistics=statistics)
         if cycle.failure is not None:
@@ -197,12 +200,12 @@ def _settled(mechanism: Mechanism, plan: Plan) -> tuple[Worn, Cycle | None]:
     return worn, cycle
 
 
-def _gap(worn: Worn, plan: Plan) -> FloatArray:
+def _gap(worn: Campaign, plan: Plan) -> FloatArray:
     """Return the wear depth that the contact feels [m]."""
     return worn.depth if plan.feedback else np.zeros(plan.field_shape)
 
 
-def _jumped(mechanism: Mechanism, worn: Worn, cycle: Cycle, plan: Plan) -> Worn:
+def _jumped(system: Cycles, worn: Campaign, cycle: Cycle, plan: Plan) -> Campaign:
     """Write the stop down and wear the bushing for the cycles of a jump."""
     per_cycle = plan.law.depth(cycle.sliding_load)
     until_limit = _cycles_to(plan.depth_limit, worn.depth, per_cycle)
@@ -216,8 +219,8 @@ def _jumped(mechanism: Mechanism, worn: Worn, cycle: Cycle, plan: Plan) -> Worn:
         gain=cycles * float(per_cycle.max()) / plan.control.roughness,
         life=worn.cycles + until_limit if until_limit <= cycles else math.inf,
     )
-    lost = mechanism.contact_energy(_gap(worn, plan), cycle.carried)
-    lost -= mechanism.contact_energy(_gap(after, plan), cycle.carried)
+    lost = system.contact_energy(_gap(worn, plan), cycle.carried)
+    lost -= system.contact_energy(_gap(after, plan), cycle.carried)
     stages = (
         np.append(worn.stage_cycles, after.cycles),
         np.append(worn.stage_depth, after.depth[None], axis=0),
@@ -227,7 +230,7 @@ def _jumped(mechanism: Mechanism, worn: Worn, cycle: Cycle, plan: Plan) -> Worn:
     return replace(after, history=history, stage_cycles=stage_cycles, stage_depth=stage_depth)
 
 
-def _jump(worn: Worn, cycle: Cycle, plan: Plan) -> int:
+def _jump(worn: Campaign, cycle: Cycle, plan: Plan) -> int:
     """Return the cycles of the next jump, the simulated one among them, as its change of load allows."""
     remaining = plan.cycles - worn.cycles
     if not plan.feedback:
@@ -246,7 +249,7 @@ def _cycles_to(limit: float, depth: FloatArray, per_cycle: FloatArray) -> float:
     return float(((limit - depth[wearing]) / per_cycle[wearing]).min())
 
 
-def _noted(worn: Worn, cycle: Cycle, plan: Plan, jump: int = 0, lost: float = 0.0) -> Worn:
+def _noted(worn: Campaign, cycle: Cycle, plan: Plan, jump: int = 0, lost: float = 0.0) -> Campaign:
     """Return the campaign with a stop written down, from which a jump of ``jump`` cycles follows."""
     entry = {
         **cycle.motion,

@@ -8,24 +8,24 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.vsv import Carried
+from tribodyn.mechanisms.base import Carried
 from tribodyn.results.atomic import replacing
-from tribodyn.simulation.campaign import Worn
-from tribodyn.simulation.history import COLUMNS
+from tribodyn.simulation.campaign import Campaign
+from tribodyn.simulation.history import columns
 from tribodyn.simulation.provenance import provenance
 
 FORMAT: Final = 1
 _ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
 
 
-def write(path: Path, worn: Worn, case: str) -> None:
+def write(path: Path, worn: Campaign, case: str) -> None:
     """Write a checkpoint whole or not at all.
 
     Parameters
@@ -48,12 +48,14 @@ def write(path: Path, worn: Worn, case: str) -> None:
     arrays: dict[str, Any] = {name: getattr(worn, name) for name in _ARRAYS}
     arrays |= {"state": worn.carried.state, "entry_velocity": worn.carried.entry_velocity}
     arrays |= {"gain": worn.gain, "life": worn.life, "facts": json.dumps(facts)}
-    arrays |= {f"history_{name}": worn.history[name] for name in COLUMNS}
+    arrays |= {f"history_{name}": values for name, values in worn.history.items()}
     with replacing(path) as part, part.open("wb") as stream:
         np.savez(stream, **arrays)
 
 
-def read(path: Path, case: str, field_shape: tuple[int, int]) -> tuple[Worn, list[str]] | None:
+def read(
+    path: Path, case: str, field_shape: tuple[int, int], of_cycle: Iterable[str]
+) -> tuple[Campaign, list[str]] | None:
     """Read a checkpoint, if there is one.
 
     Parameters
@@ -65,6 +67,8 @@ def read(path: Path, case: str, field_shape: tuple[int, int]) -> tuple[Worn, lis
     field_shape
         Shape (n_z + 2, n_theta) of a field over the nodes of that case. Compiled code looks at no shape: what
         reaches it must have the right one, whoever made the file.
+    of_cycle
+        What the mechanism writes down about each cycle, by name.
 
     Returns
     -------
@@ -79,7 +83,9 @@ def read(path: Path, case: str, field_shape: tuple[int, int]) -> tuple[Worn, lis
     try:
         arrays, facts = _opened(path)
         known = facts["format"] == FORMAT
-        worn = _worn(arrays, facts, field_shape) if known and facts["case"] == case else None
+        worn = (
+            _worn(arrays, facts, field_shape, columns(of_cycle)) if known and facts["case"] == case else None
+        )
         told = _changed(facts["versions"]) if known else []
     except FileNotFoundError:
         return None
@@ -100,20 +106,25 @@ def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     return arrays, dict(json.loads(str(arrays["facts"])))
 
 
-def _worn(arrays: Mapping[str, Any], facts: Mapping[str, Any], field_shape: tuple[int, int]) -> Worn:
-    jumps, stages = arrays[f"history_{COLUMNS[0]}"].size, arrays["stage_cycles"].size
+def _worn(
+    arrays: Mapping[str, Any],
+    facts: Mapping[str, Any],
+    field_shape: tuple[int, int],
+    names: tuple[str, ...],
+) -> Campaign:
+    jumps, stages = arrays[f"history_{names[0]}"].size, arrays["stage_cycles"].size
     shapes = {"depth": field_shape, "load": field_shape, "entry_velocity": field_shape, "state": (8,)}
     shapes |= {"stage_cycles": (stages,), "stage_depth": (stages, *field_shape)}
-    shapes |= {f"history_{name}": (jumps,) for name in COLUMNS}
+    shapes |= {f"history_{name}": (jumps,) for name in names}
     for name, shape in shapes.items():
         if arrays[name].shape != shape or arrays[name].dtype != np.float64:
             raise ValueError(f"{name} is no array of {shape} numbers")
-    return Worn(
+    return Campaign(
         cycles=int(facts["cycles"]),
         carried=Carried(arrays["state"], arrays["entry_velocity"]),
         gain=float(arrays["gain"]),
         life=float(arrays["life"]),
-        history={name: arrays[f"history_{name}"] for name in COLUMNS},
+        history={name: arrays[f"history_{name}"] for name in names},
         statistics=facts["statistics"],
         **{name: arrays[name] for name in _ARRAYS},
     )

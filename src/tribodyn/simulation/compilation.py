@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from tribodyn.cases.base import Case
 
-Simulator = Callable[..., Any]
+Steps = Callable[["Case"], Any]
 
 _CHILD: Final = "from tribodyn.simulation import compile_case; import sys; compile_case(sys.stdin.read())"
 _loaded: Final[set[frozenset[tuple[str, object]]]] = set()
@@ -44,13 +44,13 @@ def loading_only() -> Iterator[None]:
         yield
 
 
-def loaded(case: Case, simulator: Simulator) -> bool:
+def loaded(case: Case, first_steps: Steps) -> bool:
     """Load the equations of a case; False if they are not compiled yet."""
     choices = frozenset(_choices(case.model_dump(exclude={"title"})))
     if choices not in _loaded:
         try:
             with loading_only():
-                simulator(case, stop=lambda: True)
+                first_steps(case)
         except NotCompiled:
             return False
         except Exception:  # the run itself will say

@@ -2,72 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.vsv import books
+from tribodyn.results.variables import CAMPAIGN
 
 History = dict[str, FloatArray]
 """Columns over the stops of a campaign, by their names in the result, each of shape (n_jumps,)."""
-
-COLUMNS: Final = (
-    "wear_cycles",
-    "wear_jump_cycles",
-    "wear_depth_max",
-    "worn_volume",
-    "wear_rate",
-    "wear_load_change",
-    "wear_pressure_max",
-    "wear_pressure_mean",
-    "wear_force_mean",
-    "wear_angle_error_max",
-    "wear_angle_error_rms",
-    "wear_energy_lost",
-)
-"""Names of the columns; the variable table says what they mean."""
 
 MOST_STAGES: Final = 32
 """Worn profiles that are kept of a campaign, however long it is."""
 
 
-def empty_history() -> History:
+def columns(of_cycle: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of all columns, those that a mechanism writes down about each cycle among them."""
+    return (*CAMPAIGN, *of_cycle)
+
+
+def empty_history(of_cycle: Iterable[str]) -> History:
     """Return a history of no stops."""
-    return {name: np.empty(0) for name in COLUMNS}
+    return {name: np.empty(0) for name in columns(of_cycle)}
 
 
 def appended(history: Mapping[str, FloatArray], entry: Mapping[str, float]) -> History:
-    """Return the history with one more stop; ``entry`` holds a number for each of :data:`COLUMNS`."""
-    return {name: np.append(history[name], entry[name]) for name in COLUMNS}
-
-
-def of_motion(t: FloatArray, rows: Mapping[str, FloatArray], extremes: FloatArray) -> dict[str, float]:
-    """Return the entries that describe the motion of one cycle.
-
-    Parameters
-    ----------
-    t
-        Output times [s], shape (n_t,).
-    rows
-        Observed columns by name, each of shape (n_t,).
-    extremes
-        Peaks over all accepted steps.
-    """
-    error = rows["theta_v"] - rows["theta_v_ideal"]
-    return {
-        "wear_pressure_max": float(extremes[books.PEAK_PRESSURE]),
-        "wear_pressure_mean": _mean(t, rows["p_max"]),
-        "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
-        "wear_angle_error_max": float(np.abs(error).max()),
-        "wear_angle_error_rms": _mean(t, error**2) ** 0.5,
-    }
-
-
-def _mean(t: FloatArray, values: FloatArray) -> float:
-    """Return the mean over time; output times crowd around events."""
-    return 0.5 * float(np.sum((values[1:] + values[:-1]) * np.diff(t))) / float(t[-1] - t[0])
+    """Return the history with one more stop; ``entry`` holds a number for each column."""
+    return {name: np.append(values, entry[name]) for name, values in history.items()}
 
 
 def thinned(cycles: FloatArray, depth: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -13,7 +13,7 @@ import xarray as xr
 from tribodyn.cases import Key
 from tribodyn.cases.units import si_unit, to_si
 from tribodyn.core.versions import version
-from tribodyn.results import known
+from tribodyn.mechanisms.summary import known
 from tribodyn.studies.plan import POINT, Plan
 from tribodyn.studies.work import Numbers
 
@@ -50,26 +50,27 @@ def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
     def laid_out(values: Sequence[Any], dtype: Any, about: dict[str, str]) -> xr.Variable:
         return xr.Variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
 
+    kind = plan.case.kind()
     texts = {name: [str(row.get(name, "")) for row in rows] for name in ("failure", "warnings")}
     texts["points"] = [point.name for point in plan.points]
     return xr.Dataset(
-        data_vars={name: laid_out(*_column(name, rows)) for name in _numbers(rows)}
+        data_vars={name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
         | {name: laid_out(values, object, {"long_name": _TEXTS[name]}) for name, values in texts.items()},
         coords=_coordinates(plan),
         attrs=_attributes(plan, rows),
     )
 
 
-def _numbers(rows: Sequence[Numbers]) -> list[str]:
+def _numbers(rows: Sequence[Numbers], kind: str) -> list[str]:
     """Return the names of all numbers that any point gave, the known ones first and in their order."""
     given = {name: None for row in rows for name, value in row.items() if not isinstance(value, str)}
-    first = known(given)
+    first = known(given, kind)
     return [*first, *(name for name in given if name not in first)]
 
 
-def _column(name: str, rows: Sequence[Numbers]) -> tuple[list[float], type, dict[str, str]]:
+def _column(name: str, rows: Sequence[Numbers], kind: str) -> tuple[list[float], type, dict[str, str]]:
     """Return the values of a headline number over all points; a point that failed has none."""
-    told = known([name]).get(name)
+    told = known([name], kind).get(name)
     about = {"units": told.unit or "1", "long_name": told.label} if told else {"long_name": name}
     values = [math.nan if row.get("failure") else float(row.get(name, math.nan)) for row in rows]
     return values, float, about | ({"group": told.group, "comment": told.meaning} if told else {})
@@ -103,6 +104,7 @@ def _attributes(plan: Plan, rows: Sequence[Numbers]) -> dict[str, Any]:
         sampling = {"samples": s.samples, "sampling_method": s.method, "sampling_seed": s.seed}
     return {
         "kind": "sweep",
+        "swept_kind": plan.case.kind(),
         "title": plan.case.title,
         "case": plan.case.to_toml(),
         "tribodyn_version": version("tribodyn"),

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cases import Case, keys_of, load_case
+from tribodyn.cases import Case, keys_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
 from tribodyn.results.store import prepare_directory
@@ -233,6 +234,7 @@ def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> d
     nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
     return {
         "title": plan.case.title,
+        "kind": plan.case.kind(),
         "tribodyn_version": version("tribodyn"),
         "points": [
             {"point": point.name, "changes": dict(point.changes), **summaries.get(point.name, nothing)}

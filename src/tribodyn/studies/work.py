@@ -86,8 +86,9 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
 
 
 def _simulated(toml: str, keep_result: bool, staging: str) -> Outcome:
-    from tribodyn.cases import parse_case
-    from tribodyn.results import netcdf_content, summarise
+    from tribodyn.mechanisms.catalogue import parse_case
+    from tribodyn.mechanisms.summary import summarise
+    from tribodyn.results import netcdf_content
     from tribodyn.results.atomic import stage
     from tribodyn.simulation import simulate
 
@@ -104,7 +105,7 @@ def warm_up(toml: str) -> None:
 
     A case that fails here fails again as a point, which then has the reason. An empty text only imports.
     """
-    from tribodyn.cases import parse_case
+    from tribodyn.mechanisms.catalogue import parse_case
     from tribodyn.simulation import prepare
 
     with contextlib.suppress(Exception):
@@ -123,7 +124,7 @@ def load(case: str, changes: Mapping[str, str]) -> None:
     """
     import xarray as xr
 
-    from tribodyn.cases import load_case, parse_case
+    from tribodyn.mechanisms.catalogue import load_case, parse_case
     from tribodyn.results import netcdf_content
     from tribodyn.simulation import load_equations
 

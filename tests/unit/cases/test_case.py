@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 import tribodyn as td
-from tribodyn.cases import CASES, KINDS, Case, Key, keys_of, parse_case
+from tribodyn.cases import Case, Key, keys_of
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import CASES, KINDS, parse_case
 
 CASE = td.load_case("vsv")
 

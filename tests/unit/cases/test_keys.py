@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tribodyn.cases import CASES, Key, keys_of
+from tribodyn.cases import Key, keys_of
 from tribodyn.cases.keys import ValueProblem, shown, toml_string
+from tribodyn.mechanisms.catalogue import CASES
 
 ALL_KEYS = [key for entry in CASES.values() for key in keys_of(entry.model).values()]
 

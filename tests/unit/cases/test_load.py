@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cases import load_case, parse_case
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import load_case, parse_case
 
 
 def test_a_file_needs_only_what_differs(tmp_path: Path) -> None:

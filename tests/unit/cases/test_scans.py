@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.cases import CASES, parse_case
 from tribodyn.cases.scans import FOLLOWING
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import CASES, parse_case
 from tribodyn.surfaces import SelfAffine, Treatment, analyse, asperities, generate, write_text
 
 SURFACE = "asperities.surface"

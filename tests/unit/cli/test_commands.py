@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.cases import CASES, parse_case
 from tribodyn.cli.main import main
+from tribodyn.mechanisms.catalogue import CASES, parse_case
 
 
 def test_cases_are_listed_one_a_line(capsys: pytest.CaptureFixture[str]) -> None:

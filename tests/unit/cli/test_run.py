@@ -15,9 +15,9 @@ import xarray as xr
 import tribodyn.figures
 import tribodyn.report
 import tribodyn.simulation
-from tribodyn.cases import load_case, parse_case
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, IntegrationFailure
+from tribodyn.mechanisms.catalogue import load_case, parse_case
 
 ResultFactory = Callable[..., xr.Dataset]
 

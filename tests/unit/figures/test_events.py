@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tribodyn.figures.contact_force import close_up
-from tribodyn.figures.events import direction, reversal_times
 from tribodyn.results import build
+from tribodyn.views.events import direction, reversal_times
 
 
 def _speeds(time, speed):

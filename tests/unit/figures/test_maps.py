@@ -5,9 +5,9 @@ import pytest
 
 from tribodyn.figures.pressure import _places
 from tribodyn.figures.trajectory import centre
-from tribodyn.figures.unrolled import best_cut, rolled, unloaded_middle
 from tribodyn.figures.wear import fitting_unit
 from tribodyn.results import build
+from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle
 
 THETA = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
 

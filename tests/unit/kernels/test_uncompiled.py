@@ -10,7 +10,7 @@ import pytest
 
 SCRIPT = """
 from tribodyn import simulate
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 
 case = load_case("vsv").replace({"run.duration": "0.02 ms", "run.output_interval": "0.01 ms"})
 print(float(simulate(case)["F_cx"][-1]))

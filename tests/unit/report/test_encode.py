@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from tribodyn.report.encode import packed, quantised, safe_json
+from tribodyn.views.encode import packed, quantised, safe_json
 
 
 @pytest.mark.parametrize(("kind", "code"), [("float32", "f32"), ("float64", "f64"), ("uint8", "u8")])

@@ -13,8 +13,8 @@ import pytest
 from tribodyn.figures import draw_all
 from tribodyn.report import write
 from tribodyn.report.kinds import CHAPTERS
-from tribodyn.report.numbers import in_words
 from tribodyn.results import HEADLINES, build
+from tribodyn.views.numbers import in_words
 
 HOSTILE = '<script>alert("x")</script> & "quotes" \' </title></style>{{ 7*7 }} ünïcode µ'
 

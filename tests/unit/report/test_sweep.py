@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import write
-from tribodyn.report.sections.parallel import at_first, axes_of, payload, points_of
+from tribodyn.report.parallel import at_first, axes_of, payload, points_of
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.problem import Statistics
-from tribodyn.mechanisms.vsv import Carried
+from tribodyn.mechanisms.base import Carried
 from tribodyn.simulation.campaign import Cycle, Plan, run_campaign
 from tribodyn.simulation.history import COLUMNS, MOST_STAGES
 from tribodyn.wear import Archard, JumpControl

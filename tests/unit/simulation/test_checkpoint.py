@@ -9,7 +9,7 @@ import pytest
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Statistics
-from tribodyn.mechanisms.vsv import Carried
+from tribodyn.mechanisms.base import Carried
 from tribodyn.simulation import checkpoint
 from tribodyn.simulation.campaign import Worn
 from tribodyn.simulation.history import COLUMNS

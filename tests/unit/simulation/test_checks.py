@@ -11,9 +11,8 @@ import pytest
 
 from tribodyn.kernels.journal import ledger as journal_ledger
 from tribodyn.kernels.vsv import books
-from tribodyn.mechanisms.vsv import Vsv
-from tribodyn.simulation import checks, journal_checks
-from tribodyn.simulation.checks import (
+from tribodyn.mechanisms import checks
+from tribodyn.mechanisms.checks import (
     CLIP_LIMIT,
     ENERGY_LIMIT,
     GRID_LIMIT,
@@ -21,6 +20,8 @@ from tribodyn.simulation.checks import (
     RESTART_LIMIT,
     peaks,
 )
+from tribodyn.mechanisms.journal import checks as journal_checks
+from tribodyn.mechanisms.vsv.parameters import Vsv
 
 T_END = 2.0
 SOUND = {

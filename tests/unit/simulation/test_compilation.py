@@ -7,7 +7,8 @@ from typing import Any
 import numba as nb
 import pytest
 
-from tribodyn.cases import Case, load_case
+from tribodyn.cases import Case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import compilation
 
 CASE = load_case("vsv").replace({"title": "not simulated by any other test"})

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.atomic import stage
 from tribodyn.studies import make_plan
 from tribodyn.studies.archive import Archive

@@ -3,9 +3,9 @@ from __future__ import annotations
 import pytest
 
 import tribodyn.studies.plan
-from tribodyn.cases import load_case, parse_case
 from tribodyn.contact import LAWS
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.studies import Sampling, make_plan
 
 VSV = load_case("vsv")

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case, parse_case
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.results import read
 from tribodyn.studies import Arrival, Means, make_plan, run, sweep
 

@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from tribodyn.cases import load_case
 from tribodyn.core import fork_server
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
 
 TOML = load_case("vsv").to_toml()
@@ -17,7 +17,7 @@ TOML = load_case("vsv").to_toml()
 ASKED = """
 import json, os, sys
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.core import fork_server
 from tribodyn.studies import runners
 

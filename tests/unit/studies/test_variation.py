@@ -3,8 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.cases import Vsv, keys_of
+from tribodyn.cases import keys_of
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.vsv.case import Vsv
 from tribodyn.studies.variation import Levels, Scatter, variation, written
 
 KEYS = keys_of(Vsv)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.studies import work
 
 TOML = load_case("vsv").to_toml()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -18,6 +17,7 @@ from tribodyn.kernels.vsv.books import new_books
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_mechanism, new_scratch
 from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.observe import OBSERVED, observe
+from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
 from tribodyn.mechanisms.vsv.reach import dead_centres, ideal_table
@@ -157,22 +157,6 @@ def reversals(vsv: Vsv, duration: float) -> tuple[float, ...]:
     passed = (ends[::2, None] + np.concatenate([after, -after])).ravel()
     times = np.unique(np.concatenate([ends, passed]))
     return tuple(times[(times > 0.0) & (times < duration * (1.0 - 1.0e-12))].tolist())
-
-
-@dataclass(frozen=True)
-class Carried:
-    """What a run hands on to the next one, which begins where it ended in the drive's cycle.
-
-    Attributes
-    ----------
-    state
-        The eight states, shape (8,).
-    entry_velocity
-        Memory of contact: δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta).
-    """
-
-    state: FloatArray
-    entry_velocity: FloatArray
 
 
 def vsv_problem(

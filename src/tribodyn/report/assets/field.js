@@ -1,15 +1,15 @@
-// A field on the unrolled bushing: one picture, one for each frame of the film, or stages with a slider of their own.
+// A field on the unrolled bushing: one picture, one for each frame of the playback, or stages with a slider of their own.
 
 widgets.field = (box, data) => {
   const staged = data.stages.length > 1;
-  const filmed = !staged && data.peaks.length > 1;
-  const area = plotArea(box, isNarrow() ? 360 : 300, {}, filmed ? "Follows the time slider." : "A map.");
+  const played = !staged && data.peaks.length > 1;
+  const area = plotArea(box, isNarrow() ? 360 : 300, {}, played ? "Follows the time slider." : "A map.");
   const readout = element("p", { class: "readout" });
   box.append(readout);
   let ownScale = false;
   let shown = 0;
   if (staged) tools(box, stager(data.stages, (stage) => show(stage)));
-  if (filmed) {
+  if (played) {
     const toggle = button(
       "Scale colours to this moment",
       () => {
@@ -29,8 +29,8 @@ widgets.field = (box, data) => {
     Plotly.restyle(area, { z: [rows], zmax: top(shown) }, [0]);
     readout.textContent = where;
   };
-  if (!filmed) readout.textContent = fieldRows(data, 0).where;
-  return { paint, show: filmed ? show : null };
+  if (!played) readout.textContent = fieldRows(data, 0).where;
+  return { paint, show: played ? show : null };
 };
 
 /** Make the slider through stages; it begins at the first. */

@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.cases import load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.vsv.problem import initial_state, vsv_data, vsv_memory
-from tribodyn.simulation.vsv import mechanism
+from tribodyn.mechanisms.vsv.system import mechanism
 
 
 @pytest.mark.parametrize("clearance", [5, 20, 100, 190, 500])

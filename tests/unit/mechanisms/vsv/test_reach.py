@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.vsv import Lengths, check_reach, ideal_vane_angle
-from tribodyn.mechanisms.vsv.reach import closure, reachable
+from tribodyn.mechanisms.vsv.parameters import Lengths
+from tribodyn.mechanisms.vsv.reach import check_reach, closure, ideal_vane_angle, reachable
 
 SEEDS = range(24)
 

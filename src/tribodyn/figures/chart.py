@@ -1,0 +1,101 @@
+"""A chart over time as a figure."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
+from tribodyn.figures.base import Family
+from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
+from tribodyn.views.chart import Chart
+from tribodyn.views.curves import Curve, Marks, Panel
+from tribodyn.views.events import reversals_of
+from tribodyn.views.playback import time_unit
+from tribodyn.views.series import series
+
+COLOURS: Final = {
+    "ink": style.INK,
+    "blue": style.BLUE,
+    "vermilion": style.VERMILION,
+    "green": style.GREEN,
+    "orange": style.ORANGE,
+    "purple": style.PURPLE,
+    "grey": style.GREY,
+    "pale": "#b4b4b4",
+}
+DASHES: Final[dict[str, style.LineStyle]] = {
+    "solid": style.SOLID,
+    "dash": style.DASHED,
+    "dot": style.DOTTED,
+    "dashdot": style.DASHDOT,
+    "longdash": (0, (9, 2)),
+}
+_PANEL: Final = 1.55
+"""Height of a panel [in]."""
+_ONE_ROW: Final = 3
+"""Entries of a legend that stand in one row above their panel."""
+
+
+def family(chart: Chart) -> Family:
+    """Return the figure of a chart."""
+    return Family(
+        name=chart.name,
+        title=chart.title,
+        caption=chart.caption,
+        needs=chart.needs,
+        draw=partial(draw, chart),
+    )
+
+
+def draw(chart: Chart, dataset: xr.Dataset) -> Figure:
+    """Draw the panels of a chart above each other over the simulated time."""
+    panels = chart.panels(dataset)
+    figure = style.sheet(dataset, chart.title, 1.1 + _PANEL * max(len(panels), 2))
+    unit, scale = time_unit(dataset)
+    time, turns = series(dataset, "time", scale), scale * reversals_of(dataset)
+    every = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, panel in zip(every, panels, strict=True):
+        _draw_panel(axes, panel, time)
+        if panel.marks is not None:
+            _draw_marks(axes, panel.marks, scale)
+        if panel.smooth:
+            limit_to_smooth(axes, time / scale, _values(panel), turns / scale, panel.unit)
+        mark_reversals(axes, turns, label=axes is every[-1] and not panel.smooth)
+    every[-1].set_xlabel(f"time [{unit}]", size=style.TEXT)
+    figure.align_ylabels()
+    return figure
+
+
+def _values(panel: Panel) -> FloatArray:
+    return np.array([curve.values for curve in panel.curves])
+
+
+def _draw_panel(axes: Axes, panel: Panel, time: FloatArray) -> None:
+    for curve in panel.curves:
+        style.lines(axes, time, [_looks(curve)], width=0.75 * curve.width)
+    if panel.level is not None:
+        axes.axhline(panel.level, color=style.GREY, linewidth=0.8, dashes=(2, 2), zorder=1)
+    if len(panel.curves) > 1:
+        style.legend(axes, min(len(panel.curves), _ONE_ROW))
+    style.finish(axes, y_label=panel.label)
+
+
+def _draw_marks(axes: Axes, marks: Marks, scale: float) -> None:
+    middle = float(np.mean(axes.get_ylim()))
+    axes.plot(scale * marks.times, marks.values, "o", ms=4.5, mfc="white", mec=style.BLUE, mew=1.2, zorder=4)
+    for time, value, label in zip(scale * marks.times, marks.values, marks.labels, strict=False):
+        offset = (0, 6) if value < middle else (0, -12)
+        axes.annotate(
+            label, (time, value), xytext=offset, textcoords="offset points", ha="center", size=style.SMALL
+        )
+
+
+def _looks(curve: Curve) -> tuple[FloatArray, str, str, style.LineStyle]:
+    return curve.values, curve.name, COLOURS[curve.colour], DASHES[curve.dash]

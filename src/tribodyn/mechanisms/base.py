@@ -1,0 +1,242 @@
+"""What a mechanism is to the rest of the program: one descriptor, and the systems that its cases describe.
+
+A mechanism is one folder beside this file and one line in :data:`tribodyn.mechanisms.MECHANISMS`. Everything
+above reads the descriptor and knows no mechanism by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.cases.base import Case
+from tribodyn.cases.groups import Solver, Wear
+from tribodyn.cases.load import BuiltIn
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Problem, Solution
+from tribodyn.results.headline import Headline
+from tribodyn.results.variables import Variable
+
+if TYPE_CHECKING:
+    from tribodyn.figures.base import Family
+    from tribodyn.joints import BushingJoint
+    from tribodyn.views.overlay import Overlay
+    from tribodyn.views.section import Chapter
+
+
+@dataclass(frozen=True)
+class Carried:
+    """What a run hands on to the next one, which begins where it ended in the drive's cycle.
+
+    Attributes
+    ----------
+    state
+        The states, shape (n,).
+    entry_velocity
+        Memory of contact: δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta).
+    """
+
+    state: FloatArray
+    entry_velocity: FloatArray
+
+
+@dataclass(frozen=True)
+class Worn:
+    """The bushing that a run is made with.
+
+    Attributes
+    ----------
+    depth
+        Wear depth at the nodes [m], shape (n_z + 2, n_theta).
+    carried
+        Where the run goes on from; None for the start of the case.
+    """
+
+    depth: FloatArray
+    carried: Carried | None = None
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished or interrupted integration on its way to a result.
+
+    Attributes
+    ----------
+    problem, solution
+        What was integrated, and what came of it.
+    cost
+        By the names of :class:`~tribodyn.core.problem.Statistics`; of a campaign that of all its cycles.
+    """
+
+    problem: Problem
+    solution: Solution
+    cost: Mapping[str, float]
+
+    @property
+    def duration(self) -> float:
+        """Simulated time that was asked for [s]."""
+        return float(self.problem.t_span[1])
+
+    def rows(self, names: Sequence[str]) -> dict[str, FloatArray]:
+        """Return the observed quantities by name, each of shape (n_t,)."""
+        return {name: self.solution.rows[:, i] for i, name in enumerate(names)}
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a result: coordinates, columns, fields, attributes and warnings, by their names in it.
+
+    Attributes
+    ----------
+    coordinates, columns, fields
+        As :func:`tribodyn.results.build` takes them.
+    attributes
+        Facts about the run.
+    warnings
+        What a user should know before trusting the numbers, one sentence each.
+    failure
+        Why the run stopped before its end, if it did and the mechanism knows more than the integrator.
+    """
+
+    coordinates: Mapping[str, FloatArray] = field(default_factory=dict)
+    columns: Mapping[str, FloatArray] = field(default_factory=dict)
+    fields: Mapping[str, NDArray[np.floating[Any]]] = field(default_factory=dict)
+    attributes: Mapping[str, object] = field(default_factory=dict)
+    warnings: Sequence[str] = ()
+    failure: str = ""
+
+
+class SystemCase(Protocol):
+    """What a run needs to know of its case, whatever its kind."""
+
+    @property
+    def title(self) -> str:
+        """Heading of figures and report."""
+        ...
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of the whole run [s]."""
+        ...
+
+    @property
+    def solver(self) -> Solver:
+        """Its table ``[solver]``."""
+        ...
+
+    def to_toml(self) -> str:
+        """Return the case as TOML."""
+        ...
+
+
+class WearingCase(SystemCase, Protocol):
+    """What a wear campaign needs to know of its case."""
+
+    @property
+    def wear(self) -> Wear:
+        """Its table ``[wear]``."""
+        ...
+
+    @property
+    def settling_cycles(self) -> int:
+        """Cycles simulated before the first one whose wear counts."""
+        ...
+
+
+class System(Protocol):
+    """What one case describes, ready to be integrated."""
+
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+        """Return the initial value problem over ``duration`` [s]; where nothing wears ``worn`` is None."""
+        ...
+
+    def output_times(self, duration: float) -> FloatArray:
+        """Return the times of the rows [s], increasing."""
+        ...
+
+    def picture_times(self, duration: float) -> FloatArray:
+        """Return the times of the fields [s], increasing; none where no field is kept."""
+        ...
+
+    def gather(self, run: Run) -> Part:
+        """Return what the mechanism knows about a run; rows of no length give columns of no length."""
+        ...
+
+
+class WearingSystem(System, Protocol):
+    """A system whose bushing wears, in cycles of its drive."""
+
+    @property
+    def bushing(self) -> BushingJoint:
+        """The joint that wears."""
+        ...
+
+    @property
+    def period(self) -> float:
+        """Time of one drive cycle [s]."""
+        ...
+
+    def sliding_load(self, problem: Problem) -> FloatArray:
+        """Return ∫P_c |u| dt at the nodes over the run [N/m], shape (n_z + 2, n_theta)."""
+        ...
+
+    def carried(self, run: Run) -> Carried:
+        """Return what the next cycle goes on from."""
+        ...
+
+    def of_cycle(self, run: Run) -> dict[str, float]:
+        """Return what a campaign writes down about the motion of a complete cycle, by name."""
+        ...
+
+    def contact_energy(self, worn: Worn) -> float:
+        """Return the energy stored in the contact [J]."""
+        ...
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """All that is known of one kind of case.
+
+    Attributes
+    ----------
+    case
+        Its case model.
+    built_in
+        Cases that can be run by name.
+    variables
+        Quantities of its results beside those that every result has, by name.
+    headlines
+        Its headline numbers by their names in ``summary.json``, in reading order.
+    key_numbers
+        Names of those that a reader wants first.
+    system
+        Makes a system of a case.
+    of_cycle
+        What its wear campaigns write down about each cycle, by name; empty where nothing wears.
+    figures
+        Its figures for ``figures/``, in reading order.
+    chapters
+        Chapters of its report, in reading order.
+    overlays
+        What a comparison of several runs shows.
+    """
+
+    case: type[Case]
+    built_in: Mapping[str, BuiltIn]
+    variables: Mapping[str, Variable]
+    headlines: Mapping[str, Headline]
+    key_numbers: tuple[str, ...]
+    system: Callable[[Any], System]
+    figures: Callable[[], Sequence[Family]]
+    chapters: Callable[[], Sequence[Chapter]]
+    overlays: Callable[[], Sequence[Overlay]]
+    of_cycle: Mapping[str, Variable] = field(default_factory=dict)
+
+    @property
+    def kind(self) -> str:
+        """Its name under ``case =`` in a file."""
+        return self.case.kind()

@@ -1,0 +1,113 @@
+"""The clearance joint that a case describes, and what results hold of it whatever it joins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Final, Protocol
+
+import numpy as np
+
+from tribodyn.cases import groups
+from tribodyn.contact import SurfacePair
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
+from tribodyn.joints.bushing import joint_wrench
+from tribodyn.wear import resampled
+
+_NOT_STORED: Final = ("work_", "heat_")
+"""Observed quantities that reach the user under the names of the ledger instead."""
+_SAMPLES: Final = 24
+
+
+class HasBushing(Protocol):
+    """A case with one clearance joint."""
+
+    @property
+    def contact(self) -> groups.Contact:
+        """Its table ``[contact]``."""
+
+    @property
+    def joint(self) -> groups.PlainJoint:
+        """Its table ``[joint]``."""
+
+    @property
+    def solver(self) -> groups.Solver:
+        """Its table ``[solver]``."""
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The surfaces in contact."""
+
+
+def bushing_of(case: HasBushing) -> BushingJoint:
+    """Return the clearance joint of a case with its tabulated contact law."""
+    contact = case.contact
+    geometry = BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length)
+    return BushingJoint(
+        geometry=geometry,
+        friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
+        entry=EntryMemory(contact.onset_separation, contact.minimum_entry_velocity, contact.tensile_clip),
+        grid=Grid(case.solver.grid.theta, case.solver.grid.z),
+        roughness=case.surface_pair.roughness_rms,
+        table=contact_table(
+            case.joint.contact,
+            contact.law_of(case.surface_pair),
+            geometry,
+            onset=contact.onset_separation,
+            smoothing_width=contact.smoothing_width,
+        ),
+        contact=case.joint.contact,
+    )
+
+
+def bushing_facts(case: HasBushing) -> dict[str, object]:
+    """Return what the attributes of a result say of the joint, SI units."""
+    return {
+        "contact_law": case.contact.law,
+        "clearance": case.joint.clearance,
+        "roughness": case.surface_pair.roughness_rms,
+        "joint_length": case.joint.length,
+    }
+
+
+def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Return the observed columns that are stored, each of shape (n_t,), with the damping force [N]."""
+    stored = {name: values for name, values in rows.items() if not name.startswith(_NOT_STORED)}
+    return stored | {
+        "F_dx": rows["F_cx"] - rows["F_kx"],
+        "F_dy": rows["F_cy"] - rows["F_ky"],
+        "friction_power": -rows["friction_power"],
+    }
+
+
+def grid_force_error(
+    joint: BushingJoint, rows: Mapping[str, FloatArray], wear: FloatArray | None = None
+) -> float:
+    """Return the largest error of the contact force on the run's grid against one four times finer [1].
+
+    Taken at some of the run's own attitudes, without their velocities, relative to the largest force.
+
+    Parameters
+    ----------
+    joint
+        The joint on the run's grid.
+    rows
+        Columns of the run, of which the attitudes are used.
+    wear
+        Wear depth at the nodes during the run [m], shape (n_z + 2, n_theta); none by default.
+    """
+    n_rows = rows["e_x"].size
+    if not n_rows:
+        return 0.0
+    finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
+    fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
+    coarse = joint.data(wear)
+    largest = error = 0.0
+    for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
+        y = np.zeros(8)
+        y[:4] = [rows[name][i] for name in ("e_x", "e_y", "phi_x", "phi_y")]
+        exact = joint_wrench(fine, y)[:2]
+        largest = max(largest, float(np.hypot(*exact)))
+        error = max(error, float(np.hypot(*(joint_wrench(coarse, y)[:2] - exact))))
+    return error / largest if largest > 0.0 else 0.0

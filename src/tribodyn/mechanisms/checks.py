@@ -1,0 +1,74 @@
+"""What a run with a bushing says about its own trustworthiness, in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from tribodyn.joints import SURFACE, BushingJoint
+
+ENERGY_LIMIT: Final = 0.01
+GRID_LIMIT: Final = 0.005
+CLIP_LIMIT: Final = 0.02
+REJECTED_LIMIT: Final = 0.2
+"""Share of rejected steps among those tried; built-in cases and rough variations of them have 1 to 6 %."""
+RESTART_LIMIT: Final = 0.05
+"""Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
+TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
+"""What makes ledgers close: absolute tolerances alone hold small slips and long ringing."""
+
+
+def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_error: float) -> list[str]:
+    """Return what is to be said of a contact, whatever is joined by it; empty texts where nothing is.
+
+    Parameters
+    ----------
+    joint
+        The bushing.
+    separation
+        Least distance of the mean planes [m].
+    clipped
+        Share of the contact area where the tensile clip acts, mean over time.
+    grid_error
+        From :func:`tribodyn.mechanisms.bushing.grid_force_error`.
+    """
+    depth = separation / joint.roughness
+    surface = joint.contact == SURFACE
+    return [
+        f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
+        if grid_error > GRID_LIMIT
+        else "",
+        f"The mean planes of the surfaces came within {depth:.2g} sigma of each other: below 0 the "
+        "statistical contact law is outside its range."
+        if depth < 0.0 and surface
+        else "",
+        f"The clip of tensile pressure acted on {100 * clipped:.2g} % of the contact area on average: "
+        "damping is strong against stiffness there."
+        if clipped > CLIP_LIMIT
+        else "",
+        ""
+        if surface
+        else "The contact is at a point of each end of the bushing: there is no pressure field and no wear.",
+    ]
+
+
+def of_steps(statistics: Mapping[str, float]) -> list[str]:
+    """Return what is to be said of how the integration went; empty texts where nothing is.
+
+    Parameters
+    ----------
+    statistics
+        Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`.
+    """
+    steps, rejected, restarts = (statistics[name] for name in ("steps", "rejected", "restarts"))
+    return [
+        f"The integrator threw away {100 * rejected / (steps + rejected):.2g} % of the steps it tried: "
+        "something switches faster than it can follow, and short peaks may be missed. Look for what is sharp "
+        "in the case, and see whether a tighter solver.rtol changes the result."
+        if rejected > REJECTED_LIMIT * (steps + rejected)
+        else "",
+        f"The integration started anew every {steps / restarts:.2g} steps: most of them are taken with "
+        "low orders. See whether a tighter solver.rtol changes the result."
+        if restarts > RESTART_LIMIT * steps > 0.0
+        else "",
+    ]

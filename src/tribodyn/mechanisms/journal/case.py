@@ -1,0 +1,145 @@
+"""The journal bearing of the paper's section 4, dry or lubricated: its keys and its cross-checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal
+
+from tribodyn.cases.base import Case, Group, demand
+from tribodyn.cases.film import Film
+from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Tolerances
+from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, switch, text
+
+if TYPE_CHECKING:
+    from tribodyn.contact import SurfacePair
+
+SECTION_4 = "paper, section 4"
+_MOST_OUTPUT_TIMES = 2_000_000
+_LUBRICATED: dict[str, Value] = {
+    "title": "Journal bearing, rough contact in oil",
+    "run.duration": 0.05,
+    "run.output_interval": 5e-5,
+}
+"""Defaults with oil, where the journal sinks through the film first."""
+
+
+class JournalJoint(PlainJoint):
+    """The clearance joint: a journal in a bushing."""
+
+    friction_coefficient: float = number(
+        0.0, "coefficient of friction mu_f; the paper's section 4 has no friction", SECTION_4, ge=0, le=2
+    )
+    friction: Literal["traction", "moment"] = choice(
+        "traction", "traction along the actual slip, or a moment that leaves the motion alone", ASSUMED
+    )
+
+
+class Shaft(Group):
+    """The rigid journal and its rotation."""
+
+    mass: float = quantity("0.253 kg", "mass; in the paper that of the vane", "paper, Table 1", gt=0)
+    speed: float = quantity("0 rad/s", "speed of rotation, kept by a drive", SECTION_4)
+    tilt: bool = switch(False, "whether the journal can tilt in the bushing", SECTION_4)
+    transverse_inertia: float = quantity(
+        "5.41e-4 kg m^2", "moment of inertia across the axis, about the centre; used with tilt", ASSUMED, gt=0
+    )
+    spin_inertia: float = quantity(
+        "4.55e-6 kg m^2", "moment of inertia about the axis; used with tilt and rotation", ASSUMED, ge=0
+    )
+
+
+class Loads(Group):
+    """Constant loads on the centre of the journal."""
+
+    force_x: float = quantity("200 N", "W_x", SECTION_4)
+    force_y: float = quantity("100 N", "W_y", SECTION_4)
+    moment_x: float = quantity("0 N m", "moment about X, right-handed; used with tilt", SECTION_4)
+    moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", SECTION_4)
+
+
+class TightTolerances(Tolerances):
+    """Absolute tolerance of each kind of state; the undamped rebounds need them."""
+
+    position: float = quantity("1e-11 m", "for e_x and e_y", ASSUMED, gt=0)
+    tilt: float = quantity("1e-9 rad", "for phi_x and phi_y", ASSUMED, gt=0)
+    velocity: float = quantity("1e-7 m/s", "for the rates of e_x and e_y", ASSUMED, gt=0)
+    tilt_rate: float = quantity("1e-5 rad/s", "for the rates of phi_x and phi_y", ASSUMED, gt=0)
+
+
+class Tight(Solver):
+    """The time integration."""
+
+    rtol: float = number(
+        1e-5, "relative tolerance; undamped rebounds need it to keep their energy", ASSUMED, ge=1e-12, le=0.1
+    )
+    atol: TightTolerances = TightTolerances()
+
+
+class Run(Group):
+    """How long, from where, and what is kept."""
+
+    duration: float = quantity("10 ms", "simulated time", "depends on film.lubricated", gt=0)
+    start: Literal["offset", "equilibrium"] = choice(
+        "offset", "start at rest at start_x, start_y, or in static equilibrium", SECTION_4
+    )
+    start_x: float = quantity("0 um", "e_x at the start", SECTION_4)
+    start_y: float = quantity("0 um", "e_y at the start", SECTION_4)
+    output_interval: float = quantity("5 us", "time between rows", "depends on film.lubricated", gt=0)
+
+
+class JournalCase(Case):
+    """The journal of the paper's section 4 unless keys say otherwise."""
+
+    case: Literal["journal"] = choice("journal", "the kind of system", "")
+    title: str = text("Journal bearing, dry rough contact", "heading of figures and report")
+    surfaces: Surfaces = Surfaces()
+    asperities: Asperities = Asperities()
+    contact: Contact = Contact()
+    joint: JournalJoint = JournalJoint()
+    journal: Shaft = Shaft()
+    loads: Loads = Loads()
+    film: Film = Film()
+    solver: Tight = Tight()
+    run: Run = Run()
+
+    @classmethod
+    def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the defaults that follow from the contact law, and from whether there is oil."""
+        return Contact.resolve(given) | (_LUBRICATED if given.get("film.lubricated") else {})
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The two surfaces in contact, as contact laws take them."""
+        return self.surfaces.pair(self.asperities)
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of the whole run [s]."""
+        return self.run.duration
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        super().model_post_init(context)
+        self.contact.check(self.surface_pair)
+        self._check_run()
+
+    def _check_run(self) -> None:
+        run, clearance = self.run, self.joint.clearance
+        e = math.hypot(run.start_x, run.start_y)
+        demand(
+            run.start == "equilibrium" or e < clearance,
+            "run.start_x",
+            f"the journal would start outside the bushing, {e * 1e6:.4g} um off its axis with a clearance "
+            f"of {clearance * 1e6:.4g} um",
+        )
+        demand(
+            run.output_interval <= run.duration,
+            "run.output_interval",
+            f"the run lasts only {run.duration:g} s",
+        )
+        demand(
+            run.duration <= _MOST_OUTPUT_TIMES * run.output_interval,
+            "run.output_interval",
+            f"at most {_MOST_OUTPUT_TIMES} output times are kept; the run lasts {run.duration:g} s",
+        )

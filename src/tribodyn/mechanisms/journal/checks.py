@@ -1,0 +1,51 @@
+"""What the run of a journal says about its own trustworthiness, in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints import BushingJoint
+from tribodyn.kernels.journal import ledger
+from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
+
+
+def warnings(
+    extremes: FloatArray,
+    joint: BushingJoint,
+    *,
+    residual: float,
+    grid_error: float,
+    t_end: float,
+    statistics: Mapping[str, float],
+) -> list[str]:
+    """Return what a user should know before trusting the numbers, one sentence each.
+
+    Parameters
+    ----------
+    extremes
+        Peaks over all accepted steps, see ``kernels/journal/ledger.py``.
+    joint
+        The bushing.
+    residual
+        Energy residual as a fraction.
+    grid_error
+        Largest error of the contact force on the run's grid, as a fraction.
+    t_end
+        Simulated time reached [s].
+    statistics
+        As for :func:`tribodyn.mechanisms.checks.of_steps`.
+    """
+    messages = [
+        f"Energy is missed: {100 * residual:.2g} % of all in the ledger. {TIGHTEN}"
+        if not residual <= ENERGY_LIMIT
+        else "",
+        *of_contact(
+            joint,
+            separation=float(extremes[ledger.LEAST_SEPARATION]),
+            clipped=float(extremes[ledger.CLIPPED]) / t_end if t_end > 0.0 else 0.0,
+            grid_error=grid_error,
+        ),
+        *of_steps(statistics),
+    ]
+    return [message for message in messages if message]

@@ -1,0 +1,92 @@
+"""Headline numbers of the journal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.results.headline import Headline
+
+
+def _one(name: str, scale: float = 1.0) -> Callable[[xr.Dataset], float]:
+    """Return a reader of something a run has one of."""
+    return lambda run: float(run[name].values) * scale
+
+
+def _eccentricity(run: xr.Dataset) -> float:
+    """Return the largest eccentricity [µm]."""
+    e = np.hypot(run["e_x"].values, run["e_y"].values)
+    finite = e[np.isfinite(e)]
+    return float(finite.max()) * 1e6 if finite.size else math.nan
+
+
+HEADLINES: Final[dict[str, Headline]] = {
+    "settling_time_ms": Headline(
+        "Settling time",
+        "ms",
+        "Settling",
+        "Time after which the centre stays within 1 % of the clearance of its static equilibrium.",
+        _one("settling_time", 1e3),
+    ),
+    "contact_start_ms": Headline(
+        "Contact begins",
+        "ms",
+        "Settling",
+        "When the first asperities meet: the gap falls below the onset separation.",
+        _one("contact_start", 1e3),
+    ),
+    "rebounds": Headline(
+        "Rebounds",
+        "",
+        "Settling",
+        "How often the journal left contact again altogether.",
+        _one("rebounds"),
+        count=True,
+    ),
+    "contact_force_max_N": Headline(
+        "Contact force, largest",
+        "N",
+        "Impact",
+        "Peak load on the bushing, at any step of the integration.",
+        _one("contact_force_peak"),
+    ),
+    "film_force_max_N": Headline(
+        "Film force, largest", "N", "Impact", "What the oil carries at most.", _one("film_force_peak")
+    ),
+    "peak_pressure_MPa": Headline(
+        "Contact pressure, largest",
+        "MPa",
+        "Impact",
+        "Compare it with the hardness of the bushing.",
+        _one("pressure_peak", 1e-6),
+    ),
+    "eccentricity_max_um": Headline(
+        "Eccentricity, largest",
+        "µm",
+        "Impact",
+        "How far the centre moves off the axis; beyond the clearance the mean planes overlap.",
+        _eccentricity,
+    ),
+    "friction_coefficient": Headline(
+        "Friction coefficient at the end",
+        "",
+        "Impact",
+        "Friction moment of contact and film over journal radius and load.",
+        _one("friction_coefficient_end"),
+    ),
+    "energy_residual_percent": Headline(
+        "Energy residual",
+        "%",
+        "Ledger",
+        "What the energy ledger misses; below 1 % is sound.",
+        lambda run: float(run.attrs["energy_residual"]) * 100.0,
+    ),
+}
+"""By name, in reading order."""
+
+KEY_NUMBERS: Final = ("settling_time_ms", "contact_force_max_N", "film_force_max_N")
+"""What a reader wants first."""

@@ -1,0 +1,53 @@
+"""The energy ledger of the journal.
+
+Kinetic energy of the motion in the clearance and energy stored in the contact against the work of loads and
+drive and the heat of friction, contact damping and film. The work of the drive, which turns into heat at
+once, is no measure of the residual: it could hide any error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.journal.parameters import Journal
+from tribodyn.views.ledger import Ledger
+
+LEDGER: Final = Ledger(
+    title="Motion in the clearance",
+    put_in={"energy_loads": "load work, in", "energy_drive": "drive work, in"},
+    gained={
+        "energy_kinetic": "kinetic",
+        "energy_contact": "stored in contact",
+        "energy_damping": "contact damping, out",
+        "energy_friction": "friction, out",
+        "energy_film": "film, out",
+    },
+    residual="energy_residual",
+    measure=("energy_loads", "energy_kinetic", "energy_contact", "energy_damping"),
+    attribute="energy_residual",
+    yardstick="largest energy of the motion",
+)
+_LEAST_SCALE: Final = 1.0e-3
+"""Share of load times clearance below which no term counts as large."""
+
+
+def ledger_columns(rows: Mapping[str, FloatArray], *, lubricated: bool) -> dict[str, FloatArray]:
+    """Return the energy columns [J], each of shape (n_t,), from the observed rows."""
+    columns = {
+        "energy_kinetic": rows["energy_kinetic"],
+        "energy_contact": rows["energy_contact"],
+        "energy_loads": rows["work_loads"],
+        "energy_drive": rows["work_drive"],
+        "energy_friction": -rows["work_friction"],
+        "energy_damping": rows["heat_damping"],
+    }
+    if lubricated:
+        columns["energy_film"] = -rows["work_film"]
+    return columns | {LEDGER.residual: LEDGER.balance(columns)}
+
+
+def residual_fraction(columns: Mapping[str, FloatArray], journal: Journal) -> float:
+    """Return the largest residual as a fraction of the largest energy of the motion in the clearance [1]."""
+    return LEDGER.fraction(columns, _LEAST_SCALE * journal.loads.force * journal.joint.geometry.clearance)

@@ -1,0 +1,78 @@
+"""Deviation of the journal, the forces that hold it, and its energy ledger."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.mechanisms.journal.ledger import LEDGER
+from tribodyn.views.chart import Chart
+from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.energy import ledger_chart
+from tribodyn.views.series import series
+
+_FORCES: Final = (("F_c", "contact force"), ("F_o", "film force"))
+
+
+def _deviation(dataset: xr.Dataset) -> list[Panel]:
+    """Return the deviation of the centre [µm], and where statics would have it."""
+    return [
+        Panel(
+            f"along {axis.upper()} [µm]",
+            [Curve("centre", series(dataset, f"e_{axis}", 1e6), "blue")],
+            level=_balance(dataset, f"e_{axis}_balance"),
+        )
+        for axis in "xy"
+    ]
+
+
+def _balance(dataset: xr.Dataset, name: str) -> float | None:
+    value = float(dataset[name].values) * 1e6 if name in dataset else np.nan
+    return value if np.isfinite(value) else None
+
+
+def _forces(dataset: xr.Dataset) -> list[Panel]:
+    """Return contact force and, with oil, film force [N], and the peak of the contact pressure [MPa]."""
+    panels = [
+        Panel(
+            f"{what} [N]",
+            [
+                Curve("along X", series(dataset, f"{symbol}x"), "blue"),
+                Curve("along Y", series(dataset, f"{symbol}y"), "vermilion", "dash"),
+            ],
+        )
+        for symbol, what in _FORCES
+        if f"{symbol}x" in dataset
+    ]
+    pressure = [Curve("peak contact pressure", series(dataset, "p_max", 1e-6))]
+    return [*panels, Panel("peak contact\npressure [MPa]", pressure)]
+
+
+DEVIATION: Final = Chart(
+    name="deviation",
+    title="Deviation of the journal from the axis of the bushing",
+    caption=(
+        "How the centre moves under its load; the fine line is where statics would have it. Without damping "
+        "and without oil the journal keeps bouncing."
+    ),
+    needs=("e_x", "e_y"),
+    panels=_deviation,
+)
+FORCES: Final = Chart(
+    name="forces",
+    title="Forces on the journal",
+    caption="What contact and, where there is oil, the film answer the load with, and the peak pressure.",
+    needs=("F_cx", "F_cy", "p_max"),
+    panels=_forces,
+)
+ENERGY: Final = ledger_chart(
+    LEDGER,
+    name="energy",
+    title="Energy ledger",
+    caption=(
+        "What the load puts in is moving, stored in the contact, or has become heat of contact damping or of "
+        "the film. The residual is what the integration lost or made up."
+    ),
+)

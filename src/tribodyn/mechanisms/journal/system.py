@@ -1,0 +1,200 @@
+"""A case of the journal as a system to integrate, and what its runs tell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.problem import Problem
+from tribodyn.integrate import INTERRUPTED
+from tribodyn.kernels.journal import ledger
+from tribodyn.kernels.journal.observe import FILM, OBSERVED
+from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
+from tribodyn.mechanisms.base import Part, Run, Worn
+from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
+from tribodyn.mechanisms.journal.case import JournalCase
+from tribodyn.mechanisms.journal.checks import warnings
+from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
+from tribodyn.mechanisms.journal.ledger import ledger_columns, residual_fraction
+from tribodyn.mechanisms.journal.parameters import Journal, Loads
+from tribodyn.mechanisms.journal.problem import journal_problem
+
+SETTLED: Final = 0.01
+"""Distance from the static equilibrium, over the clearance, within which a journal has settled."""
+
+
+def journal_of(case: JournalCase) -> Journal:
+    """Return the journal that a case describes."""
+    shaft, loads = case.journal, case.loads
+    return Journal(
+        mass=shaft.mass,
+        transverse_inertia=shaft.transverse_inertia,
+        spin_inertia=shaft.spin_inertia,
+        tilts=shaft.tilt,
+        speed=shaft.speed,
+        loads=Loads(loads.force_x, loads.force_y, loads.moment_x, loads.moment_y),
+        joint=bushing_of(case),
+        film=_film(case),
+    )
+
+
+def _film(case: JournalCase) -> Film | None:
+    """Return the oil film of a case, if there is oil."""
+    film, size, surfaces = case.film, case.joint, case.surfaces
+    if not film.lubricated:
+        return None
+    rms = (surfaces.trunnion.roughness, surfaces.bushing.roughness) if film.rough_flow else (0.0, 0.0)
+    return Film(
+        viscosity=film.viscosity,
+        clearance=size.clearance,
+        radius=size.radius,
+        length=size.length,
+        roughness=Roughness(rms, (film.peklenik_journal, film.peklenik_bushing)),
+        cavitation=film.cavitation,
+        boundary=film.boundary,
+        grid=FilmGrid(film.grid.theta, film.grid.z),
+    )
+
+
+@dataclass(frozen=True)
+class JournalSystem:
+    """The journal of a case; see :class:`~tribodyn.mechanisms.base.System`."""
+
+    case: JournalCase
+
+    @cached_property
+    def journal(self) -> Journal:
+        """The journal in its bushing."""
+        return journal_of(self.case)
+
+    @cached_property
+    def balance(self) -> Equilibrium | None:
+        """The static equilibrium, None where there is none."""
+        try:
+            return equilibrium(self.journal)
+        except InputError:
+            return None
+
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+        """Return the initial value problem over ``duration`` [s]; a journal does not wear."""
+        run = self.case.run
+        start = np.array([run.start_x, run.start_y, 0.0, 0.0])
+        if run.start == "equilibrium":
+            start = equilibrium(self.journal).attitude
+        return journal_problem(
+            self.journal, duration=duration, start=start, atol=self.case.solver.atol.as_tuple
+        )
+
+    def output_times(self, duration: float) -> FloatArray:
+        """Return the times of the rows [s], uniform, the end included."""
+        times = np.arange(0.0, duration, self.case.run.output_interval)
+        return np.append(times[times < duration * (1.0 - 1.0e-9)], duration)
+
+    def picture_times(self, duration: float) -> FloatArray:
+        """Return no times: no field is kept."""
+        return np.empty(0)
+
+    def gather(self, run: Run) -> Part:
+        """Return what the mechanism knows about a run."""
+        rows = run.rows(OBSERVED)
+        columns = self._columns(rows)
+        residual = residual_fraction(columns, self.journal)
+        grid_error = grid_force_error(self.journal.joint, rows)
+        return Part(
+            columns=columns,
+            fields=self._numbers(run, rows),
+            attributes={**self._facts(), "energy_residual": residual, "grid_force_error": grid_error},
+            warnings=warnings(
+                run.problem.memory.extremes,
+                self.journal.joint,
+                residual=residual,
+                grid_error=grid_error,
+                t_end=float(run.solution.t_end),
+                statistics=run.cost,
+            ),
+            failure=self._failure(run),
+        )
+
+    def _columns(self, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
+        """Return what is stored over time."""
+        oil = self.journal.film is not None
+        kept = {name: values for name, values in force_parts(rows).items() if oil or name not in FILM}
+        return kept | ledger_columns(rows, lubricated=oil)
+
+    def _facts(self) -> dict[str, object]:
+        case = self.case
+        facts = {
+            **bushing_facts(case),
+            "load_x": case.loads.force_x,
+            "load_y": case.loads.force_y,
+            "speed": case.journal.speed,
+        }
+        if case.joint.friction_coefficient > 0.0:
+            facts["friction_coefficient"] = case.joint.friction_coefficient
+        if case.film.lubricated:
+            facts["viscosity"] = case.film.viscosity
+        return facts
+
+    def _numbers(self, run: Run, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
+        """Return what a run has one of, arrays of shape ()."""
+        extremes, balance = run.problem.memory.extremes, self.balance
+        found = {
+            "settling_time": self._settling_time(run, rows),
+            "contact_start": _contact_start(run, rows),
+            "rebounds": float(extremes[ledger.REBOUNDS]),
+            "contact_force_peak": float(extremes[ledger.PEAK_FORCE]),
+            "contact_force_peak_time": float(extremes[ledger.PEAK_FORCE_TIME]),
+            "pressure_peak": float(extremes[ledger.PEAK_PRESSURE]),
+            "separation_least": float(extremes[ledger.LEAST_SEPARATION]),
+            "e_x_balance": np.nan if balance is None else float(balance.attitude[0]),
+            "e_y_balance": np.nan if balance is None else float(balance.attitude[1]),
+        }
+        if self.journal.film is not None:
+            found["film_force_peak"] = float(extremes[ledger.PEAK_FILM_FORCE])
+        if self.journal.speed != 0.0:
+            found["friction_coefficient_end"] = self._friction_coefficient(rows)
+        return {name: np.array(value) for name, value in found.items()}
+
+    def _settling_time(self, run: Run, rows: dict[str, FloatArray]) -> float:
+        """Return the time after which the centre stays near the static equilibrium; NaN if it never does."""
+        if self.balance is None or not run.solution.complete:
+            return np.nan
+        off = np.hypot(rows["e_x"] - self.balance.attitude[0], rows["e_y"] - self.balance.attitude[1])
+        outside = np.flatnonzero(off > SETTLED * self.journal.joint.geometry.clearance)
+        if not outside.size:
+            return 0.0
+        after = outside[-1] + 1
+        return float(run.solution.t[after]) if after < run.solution.t.size else np.nan
+
+    def _friction_coefficient(self, rows: dict[str, FloatArray]) -> float:
+        """Return the friction moment over radius and load at the end."""
+        force = self.journal.loads.force
+        if force == 0.0 or not rows["M_jf"].size:
+            return np.nan
+        moment = abs(float(rows["M_jf"][-1] + rows["M_of"][-1]))
+        return moment / (self.journal.joint.geometry.radius * force)
+
+    def _failure(self, run: Run) -> str:
+        """Return why the run stopped before its end, empty if it did not."""
+        if run.solution.failure in (None, INTERRUPTED):
+            return run.solution.failure or ""
+        memory, reason = run.problem.memory, str(run.solution.failure)
+        if memory.beyond[0] > 0.0:
+            return (
+                f"stopped at t = {run.solution.t_end:.6g} s: the surfaces came closer than the contact law "
+                f"reaches ({self.journal.joint.table.h_first:g} sigma); load or impact is too much for it"
+            )
+        if memory.scratch.film_status[0] > 0.0:
+            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status[0]))}"
+        return reason
+
+
+def _contact_start(run: Run, rows: dict[str, FloatArray]) -> float:
+    """Return the first output time at which any point is in contact [s]; NaN if there is none."""
+    touching = np.flatnonzero(rows["contact_fraction"] > 0.0)
+    return float(run.solution.t[touching[0]]) if touching.size else np.nan

@@ -1,0 +1,50 @@
+"""Headline numbers of results of any mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import xarray as xr
+
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.base import Mechanism
+from tribodyn.results import summary
+from tribodyn.results.headline import Headline
+
+
+def mechanism_of(dataset: xr.Dataset) -> Mechanism:
+    """Return the mechanism that a result is of.
+
+    Raises
+    ------
+    InputError
+        There is no such mechanism.
+    """
+    kind = str(dataset.attrs.get("kind", ""))
+    if kind not in MECHANISMS:
+        raise InputError(f"the result is of the kind {kind[:80]!r}; known: {', '.join(MECHANISMS)}")
+    return MECHANISMS[kind]
+
+
+def summarise(dataset: xr.Dataset) -> dict[str, float | int | str]:
+    """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
+    return summary.summarise(dataset, mechanism_of(dataset).headlines)
+
+
+def headlines_of(kind: str) -> dict[str, Headline]:
+    """Return the headline numbers of a kind of results, in reading order; of no kind, those of all kinds."""
+    chosen = [MECHANISMS[kind]] if kind in MECHANISMS else list(MECHANISMS.values())
+    own = {name: headline for mechanism in chosen for name, headline in mechanism.headlines.items()}
+    return own | summary.EFFORT
+
+
+def key_numbers_of(kind: str) -> tuple[str, ...]:
+    """Return the names of the headline numbers that a reader of a kind of results wants first."""
+    return MECHANISMS[kind].key_numbers if kind in MECHANISMS else ()
+
+
+def known(names: Iterable[str], kind: str) -> dict[str, Headline]:
+    """Return what is known of those of the names that are headline numbers of a kind, in reading order."""
+    given = set(names)
+    return {name: headline for name, headline in headlines_of(kind).items() if name in given}

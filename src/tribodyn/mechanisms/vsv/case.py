@@ -1,0 +1,246 @@
+"""The variable stator vane mechanism with one clearance joint: its keys and its cross-checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+from tribodyn.cases.base import Case, Group, demand
+from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Wear
+from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, text
+
+if TYPE_CHECKING:
+    from tribodyn.contact import SurfacePair
+    from tribodyn.mechanisms.vsv.parameters import Drive as Crank
+    from tribodyn.mechanisms.vsv.parameters import Lengths
+
+TABLE_2 = "paper, Table 2"
+TABLE_3 = "paper, Table 3"
+DRIVE = "paper, section 5.1"
+_MOST_OUTPUT_TIMES = 2_000_000
+
+
+class VaneJoint(PlainJoint):
+    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
+
+    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
+
+
+class MechanismKeys(Group):
+    """Crank, drag link, unison ring, lever with vane."""
+
+    formulation: Literal["exact", "paper"] = choice(
+        "exact", "one consistent set of equations, or the paper's own", "model, section 6"
+    )
+    crank_length: float = quantity("47.7 mm", "crank l_1", TABLE_2, gt=0)
+    drag_link_length: float = quantity("142.4 mm", "drag link l_2", TABLE_2, gt=0)
+    ring_radius: float = quantity("400 mm", "unison ring l_3", TABLE_2, gt=0)
+    lever_length: float = quantity("50 mm", "lever arm l_4", TABLE_2, gt=0)
+    vane_length: float = quantity("160 mm", "vane with trunnion l_v", TABLE_2, gt=0)
+    pivot_distance: float = quantity("500 mm", "crank pivot from the casing axis l_m", TABLE_2, gt=0)
+    pivot_angle: float = quantity(
+        "20 deg", "direction of the crank pivot gamma", TABLE_2, ge="-180 deg", le="180 deg"
+    )
+    ring_angle: float = quantity(
+        "55 deg", "drag link's joint on the ring phi", TABLE_2, ge="-180 deg", le="180 deg"
+    )
+    crank_mass: float = quantity("0.82 kg", "crank m_1", TABLE_2, gt=0)
+    drag_link_mass: float = quantity("0.1232 kg", "drag link m_2", TABLE_2, gt=0)
+    ring_mass: float = quantity("0.6744 kg", "unison ring m_3", TABLE_2, gt=0)
+    vane_mass: float = quantity("0.253 kg", "vane with lever and trunnion m_v", "paper, section 4", gt=0)
+    crank_inertia: float = quantity("6.22e-4 kg m^2", "crank, about its end J_1", TABLE_2, gt=0)
+    drag_link_inertia: float = quantity("8.33e-4 kg m^2", "drag link, about its end J_2", TABLE_2, gt=0)
+    ring_inertia: float = quantity("7.20e-2 kg m^2", "unison ring, about the casing axis J_3", TABLE_2, gt=0)
+    vane_inertia: float = quantity("2.16e-3 kg m^2", "vane across its axis, about its end J_v", TABLE_2, gt=0)
+    vane_spin_inertia: float = quantity(
+        "2.16e-3 kg m^2", "vane about its axis; as printed, though it breaks I_z <= I_x + I_y", TABLE_2, gt=0
+    )
+    gravity: float = quantity("9.81 m/s^2", "acceleration of gravity", ASSUMED, ge=0)
+
+
+class Drive(Group):
+    """Motion of the crank: theta_a = start + amplitude/frequency (1 - cos(frequency t))."""
+
+    start_angle: float = quantity("-16 deg", "crank angle at the start", DRIVE, ge="-180 deg", le="180 deg")
+    speed_amplitude: float = quantity(
+        "20 deg/s", "largest angular speed of the crank; negative: it sets out backwards", DRIVE
+    )
+    angular_frequency: float = quantity("1 rad/s", "of the sinusoidal crank speed", DRIVE, gt=0)
+
+
+class Loads(Group):
+    """Aerodynamic loads on the vane."""
+
+    air_force_x: float = quantity("0.4 N", "size of F_airx, whose sign follows the vane angle", TABLE_3)
+    air_force_y: float = quantity("1.2 N", "F_airy", TABLE_3)
+    air_moment: float = quantity("0.84 N m", "size of M_air, which opposes the motion of the vane", TABLE_3)
+    switch_angle: float = quantity("90 deg", "vane angle at which F_airx changes sign", TABLE_3)
+    switch_width: float = quantity("0.01 rad", "width of that change", ASSUMED, gt=0)
+
+
+class Run(Group):
+    """How long, from where, and what is kept."""
+
+    cycles: float | None = number(
+        None, "drive cycles to simulate; give this or duration", ASSUMED, gt=0, le=10000, example="2"
+    )
+    duration: float | None = quantity(
+        None, "simulated time; give this or cycles", ASSUMED, gt=0, example="3 s"
+    )
+    start: Literal["equilibrium", "centred"] = choice(
+        "equilibrium", "attitude of the trunnion at the start", "depends on mechanism.formulation"
+    )
+    output_interval: float = quantity("5 ms", "time between rows of the result", ASSUMED, gt=0)
+    impact_window: float = quantity(
+        "50 ms", "time after each reversal in which rows are closer together", ASSUMED, ge=0
+    )
+    impact_interval: float = quantity("0.2 ms", "time between rows in that window", ASSUMED, gt=0)
+
+
+class VsvCase(Case):
+    """The built-in mechanism of Tables 1 to 3 unless keys say otherwise."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
+
+    case: Literal["vsv"] = choice("vsv", "the kind of system", "")
+    title: str = text(
+        "Variable stator vane mechanism, dry rough trunnion joint", "heading of figures and report"
+    )
+    surfaces: Surfaces = Surfaces()
+    asperities: Asperities = Asperities()
+    contact: Contact = Contact()
+    joint: VaneJoint = VaneJoint()
+    mechanism: MechanismKeys = MechanismKeys()
+    drive: Drive = Drive()
+    loads: Loads = Loads()
+    wear: Wear = Wear()
+    solver: Solver = Solver()
+    run: Run = Run(cycles=2.0)
+
+    @classmethod
+    def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the defaults that follow from the contact law and the formulation, and the length."""
+        defaults = Contact.resolve(given)
+        if given.get("mechanism.formulation") == "paper":
+            defaults |= {"joint.friction": "moment", "run.start": "centred"}
+        if "run.duration" not in given:
+            defaults["run.cycles"] = 2.0
+        return defaults
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The two surfaces in contact, as contact laws take them."""
+        return self.surfaces.pair(self.asperities)
+
+    @property
+    def period(self) -> float:
+        """Time of one drive cycle [s]."""
+        return 2.0 * math.pi / self.drive.angular_frequency
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of the whole run [s]."""
+        if self.run.duration is not None:
+            return self.run.duration
+        assert self.run.cycles is not None
+        return self.run.cycles * self.period
+
+    @property
+    def campaign_cycles(self) -> int:
+        """Drive cycles of a wear campaign; 0 where the case asks for none."""
+        return self.wear.cycles
+
+    @property
+    def settling_cycles(self) -> int:
+        """Cycles simulated before the first one whose wear counts."""
+        assert self.run.cycles is not None
+        return int(self.run.cycles) - 1
+
+    @property
+    def lengths(self) -> Lengths:
+        """Lengths and angles of the mechanism in the symbols of the paper."""
+        # Imported here: the mechanism brings compiled code along, which reading the models does not need.
+        from tribodyn.mechanisms.vsv.parameters import Lengths
+
+        m = self.mechanism
+        return Lengths(
+            l_1=m.crank_length,
+            l_2=m.drag_link_length,
+            l_3=m.ring_radius,
+            l_4=m.lever_length,
+            l_v=m.vane_length,
+            l_m=m.pivot_distance,
+            gamma=m.pivot_angle,
+            phi=m.ring_angle,
+        )
+
+    @property
+    def crank(self) -> Crank:
+        """Motion of the crank in the symbols of the paper."""
+        from tribodyn.mechanisms.vsv.parameters import Drive as Crank
+
+        return Crank(self.drive.start_angle, self.drive.speed_amplitude, self.drive.angular_frequency)
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        super().model_post_init(context)
+        self._check_run()
+        self._check_campaign()
+        self._check_inertias()
+        self._check_reach()
+        self.contact.check(self.surface_pair)
+
+    def _check_run(self) -> None:
+        demand(
+            (self.run.cycles is None) != (self.run.duration is None),
+            "run.duration",
+            "give either run.cycles or run.duration",
+        )
+        interval = self.run.output_interval
+        demand(interval <= self.duration, "run.output_interval", f"the run lasts only {self.duration:g} s")
+        demand(
+            self.duration <= _MOST_OUTPUT_TIMES * interval,
+            "run.output_interval",
+            f"at most {_MOST_OUTPUT_TIMES} output times are kept; the run lasts {self.duration:g} s",
+        )
+
+    def _check_campaign(self) -> None:
+        """Check that a campaign can begin: after whole cycles, in a contact that has a pressure."""
+        if self.wear.cycles == 0:
+            return
+        cycles = self.run.cycles or 0.5
+        demand(
+            cycles == int(cycles),
+            "run.cycles",
+            "a wear campaign needs a whole number of cycles here: the last of them is the first whose wear "
+            "counts, those before let the start die away",
+        )
+        demand(
+            self.joint.contact == "surface",
+            "wear.cycles",
+            'a contact at points has no pressure that could wear: joint.contact = "surface" is needed',
+        )
+
+    def _check_inertias(self) -> None:
+        """Check that the inertias about rod ends and casing axis leave something about the mass centres."""
+        m = self.mechanism
+        if m.formulation == "paper":
+            return
+        ring_arm = 0.5 * m.ring_radius * math.cos(0.5 * m.ring_angle)
+        for body, inertia, mass, arm in (
+            ("crank", m.crank_inertia, m.crank_mass, 0.5 * m.crank_length),
+            ("drag_link", m.drag_link_inertia, m.drag_link_mass, 0.5 * m.drag_link_length),
+            ("ring", m.ring_inertia, m.ring_mass, ring_arm),
+            ("vane", m.vane_inertia, m.vane_mass, 0.5 * m.vane_length),
+        ):
+            least = mass * arm**2
+            message = f"with this mass and size the body needs more than {least:.4g} kg m^2"
+            demand(inertia > least, f"mechanism.{body}_inertia", message)
+
+    def _check_reach(self) -> None:
+        """Check that the loop closes at every crank angle of the drive."""
+        from tribodyn.mechanisms.vsv.reach import check_reach
+
+        demand(self.drive.speed_amplitude != 0.0, "drive.speed_amplitude", "the crank must move")
+        check_reach(self.lengths, *self.crank.crank_range(self.duration))

@@ -1,0 +1,144 @@
+"""The mechanism at three positions of the vane, seen along the casing axis and from above."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.cases.load import parse_case
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.figures.base import Family
+from tribodyn.figures.style import (
+    BLUE,
+    DASHED,
+    DOTTED,
+    GREY,
+    INK,
+    PALE,
+    SMALL,
+    SOLID,
+    VERMILION,
+    LineStyle,
+    caption,
+    finish,
+    note,
+    sheet,
+)
+from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.views.series import finite, series
+
+TITLE: Final = "The mechanism at three vane positions"
+MM: Final = 1e3
+_LOOKS: Final[tuple[tuple[str, LineStyle], ...]] = ((BLUE, DASHED), (INK, SOLID), (VERMILION, DOTTED))
+
+
+def case_of(dataset: xr.Dataset) -> VsvCase | None:
+    """Return the case of a result; nothing where its text is not (or no longer) one of this mechanism."""
+    try:
+        case = parse_case(str(dataset.attrs.get("case", "")), "case of the result", {VsvCase.kind(): VsvCase})
+    except InputError:
+        return None
+    return case if isinstance(case, VsvCase) else None
+
+
+def crank_pivot(case: VsvCase) -> FloatArray:
+    """Return the crank pivot A [mm], shape (3,)."""
+    m = case.mechanism
+    reach, gamma = m.pivot_distance, m.pivot_angle
+    return MM * np.array([reach * np.cos(gamma), m.lever_length, reach * np.sin(gamma)])
+
+
+def crank_tip(case: VsvCase, theta_a: FloatArray) -> FloatArray:
+    """Return S1 = A + l_1 (−sin θ_a, 0, cos θ_a) [mm], shape (n, 3)."""
+    arm = np.stack([-np.sin(theta_a), np.zeros_like(theta_a), np.cos(theta_a)], axis=1)
+    return crank_pivot(case) + MM * case.mechanism.crank_length * arm
+
+
+def ring_points(case: VsvCase, theta_b: float, h_1: float, angles: FloatArray) -> FloatArray:
+    """Return points of the ring at angles from its pin [rad], in mm, shape (n, 3)."""
+    m = case.mechanism
+    beta = angles - theta_b
+    height = np.full_like(beta, m.lever_length + h_1)
+    return MM * np.stack([m.ring_radius * np.sin(beta), height, m.ring_radius * np.cos(beta)], axis=1)
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw crank, drag link, unison ring, lever and vane [mm]."""
+    figure = sheet(dataset, TITLE, 3.3)
+    along, above = figure.subplots(1, 2, width_ratios=(2.1, 1.0))
+    case, angle = case_of(dataset), series(dataset, "theta_v", 180.0 / np.pi)
+    for axes, text in ((along, "seen along the casing axis"), (above, "seen from above")):
+        caption(axes, text)
+        axes.set_aspect("equal")
+    if case is None or not finite(angle).size:
+        note(along, "nothing to draw")
+    else:
+        for moment, look in zip(_moments(angle), _LOOKS, strict=True):
+            _draw_at(along, above, case, dataset, moment, look)
+        _frame(along, above, case)
+        handles, labels = above.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    finish(along, "X [mm]", "Z [mm]")
+    finish(above, "X [mm]", "Y [mm]")
+    return figure
+
+
+def _moments(angle: FloatArray) -> tuple[int, int, int]:
+    """Return where the vane angle is smallest, in the middle of its range, and largest."""
+    middle = 0.5 * (np.nanmin(angle) + np.nanmax(angle))
+    return int(np.nanargmin(angle)), int(np.nanargmin(np.abs(angle - middle))), int(np.nanargmax(angle))
+
+
+def _draw_at(
+    along: Axes, above: Axes, case: VsvCase, dataset: xr.Dataset, moment: int, look: tuple[str, LineStyle]
+) -> None:
+    """Draw every body at one row of the result."""
+    at = {name: float(dataset[name].values[moment]) for name in ("theta_a", "theta_b", "theta_v", "h_1")}
+    colour, dash = look
+    style: dict[str, Any] = {"color": colour, "linestyle": dash, "linewidth": 1.6}
+    m = case.mechanism
+    joint = ring_points(case, at["theta_b"], at["h_1"], np.array([m.ring_angle]))[0]
+    chain = np.stack([crank_pivot(case), crank_tip(case, np.array([at["theta_a"]]))[0], joint])
+    along.plot(chain[:, 0], chain[:, 2], marker="o", ms=4, **style)
+    arc = ring_points(case, at["theta_b"], at["h_1"], np.linspace(-0.15, m.ring_angle + 0.15, 90))
+    along.plot(arc[:, 0], arc[:, 2], color=PALE, linewidth=3.5, zorder=1)
+    near = ring_points(case, at["theta_b"], at["h_1"], np.linspace(-0.1, 0.1, 9))
+    above.plot(near[:, 0], near[:, 1], color=PALE, linewidth=3.5, zorder=1)
+    lever = MM * m.lever_length * np.array([np.cos(at["theta_v"]), np.sin(at["theta_v"])])
+    label = f"vane at {np.rad2deg(at['theta_v']):.1f}°"
+    above.plot([0.0, lever[0]], [0.0, lever[1]], marker="o", ms=4, label=label, **style)
+    along.plot([0.0, lever[0]], [MM * m.ring_radius] * 2, **style)
+
+
+def _frame(along: Axes, above: Axes, case: VsvCase) -> None:
+    """Draw what stays, and name the bodies."""
+    m, joint = case.mechanism, case.joint
+    top, half = MM * m.ring_radius, MM * joint.radius
+    along.plot([0.0, 0.0], [top - MM * m.vane_length, top], color=GREY, linewidth=5.0, alpha=0.6, zorder=1)
+    along.plot([-2 * half, 2 * half], [top - MM * joint.length] * 2, color=GREY, linewidth=2.0)
+    pivot = crank_pivot(case)
+    places = {
+        "vane": (12.0, top - 0.6 * MM * m.vane_length),
+        "unison ring": (0.62 * top * np.sin(m.ring_angle), 1.02 * top * np.cos(0.55 * m.ring_angle)),
+        "crank": (pivot[0] - 12.0, pivot[2] - 8.0),
+    }
+    for name, (x, z) in places.items():
+        along.text(x, z, name, size=SMALL, color=INK, ha="left" if name != "crank" else "right")
+    above.text(6.0, -4.0, "trunnion", size=SMALL, color=INK)
+    above.set_ylim(bottom=-0.3 * MM * m.lever_length)
+
+
+FAMILY: Final = Family(
+    name="mechanism",
+    title=TITLE,
+    caption=(
+        "Crank, drag link, unison ring and lever where the vane stands at its ends and halfway, to scale."
+    ),
+    needs=("theta_a", "theta_b", "theta_v", "h_1"),
+    draw=draw,
+)

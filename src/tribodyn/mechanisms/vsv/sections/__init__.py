@@ -1,0 +1,76 @@
+"""What the report shows of the vane mechanism: its chapters, and what a comparison lays over each other."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE
+from tribodyn.mechanisms.vsv.sections import mechanism, vane_error
+from tribodyn.mechanisms.vsv.sections.motion import MOTION
+from tribodyn.views import orbit, overlay, pressure, wear, wear_history, wear_stages
+from tribodyn.views.contact_force import CONTACT_FORCE
+from tribodyn.views.energy import ledger_chart
+from tribodyn.views.overlay import Overlay, Quantity, scaled
+from tribodyn.views.section import OVER_TIME, Chapter
+from tribodyn.views.tilt import TILT
+
+_WHOLE: Final = ledger_chart(
+    WHOLE,
+    name="energy",
+    title="Energy ledger of the whole mechanism",
+    caption=(
+        "What all bodies, the drive and the loads took in, stored and turned into heat since the start. The "
+        "residual is what the sum misses: an error of the integration would show there."
+    ),
+)
+_CLEARANCE: Final = ledger_chart(
+    CLEARANCE,
+    name="clearance-energy",
+    title="Energy ledger of the motion in the clearance",
+    caption=(
+        "The same for the small motion of the trunnion alone, where an error in the contact heat cannot hide "
+        "behind the work of the drive. Steps are the impacts after reversals."
+    ),
+)
+
+CHAPTERS: Final = (
+    Chapter(
+        "playback",
+        "One cycle",
+        "Everything in this part shows the same moment. Move the slider, or press play.",
+        (mechanism.SECTION, orbit.SECTION, pressure.SECTION),
+        playback=True,
+    ),
+    Chapter(
+        "time",
+        "Over time",
+        OVER_TIME,
+        (
+            vane_error.ERROR.section,
+            vane_error.LOOP,
+            CONTACT_FORCE.section,
+            TILT.section,
+            MOTION.section,
+            _WHOLE.section,
+            _CLEARANCE.section,
+        ),
+    ),
+    Chapter(
+        "worn",
+        "Wear",
+        "What is worn off the bushing.",
+        (wear.SECTION, wear_history.SECTION, wear_stages.SECTION),
+    ),
+)
+"""Chapters in reading order."""
+
+OVERLAYS: Final = (
+    Overlay(
+        "error",
+        "Vane-angle error",
+        (Quantity("angle error [°]", ("theta_v", "theta_v_ideal"), vane_error.error),),
+    ),
+    *overlay.BUSHING,
+    Overlay("drive", "Drive moment", (scaled("M_d", "drive moment [N m]", 1.0),)),
+)
+"""What a comparison of runs shows."""

@@ -1,0 +1,49 @@
+"""Motion of drive and vane, and the moment it takes."""
+
+from __future__ import annotations
+
+from string import ascii_lowercase
+from typing import Final
+
+import xarray as xr
+
+from tribodyn.mechanisms.vsv.sections.vane_error import DEG
+from tribodyn.views.chart import Chart
+from tribodyn.views.curves import Curve, Marks, Panel
+from tribodyn.views.series import series
+
+
+def panels(dataset: xr.Dataset) -> list[Panel]:
+    """Return angles [°], speeds [°/s] and drive moment [N m]."""
+    return [
+        Panel("angle [°]", _pair(dataset, "theta"), marks=_snapshots(dataset)),
+        Panel("speed [°/s]", _pair(dataset, "omega")),
+        Panel("drive moment\non the crank [N m]", [Curve("drive moment", series(dataset, "M_d"))]),
+    ]
+
+
+def _pair(dataset: xr.Dataset, symbol: str) -> list[Curve]:
+    return [
+        Curve("vane", series(dataset, f"{symbol}_v", DEG), "blue"),
+        Curve("crank", series(dataset, f"{symbol}_a", DEG), "vermilion", "dash"),
+    ]
+
+
+def _snapshots(dataset: xr.Dataset) -> Marks | None:
+    """Return where the pressure snapshots were taken, with the letters of that figure."""
+    if "snapshot_time" not in dataset:
+        return None
+    times, angles = series(dataset, "snapshot_time"), series(dataset, "snapshot_theta_v", DEG)
+    return Marks(times, angles, tuple(ascii_lowercase[: times.size]))
+
+
+MOTION: Final = Chart(
+    name="motion",
+    title="Drive and vane motion",
+    caption=(
+        "Where the crank drives the vane, how fast, and the moment this takes. "
+        "Letters mark the positions of the pressure snapshots."
+    ),
+    needs=("theta_a", "theta_v", "omega_a", "omega_v", "omega_v_ideal", "M_d"),
+    panels=panels,
+)

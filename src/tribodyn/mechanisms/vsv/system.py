@@ -1,0 +1,205 @@
+"""A case of the variable stator vane mechanism as a system to integrate, and what its runs tell."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Problem
+from tribodyn.integrate import INTERRUPTED
+from tribodyn.joints import BushingJoint
+from tribodyn.kernels.bushing.joint import stored
+from tribodyn.kernels.vsv import books
+from tribodyn.kernels.vsv.functions import vane_direction
+from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.mechanisms.base import Carried, Part, Run, Worn
+from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
+from tribodyn.mechanisms.playback import frame_times, merged, shown
+from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.mechanisms.vsv.checks import peaks, warnings
+from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
+from tribodyn.mechanisms.vsv.parameters import AirLoads, Inertias, Vsv
+from tribodyn.mechanisms.vsv.problem import reversals, vsv_problem
+from tribodyn.mechanisms.vsv.reach import at_limit, ideal_vane_angle
+from tribodyn.mechanisms.vsv.times import output_times, snapshots
+
+
+def vsv_of(case: VsvCase) -> Vsv:
+    """Return the mechanism that a case describes, in the symbols of the paper."""
+    m, loads = case.mechanism, case.loads
+    return Vsv(
+        formulation=m.formulation,
+        lengths=case.lengths,
+        inertias=Inertias(
+            m_1=m.crank_mass,
+            m_2=m.drag_link_mass,
+            m_3=m.ring_mass,
+            m_v=m.vane_mass,
+            J_1=m.crank_inertia,
+            J_2=m.drag_link_inertia,
+            J_3=m.ring_inertia,
+            J_v=m.vane_inertia,
+            J_vz=m.vane_spin_inertia,
+        ),
+        drive=case.crank,
+        air=AirLoads(
+            loads.air_force_x, loads.air_force_y, loads.air_moment, loads.switch_angle, loads.switch_width
+        ),
+        gravity=m.gravity,
+        collar_radius=case.joint.collar_radius,
+        joint=bushing_of(case),
+    )
+
+
+@dataclass(frozen=True)
+class VsvSystem:
+    """The mechanism of a case; see :class:`~tribodyn.mechanisms.base.WearingSystem`."""
+
+    case: VsvCase
+
+    @cached_property
+    def vsv(self) -> Vsv:
+        """The mechanism in the symbols of the paper."""
+        return vsv_of(self.case)
+
+    @property
+    def bushing(self) -> BushingJoint:
+        """The trunnion in its bushing."""
+        return self.vsv.joint
+
+    @property
+    def period(self) -> float:
+        """Time of one drive cycle [s]."""
+        return self.case.period
+
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+        """Return the initial value problem over ``duration`` [s]."""
+        return vsv_problem(
+            self.vsv,
+            duration=duration,
+            start=self.case.run.start,
+            atol=self.case.solver.atol.as_tuple,
+            wear=None if worn is None else worn.depth,
+            carried=None if worn is None else worn.carried,
+        )
+
+    def output_times(self, duration: float) -> FloatArray:
+        """Return the times of the rows [s]."""
+        return output_times(self.case, self.vsv, duration)
+
+    def picture_times(self, duration: float) -> FloatArray:
+        """Return the times of snapshots and of the frames of the playback [s]."""
+        turns = np.array(reversals(self.vsv, duration))
+        frames = frame_times(duration, self.period, turns, self.case.run.impact_window)
+        return merged(snapshots(self.vsv, duration), frames, duration)
+
+    def sliding_load(self, problem: Problem) -> FloatArray:
+        """Return ∫P_c |u| dt at the nodes over the run [N/m], shape (n_z + 2, n_theta)."""
+        load: FloatArray = problem.memory.sliding_load
+        return load
+
+    def carried(self, run: Run) -> Carried:
+        """Return what the next cycle goes on from."""
+        return Carried(run.solution.y_end, run.problem.memory.entry_velocity)
+
+    def contact_energy(self, worn: Worn) -> float:
+        """Return the energy stored in the contact [J]."""
+        assert worn.carried is not None
+        data = self.bushing.data(worn.depth)
+        return float(stored(data, worn.carried.entry_velocity, worn.carried.state))
+
+    def of_cycle(self, run: Run) -> dict[str, float]:
+        """Return what a campaign writes down about the motion of one cycle."""
+        t, rows = run.solution.t, run.rows(OBSERVED)
+        error = rows["theta_v"] - rows["theta_v_ideal"]
+        return {
+            "wear_pressure_max": float(run.problem.memory.books.extremes[books.PEAK_PRESSURE]),
+            "wear_pressure_mean": _mean(t, rows["p_max"]),
+            "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
+            "wear_angle_error_max": float(np.abs(error).max()),
+            "wear_angle_error_rms": _mean(t, error**2) ** 0.5,
+        }
+
+    def gather(self, run: Run) -> Part:
+        """Return what the mechanism knows about a run."""
+        rows = run.rows(OBSERVED)
+        ledger = ledger_columns(rows)
+        whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
+        grid_error = grid_force_error(self.bushing, rows, run.problem.data.joint.wear)
+        found = peaks(run.problem.memory.books.extremes)
+        return Part(
+            coordinates=self._coordinates(run),
+            columns=force_parts(rows) | ledger,
+            fields=self._fields(run),
+            attributes={
+                "formulation": self.vsv.formulation,
+                **bushing_facts(self.case),
+                "friction_coefficient": self.case.joint.friction_coefficient,
+                "cycle_period": self.period,
+                "energy_residual": whole,
+                "clearance_energy_residual": clearance,
+                "grid_force_error": grid_error,
+                **found,
+            },
+            warnings=warnings(
+                self.vsv, found, whole, clearance, grid_error, float(run.solution.t_end), run.cost
+            ),
+            failure=self._failure(run),
+        )
+
+    def _coordinates(self, run: Run) -> dict[str, FloatArray]:
+        pictures = run.solution.picture_times
+        times = pictures[self._is_snapshot(run)]
+        frames = pictures[self._playback(run)]
+        mechanism, memory = run.problem.data.mechanism, run.problem.memory
+        return {
+            "snapshot": np.arange(times.size, dtype=np.float64),
+            "snapshot_time": times,
+            "frame": np.arange(frames.size, dtype=np.float64),
+            "frame_time": frames,
+            "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, self._crank_angle(times)),
+            "snapshot_direction": np.array([vane_direction(mechanism, t, memory) for t in times]),
+            "theta": self.bushing.theta,
+            "z": self.bushing.z,
+        }
+
+    def _crank_angle(self, times: FloatArray) -> FloatArray:
+        drive = self.vsv.drive
+        return drive.start_angle + 0.5 * drive.swing * (1.0 - np.cos(drive.angular_frequency * times))
+
+    def _is_snapshot(self, run: Run) -> NDArray[np.bool_]:
+        """Tell of each picture whether it is a snapshot, shape (n_pictures,)."""
+        return np.isin(run.solution.picture_times, snapshots(self.vsv, run.duration))
+
+    def _playback(self, run: Run) -> slice:
+        """Return which pictures are the frames of the playback."""
+        return shown(run.solution.picture_times, run.duration, self.period)
+
+    def _fields(self, run: Run) -> dict[str, NDArray[np.floating]]:
+        pressure = run.solution.pictures[:, 0].transpose(0, 2, 1)
+        return {
+            "pressure": pressure[self._is_snapshot(run)],
+            # Half the size, and more digits than a playback needs.
+            "pressure_cycle": pressure[self._playback(run)].astype(np.float32),
+        }
+
+    def _failure(self, run: Run) -> str:
+        """Return why the run stopped before its end, empty if it did not."""
+        reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
+        if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, t, y):
+            return reason
+        angle = math.degrees(float(self._crank_angle(np.array([t]))[0]))
+        return (
+            f"{reason}; the mechanism is at the limit of its reach with the crank at {angle:.4g}° and the "
+            "trunnion where it is: beyond, its parts cannot be joined"
+        )
+
+
+def _mean(t: FloatArray, values: FloatArray) -> float:
+    """Return the mean over time; output times crowd around events."""
+    return 0.5 * float(np.sum((values[1:] + values[:-1]) * np.diff(t))) / float(t[-1] - t[0])

@@ -1,0 +1,1 @@
+"""Papers reproduced from our own runs, one folder each."""

@@ -1,0 +1,30 @@
+"""The paper reproduced: its figures 8 to 19 from our own runs, and its claims judged."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, trunnion, wear
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.runs import FORMULATIONS, Runs
+
+FIGURES: Final[dict[str, PaperFigure]] = {
+    figure.name: figure
+    for figure in (
+        journal.DRY,
+        journal.OIL,
+        drive.CRANK,
+        drive.VANE,
+        trunnion.FORCES,
+        trunnion.PATH,
+        trunnion.VELOCITIES,
+        pressure.PRESSURE,
+        clearance.MOTION,
+        clearance.FORCES,
+        clearance.ATTITUDE,
+        wear.WEAR,
+    )
+}
+"""Every figure of the paper that shows results, by name."""
+
+__all__ = ["FIGURES", "FORMULATIONS", "PaperFigure", "Runs"]

@@ -1,0 +1,135 @@
+"""Figures 16, 17 and 18: what the size of the clearance changes."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.style import DASHED, GREY, SMALL, Curves, caption, finish, lines, sheet
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
+from tribodyn.papers.cheng_2022.runs import SETTLING, Runs
+from tribodyn.views.series import series
+
+DEGREES: Final = float(np.rad2deg(1.0))
+
+
+def motion_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return angle and speed of the vane with and without clearance over a cycle."""
+    names = ("theta_v", "omega_v", "theta_v_ideal", "omega_v_ideal")
+    return keep(first_cycle(runs.over_clearance(formulation)), *names)
+
+
+def force_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return contact, damping and rigid forces [N] over a cycle."""
+    names = [f"F_{part}{axis}" for part in "cdk" for axis in "xy"]
+    return keep(first_cycle(runs.over_clearance(formulation)), *names)
+
+
+def attitude_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return displacement [m] and tilt [rad] over a cycle."""
+    return keep(first_cycle(runs.over_clearance(formulation)), "e_x", "e_y", "phi_x", "phi_y")
+
+
+def errors(dataset: xr.Dataset, name: str) -> Curves:
+    """Return what a variable differs from its ideal [deg or deg/s], a curve a clearance."""
+    ideal = _ideal(dataset, name)
+    curves = by_clearance(dataset, name, DEGREES)
+    return [(values - ideal, label, colour, dash) for values, label, colour, dash in curves]
+
+
+def _ideal(dataset: xr.Dataset, name: str) -> FloatArray:
+    """Return what a variable would be without clearance [deg or deg/s], whatever the clearance."""
+    return series(dataset.isel(clearance=0), f"{name}_ideal", DEGREES)
+
+
+def _quiet(dataset: xr.Dataset) -> NDArray[np.bool_]:
+    """Return which rows are clear of impacts, shape (n_t,)."""
+    phase = np.mod(dataset["time"].values, 0.5 * float(dataset.attrs["cycle_period"]))
+    return np.asarray(phase > SETTLING)
+
+
+def _legend(figure: Figure, curves: Curves) -> None:
+    axes = figure.axes[0]
+    handles = [
+        axes.plot([], [], color=colour, linestyle=dash, label=f"clearance {label}")[0]
+        for _, label, colour, dash in reversed(curves)
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False, fontsize=SMALL)
+
+
+def draw_motion(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 16: angle and speed of the vane above, what they differ from the ideal pair below.
+
+    At the scale of the motion all curves are one; the paper enlarges, here the difference has its own panel.
+    """
+    figure = sheet(dataset, "Fig. 16  Motion of the vane with different clearances", 5.4)
+    panels = figure.subplots(2, 2, sharex=True, height_ratios=(1.0, 1.3))
+    time, quiet = series(dataset, "time"), _quiet(dataset)
+    for column, (name, unit, what) in enumerate(
+        (("theta_v", "°", "rotation angle"), ("omega_v", "°/s", "rotation velocity"))
+    ):
+        whole, difference = panels[:, column]
+        curves = by_clearance(dataset, name, DEGREES)
+        ideal = _ideal(dataset, name)
+        lines(whole, time, curves, width=1.0)
+        whole.plot(time, ideal, color=GREY, linestyle=DASHED, linewidth=1.0)
+        limits(whole, [(ideal, "", *STYLES[0])], quiet)
+        lines(difference, time, errors(dataset, name), width=1.0)
+        limits(difference, errors(dataset, name), quiet)
+        caption(whole, f"({'ab'[column]}) {what}; ideal pair dashed")
+        finish(whole, y_label=f"[{unit}]")
+        finish(difference, "time [s]", f"minus ideal [{unit}]")
+    _legend(figure, by_clearance(dataset, "theta_v"))
+    return figure
+
+
+def draw_forces(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 17: contact, damping and rigid forces along X and Y, the reversal enlarged."""
+    figure = sheet(dataset, "Fig. 17  Forces with different clearances", 8.6)
+    panels = figure.subplots(3, 2, sharex=True)
+    time, quiet = series(dataset, "time"), _quiet(dataset)
+    turn = 0.5 * float(dataset.attrs["cycle_period"])
+    letters = iter("abcdef")
+    for row, (part, what) in zip(panels, (("c", "contact"), ("d", "damping"), ("k", "rigid")), strict=True):
+        for axes, axis in zip(row, "xy", strict=True):
+            curves = by_clearance(dataset, f"F_{part}{axis}")
+            lines(axes, time, curves, width=0.9)
+            limits(axes, curves, quiet, above=1.1)
+            enlarge(axes, time, curves, (turn - 0.001, turn + 0.012), (0.6, 0.64, 0.39, 0.34))
+            caption(axes, f"({next(letters)}) {what}, {axis.upper()}")
+            finish(axes, y_label="force [N]")
+    for axes in panels[-1]:
+        axes.set_xlabel("time [s]")
+    _legend(figure, by_clearance(dataset, "F_cx"))
+    return figure
+
+
+def draw_attitude(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 18: trajectories of the centre, and deflection angles."""
+    figure = sheet(dataset, "Fig. 18  Attitude of the trunnion centre with different clearances", 4.4)
+    path, tilt = figure.subplots(1, 2)
+    for (x, _, colour, dash), (y, *_) in zip(
+        by_clearance(dataset, "e_x", 1e6), by_clearance(dataset, "e_y", 1e6), strict=True
+    ):
+        path.plot(x, y, color=colour, linestyle=dash, linewidth=0.9)
+    time = series(dataset, "time")
+    lines(tilt, time, by_clearance(dataset, "phi_x", 1e3), width=1.0)
+    lines(tilt, time, by_clearance(dataset, "phi_y", 1e3), width=1.0)
+    path.set_aspect("equal", adjustable="datalim")
+    caption(path, "(a) trajectory")
+    caption(tilt, "(b) deflection φx (above) and φy")
+    finish(path, "e_x [µm]", "e_y [µm]")
+    finish(tilt, "time [s]", "deflection angle [mrad]")
+    _legend(figure, by_clearance(dataset, "e_x"))
+    return figure
+
+
+MOTION: Final = PaperFigure(16, "motion of the vane with different clearances", motion_data, draw_motion)
+FORCES: Final = PaperFigure(17, "forces with different clearances", force_data, draw_forces)
+ATTITUDE: Final = PaperFigure(18, "attitude with different clearances", attitude_data, draw_attitude)

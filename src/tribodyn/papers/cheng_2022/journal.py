@@ -1,0 +1,83 @@
+"""Figures 8 and 9: the journal of section 4 under a steady load, dry and in oil, with both laws."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.figures.style import (
+    BLUE,
+    DASHED,
+    GREEN,
+    GREY,
+    SMALL,
+    SOLID,
+    VERMILION,
+    Curves,
+    LineStyle,
+    caption,
+    finish,
+    lines,
+    sheet,
+)
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.layout import keep
+from tribodyn.papers.cheng_2022.runs import Runs
+from tribodyn.views.series import series
+
+_LOOKS: Final[dict[tuple[str, str], tuple[str, LineStyle]]] = {
+    ("rsdc", "x"): (BLUE, SOLID),
+    ("rsdc", "y"): (GREEN, SOLID),
+    ("ke", "x"): (VERMILION, DASHED),
+    ("ke", "y"): (GREY, DASHED),
+}
+
+
+def dry_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return displacement [m] and contact force [N]; the formulations of the mechanism do not matter here."""
+    return keep(runs.over_laws("journal-dry"), "e_x", "e_y", "F_cx", "F_cy")
+
+
+def oil_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return displacement [m], force of the film and contact force [N]."""
+    return keep(runs.over_laws("journal-oil"), "e_x", "e_y", "F_ox", "F_oy", "F_cx", "F_cy")
+
+
+def _panel(axes: Axes, dataset: xr.Dataset, name: str, scale: float, heading: str, unit: str) -> None:
+    """Draw both components of a quantity for both laws over time [ms]."""
+    curves: Curves = [
+        (series(dataset.sel(law=law), f"{name}{axis}", scale), f"{name}{axis}, {law.upper()}", *look)
+        for (law, axis), look in _LOOKS.items()
+    ]
+    lines(axes, series(dataset, "time", 1e3), curves, width=1.0)
+    caption(axes, heading)
+    finish(axes, y_label=unit)
+    axes.legend(frameon=False, fontsize=SMALL, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def draw_dry(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 8."""
+    figure = sheet(dataset, "Fig. 8  Journal bearing with dry friction", 5.0)
+    deviation, force = figure.subplots(2, 1, sharex=True)
+    _panel(deviation, dataset, "e_", 1e6, "(a) deviations of the journal", "deviation [µm]")
+    _panel(force, dataset, "F_c", 1.0, "(b) contact forces", "force [N]")
+    force.set_xlabel("time [ms]")
+    return figure
+
+
+def draw_oil(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 9."""
+    figure = sheet(dataset, "Fig. 9  Journal bearing with oil lubrication", 6.6)
+    deviation, film, contact = figure.subplots(3, 1, sharex=True)
+    _panel(deviation, dataset, "e_", 1e6, "(a) deviations of the journal", "deviation [µm]")
+    _panel(film, dataset, "F_o", 1.0, "(b) oil film forces", "force [N]")
+    _panel(contact, dataset, "F_c", 1.0, "(c) contact forces", "force [N]")
+    contact.set_xlabel("time [ms]")
+    return figure
+
+
+DRY: Final = PaperFigure(8, "dry journal: deviations and contact forces", dry_data, draw_dry)
+OIL: Final = PaperFigure(9, "oiled journal: deviations, film and contact forces", oil_data, draw_oil)

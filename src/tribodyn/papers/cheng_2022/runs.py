@@ -1,0 +1,104 @@
+"""The runs that figures and claims share, each computed once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.simulation import simulate
+
+CLEARANCES: Final = (20e-6, 25e-6, 30e-6, 35e-6, 40e-6)
+"""Clearances of section 5.3 [m]."""
+LAWS: Final = ("rsdc", "ke")
+"""Contact laws that section 4 compares."""
+FORMULATIONS: Final = ("paper", "exact")
+FRICTION: Final = (0.05, 0.1, 0.2)
+"""Coefficients of friction that are tried, because the paper does not give its own."""
+SETTLING: Final = 0.3
+"""What follows a reversal within this time [s] is impact; the rest is smooth motion."""
+
+
+def _silent(text: str) -> None:
+    """Say nothing."""
+
+
+@dataclass
+class Runs:
+    """Simulated cases by what was changed in them.
+
+    Parameters
+    ----------
+    note
+        Told what is about to be computed.
+    """
+
+    note: Callable[[str], None] = _silent
+    _done: dict[str, xr.Dataset] = field(default_factory=dict, repr=False)
+
+    def run(self, name: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
+        """Return the result of a built-in case with some keys changed, as a case file writes them."""
+        case = load_case(name).replace(changes or {})
+        key = case.to_toml()
+        if key not in self._done:
+            changed = ", ".join(f"{path} = {value}" for path, value in (changes or {}).items())
+            self.note(f"running {name}" + (f" with {changed}" if changed else ""))
+            self._done[key] = simulate(case)
+        return self._done[key]
+
+    def vsv(
+        self, formulation: str, clearance: float, changes: Mapping[str, object] | None = None
+    ) -> xr.Dataset:
+        """Return two cycles of the mechanism with a clearance [m]."""
+        return self.run("vsv", _vsv_changes(formulation, clearance) | dict(changes or {}))
+
+    def over_laws(self, name: str) -> xr.Dataset:
+        """Return the runs of a journal with both laws of section 4 along a dimension ``law``."""
+        index = xr.Variable("law", np.array(LAWS), {"units": "1", "long_name": "contact law"})
+        return joined([self.run(name, {"contact.law": law}) for law in LAWS], index)
+
+    def over_clearance(self, formulation: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
+        """Return the runs with all clearances of the paper along a dimension ``clearance`` [m]."""
+        return over_clearances([self.vsv(formulation, value, changes) for value in CLEARANCES])
+
+
+def _vsv_changes(formulation: str, clearance: float) -> dict[str, object]:
+    return {"mechanism.formulation": formulation, "joint.clearance": f"{clearance * 1e6:g} um"}
+
+
+def over_clearances(runs: list[xr.Dataset]) -> xr.Dataset:
+    """Return results with all clearances of the paper side by side along a dimension ``clearance`` [m]."""
+    about = {"units": "m", "long_name": "radial clearance of the joint"}
+    whole = joined(runs, xr.Variable("clearance", np.array(CLEARANCES), about))
+    whole.attrs.pop("clearance", None)
+    return whole
+
+
+def joined(runs: list[xr.Dataset], index: xr.Variable) -> xr.Dataset:
+    """Return results with the same times side by side along the dimension of ``index``."""
+    whole = xr.concat(
+        runs,
+        dim=index,
+        data_vars="all",
+        coords="minimal",
+        compat="override",
+        join="override",
+        combine_attrs="override",
+    )
+    return whole.assign_coords({str(index.dims[0]): index})
+
+
+def smooth(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the rows outside the time :data:`SETTLING` after the start and after each reversal."""
+    half = 0.5 * float(dataset.attrs["cycle_period"])
+    return dataset.sel(time=np.mod(dataset["time"].values, half) > SETTLING)
+
+
+def forward(dataset: xr.Dataset) -> NDArray[np.bool_]:
+    """Return whether the vane angle grows in the ideal motion, shape (n_t,)."""
+    return np.asarray(dataset["omega_v_ideal"].values > 0.0)

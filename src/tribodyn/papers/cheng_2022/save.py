@@ -1,0 +1,37 @@
+"""Reproduced figures and claims on disk."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import xarray as xr
+
+from tribodyn.figures.save import save_png
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
+from tribodyn.results import netcdf_content
+from tribodyn.results.atomic import write_bytes, write_text
+
+
+def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
+    """Write ``fig12.png`` and its data, ``fig12.nc``.
+
+    Parameters
+    ----------
+    figure
+        What to draw.
+    data
+        From ``figure.data``.
+    folder
+        Where to; must exist.
+    """
+    write_bytes(folder / f"{figure.name}.nc", netcdf_content(data))
+    save_png(figure.draw(data), folder / f"{figure.name}.png")
+
+
+def save_claims(rows: list[Row], folder: Path) -> None:
+    """Write ``claims.md`` and ``claims.json``."""
+    write_text(folder / "claims.md", as_markdown(rows))
+    text = json.dumps(as_json(rows), indent=2, ensure_ascii=False, allow_nan=False)
+    write_text(folder / "claims.json", text + "\n")

@@ -1,0 +1,140 @@
+"""Figures 12, 13 and 14: forces, path and velocities of the trunnion at 20 µm."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.style import (
+    BLUE,
+    DASHDOT,
+    DASHED,
+    GREY,
+    INK,
+    SMALL,
+    SOLID,
+    VERMILION,
+    Curves,
+    LineStyle,
+    caption,
+    finish,
+    lines,
+    sheet,
+)
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.layout import enlarge, keep, limits
+from tribodyn.papers.cheng_2022.runs import SETTLING, Runs
+from tribodyn.views.series import series
+
+CLEARANCE: Final = 20e-6
+INSET: Final = (0.62, 0.62, 0.37, 0.36)
+"""Where the reversal is drawn enlarged."""
+CENTRES: Final[tuple[tuple[str, float, str, LineStyle], ...]] = (
+    ("top centre", 0.5, BLUE, SOLID),
+    ("middle centre", 0.0, INK, DASHED),
+    ("bottom centre", -0.5, VERMILION, DASHDOT),
+)
+"""The three centres: name, height over the length of the bushing, look."""
+
+
+def force_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return contact, rigid and damping forces [N] over two cycles."""
+    names = [f"F_{part}{axis}" for axis in "xy" for part in "ckd"]
+    return keep(runs.vsv(formulation, CLEARANCE), *names)
+
+
+def attitude_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return displacement [m], tilt [rad] and their rates over two cycles."""
+    names = ("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot")
+    return keep(runs.vsv(formulation, CLEARANCE), *names)
+
+
+def draw_forces(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 12: X above, Y below, the first reversal enlarged."""
+    figure = sheet(dataset, "Fig. 12  Contact, rigid and damping forces on the trunnion", 5.8)
+    time = series(dataset, "time")
+    turn = 0.5 * float(dataset.attrs["cycle_period"])
+    quiet = np.mod(time, turn) > SETTLING
+    for axes, axis, letter in zip(figure.subplots(2, 1, sharex=True), "xy", "ab", strict=True):
+        curves: Curves = [
+            (series(dataset, f"F_c{axis}"), "contact", "#b4b4b4", SOLID),
+            (series(dataset, f"F_k{axis}"), "rigid", BLUE, SOLID),
+            (series(dataset, f"F_d{axis}"), "damping", VERMILION, DASHED),
+        ]
+        lines(axes, time, curves[:1], width=3.0)
+        lines(axes, time, curves[1:], width=1.0)
+        limits(axes, curves, quiet, above=1.3)
+        enlarge(axes, time, curves, (turn - 0.003, turn + 0.03), INSET)
+        caption(axes, f"({letter}) {axis.upper()} direction; impacts beyond the frame are in the inset")
+        finish(axes, y_label=f"force along {axis.upper()} [N]")
+    axes.set_xlabel("time [s]")
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    return figure
+
+
+def centre(dataset: xr.Dataset, height: float) -> tuple[FloatArray, FloatArray]:
+    """Return the displacement [µm] of the trunnion axis at a height over the bushing's length."""
+    z = height * float(dataset.attrs["joint_length"])
+    x = series(dataset, "e_x") - z * np.tan(series(dataset, "phi_y"))
+    y = series(dataset, "e_y") - z * np.tan(series(dataset, "phi_x"))
+    return x * 1e6, y * 1e6
+
+
+def centre_velocity(dataset: xr.Dataset, height: float) -> tuple[FloatArray, FloatArray]:
+    """Return the velocity [mm/s] of the trunnion axis at a height over the bushing's length."""
+    z = height * float(dataset.attrs["joint_length"])
+    sec2_x = 1.0 / np.cos(series(dataset, "phi_x")) ** 2
+    sec2_y = 1.0 / np.cos(series(dataset, "phi_y")) ** 2
+    x = series(dataset, "e_x_dot") - z * sec2_y * series(dataset, "phi_y_dot")
+    y = series(dataset, "e_y_dot") - z * sec2_x * series(dataset, "phi_x_dot")
+    return x * 1e3, y * 1e3
+
+
+def draw_path(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 13: the paths of the three centres in the clearance circle."""
+    figure = sheet(dataset, "Fig. 13  Trajectory of the trunnion", 4.6, width=5.2)
+    axes = figure.subplots()
+    clearance = float(dataset.attrs["clearance"]) * 1e6
+    axes.add_patch(
+        Circle((0.0, 0.0), clearance, fill=False, edgecolor=GREY, linewidth=1.0, label="clearance")
+    )
+    for name, height, colour, dash in CENTRES:
+        x, y = centre(dataset, height)
+        axes.plot(x, y, color=colour, linestyle=dash, linewidth=1.0, label=name)
+    axes.set_aspect("equal")
+    finish(axes, "X [µm]", "Y [µm]")
+    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=SMALL)
+    return figure
+
+
+def draw_velocities(dataset: xr.Dataset) -> Figure:
+    """Draw Figure 14: velocities of the three centres, the first reversal enlarged."""
+    figure = sheet(dataset, "Fig. 14  Velocity of the three centres of the trunnion", 5.4)
+    time = series(dataset, "time")
+    turn = 0.5 * float(dataset.attrs["cycle_period"])
+    for index, (axes, letter) in enumerate(zip(figure.subplots(2, 1, sharex=True), "ab", strict=True)):
+        curves: Curves = [
+            (centre_velocity(dataset, height)[index], name, colour, dash)
+            for name, height, colour, dash in CENTRES
+        ]
+        lines(axes, time, curves, width=1.0)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + 0.9 * (high - low))
+        enlarge(axes, time, curves, (turn - 0.002, turn + 0.03), INSET)
+        caption(axes, f"({letter}) {'XY'[index]} direction")
+        finish(axes, y_label="velocity [mm/s]")
+    axes.set_xlabel("time [s]")
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    return figure
+
+
+FORCES: Final = PaperFigure(12, "contact, rigid and damping forces", force_data, draw_forces)
+PATH: Final = PaperFigure(13, "trajectory of the trunnion", attitude_data, draw_path)
+VELOCITIES: Final = PaperFigure(14, "velocity of the three centres", attitude_data, draw_velocities)

@@ -1,0 +1,80 @@
+"""Figure 19: wear depth after 100 to 400 cycles with five clearances."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.style import SMALL, TEXT, Curves, caption, finish, lines, sheet
+from tribodyn.figures.unrolled import draw_map
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.layout import STYLES
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, over_clearances
+from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
+
+CYCLES: Final = (100, 200, 300, 400)
+DIVISOR: Final = 65.0
+"""The bare number that the paper's depths come out with, see Eq. 47 in the errata."""
+_PICOMETRE: Final = 1e-12
+
+
+def worn(
+    runs: Runs, formulation: str, clearance: float, cycles: int, friction: float | None = None
+) -> xr.Dataset:
+    """Return a wear campaign in the paper's convention."""
+    changes: dict[str, object] = {"wear.cycles": cycles, "wear.paper_hardness_divisor": DIVISOR}
+    if friction is not None:
+        changes["joint.friction_coefficient"] = friction
+    return runs.vsv(formulation, clearance, changes)
+
+
+def data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return wear depth [m] by clearance, cycles, angle and height."""
+    rows = []
+    for clearance in CLEARANCES:
+        depths = [worn(runs, formulation, clearance, cycles)[["wear_depth"]] for cycles in CYCLES]
+        index = xr.Variable("cycles", np.array(CYCLES), {"long_name": "drive cycles", "units": "1"})
+        rows.append(xr.concat(depths, dim=index, combine_attrs="override"))
+    return over_clearances(rows)
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw a row a clearance: the worn bushing laid flat, and its deeper edge as it wears."""
+    figure = sheet(dataset, "Fig. 19  Wear depth of the bushing with different clearances", 9.6)
+    panels = figure.subplots(dataset.sizes["clearance"], 2, sharex=True, width_ratios=(1.3, 1.0))
+    depth = dataset["wear_depth"].values / _PICOMETRE
+    cut = best_cut(dataset["theta"].values, depth[:, -1].max(axis=(0, 2)))
+    empty = unloaded_middle(dataset, depth[:, -1].max(axis=0))
+    for i, (plan, profile) in enumerate(panels):
+        mesh = draw_map(plan, dataset, depth[i, -1], cut, float(depth.max()), empty)
+        plan.set_ylabel(z_label(empty), size=TEXT)
+        caption(plan, f"({'abcde'[i]}) clearance {dataset['clearance'].values[i] * 1e6:g} µm, 400 cycles")
+        _profiles(profile, dataset, depth[i], cut)
+        profile.set_ylim(0.0, 1.05 * float(depth.max()))
+    for axes in panels[-1]:
+        axes.set_xlabel("bushing angle θ [°]", size=TEXT)
+    bar = figure.colorbar(mesh, ax=panels[:, 0], shrink=0.5, aspect=40, pad=0.02, location="bottom")
+    bar.set_label("wear depth [pm]", size=TEXT)
+    bar.ax.tick_params(labelsize=SMALL)
+    return figure
+
+
+def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) -> None:
+    """Draw the depth along the deeper edge after 100 to 400 cycles."""
+    edge = -1 if depth[-1, :, -1].max() >= depth[-1, :, 0].max() else 0
+    curves: Curves = []
+    for k, cycles in enumerate(CYCLES):
+        angle, values = rolled(dataset["theta"].values, depth[k], cut)
+        curves.append((values[:, edge], f"{cycles} cycles", *STYLES[k]))
+    lines(axes, angle, curves, width=1.0)
+    axes.legend(frameon=False, fontsize=SMALL - 1)
+    caption(axes, f"{'top' if edge else 'bottom'} edge")
+    finish(axes, y_label="depth [pm]")
+
+
+WEAR: Final = PaperFigure(19, "wear depth with different clearances", data, draw)

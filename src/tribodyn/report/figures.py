@@ -1,0 +1,46 @@
+"""The figures of a result as files: which there are, and drawing them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from tribodyn.figures import sweep
+from tribodyn.figures.base import Family
+from tribodyn.figures.save import remove, save
+from tribodyn.mechanisms.summary import mechanism_of
+
+
+def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
+    """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
+    if dataset.attrs.get("kind") == "sweep":
+        return sweep.families(dataset)
+    return {family.name: family for family in mechanism_of(dataset).figures()}
+
+
+def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
+    """Draw every figure that the result holds the data for, as PNG and as PDF.
+
+    Parameters
+    ----------
+    dataset
+        A result, whole or partial.
+    directory
+        Folder to write to; made if missing. A figure left by an earlier result that this one cannot
+        show is removed.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The PNG files written, in reading order; the PDF of each stands beside it.
+    """
+    folder = Path(directory)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for family in figures_of(dataset).values():
+        if family.drawable(dataset):
+            written.append(save(family.draw(dataset), folder, family.name))
+        else:
+            remove(folder, family.name)
+    return written

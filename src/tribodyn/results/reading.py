@@ -1,0 +1,58 @@
+"""Numbers read off a result: what headline numbers are made of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.results.dataset import json_attribute
+
+
+def column(dataset: xr.Dataset, name: str) -> FloatArray:
+    """Return a variable as an array."""
+    return np.asarray(dataset[name].values, dtype=np.float64)
+
+
+def norm(dataset: xr.Dataset, *names: str) -> FloatArray:
+    """Return the length of a vector given by its components, over time."""
+    return np.sqrt(sum(column(dataset, name) ** 2 for name in names))
+
+
+def peak(values: FloatArray) -> float:
+    """Return the largest finite size, NaN when there is none."""
+    finite = np.abs(values[np.isfinite(values)])
+    return float(finite.max()) if finite.size else math.nan
+
+
+def reached(dataset: xr.Dataset, attribute: str, values: FloatArray) -> float:
+    """Return the peak of a quantity; where it fell between output times, an attribute holds it."""
+    return peak(np.append(values, float(dataset.attrs.get(attribute, math.nan))))
+
+
+def time_mean(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the mean over time (trapezoidal: output times need not be uniform), of the finite part."""
+    good = np.isfinite(values)
+    time, values = column(dataset, "time")[good], values[good]
+    span = float(time[-1] - time[0]) if time.size else 0.0
+    area = 0.5 * float(np.sum((values[1:] + values[:-1]) * np.diff(time)))
+    return area / span if span > 0.0 else math.nan
+
+
+def rms(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the root mean square over time."""
+    return math.sqrt(time_mean(dataset, values**2))
+
+
+def cycles(dataset: xr.Dataset) -> float:
+    """Return how many cycles of the drive the run holds."""
+    time = column(dataset, "time")
+    return float(time[-1] - time[0]) / float(dataset.attrs["cycle_period"]) if time.size else math.nan
+
+
+def statistic(name: str) -> Callable[[xr.Dataset], float]:
+    """Return a reader of one entry of the solver statistics."""
+    return lambda dataset: float(json_attribute(dataset, "solver", {})[name])

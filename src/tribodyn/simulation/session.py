@@ -1,0 +1,75 @@
+"""One run of one case: its system integrated, and what came of it as a dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import xarray as xr
+
+from tribodyn.integrate import integrate
+from tribodyn.mechanisms.base import Mechanism, Part, Run, System, SystemCase, Worn
+from tribodyn.results import build
+from tribodyn.simulation.provenance import provenance
+
+Progress = Callable[[float], None] | None
+"""Called with the simulated time [s] after every accepted step."""
+Stop = Callable[[], bool] | None
+"""Asked while a run goes on; when true the run ends there."""
+
+
+@dataclass(frozen=True)
+class Session:
+    """A case, its mechanism and its system, with what watches over the run.
+
+    Attributes
+    ----------
+    case, mechanism, system
+        What is simulated.
+    progress, stop
+        As for :func:`tribodyn.simulation.simulate`.
+    """
+
+    case: SystemCase
+    mechanism: Mechanism
+    system: System
+    progress: Progress = None
+    stop: Stop = None
+
+    def integrated(self, duration: float, worn: Worn | None = None, progress: Progress = None) -> Run:
+        """Integrate the system over ``duration`` [s] from its start, or from where another run ended."""
+        system, solver = self.system, self.case.solver
+        problem = system.problem(duration, worn)
+        solution = integrate(
+            problem,
+            solver=solver.name,
+            rtol=solver.rtol,
+            output_times=system.output_times(duration),
+            picture_times=system.picture_times(duration),
+            progress=progress or self.progress,
+            stop=self.stop,
+        )
+        return Run(problem, solution, vars(solution.statistics))
+
+    def dataset(self, run: Run, more: Part) -> xr.Dataset:
+        """Return the result of a run, with what was added to it."""
+        part = self.system.gather(run)
+        solver = self.case.solver
+        return build(
+            variables=self.mechanism.variables,
+            coordinates={"time": run.solution.t, **part.coordinates, **more.coordinates},
+            columns={**part.columns, **more.columns},
+            fields={**part.fields, **more.fields},
+            attributes={
+                "title": self.case.title,
+                "kind": self.mechanism.kind,
+                "case": self.case.to_toml(),
+                **provenance(),
+                "solver": {"name": solver.name, "rtol": solver.rtol, **run.cost},
+                **part.attributes,
+                **more.attributes,
+                "time_reached": float(run.solution.t_end),
+                "failure": part.failure,
+                "warnings": [*part.warnings, *more.warnings],
+            },
+        )

@@ -1,0 +1,138 @@
+"""Wear: the linear estimate of a plain run, and campaigns over many cycles of a system that wears."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases import groups
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.base import Carried, Part, Run, WearingCase, WearingSystem, Worn
+from tribodyn.simulation import checkpoint as checkpoints
+from tribodyn.simulation.campaign import Campaign, Cycle, Plan, run_campaign
+from tribodyn.simulation.session import Session
+from tribodyn.wear import Archard, JumpControl, worn_volume
+
+
+def simulate_plain(session: Session) -> xr.Dataset:
+    """Run a case of a system that wears once; its wear is what one run makes, without feedback."""
+    system, wear = cast(WearingSystem, session.system), cast(WearingCase, session.case).wear
+    run = session.integrated(session.case.duration)
+    depth = _archard(wear).depth(system.sliding_load(run.problem))
+    life = _linear_life(wear, run.solution.t_end / system.period, depth)
+    return session.dataset(run, _worn(system, depth, life))
+
+
+def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
+    """Run the wear campaign of a case, see :func:`tribodyn.simulation.simulate`."""
+    text, cycles = session.case.to_toml(), _Cycles(session)
+    columns = tuple(session.mechanism.of_cycle)
+    found = (
+        None if checkpoint is None else checkpoints.read(checkpoint, text, cycles.plan.field_shape, columns)
+    )
+    resumed, told = (None, []) if found is None else found
+
+    def keep(campaign: Campaign) -> None:
+        if checkpoint is not None:
+            checkpoints.write(checkpoint, campaign, text)
+
+    campaign, _ = run_campaign(cycles, cycles.plan, resumed, keep)
+    attributes: dict[str, object] = {"wear_cycles_reached": campaign.cycles}
+    if math.isfinite(campaign.life):
+        attributes["wear_life_cycles"] = campaign.life
+    part = _worn(cycles.system, campaign.depth, attributes)
+    more = replace(
+        part,
+        coordinates={
+            "jump": np.arange(campaign.history["wear_cycles"].size, dtype=np.float64),
+            "stage_cycles": campaign.stage_cycles,
+        },
+        fields={**part.fields, **campaign.history, "stage_depth": campaign.stage_depth.transpose(0, 2, 1)},
+        warnings=[*told, *_limit_not_reached(cycles.case.wear, campaign)],
+    )
+    return session.dataset(replace(cycles.last, cost=campaign.statistics), more)
+
+
+def _archard(wear: groups.Wear) -> Archard:
+    """Return the wear law of a case."""
+    return Archard(wear.specific_wear_rate, wear.paper_hardness_divisor)
+
+
+def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> Part:
+    """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
+    volume = worn_volume(depth, system.bushing.node_area)
+    return Part(fields={"wear_depth": depth.T}, attributes={"worn_volume": volume, **attributes})
+
+
+def _linear_life(wear: groups.Wear, cycles: float, depth: FloatArray) -> dict[str, object]:
+    """Return after how many cycles the depth limit is reached if the wear of this run goes on."""
+    limit, deepest = wear.depth_limit, float(depth.max(initial=0.0))
+    if limit is None or cycles < 1.0 - 1e-9 or deepest == 0.0:
+        return {}
+    return {"wear_life_cycles": limit * cycles / deepest}
+
+
+class _Cycles:
+    """The cycles of a system as a campaign asks for them; keeps what the last one left."""
+
+    last: Run
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.case = cast(WearingCase, session.case)
+        self.system = cast(WearingSystem, session.system)
+
+    @property
+    def plan(self) -> Plan:
+        """What the case asks for."""
+        wear, bushing = self.case.wear, self.system.bushing
+        return Plan(
+            cycles=wear.cycles,
+            settling=self.case.settling_cycles,
+            feedback=wear.feedback,
+            depth_limit=math.inf if wear.depth_limit is None else wear.depth_limit,
+            law=_archard(wear),
+            control=JumpControl(wear.jump_limit, wear.jump_depth, bushing.roughness),
+            node_area=bushing.node_area,
+            field_shape=bushing.field_shape,
+            of_cycle=tuple(self.session.mechanism.of_cycle),
+        )
+
+    def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
+        """Simulate one cycle, see :class:`tribodyn.simulation.campaign.Cycles`."""
+        session, system, cycles = self.session, self.system, self.case.wear.cycles
+
+        def within(t: float) -> None:
+            if session.progress is not None:
+                session.progress(min(done + t / system.period, float(cycles)))
+
+        self.last = run = session.integrated(system.period, Worn(wear, carried), within)
+        return Cycle(
+            carried=system.carried(run),
+            sliding_load=system.sliding_load(run.problem),
+            motion=system.of_cycle(run) if run.solution.complete else {},
+            statistics=run.solution.statistics,
+            failure=run.solution.failure,
+        )
+
+    def contact_energy(self, wear: FloatArray, carried: Carried) -> float:
+        """Return the energy stored in the contact [J]."""
+        return float(self.system.contact_energy(Worn(wear, carried)))
+
+
+def _limit_not_reached(wear: groups.Wear, campaign: Campaign) -> list[str]:
+    """Say how long the bushing would last if the last rate went on."""
+    limit, rates = wear.depth_limit, campaign.history["wear_rate"]
+    if limit is None or math.isfinite(campaign.life) or rates.size == 0 or rates[-1] == 0.0:
+        return []
+    left = (limit - float(campaign.depth.max())) / float(rates[-1])
+    return [
+        f"The bushing was not worn out: at its last rate it would take {left:.2g} more cycles to "
+        "wear.depth_limit."
+    ]

@@ -1,0 +1,78 @@
+"""The bushing laid flat, as the script ``field`` draws it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.encode import packed
+from tribodyn.views.unrolled import height_marks, rolled, shortened
+
+
+@dataclass(frozen=True)
+class Unrolled:
+    """Where the nodes of the bushing lie when it is cut open.
+
+    Attributes
+    ----------
+    theta
+        Angles of the nodes as stored [rad], shape (n_theta,).
+    z
+        Heights of the nodes [mm], shape (n_z,), increasing from edge to edge.
+    cut
+        Where it is cut [°].
+    empty
+        Height [mm] below which nothing happens and the drawing is shortened; 0 where it is not.
+    """
+
+    theta: FloatArray
+    z: FloatArray
+    cut: float
+    empty: float
+
+    def reordered(self, fields: FloatArray) -> FloatArray:
+        """Return fields of shape (n, n_theta, n_z) as rows for the drawing, (n, n_z, n_theta + 1)."""
+        turned = np.moveaxis(fields, 1, 0)
+        return np.moveaxis(rolled(self.theta, turned, self.cut)[1], 0, 2)
+
+    def axes(self) -> dict[str, Any]:
+        """Return coordinates and tick marks."""
+        angle = rolled(self.theta, np.zeros((self.theta.size, 1)), self.cut)[0]
+        half = float(self.z[-1])
+        marks = height_marks(half, self.empty)
+        turns = 45.0 * np.ceil(angle[0] / 45.0 - 1e-9) + 45.0 * np.arange(9)
+        return {
+            "angle": packed(angle),
+            "height": packed(self._drawn(self.z)),
+            "z": packed(self.z),
+            "angle_ticks": [float(turn) for turn in turns],
+            "angle_texts": [f"{turn % 360:.0f}" for turn in turns],
+            "height_ticks": [float(mark) for mark in self._drawn(marks)],
+            "height_texts": [f"{mark:.3g}".replace("-", "−") for mark in marks],
+            "empty": [float(edge) for edge in self._drawn(np.array([-self.empty, self.empty]))]
+            if self.empty
+            else [],
+        }
+
+    def _drawn(self, z: FloatArray) -> FloatArray:
+        """Return where heights [mm] are drawn."""
+        return shortened(z, self.empty, float(self.z[-1]))
+
+
+def unrolled(dataset: xr.Dataset, cut: float, empty: float) -> Unrolled:
+    """Return where the nodes of a result lie.
+
+    Parameters
+    ----------
+    dataset
+        A result with ``theta`` [rad] and ``z`` [m].
+    cut
+        Where the bushing is cut open [°].
+    empty
+        From :func:`tribodyn.figures.unrolled.unloaded_middle` [mm].
+    """
+    return Unrolled(dataset["theta"].values, dataset["z"].values * 1e3, cut, empty)

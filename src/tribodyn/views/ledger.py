@@ -1,0 +1,79 @@
+"""Energy ledgers: which columns of a result balance, and what is left over.
+
+Energies gained and heats, minus works put in, are zero if nothing is missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """One energy ledger of a mechanism.
+
+    Attributes
+    ----------
+    title
+        What is balanced.
+    put_in
+        Columns of work put in, with what figures call them.
+    gained
+        Columns of energy gained, stored or turned into heat, likewise.
+    residual
+        Name of the column of what is left over.
+    measure
+        Columns against whose largest size the residual is measured.
+    attribute
+        Attribute of a result that holds the largest residual as a fraction of that.
+    yardstick
+        That size in words.
+    """
+
+    title: str
+    put_in: Mapping[str, str]
+    gained: Mapping[str, str]
+    residual: str
+    measure: tuple[str, ...]
+    attribute: str
+    yardstick: str
+
+    @property
+    def terms(self) -> dict[str, str]:
+        """All columns but the residual, with what figures call them."""
+        return {**self.put_in, **self.gained}
+
+    def balance(self, columns: Mapping[str, FloatArray]) -> FloatArray:
+        """Return what is left over [J], shape (n_t,); a column that is not there is zero."""
+        left = sum(_since_start(columns[name]) for name in self.gained if name in columns)
+        return np.asarray(left - sum(columns[name] for name in self.put_in if name in columns))
+
+    def fraction(self, columns: Mapping[str, FloatArray], least: float = 0.0) -> float:
+        """Return the largest residual as a fraction of the largest term of ``measure`` [1].
+
+        Where the ledger met a state that cannot be, it is not a number.
+
+        Parameters
+        ----------
+        columns
+            With the residual.
+        least
+            Energy below which no term counts as large [J].
+        """
+        # np.max keeps what is not a number; max would lose it.
+        whole = np.max([least, *(_largest(columns[name]) for name in self.measure)])
+        part = _largest(columns[self.residual])
+        return 0.0 if whole == 0.0 else float(part / whole)
+
+
+def _since_start(values: FloatArray) -> FloatArray:
+    return values - values[0] if values.size else values
+
+
+def _largest(values: FloatArray) -> float:
+    return float(np.abs(values).max(initial=0.0))

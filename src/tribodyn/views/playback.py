@@ -1,0 +1,64 @@
+"""The moments that the time slider stops at."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.encode import packed
+from tribodyn.views.events import direction
+from tribodyn.views.series import series
+
+_EVEN: Final = 241
+"""Moments where a result holds no pressure frames of its own."""
+_SHORT: Final = 0.5
+"""Runs shorter than this [s] are told in milliseconds."""
+
+
+def time_unit(dataset: xr.Dataset) -> tuple[str, float]:
+    """Return the unit in which the times of a run read well, and the factor to it from seconds."""
+    return ("s", 1.0) if np.ptp(series(dataset, "time")) >= _SHORT else ("ms", 1e3)
+
+
+def playback_times(dataset: xr.Dataset) -> FloatArray:
+    """Return the times of the frames [s], increasing; where there are none, even times in the last cycle."""
+    if "frame_time" in dataset and dataset["frame_time"].size > 1:
+        return np.asarray(dataset["frame_time"].values, dtype=np.float64)
+    time = series(dataset, "time")
+    if time.size < 2:
+        return np.empty(0)
+    period = float(dataset.attrs.get("cycle_period", np.inf))
+    return np.linspace(max(time[0], time[-1] - period), time[-1], _EVEN)
+
+
+def in_playback(dataset: xr.Dataset) -> NDArray[np.bool_]:
+    """Tell of each time of the result whether it lies in the playback, shape (n_t,)."""
+    times, time = playback_times(dataset), series(dataset, "time")
+    return np.asarray((time >= times[0]) & (time <= times[-1]))
+
+
+def at_frames(dataset: xr.Dataset, name: str, scale: float = 1.0) -> FloatArray:
+    """Return a variable at the frames, shape (n_frames,)."""
+    return np.interp(playback_times(dataset), series(dataset, "time"), series(dataset, name, scale))
+
+
+def clock(dataset: xr.Dataset) -> dict[str, Any] | None:
+    """Return what the time slider shows; nothing where there is no playback."""
+    times = playback_times(dataset)
+    if times.size < 2:
+        return None
+    unit, scale = time_unit(dataset)
+    shown: dict[str, Any] = {"time": packed(times, "float64"), "unit": unit, "scale": scale, "notes": []}
+    if "theta_v" in dataset and "omega_v_ideal" in dataset:
+        # A little later: at a reversal the direction is the one about to begin.
+        sense = np.interp(times + 1e-3, series(dataset, "time"), direction(dataset))
+        angles = at_frames(dataset, "theta_v", 180.0 / np.pi)
+        shown["notes"] = [
+            f"vane {angle:.1f}°, {'forward' if way >= 0.0 else 'reverse'}"
+            for angle, way in zip(angles, sense, strict=True)
+        ]
+    return shown

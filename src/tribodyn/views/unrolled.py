@@ -1,0 +1,116 @@
+"""The bushing laid flat: where to cut it open, and what of its height to show."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+
+CUTS: Final = (90.0, 270.0, 180.0, 0.0)
+"""Angles at which the bushing may be cut open [deg], the preferred one first."""
+
+_MOST_STEPS: Final = 3
+"""Labelled stretches between the middle and an edge."""
+
+
+def best_cut(theta: FloatArray, load: FloatArray) -> float:
+    """Return the angle [deg] of :data:`CUTS` with the least load within 30° of it.
+
+    Parameters
+    ----------
+    theta
+        Angles [rad], shape (n_theta,).
+    load
+        What should not be cut, at each angle, shape (n_theta,).
+    """
+    size = np.nan_to_num(np.abs(load))
+    near = [np.abs((np.rad2deg(theta) - cut + 180.0) % 360.0 - 180.0) <= 30.0 for cut in CUTS]
+    loads = [float(size[window].max(initial=0.0)) for window in near]
+    # What is below a hundredth of the peak may be cut: the preferred cut then wins.
+    tidy = [0.0 if value <= 0.01 * size.max(initial=0.0) else value for value in loads]
+    return CUTS[int(np.argmin(tidy))]
+
+
+def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray, FloatArray]:
+    """Return angles [deg] growing from ``cut`` once around, and the field in that order.
+
+    Parameters
+    ----------
+    theta
+        Angles [rad], shape (n_theta,).
+    field
+        Values, shape (n_theta, ...).
+    cut
+        Where the bushing is cut open [deg].
+
+    Returns
+    -------
+    tuple of arrays
+        Shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes again at the end.
+    """
+    around = (np.rad2deg(theta) - cut) % 360.0
+    order = np.argsort(around)
+    angle = cut - 360.0 * (cut > 180.0) + around[order]
+    return np.append(angle, angle[0] + 360.0), np.concatenate([field[order], field[order[:1]]])
+
+
+def unloaded_middle(dataset: xr.Dataset, field: FloatArray) -> float:
+    """Return the height [mm] below which nothing happens: a long empty middle is shown shortened.
+
+    Parameters
+    ----------
+    dataset
+        A result with ``z`` [m].
+    field
+        What is to be shown, shape (n_theta, n_z).
+
+    Returns
+    -------
+    float
+        Nothing above a hundredth of the peak lies at smaller distances from the middle; 0 where the empty
+        part is less than half of the bushing.
+    """
+    distance = np.abs(dataset["z"].values) * 1e3
+    loaded = distance[field.max(axis=0) > 0.01 * field.max(initial=0.0)]
+    below = distance[distance < loaded.min()] if loaded.size else distance[:0]
+    height = np.floor(2.0 * below.max()) / 2.0 if below.size else 0.0
+    return float(height) if height >= 0.5 * distance.max() else 0.0
+
+
+def z_label(empty: float) -> str:
+    """Return the label of the axial axis."""
+    return "z [mm]" if not empty else "z [mm]\n(middle shortened)"
+
+
+def shortened(z: FloatArray, empty: float, half: float) -> FloatArray:
+    """Return where heights are drawn when the middle ``|z| < empty`` gets an eighth of the room.
+
+    Parameters
+    ----------
+    z
+        Heights, any shape.
+    empty, half
+        Where the middle ends and where the bushing ends, in the unit of ``z``; an ``empty`` of 0 leaves the
+        heights as they are.
+    """
+    bend = (half - empty) / 7.0 if empty else 0.0
+    near = z * (bend / empty) if empty else z
+    return np.where(np.abs(z) < empty, near, np.sign(z) * (bend + np.abs(z) - empty))
+
+
+def height_marks(half: float, empty: float) -> FloatArray:
+    """Return round heights to label outside the middle, and both edges, increasing, in the unit given."""
+    steps = _round_steps(empty, half)
+    marks = np.union1d(steps[(steps >= empty) & (steps < half)], [half])
+    return np.asarray(np.union1d(-marks, marks) + 0.0)  # makes a minus zero a plain one
+
+
+def _round_steps(low: float, high: float) -> FloatArray:
+    """Return multiples of 1, 2 or 5 times a power of ten, at most three stretches between the ends."""
+    exact = (high - low) / _MOST_STEPS
+    power = 10.0 ** np.floor(np.log10(exact))
+    step = power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= exact * (1.0 - 1e-9))
+    return np.asarray(step * np.arange(np.floor(low / step), np.ceil(high / step) + 1.0))
