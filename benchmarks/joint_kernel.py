@@ -17,7 +17,7 @@ from benchmarks.repeated import many_jacobians, many_wrenches
 from tribodyn.joints import BushingJoint, Grid
 from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.vsv.system import mechanism
+from tribodyn.mechanisms.vsv.system import vsv_of
 
 STATE = np.array([-3.9e-6, 6.57e-6, 6.46e-4, 1.31e-3, 3.6e-6, -2.4e-6, -2.8e-4, 3.8e-4])
 """Attitude and rates while the vane turns under load, a tilted trunnion [m, rad, m/s, rad/s]."""
@@ -60,7 +60,7 @@ def measure(joint: BushingJoint) -> dict[str, float]:
 
 def run(quick: bool = False) -> dict[str, Any]:
     """Measure on all grids and print; ``quick``: on the coarsest alone."""
-    joint = mechanism(load_case("vsv")).joint
+    joint = vsv_of(load_case("vsv")).joint
     results = {}
     print("grid       in contact   wrench [ns/node]   with Jacobian   numpy/wrench")
     for theta, z in GRIDS[: 1 if quick else None]:

@@ -19,7 +19,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.parameters import Vsv
 from tribodyn.mechanisms.vsv.problem import vsv_problem
-from tribodyn.mechanisms.vsv.system import mechanism
+from tribodyn.mechanisms.vsv.system import vsv_of
 from tribodyn.mechanisms.vsv.times import output_times
 
 FloatArray = NDArray[np.float64]
@@ -42,7 +42,7 @@ def vsv_case(cycles: float, **changes: Any) -> tuple[VsvCase, Vsv]:
     """Return the default case over some cycles, with changed keys, and its mechanism."""
     case = load_case("vsv").replace({"run.cycles": cycles, **changes})
     assert isinstance(case, VsvCase)
-    return case, mechanism(case)
+    return case, vsv_of(case)
 
 
 def problem_of(case: VsvCase, vsv: Vsv, tighter: float = 1.0) -> Problem:

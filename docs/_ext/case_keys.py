@@ -11,7 +11,7 @@ from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
 
 from tribodyn.cases import Case, Key, keys_of
-from tribodyn.mechanisms.catalogue import KINDS
+from tribodyn.mechanisms.catalogue import kinds
 
 
 class CaseKeys(Directive):
@@ -22,7 +22,7 @@ class CaseKeys(Directive):
     def run(self) -> list[nodes.Node]:
         """Return the tables."""
         container = nodes.container()
-        lines = StringList(list(_markdown(KINDS[self.arguments[0]])), source="case-keys")
+        lines = StringList(list(_markdown(kinds()[self.arguments[0]])), source="case-keys")
         self.state.nested_parse(lines, self.content_offset, container)
         return container.children
 

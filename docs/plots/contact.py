@@ -17,7 +17,7 @@ from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, law, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
 from tribodyn.joints import CONTACTS, SURFACE
-from tribodyn.mechanisms.vsv.case import Vsv
+from tribodyn.mechanisms.vsv.case import VsvCase
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c564b")
 STYLES = ("-", "--", "-.", ":")
@@ -31,7 +31,7 @@ def style(k: int) -> dict[str, object]:
     return {"color": COLOURS[k % len(COLOURS)], "linestyle": STYLES[k % len(STYLES)]}
 
 
-def draw_laws(case: Vsv, target: Path) -> None:
+def draw_laws(case: VsvCase, target: Path) -> None:
     """Pressure, real contact area and number of contacts over the separation."""
     h_star = np.linspace(-1.0, 4.0, 251)
     figure, panels = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
@@ -60,7 +60,7 @@ def draw_laws(case: Vsv, target: Path) -> None:
     figure.savefig(target / "contact_laws.png", dpi=130)
 
 
-def draw_restitution(case: Vsv, target: Path) -> None:
+def draw_restitution(case: VsvCase, target: Path) -> None:
     """Restitution realised over the one wanted: a point, and a plate on the surfaces of the case."""
     wanted = np.linspace(0.05, 1.0, 96)
     sparse = np.array([0.1, 0.3, 0.5, 0.7, 0.9])
@@ -82,7 +82,7 @@ def draw_restitution(case: Vsv, target: Path) -> None:
     figure.savefig(target / "contact_restitution.png", dpi=130)
 
 
-def plate(case: Vsv, name: str, factor: str, restitution: float) -> float:
+def plate(case: VsvCase, name: str, factor: str, restitution: float) -> float:
     """Return the restitution of the bounce test."""
     chosen = law(name, case, damping_factor=factor, restitution=restitution)
     return bounce(tabulate(chosen)).restitution
@@ -151,7 +151,7 @@ def main() -> None:
     target.mkdir(parents=True, exist_ok=True)
     plt.switch_backend("agg")
     case = td.load_case("vsv")
-    assert isinstance(case, Vsv)
+    assert isinstance(case, VsvCase)
     draw_laws(case, target)
     draw_restitution(case, target)
     damped = {"contact.damping_factor": "calibrated", "contact.restitution": RESTITUTION}

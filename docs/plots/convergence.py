@@ -17,7 +17,7 @@ import tribodyn as td
 from tribodyn.joints import Grid
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.system import mechanism
+from tribodyn.mechanisms.vsv.system import vsv_of
 
 REVERSAL = np.pi
 DURATION = "4 s"
@@ -84,7 +84,7 @@ def draw_tolerance(target: Path) -> None:
 
 def grid_errors(case: VsvCase, result: xr.Dataset) -> list[float]:
     """Return the largest force error of each grid [%] over attitudes of a run, against the finest grid."""
-    joint = mechanism(case).joint
+    joint = vsv_of(case).joint
     rows = np.unique(np.linspace(0, result.sizes["time"] - 1, 60).astype(int))
     names = ("e_x", "e_y", "phi_x", "phi_y")
     attitudes = [np.append([float(result[name][i]) for name in names], np.zeros(4)) for i in rows]

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tribodyn as td
-from tribodyn.figures import JOURNAL_FIGURES
+from tribodyn.mechanisms.journal.figures import FIGURES as JOURNAL_FIGURES
 from tribodyn.mechanisms.journal.parameters import Journal
 from tribodyn.mechanisms.journal.problem import journal_problem
 from tribodyn.mechanisms.journal.stribeck import stribeck

@@ -17,8 +17,8 @@ import xarray as xr
 from playwright.sync_api import Browser, ConsoleMessage, Page, Request, sync_playwright
 
 import tribodyn as td
-from tribodyn.figures import FIGURES
 from tribodyn.figures.save import save
+from tribodyn.mechanisms.vsv.figures import FIGURES
 from tribodyn.report import write
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")

@@ -17,7 +17,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import Run, write, write_comparison
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge
-from tribodyn.views.playback import film_times
+from tribodyn.views.playback import playback_times
 
 Opened = Callable[..., Any]
 HOSTILE = '<img src=x onerror="alert(1)"><script>alert(2)</script> & </script> </title> {{ 7*7 }} \u2028 “µ”'
@@ -50,7 +50,7 @@ def test_the_slider_moves_scene_circle_and_pressure_together(
     reader = opened(report)
     for name in ("mechanism", "orbit", "pressure"):
         reader.look_at(name)
-    times = film_times(result)
+    times = playback_times(result)
     half = 0.5 * result.attrs["joint_length"]
     for frame in (0, times.size // 3, times.size - 20):
         reader.go_to_frame(frame)
@@ -86,10 +86,10 @@ def _check_scene(reader: Any, result: xr.Dataset, time: float) -> None:
 def test_time_series_show_the_moment_too(opened: Opened, report: Path, result: xr.Dataset) -> None:
     reader = opened(report)
     reader.look_at("contact-force")
-    frame = film_times(result).size // 2
+    frame = playback_times(result).size // 2
     reader.go_to_frame(frame)
     lines = reader.plot("contact-force", "plot.layout.shapes.map(shape => shape.x0)")
-    assert lines[-1] == pytest.approx(film_times(result)[frame])
+    assert lines[-1] == pytest.approx(playback_times(result)[frame])
     assert lines[0] == pytest.approx(np.pi)
 
 
@@ -303,7 +303,7 @@ def test_a_journal_is_followed_law_beside_law(opened: Opened, tmp_path: Path) ->
     reader = opened(write(journal, tmp_path))
     reader.draw_everything()
     assert reader.page.locator("[data-widget]").count() == 4
-    times = film_times(journal)
+    times = playback_times(journal)
     reader.look_at("path")
     reader.go_to_frame(times.size // 2)
     expected = [

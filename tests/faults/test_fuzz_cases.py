@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from tribodyn.cases import keys_of
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import CASES, KINDS, load_case
+from tribodyn.mechanisms.catalogue import built_in, kinds, load_case
 from tribodyn.simulation import simulate
 
 FEW, MANY = 40, 4000
@@ -28,7 +28,7 @@ TIME_LIMIT = 5.0
 MOMENT, PATIENCE, HANGS = 2e-3, 0.5, 30.0
 """Simulated time of a valid case, when it is told to stop, and when it counts as one that hangs [s]."""
 
-KEYS = sorted({path for kind in KINDS.values() for path in keys_of(kind)})
+KEYS = sorted({path for kind in kinds().values() for path in keys_of(kind)})
 UNITS = [
     *("", "um", "mm", "m", "deg", "rad", "rad/s", "deg/s", "N", "N m", "Pa", "GPa", "m^2/N", "kg", "s"),
     *("ms", "1/um^2", "m/s", "Pa s", "K", "m/s^2", "furlong", "m m m", "1/0", "µm", "%", "()", "m**9999"),
@@ -86,7 +86,7 @@ def tried(count, *strategies):
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
     """Simulate each case once, since the first time may take minutes."""
-    for name in CASES:
+    for name in built_in():
         run_for_a_moment(load_case(name), limit=math.inf)
 
 
@@ -175,20 +175,20 @@ def check_file(folder, content):
 @pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])
 class TestFuzz:
     def test_files_with_random_keys_and_values(self, count, tmp_path):
-        @tried(count, st.sampled_from([*KINDS, "vvs"]), entries)
+        @tried(count, st.sampled_from([*kinds(), "vvs"]), entries)
         def run(kind, changes):
             check_file(tmp_path, write(kind, changes).encode())
 
     def test_files_with_real_keys_and_likely_values(self, count, tmp_path):
-        @tried(count, st.data(), st.sampled_from(sorted(KINDS)))
+        @tried(count, st.data(), st.sampled_from(sorted(kinds())))
         def run(data, kind):
-            keys = keys_of(KINDS[kind])
+            keys = keys_of(kinds()[kind])
             chosen = data.draw(st.lists(st.sampled_from(sorted(keys)), min_size=1, max_size=5, unique=True))
             changes = [(path, data.draw(likely(keys[path]))) for path in chosen if path != "case"]
             check_file(tmp_path, write(kind, changes).encode())
 
     def test_damaged_files(self, count, tmp_path):
-        whole = {name: load_case(name).to_toml(comments=True).encode() for name in CASES}
+        whole = {name: load_case(name).to_toml(comments=True).encode() for name in built_in()}
 
         @tried(count, st.sampled_from(sorted(whole)), st.data())
         def run(name, data):
@@ -209,7 +209,7 @@ class TestFuzz:
             st.text(max_size=60),
         )
 
-        @tried(count, st.sampled_from(sorted(CASES)), st.lists(options, min_size=1, max_size=4))
+        @tried(count, st.sampled_from(sorted(built_in())), st.lists(options, min_size=1, max_size=4))
         def run(name, changes):
             hold(*outcome("check", name, *(f"--set={change}" for change in changes)))
 

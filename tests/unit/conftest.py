@@ -12,9 +12,13 @@ import xarray as xr
 import tribodyn.simulation
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
-from tribodyn.results import VARIABLES, build
+from tribodyn.mechanisms import MECHANISMS
+from tribodyn.results import build
+from tribodyn.results.variables import BUSHING
 
 ResultFactory = Callable[..., xr.Dataset]
+
+VSV = MECHANISMS["vsv"]
 
 PERIOD = 2.0 * np.pi
 CLEARANCE = 20e-6
@@ -149,8 +153,10 @@ def make_result() -> ResultFactory:
         t = np.arange(0.0, end, 5e-3)
         coordinates, fields = _fields(t)
         columns = {**_motion(t), **_attitude(t), **_forces(t), **_ledgers(t)}
-        others = [n for n, v in VARIABLES.items() if v.dims == ("time",) and n not in columns and n != "time"]
+        known = {**BUSHING, **VSV.variables}
+        others = [n for n, v in known.items() if v.dims == ("time",) and n not in columns and n != "time"]
         facts: dict[str, object] = {
+            "kind": "vsv",
             "title": "Vane mechanism with a dry, rough trunnion joint",
             "case": 'case = "vsv"\ntitle = "Vane mechanism with a dry, rough trunnion joint"\n',
             "tribodyn_version": "0.0",
@@ -182,6 +188,7 @@ def make_result() -> ResultFactory:
             columns={**columns, **{name: np.zeros_like(t) for name in others}},
             fields=fields,
             attributes={**facts, **attributes},
+            variables=VSV.variables,
         )
 
     return make
@@ -217,6 +224,7 @@ def make_campaign(make_result: ResultFactory) -> ResultFactory:
             coordinates={"jump": jump, "stage_cycles": cycles},
             columns={},
             fields={**history, "stage_depth": np.ones((cycles.size, 1, 1)) * profile},
+            variables=VSV.variables,
         )
         return result.merge(campaign)
 

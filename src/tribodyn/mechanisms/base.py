@@ -218,7 +218,7 @@ class Mechanism:
     of_cycle
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
     figures
-        Its figures for ``figures/``, in reading order.
+        Its figures for ``figures/`` by the names of their files, in reading order.
     chapters
         Chapters of its report, in reading order.
     overlays
@@ -231,7 +231,7 @@ class Mechanism:
     headlines: Mapping[str, Headline]
     key_numbers: tuple[str, ...]
     system: Callable[[Any], System]
-    figures: Callable[[], Sequence[Family]]
+    figures: Callable[[], Mapping[str, Family]]
     chapters: Callable[[], Sequence[Chapter]]
     overlays: Callable[[], Sequence[Overlay]]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import xarray as xr
@@ -12,11 +13,11 @@ from tribodyn.figures.save import remove, save
 from tribodyn.mechanisms.summary import mechanism_of
 
 
-def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
+def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:
     """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
     if dataset.attrs.get("kind") == "sweep":
         return sweep.families(dataset)
-    return {family.name: family for family in mechanism_of(dataset).figures()}
+    return mechanism_of(dataset).figures()
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 import tribodyn as td
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import CASES, KINDS, parse_case
+from tribodyn.mechanisms.catalogue import built_in, kinds, parse_case
 
 CASE = td.load_case("vsv")
 
@@ -75,18 +75,18 @@ def test_case_text_reads_back_to_the_same_case(changed: dict[str, object]) -> No
         assert again.to_toml() == case.to_toml()
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", built_in())
 def test_built_in_cases_load_and_read_back(name: str) -> None:
     case = td.load_case(name)
-    assert isinstance(case, CASES[name].model)
+    assert isinstance(case, built_in()[name].model)
     assert parse_case(case.to_toml(), name) == case
-    assert case.kind() in KINDS
+    assert case.kind() in kinds()
     assert case.duration > 0.0
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", built_in())
 def test_models_alone_give_the_same_defaults_as_loading(name: str) -> None:
-    entry = CASES[name]
+    entry = built_in()[name]
     if not entry.given:
         assert entry.model() == td.load_case(name)  # type: ignore[call-arg]
 
@@ -201,7 +201,7 @@ TABLES = {
 def test_a_case_file_has_the_tables_it_is_known_for() -> None:
     wanted = {f"{table}.{name}" for table, names in TABLES.items() for name in names.split()}
     assert wanted <= set(keys_of(type(CASE)))
-    assert "film.viscosity" in keys_of(CASES["journal-oil"].model)
+    assert "film.viscosity" in keys_of(built_in()["journal-oil"].model)
 
 
 def test_the_kind_of_a_case_cannot_be_replaced() -> None:
@@ -221,7 +221,7 @@ def test_models_check_values_without_a_file() -> None:
 
 
 def test_every_case_is_a_case() -> None:
-    assert all(issubclass(entry.model, Case) for entry in CASES.values())
+    assert all(issubclass(entry.model, Case) for entry in built_in().values())
 
 
 def test_a_campaign_needs_whole_cycles_and_a_pressure() -> None:

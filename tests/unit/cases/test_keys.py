@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from tribodyn.cases import Key, keys_of
 from tribodyn.cases.keys import ValueProblem, shown, toml_string
-from tribodyn.mechanisms.catalogue import CASES
+from tribodyn.mechanisms.catalogue import built_in
 
-ALL_KEYS = [key for entry in CASES.values() for key in keys_of(entry.model).values()]
+ALL_KEYS = [key for entry in built_in().values() for key in keys_of(entry.model).values()]
 
 
 @pytest.mark.parametrize("key", ALL_KEYS, ids=lambda key: key.path)
@@ -31,7 +31,7 @@ def test_every_default_reads_back_from_what_is_written(key: Key) -> None:
 
 
 def test_keys_of_a_table_come_before_its_sub_tables() -> None:
-    paths = list(keys_of(CASES["vsv"].model))
+    paths = list(keys_of(built_in()["vsv"].model))
     assert paths[:2] == ["case", "title"]
     assert paths.index("solver.rtol") < paths.index("solver.atol.position") < paths.index("run.cycles")
 
@@ -48,7 +48,7 @@ def test_keys_of_a_table_come_before_its_sub_tables() -> None:
 def test_numbers_and_switches_may_be_typed_as_text_outside_files(
     path: str, given: str, value: object
 ) -> None:
-    key = keys_of(CASES["vsv"].model)[path]
+    key = keys_of(built_in()["vsv"].model)[path]
     assert key.read(given, text=True) == value
     if not isinstance(value, str):
         with pytest.raises(ValueProblem):
@@ -60,7 +60,7 @@ def test_numbers_and_switches_may_be_typed_as_text_outside_files(
 def test_values_of_another_kind_are_refused(path: str, wrong: object) -> None:
     for text in (True, False):
         with pytest.raises(ValueProblem):
-            keys_of(CASES["vsv"].model)[path].read(wrong, text=text)
+            keys_of(built_in()["vsv"].model)[path].read(wrong, text=text)
 
 
 @given(st.text(st.characters(codec="utf-8")))

@@ -10,7 +10,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases.scans import FOLLOWING
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import CASES, parse_case
+from tribodyn.mechanisms.catalogue import built_in, parse_case
 from tribodyn.surfaces import SelfAffine, Treatment, analyse, asperities, generate, write_text
 
 SURFACE = "asperities.surface"
@@ -93,7 +93,7 @@ def test_scans_of_both_surfaces_add_their_moments(folder: Path) -> None:
     assert one.surfaces.trunnion.roughness == 0.0
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", built_in())
 def test_every_kind_of_case_takes_a_scan(name: str, folder: Path) -> None:
     case = td.load_case(name).replace({SURFACE: str(folder / "scan.csv")})
     assert "scan.csv" in str(case.at("asperities.origin"))

@@ -9,18 +9,18 @@ import pytest
 
 import tribodyn as td
 from tribodyn.cli.main import main
-from tribodyn.mechanisms.catalogue import CASES, parse_case
+from tribodyn.mechanisms.catalogue import built_in, parse_case
 
 
 def test_cases_are_listed_one_a_line(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["cases"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == list(CASES)
+    assert [line.split()[0] for line in lines] == list(built_in())
     assert main(["cases", "--json"]) == 0
-    assert list(json.loads(capsys.readouterr().out)) == list(CASES)
+    assert list(json.loads(capsys.readouterr().out)) == list(built_in())
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", built_in())
 def test_what_show_prints_runs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", name]) == 0
     assert parse_case(capsys.readouterr().out, "show") == td.load_case(name)

@@ -37,7 +37,7 @@ def _quick_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     def write(dataset: xr.Dataset, path: Path) -> None:
         path.write_text("new", encoding="utf-8")
 
-    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all, raising=False)
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all, raising=False)
     monkeypatch.setattr(tribodyn.report, "write", write, raising=False)
 
 
@@ -193,7 +193,7 @@ def test_pictures_that_fail_do_not_lose_the_result(
     def draw_all(dataset: xr.Dataset, directory: Path) -> None:
         raise ValueError("no colour left")
 
-    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
     simulation()
     assert main(["run", "vsv"]) == 1
     message = capsys.readouterr().err
@@ -212,7 +212,7 @@ def test_an_interrupt_while_drawing_keeps_the_result(
     def draw_all(dataset: xr.Dataset, directory: Path) -> None:
         os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
     simulation()
     assert main(["run", "vsv"]) == 1
     assert "interrupted while drawing" in capsys.readouterr().err

@@ -28,7 +28,7 @@ def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, simulate
 
     monkeypatch.setattr(tribodyn.report, "write", write)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
     return tmp_path
 
 
@@ -127,7 +127,7 @@ def test_pictures_that_fail_do_not_lose_the_result(
     def draw_all(dataset: xr.Dataset, directory: Path) -> None:
         raise ValueError("no colour left")
 
-    monkeypatch.setattr(tribodyn.figures, "draw_all", draw_all)
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
     assert main(SWEEP) == 1
     assert "no colour left" in capsys.readouterr().err
     assert Path("sweep-vsv/sweep.nc").exists()

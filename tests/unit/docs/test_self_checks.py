@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.kernels.vsv import books
 from tribodyn.mechanisms import checks
-from tribodyn.mechanisms.checks import peaks
+from tribodyn.mechanisms.vsv.checks import peaks
 
 PAGE = Path(__file__).parents[3] / "docs" / "guide" / "self_checks.md"
 LIMITS = {name: value for name, value in vars(checks).items() if name.endswith("_LIMIT")}

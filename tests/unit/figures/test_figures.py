@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from tribodyn.figures import FIGURES, draw_all
+from tribodyn.mechanisms.vsv.figures import FIGURES
+from tribodyn.report import draw_all
 from tribodyn.results import build
 
 

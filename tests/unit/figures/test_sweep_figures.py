@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.figures import draw_all, figures_of
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.report import draw_all, figures_of
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge
 

@@ -10,10 +10,10 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from tribodyn.figures import draw_all
-from tribodyn.report import write
-from tribodyn.report.kinds import CHAPTERS
-from tribodyn.results import HEADLINES, build
+from tribodyn.mechanisms.vsv.headlines import HEADLINES
+from tribodyn.mechanisms.vsv.sections import CHAPTERS
+from tribodyn.report import draw_all, write
+from tribodyn.results import build
 from tribodyn.views.numbers import in_words
 
 HOSTILE = '<script>alert("x")</script> & "quotes" \' </title></style>{{ 7*7 }} ünïcode µ'
@@ -103,7 +103,7 @@ def test_every_figure_names_its_data(report):
     page = _page(path)
     anchors = {attrs["id"] for _, attrs in page.tags if "id" in attrs}
     links = {attrs["href"] for tag, attrs in page.tags if tag == "a"}
-    sections = [section for chapter in CHAPTERS["vsv"] for section in chapter.sections]
+    sections = [section for chapter in CHAPTERS for section in chapter.sections]
     drawn = [section for section in sections if section.payload(result)]
     assert len(drawn) >= 11
     for section in drawn:

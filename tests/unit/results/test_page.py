@@ -4,15 +4,19 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.figures import FIGURES, JOURNAL_FIGURES
-from tribodyn.results import HEADLINES, LAW_HEADLINES, VARIABLES
+from tribodyn.mechanisms import MECHANISMS
+from tribodyn.results import VARIABLES
+from tribodyn.results.summary import EFFORT
 
 PAGE = Path(__file__).parents[3] / "docs" / "guide" / "results.md"
 
 
-@pytest.mark.parametrize(
-    "names", [VARIABLES, HEADLINES, LAW_HEADLINES, [f"{name}.png" for name in (*FIGURES, *JOURNAL_FIGURES)]]
-)
+LISTS = [VARIABLES, EFFORT]
+for _mechanism in MECHANISMS.values():
+    LISTS += [_mechanism.variables, _mechanism.headlines, [f"{name}.png" for name in _mechanism.figures()]]
+
+
+@pytest.mark.parametrize("names", LISTS)
 def test_the_manual_lists_everything_a_result_may_hold(names):
     text = PAGE.read_text(encoding="utf-8")
     assert [name for name in names if f"`{name}`" not in text] == []

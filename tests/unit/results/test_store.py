@@ -9,7 +9,8 @@ import pytest
 import xarray as xr
 
 from tribodyn.core.errors import InputError
-from tribodyn.results import build, prepare_directory, read, store, summarise, write_run
+from tribodyn.mechanisms.summary import summarise
+from tribodyn.results import build, prepare_directory, read, store, write_run
 from tribodyn.results.atomic import replacing, stage, write_text
 from tribodyn.results.store import summary_text
 

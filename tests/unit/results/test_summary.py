@@ -6,7 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.results import HEADLINES, build, summarise
+from tribodyn.mechanisms.summary import summarise
+from tribodyn.mechanisms.vsv.headlines import HEADLINES
+from tribodyn.results import build
 
 
 def test_every_headline_of_a_whole_run_is_a_number(make_result):

@@ -5,10 +5,10 @@ import pytest
 
 from tribodyn.cases import keys_of
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.vsv.case import Vsv
+from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.studies.variation import Levels, Scatter, variation, written
 
-KEYS = keys_of(Vsv)
+KEYS = keys_of(VsvCase)
 
 
 def levels(path: str, asked: object) -> tuple[object, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cases.load import BuiltIn
@@ -26,7 +26,7 @@ def _system(case: VsvCase) -> VsvSystem:
     return VsvSystem(case)
 
 
-def _figures() -> Sequence[Family]:
+def _figures() -> Mapping[str, Family]:
     from tribodyn.mechanisms.vsv.figures import FIGURES
 
     return FIGURES

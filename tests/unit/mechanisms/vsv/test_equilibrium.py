@@ -5,14 +5,14 @@ import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.vsv.problem import initial_state, vsv_data, vsv_memory
-from tribodyn.mechanisms.vsv.system import mechanism
+from tribodyn.mechanisms.vsv.system import vsv_of
 
 
 @pytest.mark.parametrize("clearance", [5, 20, 100, 190, 500])
 @pytest.mark.parametrize("friction", ["traction", "moment"])
 def test_every_clearance_has_an_equilibrium(clearance, friction):
     case = load_case("vsv").replace({"joint.clearance": f"{clearance} um", "joint.friction": friction})
-    vsv = mechanism(case)
+    vsv = vsv_of(case)
     data = vsv_data(vsv, duration=1.0)
     attitude = initial_state(data, vsv_memory(data), "equilibrium")
     # Some point of the axis lies within three σ of the wall, and none beyond it by more than that.

@@ -10,9 +10,12 @@ from tribodyn.mechanisms.journal.figures import path
 from tribodyn.mechanisms.journal.ledger import LEDGER
 from tribodyn.mechanisms.journal.sections.charts import DEVIATION, FORCES
 
-FIGURES: Final[tuple[Family, ...]] = (
-    chart.family(DEVIATION),
-    path.FAMILY,
-    chart.family(FORCES),
-    energy.family((LEDGER,)),
-)
+FIGURES: Final[dict[str, Family]] = {
+    family.name: family
+    for family in (
+        chart.family(DEVIATION),
+        path.FAMILY,
+        chart.family(FORCES),
+        energy.family((LEDGER,)),
+    )
+}

@@ -11,15 +11,18 @@ from tribodyn.mechanisms.vsv.ledger import LEDGERS
 from tribodyn.mechanisms.vsv.sections.motion import MOTION
 from tribodyn.views.tilt import TILT
 
-FIGURES: Final[tuple[Family, ...]] = (
-    chart.family(MOTION),
-    vane_error.FAMILY,
-    contact_force.FAMILY,
-    trajectory.FAMILY,
-    chart.family(TILT),
-    pressure.FAMILY,
-    wear.FAMILY,
-    energy.family(LEDGERS),
-    mechanism.FAMILY,
-    wear_history.FAMILY,
-)
+FIGURES: Final[dict[str, Family]] = {
+    family.name: family
+    for family in (
+        chart.family(MOTION),
+        vane_error.FAMILY,
+        contact_force.FAMILY,
+        trajectory.FAMILY,
+        chart.family(TILT),
+        pressure.FAMILY,
+        wear.FAMILY,
+        energy.family(LEDGERS),
+        mechanism.FAMILY,
+        wear_history.FAMILY,
+    )
+}

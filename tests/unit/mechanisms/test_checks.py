@@ -11,16 +11,16 @@ import pytest
 
 from tribodyn.kernels.journal import ledger as journal_ledger
 from tribodyn.kernels.vsv import books
-from tribodyn.mechanisms import checks
 from tribodyn.mechanisms.checks import (
     CLIP_LIMIT,
     ENERGY_LIMIT,
     GRID_LIMIT,
     REJECTED_LIMIT,
     RESTART_LIMIT,
-    peaks,
 )
 from tribodyn.mechanisms.journal import checks as journal_checks
+from tribodyn.mechanisms.vsv import checks
+from tribodyn.mechanisms.vsv.checks import peaks
 from tribodyn.mechanisms.vsv.parameters import Vsv
 
 T_END = 2.0

@@ -10,15 +10,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.figures import FIGURES, JOURNAL_FIGURES, draw_all
+from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.journal.figures import FIGURES
+from tribodyn.report import draw_all
 from tribodyn.results import build
 
-LAWS = ("rsdc", "ke")
 
-
-def made_up(
-    n: int = 200, *, film: bool = True, laws: tuple[str, ...] = LAWS, failure: str = ""
-) -> xr.Dataset:
+def made_up(n: int = 200, *, film: bool = True, failure: str = "") -> xr.Dataset:
     """Return a result of the shape of a journal's, not the output of any simulation."""
     t = np.linspace(0.0, 0.05, 200)[:n]
     sinking = 16e-6 * (1.0 - np.exp(-t / 0.006))
@@ -27,6 +25,7 @@ def made_up(
         "e_y": 0.4 * sinking,
         "F_cx": -200.0 * sinking / 16e-6,
         "F_cy": -100.0 * sinking / 16e-6,
+        "p_max": 1e7 * sinking,
         "energy_loads": 220.0 * sinking,
         "energy_kinetic": 1e-3 * np.exp(-t / 0.01),
         "energy_contact": 20.0 * sinking,
@@ -39,27 +38,27 @@ def made_up(
             "F_oy": -100.0 + 5e6 * sinking,
             "energy_film": 50.0 * sinking,
         }
-    numbers = {"e_x_balance": 14.56e-6, "e_y_balance": 7.28e-6, "residual_fraction": 2e-4}
+    facts = {"kind": "journal", "title": "Journal", "clearance": 20e-6, "energy_residual": 2e-4}
     return build(
-        coordinates={"law": np.array(laws), "time": t},
-        columns={name: np.array([values, 0.9 * values][: len(laws)]) for name, values in shapes.items()}
-        | {name: np.full(len(laws), value) for name, value in numbers.items()},
-        attributes={"kind": "journal", "title": "Journal", "clearance": 20e-6, "failure": failure},
+        coordinates={"time": t},
+        columns=shapes,
+        fields={"e_x_balance": 14.56e-6, "e_y_balance": 7.28e-6},
+        attributes={**facts, "failure": failure},
+        variables=MECHANISMS["journal"].variables,
     )
 
 
 def _broken() -> xr.Dataset:
     result = made_up(failure="stopped")
-    result["e_x"].values[1, 50:] = np.nan
+    result["e_x"].values[50:] = np.nan
     result["F_cx"].values[:] = np.nan
-    result["e_x_balance"].values[:] = np.nan
+    result["e_x_balance"] = np.nan
     return result
 
 
 RESULTS: dict[str, Callable[[], xr.Dataset]] = {
     "whole": made_up,
     "dry": lambda: made_up(film=False),
-    "one law": lambda: made_up(laws=("ke",)),
     "one sample": lambda: made_up(1, failure="interrupted"),
     "empty": lambda: made_up(0, failure="interrupted"),
     "nan": _broken,
@@ -67,37 +66,36 @@ RESULTS: dict[str, Callable[[], xr.Dataset]] = {
 
 
 @pytest.mark.parametrize("result", RESULTS.values(), ids=RESULTS)
-@pytest.mark.parametrize("name", JOURNAL_FIGURES)
+@pytest.mark.parametrize("name", FIGURES)
 def test_every_figure_draws_every_result(name: str, result: Callable[[], xr.Dataset]) -> None:
     dataset = result()
-    assert JOURNAL_FIGURES[name].drawable(dataset)
-    figure = JOURNAL_FIGURES[name].draw(dataset)
+    assert FIGURES[name].drawable(dataset)
+    figure = FIGURES[name].draw(dataset)
     figure.savefig(io.BytesIO(), format="png", dpi=30)
     texts = [text.get_text() for text in figure.texts]
-    assert JOURNAL_FIGURES[name].title in texts
+    assert FIGURES[name].title in texts
     assert any("partial run" in text for text in texts) == bool(dataset.attrs["failure"])
 
 
-@pytest.mark.parametrize("name", JOURNAL_FIGURES)
+@pytest.mark.parametrize("name", FIGURES)
 def test_axes_are_labelled_with_units(name: str) -> None:
-    figure = JOURNAL_FIGURES[name].draw(made_up())
+    figure = FIGURES[name].draw(made_up())
     labels = [label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label]
     assert labels
     assert all("[" in label for label in labels)
 
 
 def test_the_film_has_a_row_only_with_oil() -> None:
-    draw = JOURNAL_FIGURES["journal"].draw
-    assert len(draw(made_up()).axes) == 6
-    assert len(draw(made_up(film=False)).axes) == 4
+    draw = FIGURES["forces"].draw
+    assert len(draw(made_up()).axes) == 3
+    assert len(draw(made_up(film=False)).axes) == 2
 
 
-def test_a_journal_gets_its_own_figures_only(tmp_path: Path) -> None:
-    assert [path.stem for path in draw_all(made_up(), tmp_path)] == list(JOURNAL_FIGURES)
-    assert not any(family.drawable(made_up()) for family in FIGURES.values())
+def test_a_journal_gets_its_own_figures(tmp_path: Path) -> None:
+    assert [path.stem for path in draw_all(made_up(), tmp_path)] == list(FIGURES)
 
 
 def test_captions_and_names_are_complete() -> None:
-    for name, family in JOURNAL_FIGURES.items():
+    for name, family in FIGURES.items():
         assert family.name == name
         assert family.caption.endswith(".")
