@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tribodyn as td
-from tribodyn.mechanisms.journal.figures import FIGURES as JOURNAL_FIGURES
 from tribodyn.mechanisms.journal.parameters import Journal
 from tribodyn.mechanisms.journal.problem import journal_problem
 from tribodyn.mechanisms.journal.stribeck import stribeck
 from tribodyn.mechanisms.journal.system import journal_of
+from tribodyn.papers.cheng_2022 import FIGURES, Runs
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
@@ -49,11 +49,13 @@ def fixed_step(journal: Journal, step: float, duration: float) -> tuple[NDArray[
 
 def draw_coarse(target: Path) -> None:
     """Eccentricity of the undamped dry journal: MEBDF, and explicit Euler with two fixed steps."""
-    case = td.load_case("journal-dry").replace({"run.duration": "4 ms", "run.output_interval": "2 us"})
+    case = td.load_case("journal-dry").replace(
+        {"contact.law": "ke", "run.duration": "4 ms", "run.output_interval": "2 us"}
+    )
     result = td.simulate(case)
-    journal = journal_of(case, "ke")
+    journal = journal_of(case)
     figure, axes = plt.subplots(figsize=(7.6, 3.4), layout="constrained")
-    e = np.hypot(result["e_x"], result["e_y"]).sel(law="ke")
+    e = np.hypot(result["e_x"], result["e_y"])
     for step, colour in ((COARSE, VERMILION), (FINE, GREY)):
         t, coarse, _ = fixed_step(journal, step, 4e-3)
         label = f"explicit Euler, {step * 1e6:g} µs"
@@ -95,9 +97,9 @@ def main() -> None:
     target = Path(sys.argv[1])
     target.mkdir(parents=True, exist_ok=True)
     plt.switch_backend("agg")
-    for name in ("journal-dry", "journal-oil"):
-        figure = JOURNAL_FIGURES["journal"].draw(td.simulate(td.load_case(name)))
-        figure.savefig(target / f"{name.replace('-', '_')}.png", dpi=110)
+    runs = Runs()
+    for name, drawn in (("journal_dry", FIGURES["fig8"]), ("journal_oil", FIGURES["fig9"])):
+        drawn.draw(drawn.data(runs, "exact")).savefig(target / f"{name}.png", dpi=110)
     draw_coarse(target)
     draw_stribeck(target)
 

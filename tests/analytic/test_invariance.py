@@ -73,7 +73,6 @@ def test_the_path_integrals_do_not_depend_on_the_rows(base):
 WHOLE_NODES = 2.0 * math.pi * 7 / 96
 """Seven nodes of the contact's grid."""
 TURNING = {
-    "contact.second_law": "none",
     "journal.tilt": True,
     "journal.speed": "30 rad/s",
     "joint.friction_coefficient": 0.1,

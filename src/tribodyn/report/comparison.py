@@ -11,14 +11,13 @@ from typing import Any, Final
 
 import xarray as xr
 
-from tribodyn.mechanisms.summary import known, mechanism_of, summarise
+from tribodyn.mechanisms.summary import known, summarise
+from tribodyn.report.beside import chapter_of
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
 from tribodyn.results import json_attribute
 from tribodyn.results.atomic import write_text
 from tribodyn.views.numbers import in_words
-from tribodyn.views.overlay import Overlay, overlays
-from tribodyn.views.section import Chapter
 
 NOTABLE: Final = 0.01
 """Relative difference from the first run above which a number stands out."""
@@ -66,9 +65,7 @@ def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
 
 def render(runs: Sequence[Run]) -> str:
     """Return the page as text."""
-    lead = "Press the name of a run below a plot to hide or show it."
-    datasets = {run.name: run.dataset for run in runs}
-    planned = Chapter("curves", "Curves over each other", lead, overlays(_overlays(runs), datasets))
+    planned = chapter_of({run.name: run.dataset for run in runs})
     shown, payloads = chapters(runs[0].dataset, [planned])
     summaries = [summarise(run.dataset) for run in runs]
     return page(
@@ -82,12 +79,6 @@ def render(runs: Sequence[Run]) -> str:
         chapters=shown,
         reading=reading(()),
     )
-
-
-def _overlays(runs: Sequence[Run]) -> list[Overlay]:
-    """Return what the mechanisms of the runs lay over each other, each once."""
-    found = {overlay.name: overlay for run in runs for overlay in mechanism_of(run.dataset).overlays()}
-    return list(found.values())
 
 
 def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:

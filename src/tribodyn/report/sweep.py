@@ -9,6 +9,7 @@ from typing import Any
 import xarray as xr
 
 from tribodyn.mechanisms.summary import key_numbers_of
+from tribodyn.report.beside import curves_over_each_other
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.report.page import page
@@ -42,9 +43,11 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         data=lambda _: payload(axes, points, first),
     )
     lead = "Parameters at the left, what came out at the right."
-    shown, payloads = chapters(
-        dataset, [Chapter("all", "Side by side", lead, (section,))], stills, figures_of(dataset)
-    )
+    planned = [
+        Chapter("all", "Side by side", lead, (section,)),
+        *curves_over_each_other(axes, points, folder),
+    ]
+    shown, payloads = chapters(dataset, planned, stills, figures_of(dataset))
     lost = [point for point in points if point.failure]
     return page(
         "sweep.html",

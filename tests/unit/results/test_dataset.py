@@ -3,35 +3,33 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tribodyn.mechanisms import MECHANISMS
 from tribodyn.results import VARIABLES, build, json_attribute
 from tribodyn.results.dataset import plain_attribute
 
-OF_A_LAW = {"law", *(name for name, variable in VARIABLES.items() if variable.dims == ())}
-"""What only results with contact laws side by side hold."""
-
-
-OF_A_CAMPAIGN = {
-    name for name, variable in VARIABLES.items() if {"jump", "stage_cycles"} & set(variable.dims)
-}
+KNOWN = {**VARIABLES, **MECHANISMS["vsv"].variables}
+OF_A_CAMPAIGN = {name for name, variable in KNOWN.items() if {"jump", "stage_cycles"} & set(variable.dims)}
 """What only results of wear campaigns hold."""
 
 
 def test_every_variable_carries_unit_and_meaning(make_result, make_campaign):
-    assert set(make_result(0.5).variables) == set(VARIABLES) - OF_A_LAW - OF_A_CAMPAIGN
+    assert set(make_result(0.5).variables) == set(KNOWN) - OF_A_CAMPAIGN
     result = make_campaign(5)
-    assert set(result.variables) == set(VARIABLES) - OF_A_LAW
+    assert set(result.variables) == set(KNOWN)
     for name, variable in result.variables.items():
-        assert variable.attrs["units"] == VARIABLES[name].units
+        assert variable.attrs["units"] == KNOWN[name].units
         assert variable.attrs["long_name"]
 
 
-def test_long_names_are_unique():
-    names = [variable.long_name for variable in VARIABLES.values()]
+@pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=MECHANISMS)
+def test_no_mechanism_says_again_what_all_share_and_long_names_are_unique(mechanism):
+    assert not set(mechanism.variables) & set(VARIABLES)
+    names = [variable.long_name for variable in (VARIABLES | mechanism.variables).values()]
     assert len(set(names)) == len(names)
 
 
-def test_a_name_outside_the_table_is_refused():
-    with pytest.raises(KeyError, match="add its line there"):
+def test_a_name_without_a_line_is_refused():
+    with pytest.raises(KeyError, match="has no line"):
         build(coordinates={"time": [0.0]}, columns={"nonsense": [1.0]})
 
 
