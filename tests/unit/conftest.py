@@ -12,7 +12,7 @@ import xarray as xr
 import tribodyn.simulation
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
-from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import build
 from tribodyn.results.variables import BUSHING
 

@@ -1,14 +1,26 @@
-"""Cases of all mechanisms: by built-in name, from a TOML file, from TOML text."""
+"""The list of the mechanisms, and their cases: by built-in name, from a TOML file, from TOML text."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Final
 
 from tribodyn.cases import load
 from tribodyn.cases.base import Case
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.journal.descriptor import JOURNAL
+from tribodyn.mechanisms.vsv.descriptor import VSV
+
+MECHANISMS: Final[dict[str, Mechanism]] = {
+    mechanism.kind: mechanism
+    for mechanism in (
+        VSV,
+        JOURNAL,
+    )
+}
+"""Every mechanism, by the kind of its cases."""
 
 
 def kinds() -> dict[str, type[Case]]:

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import xarray as xr
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms import MECHANISMS
 from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import summary
 from tribodyn.results.headline import Headline
 

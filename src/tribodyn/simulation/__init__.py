@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms import MECHANISMS
 from tribodyn.mechanisms.base import Part, SystemCase
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.simulation.compilation import compile_elsewhere, loaded
 from tribodyn.simulation.session import Progress, Session, Stop
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import VARIABLES, build, json_attribute
 from tribodyn.results.dataset import plain_attribute
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import VARIABLES
 from tribodyn.results.summary import EFFORT
 

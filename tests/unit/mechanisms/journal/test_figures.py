@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.journal.figures import FIGURES
 from tribodyn.report import draw_all
 from tribodyn.results import build

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.mechanisms import MECHANISMS
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.summary import summarise
 from tribodyn.results import VARIABLES, read, write_run
 
