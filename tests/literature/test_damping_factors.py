@@ -122,7 +122,7 @@ def test_hu_and_guo() -> None:
 
 
 def test_how_the_factors_begin_at_elastic_impact() -> None:
-    """An impact loses 2a/3 of its speed at first: right factors begin as 3(1 − e)/2, Lee and Wang's as half."""
+    """An impact loses 2a/3 of its speed at first: right factors begin as 3(1 − e)/2."""
     small = 1e-4
     slopes = {name: float(factor(np.array(1.0 - small))) / small for name, factor in DAMPING_FACTORS.items()}
     right = {

@@ -21,7 +21,7 @@ from tribodyn.simulation.campaign import Worn
 from tribodyn.simulation.history import COLUMNS
 from tribodyn.simulation.provenance import provenance
 
-FORMAT: Final = 1
+FORMAT: Final = 2
 _ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
 
 

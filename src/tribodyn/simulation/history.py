@@ -17,7 +17,7 @@ COLUMNS: Final = (
     "wear_cycles",
     "wear_jump_cycles",
     "wear_depth_max",
-    "worn_volume",
+    "wear_volume",
     "wear_rate",
     "wear_load_change",
     "wear_pressure_max",
