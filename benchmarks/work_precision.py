@@ -16,6 +16,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from benchmarks.cvode_native import cvode
 from benchmarks.mebdf_native import mebdf
@@ -138,6 +139,7 @@ def draw(everything: Everything, target: Path) -> None:
         for row, (name, results) in zip(axes, everything.items(), strict=True):
             for axis, (key, factor, label) in zip(row, QUANTITIES, strict=True):
                 axis.set(yscale="log", title=f"{name}: {label}")
+                axis.yaxis.set_minor_formatter(NullFormatter())
                 axis.grid(alpha=0.3)
                 for solver, look in LOOKS.items():
                     good = [
@@ -147,7 +149,7 @@ def draw(everything: Everything, target: Path) -> None:
         for axis in axes[-1]:
             axis.set_xlabel("correct digits")
         figure.legend(axes[0, 0].get_lines(), LOOKS, loc="outside upper center", ncols=len(LOOKS))
-        figure.savefig(target, dpi=110)
+        figure.savefig(target, dpi=110, pil_kwargs={"optimize": True})
 
 
 def main() -> None:
