@@ -90,7 +90,7 @@ def film_equilibrium(film: Film, load: tuple[float, float], *, omega: float) -> 
     and in which direction by turning. Newton's method then removes what the grid knows of directions.
 
     A grid shows a film as thin as leaves it two cells to either side before it is twice as thick; there the
-    least film is still right within 4 %.
+    least film is off by some per cent.
 
     Parameters
     ----------
