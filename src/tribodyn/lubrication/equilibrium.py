@@ -18,7 +18,7 @@ from tribodyn.lubrication.state import FilmState, film_state
 _DEEPEST: Final = 4.0
 """Overlap of the mean planes over σ down to which a rough film has an answer."""
 _MARGIN: Final = 1.0e-6
-"""How far the search stays from there, over the clearance."""
+"""How far the search stays from there, and how near it goes to where answers end, over the clearance."""
 _THIN_CELLS: Final = 2.0
 """Cells that the film must have on either side of its thinnest place, up to twice its least thickness."""
 _SETTLED: Final = 1.0e-10
@@ -139,10 +139,19 @@ def _distance(film: Film, at: _Evaluations, size: float) -> float:
         force = math.hypot(*at(np.array([eccentricity, 0.0])).force)
         return (force - size) / (force + size)
 
-    farthest, shown = _farthest(film)
-    if excess(farthest) < 0.0:
-        raise _too_much(at, size) if shown else _too_coarse(film, size)
-    return float(brentq(excess, 0.0, farthest, xtol=1.0e-12 * film.clearance, rtol=1.0e-12))
+    trial, shown = _farthest(film)
+    near, far = 0.0, trial
+    while far - near > _MARGIN * film.clearance:
+        try:
+            enough = excess(trial) >= 0.0
+        except InputError:
+            far = trial  # touching surfaces: not every cavitation model has an answer as far as this
+        else:
+            if enough:
+                return float(brentq(excess, near, trial, xtol=1.0e-12 * film.clearance, rtol=1.0e-12))
+            near = trial
+        trial = 0.5 * (near + far)
+    raise _too_much(at, size) if shown else _too_coarse(film, size)
 
 
 def _balanced(film: Film, at: _Evaluations, load: tuple[float, float], guess: FloatArray) -> FloatArray:
