@@ -103,7 +103,7 @@ def test_a_film_thinner_than_its_grid_shows_is_refused_and_finer_cells_help() ->
         film_equilibrium(BEARING, (1e4, 0.0), omega=100.0)
     assert refusal.value.key == "film.grid"
     finer = [
-        film_equilibrium(replace(BEARING, grid=FilmGrid(theta, 32)), (1e4, 0.0), omega=100.0).least_film
-        for theta in (256, 512)
+        film_equilibrium(replace(BEARING, grid=FilmGrid(theta, 16)), (1e4, 0.0), omega=100.0).least_film
+        for theta in (192, 384)
     ]
     assert finer[0] == pytest.approx(finer[1], rel=0.04)
