@@ -2,7 +2,7 @@
 
     python -m benchmarks.work_precision          # or: make bench
 
-writes ``docs/_static/mebdf_work_precision.json`` and ``.svg`` and prints the ratios to CVODE at equal digits.
+writes ``docs/_static/mebdf_work_precision.json`` and ``.png`` and prints the ratios to CVODE at equal digits.
 """
 
 from __future__ import annotations
@@ -13,12 +13,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from benchmarks.cvode_native import cvode
 from benchmarks.mebdf_native import mebdf
 from benchmarks.problems import PROBLEMS, Benchmark
 from benchmarks.scipy_solvers import scipy_solver
+from tribodyn.figures.style import BLUE, GREEN, INK, ORANGE, VERMILION
 
 TARGET = Path(__file__).parents[1] / "docs" / "_static" / "mebdf_work_precision"
 COMPILED = 10.0 ** -np.arange(2.5, 11.1, 0.25)
@@ -28,6 +32,8 @@ REPEATS = 5
 """Compiled runs are timed this often; the shortest counts. The solvers take turns."""
 DIGITS = (5.0, 7.5)
 
+Everything = dict[str, dict[str, list[dict[str, Any]]]]
+"""Runs by problem and solver."""
 Run = Callable[[Benchmark, float], dict[str, Any]]
 DIFFERENCED = "MEBDF, J by differences"
 """Given the exact Jacobian too; the evaluations for differences are added in the ratios."""
@@ -39,6 +45,20 @@ COMPILED_SOLVERS: dict[str, Run] = {
 PYTHON_SOLVERS: dict[str, Run] = {
     f"SciPy {method}": partial(scipy_solver, method) for method in ("BDF", "Radau", "LSODA")
 }
+
+QUANTITIES = (
+    ("rhs", 1.0, "right-hand sides"),
+    ("lu", 1.0, "LU decompositions"),
+    ("seconds", 1e3, "time [ms]"),
+)
+LOOKS: dict[str, dict[str, Any]] = {
+    "MEBDF": {"color": VERMILION, "linewidth": 1.8},
+    "CVODE": {"color": INK, "linewidth": 1.0},
+    "SciPy BDF": {"color": BLUE, "linewidth": 1.0, "linestyle": "--"},
+    "SciPy Radau": {"color": GREEN, "linewidth": 1.0, "linestyle": "-."},
+    "SciPy LSODA": {"color": ORANGE, "linewidth": 1.0, "linestyle": ":"},
+}
+"""How the solvers drawn look."""
 
 
 def timed(problem: Benchmark, rtol: float) -> dict[str, dict[str, Any]]:
@@ -90,42 +110,46 @@ def ratios(name: str, results: dict[str, list[dict[str, Any]]]) -> list[float]:
     ]
 
 
-def draw(everything: dict[str, dict[str, list[dict[str, Any]]]]) -> None:
-    """Draw digits against calls and against time, a row a problem."""
-    import matplotlib as mpl
+def rounded(value: Any) -> Any:
+    """Return numbers, in whatever mappings and lists, with four significant digits."""
+    if isinstance(value, dict):
+        return {name: rounded(entry) for name, entry in value.items()}
+    if isinstance(value, list):
+        return [rounded(entry) for entry in value]
+    return float(f"{value:.4g}") if isinstance(value, float) else value
 
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
 
-    plt.rcParams.update({"svg.hashsalt": "tribodyn", "svg.fonttype": "none", "font.size": 8})
-    figure, axes = plt.subplots(len(everything), 3, figsize=(9.0, 2.1 * len(everything)), squeeze=False)
-    quantities = (
-        ("rhs", 1.0, "right-hand sides"),
-        ("lu", 1.0, "LU decompositions"),
-        ("seconds", 1e3, "time [ms]"),
-    )
-    for row, (name, results) in zip(axes, everything.items(), strict=True):
-        for axis, (key, factor, label) in zip(row, quantities, strict=True):
-            for solver, runs in results.items():
-                if solver == DIFFERENCED:
-                    continue
-                good = [run for run in runs if not run["failed"] and run["digits"] > 0.0 and run[key] > 0.0]
-                axis.plot(
-                    [run["digits"] for run in good],
-                    [factor * run[key] for run in good],
-                    marker=".",
-                    markersize=3,
-                    linewidth=1.6 if solver == "MEBDF" else 0.8,
-                    label=solver,
-                )
-            axis.set_yscale("log")
-            axis.set_title(f"{name}: {label}", fontsize=8)
-            axis.grid(alpha=0.3)
-    for axis in axes[-1]:
-        axis.set_xlabel("correct digits")
-    axes[0, 0].legend(fontsize=6)
-    figure.tight_layout()
-    figure.savefig(TARGET.with_suffix(".svg"), metadata={"Date": None})
+def store(everything: Everything, table: dict[str, list[float]]) -> None:
+    """Write the numbers, the runs of a solver as columns."""
+    runs = {
+        name: {
+            solver: {key: [run[key] for run in runs] for key in runs[0]} for solver, runs in results.items()
+        }
+        for name, results in everything.items()
+    }
+    text = json.dumps(rounded({"ratios to CVODE": table, "runs": runs}), separators=(",", ":"))
+    TARGET.with_suffix(".json").write_text(text + "\n", encoding="utf-8")
+
+
+def draw(everything: Everything, target: Path) -> None:
+    """Draw digits against calls, decompositions and time, a row a problem."""
+    with mpl.rc_context({"font.size": 9, "axes.titlesize": 9}):
+        figure = Figure(figsize=(8.0, 1.75 * len(everything) + 0.6), layout="constrained", facecolor="white")
+        axes = figure.subplots(len(everything), len(QUANTITIES), squeeze=False)
+        for row, (name, results) in zip(axes, everything.items(), strict=True):
+            for axis, (key, factor, label) in zip(row, QUANTITIES, strict=True):
+                axis.set(yscale="log", title=f"{name}: {label}")
+                axis.yaxis.set_minor_formatter(NullFormatter())
+                axis.grid(alpha=0.3)
+                for solver, look in LOOKS.items():
+                    good = [
+                        run for run in results.get(solver, []) if not run["failed"] and run["digits"] > 0.0
+                    ]
+                    axis.plot([run["digits"] for run in good], [factor * run[key] for run in good], **look)
+        for axis in axes[-1]:
+            axis.set_xlabel("correct digits")
+        figure.legend(axes[0, 0].get_lines(), LOOKS, loc="outside upper center", ncols=len(LOOKS))
+        figure.savefig(target, dpi=110, pil_kwargs={"optimize": True})
 
 
 def main() -> None:
@@ -136,10 +160,8 @@ def main() -> None:
     everything = {name: measure(problem) for name, problem in PROBLEMS.items()}
     table = {name: ratios(name, results) for name, results in everything.items()}
     mean = np.exp(np.mean(np.log(list(table.values())), axis=0)).tolist()
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
-    stored = {"ratios to CVODE": {**table, "geometric mean": mean}, "runs": everything}
-    TARGET.with_suffix(".json").write_text(json.dumps(stored, indent=1), encoding="utf-8")
-    draw(everything)
+    store(everything, {**table, "geometric mean": mean})
+    draw(everything, TARGET.with_suffix(".png"))
     print("MEBDF / CVODE at 5 and 7.5 digits: calls, calls with differences for J, LU, time")
     for name, values in (*table.items(), ("geometric mean", mean)):
         print(f"{name:15s}", " ".join(f"{value:5.2f}" for value in values))

@@ -45,12 +45,14 @@ class DampingFactors(Table):
     """One row for each factor."""
 
     def lines(self) -> Iterator[str]:
-        """Give name, source and what comes back of every factor."""
-        yield "| name | source | " + " | ".join(f"returned for {e}" for e in WANTED) + " |"
-        yield "|---|---|" + "---|" * len(WANTED)
+        """Give name, source, validity and what comes back of every factor."""
+        yield (
+            "| name | source | right within 0.05 | " + " | ".join(f"returned for {e}" for e in WANTED) + " |"
+        )
+        yield "|---|---|---|" + "---|" * len(WANTED)
         for name, factor in DAMPING_FACTORS.items():
             realised = " | ".join(f"{e:.3f}" for e in factor.realised(np.array(WANTED)))
-            yield f"| `{name}` | {factor.source} | {realised} |"
+            yield f"| `{name}` | {factor.source} | from {factor.valid_from:.2f} | {realised} |"
 
 
 def setup(app: Any) -> dict[str, bool]:

@@ -27,8 +27,9 @@ DURATION = "4.5 s"
 
 
 def style(k: int) -> dict[str, object]:
-    """Return colour and line style of the k-th curve."""
-    return {"color": COLOURS[k % len(COLOURS)], "linestyle": STYLES[k % len(STYLES)]}
+    """Return colour and line style of the k-th curve: other ones for each of 32."""
+    again, colour = divmod(k, len(COLOURS))
+    return {"color": COLOURS[colour], "linestyle": STYLES[(colour + again) % len(STYLES)]}
 
 
 def draw_laws(case: VsvCase, target: Path) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.lubrication import Film, FilmGrid, film_state
+from tribodyn.lubrication import Film, FilmGrid, film_equilibrium, film_state
 
 VISCOSITY, CLEARANCE, RADIUS, OMEGA = 0.01, 10e-6, 5e-3, 100.0
 ECCENTRICITIES = (0.1, 0.5, 0.8)
@@ -88,6 +88,21 @@ def test_short_bearing_attitude(eps: float) -> None:
     angle = film_state(film(SHORT, "half-sommerfeld"), at(eps), omega=OMEGA).attitude_angle
     expected = math.atan(math.pi * math.sqrt(1.0 - eps**2) / (4.0 * eps))
     assert angle == pytest.approx(expected, abs=2e-3)  # half a per cent of the force, turned
+
+
+@pytest.mark.parametrize("eps", ECCENTRICITIES)
+def test_the_load_of_ocvirk_leads_back_to_the_eccentricity(eps: float) -> None:
+    short = film(SHORT, "half-sommerfeld")
+    number = SHORT**2 * eps / (2.0 * (1.0 - eps**2) ** 2)
+    number *= math.sqrt(16.0 * eps**2 + math.pi**2 * (1.0 - eps**2))
+    load = number / sommerfeld_number(1.0, short.length, OMEGA)
+    found = film_equilibrium(short, (0.0, -load), omega=OMEGA)
+    assert found.eccentricity_ratio == pytest.approx(eps, rel=RIGHT)
+    assert found.attitude_angle == pytest.approx(
+        math.atan(math.pi * math.sqrt(1.0 - eps**2) / (4.0 * eps)), abs=4e-3
+    )
+    # The pressure is a parabola in z and h³ leaves its slope: ω r c l ε/2 goes out at each end.
+    assert found.state.leakage == pytest.approx(OMEGA * RADIUS * CLEARANCE * short.length * eps, rel=RIGHT)
 
 
 @pytest.mark.parametrize("eps", ECCENTRICITIES)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.summary import summarise
 from tribodyn.simulation import simulate
 from tribodyn.simulation import wear as vsv_wear
 
@@ -82,11 +83,11 @@ def test_volume_of_each_jump_is_the_rate_times_the_sliding_load(monkeypatch):
     assert jumps.size >= 3
     expected = case.wear.specific_wear_rate * jumps[:-1] * np.array(loads[1:-1])
     # To rounding; asked for are 1e-10.
-    np.testing.assert_allclose(np.diff(result["worn_volume"].values), expected, rtol=1e-12)
+    np.testing.assert_allclose(np.diff(result["wear_volume"].values), expected, rtol=1e-12)
     area = 2.0 * np.pi / 48 * (6e-3 + 20e-6)
     weights = 0.5 * 20e-3 * np.polynomial.legendre.leggauss(10)[1] * area
     volume = float((result["wear_depth"].values[:, 1:-1] @ weights).sum())
-    assert volume == pytest.approx(float(result["worn_volume"][-1]), rel=1e-12)
+    assert volume == pytest.approx(float(result["wear_volume"][-1]), rel=1e-12)
 
 
 def test_the_sliding_load_is_the_friction_moment_at_the_sliding_speed():
@@ -100,6 +101,19 @@ def test_the_sliding_load_is_the_friction_moment_at_the_sliding_speed():
     integral = 0.5 * float(np.sum((power[1:] + power[:-1]) * np.diff(t))) * 6e-3 / (0.1 * 6.02e-3)
     # The load is summed by the trapezoidal rule over the steps of the integration, this over 1 ms.
     assert result.attrs["worn_volume"] == pytest.approx(1.1e-15 * integral, rel=1e-3)
+
+
+@pytest.mark.parametrize("cycles", [0, 30])
+def test_the_worn_volume_is_that_of_the_depth_beside_it_in_a_run_and_in_a_campaign(cycles):
+    result = simulate(vane(wear__cycles=cycles))
+    area = 2.0 * np.pi / 48 * (6e-3 + 20e-6)
+    weights = 0.5 * 20e-3 * np.polynomial.legendre.leggauss(10)[1] * area
+    volume = float((result["wear_depth"].values[:, 1:-1] @ weights).sum())
+    assert volume > 0.0
+    assert result.attrs["worn_volume"] == pytest.approx(volume, rel=1e-12)
+    assert summarise(result)["worn_volume_mm3"] == pytest.approx(1e9 * volume, rel=1e-12)
+    assert "worn_volume" not in result.variables
+    assert ("wear_volume" in result.variables) == (cycles > 0)
 
 
 def test_with_less_wear_the_feedback_matters_less():
@@ -123,7 +137,7 @@ def test_halving_the_jump_changes_the_depth_by_less_than_two_percent():
     fine = campaign(wear__jump_limit=0.1, wear__cycles=60)
     assert fine.sizes["jump"] > 1.4 * coarse.sizes["jump"]
     assert deepest(coarse) == pytest.approx(deepest(fine), rel=0.02)
-    volumes = [float(result["worn_volume"][-1]) for result in (coarse, fine)]
+    volumes = [result.attrs["worn_volume"] for result in (coarse, fine)]
     assert volumes[0] == pytest.approx(volumes[1], rel=0.02)
 
 

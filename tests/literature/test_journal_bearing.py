@@ -12,7 +12,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.lubrication import Film, FilmGrid, FilmState, film_state
+from tribodyn.lubrication import Film, FilmGrid, FilmState, film_equilibrium, film_state
 
 ETA, CLEARANCE, RADIUS, OMEGA = 0.01, 5e-6, 5e-3, 100.0
 WIDTHS = (1.0, 0.5, 0.25)
@@ -88,6 +88,22 @@ def test_rotation(eps: float, column: int) -> None:
     assert load_number(math.hypot(*state.force), WIDTHS[column], OMEGA) == pytest.approx(load, rel=0.01)
     assert math.degrees(state.attitude_angle) == pytest.approx(angle, abs=0.5)
     assert state.leakage / (RADIUS**2 * CLEARANCE * OMEGA) == pytest.approx(flow, rel=0.01)
+
+
+@pytest.mark.parametrize("column", range(3))
+@pytest.mark.parametrize("eps", ROTATION)
+def test_the_table_read_from_load_to_eccentricity(eps: float, column: int) -> None:
+    load, angle, flow = (row[column] for row in ROTATION[eps])
+    bearing = film(WIDTHS[column], "groove")
+    force = load / load_number(1.0, WIDTHS[column], OMEGA)
+    found = film_equilibrium(bearing, (0.6 * force, -0.8 * force), omega=OMEGA)
+    assert found.sommerfeld_number == pytest.approx(load, rel=1e-12)
+    assert found.eccentricity_ratio == pytest.approx(eps, rel=0.01)
+    assert found.least_film == pytest.approx((1.0 - eps) * CLEARANCE, rel=0.01)
+    assert math.degrees(found.attitude_angle) == pytest.approx(angle, abs=0.5)
+    assert found.state.leakage / (RADIUS**2 * CLEARANCE * OMEGA) == pytest.approx(flow, rel=0.01)
+    friction = math.pi / (math.sqrt(1.0 - eps**2) * load) + 0.5 * eps * math.sin(math.radians(angle))
+    assert found.friction_coefficient * RADIUS / CLEARANCE == pytest.approx(friction, rel=0.01)
 
 
 @pytest.mark.parametrize("column", range(3))

@@ -205,7 +205,7 @@ def make_campaign(make_result: ResultFactory) -> ResultFactory:
             "wear_cycles": 1000.0 * jump,
             "wear_jump_cycles": np.where(jump < n_jumps - 1, 1000.0, 0.0),
             "wear_depth_max": depth,
-            "worn_volume": 1e-6 * depth,
+            "wear_volume": 1e-6 * depth,
             "wear_rate": 1e-11 * np.exp(-jump / 10.0),
             "wear_load_change": np.where(jump > 0.0, 0.05, 0.0),
             "wear_pressure_max": 2e8 + 3e7 * np.sin(jump),

@@ -134,9 +134,15 @@ class Key:
             raise ValueProblem(str(problem)) from None
 
     def _without_unit(self, value: object) -> str:
-        """Show how a number given without a unit would be spelled with one."""
-        number = str(value).strip()
-        return f'the unit is missing, as in {self.name} = "{number[:_LONGEST_SHOWN]} {self.unit}"'
+        """Show how a number without a unit would be spelled, in SI units where it is more likely meant so."""
+        number, usual = float(str(value)), to_si(self.example, self.unit)
+        spelled = f"{str(value).strip()[:_LONGEST_SHOWN]} {self.unit}"
+        # Both readings are compared with the usual value, by their factors to it.
+        ratio = abs(number / usual) if usual else 0.0
+        if 0.0 < ratio < math.inf:
+            off, unit = math.log(ratio), math.log(to_si(f"1 {self.unit}", self.unit))
+            spelled = from_si(number, self.unit) if abs(off) < abs(off + unit) else spelled
+        return f'the unit is missing, as in {self.name} = "{spelled}"'
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""

@@ -44,6 +44,13 @@ class DampingFactor:
         ratio = self(restitution)
         return dashpot_rebound(0.5 * ratio) if self.dashpot else rebound(ratio)
 
+    @property
+    def valid_from(self) -> float:
+        """Least restitution, in steps of 0.01, from which on all come back within 0.05 of what was meant."""
+        meant = np.linspace(0.01, 1.0, 100)
+        right = np.abs(self.realised(meant) - meant) <= 0.05
+        return float(meant[np.logical_and.accumulate(right[::-1])[::-1]][0])
+
 
 def no_damping(restitution: FloatArray) -> FloatArray:
     """Return zeros, shape of ``restitution``: all energy comes back, whatever was meant."""
@@ -55,6 +62,16 @@ def hunt_crossley(restitution: FloatArray) -> FloatArray:
     return 1.5 * (1.0 - restitution)
 
 
+def herbert_mcwhannell(restitution: FloatArray) -> FloatArray:
+    """Return a = 6(1 − e)/((2e − 1)² + 3), shape of ``restitution`` [1]."""
+    return 6.0 * (1.0 - restitution) / ((2.0 * restitution - 1.0) ** 2 + 3.0)
+
+
+def lee_wang(restitution: FloatArray) -> FloatArray:
+    """Return a = 3(1 − e)/4, shape of ``restitution`` [1]."""
+    return 0.75 * (1.0 - restitution)
+
+
 def lankarani_nikravesh(restitution: FloatArray) -> FloatArray:
     """Return a = 3(1 − e²)/4, shape of ``restitution`` [1]."""
     return 0.75 * (1.0 - restitution**2)
@@ -63,6 +80,11 @@ def lankarani_nikravesh(restitution: FloatArray) -> FloatArray:
 def gonthier(restitution: FloatArray) -> FloatArray:
     """Return a = (1 − e²)/e, shape of ``restitution`` [1]."""
     return (1.0 - restitution**2) / restitution
+
+
+def zhiying_qishao(restitution: FloatArray) -> FloatArray:
+    """Return a = 3(1 − e²) exp(2(1 − e))/4, shape of ``restitution`` [1]."""
+    return np.asarray(lankarani_nikravesh(restitution) * np.exp(2.0 * (1.0 - restitution)))
 
 
 def flores(restitution: FloatArray) -> FloatArray:
@@ -107,8 +129,11 @@ DAMPING_FACTORS: dict[str, DampingFactor] = {
     "none": DampingFactor(no_damping, "no energy is lost"),
     "kelvin-voigt": DampingFactor(kelvin_voigt, "spring and dashpot; see Goldsmith 1960", dashpot=True),
     "hunt-crossley": DampingFactor(hunt_crossley, "Hunt and Crossley 1975"),
+    "herbert-mcwhannell": DampingFactor(herbert_mcwhannell, "Herbert and McWhannell 1977"),
+    "lee-wang": DampingFactor(lee_wang, "Lee and Wang 1983"),
     "lankarani-nikravesh": DampingFactor(lankarani_nikravesh, "Lankarani and Nikravesh 1990"),
     "gonthier": DampingFactor(gonthier, "Gonthier et al. 2004"),
+    "zhiying-qishao": DampingFactor(zhiying_qishao, "Zhiying and Qishao 2006"),
     "flores": DampingFactor(flores, "Flores et al. 2011"),
     "hu-guo": DampingFactor(hu_guo, "Hu and Guo 2015"),
     "calibrated": DampingFactor(calibrated, "solved here from the energy balance"),

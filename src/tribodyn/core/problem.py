@@ -29,8 +29,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from tribodyn.core.arrays import FloatArray
 
 
@@ -155,8 +153,3 @@ class Solution:
     def complete(self) -> bool:
         """Whether the end of the time span was reached."""
         return self.failure is None
-
-
-def empty_times() -> FloatArray:
-    """Return a time array with no entries."""
-    return np.empty(0, dtype=np.float64)

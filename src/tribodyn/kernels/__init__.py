@@ -1,1 +1,1 @@
-"""TODO."""
+"""Compiled functions of SI floats and arrays: joints, films, mechanisms, integrator; no classes, no I/O."""

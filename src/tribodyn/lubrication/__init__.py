@@ -1,14 +1,27 @@
 """Oil films: average Reynolds equation with flow factors and cavitation.
 
 A :class:`Film` is made into what the kernels read and change by ``data()`` and ``memory()``; what a mechanism
-calls stands in ``kernels.film``. :func:`film_state` evaluates a film at one state.
+calls stands in ``kernels.film``. :func:`film_state` evaluates a film at one state, :func:`film_equilibrium`
+finds where it carries a load.
 """
 
 from __future__ import annotations
 
+from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
 from tribodyn.lubrication.film import BOUNDARIES, CAVITATION, Film, FilmGrid
 from tribodyn.lubrication.roughness import Roughness
 from tribodyn.lubrication.state import FilmState, film_state
 from tribodyn.lubrication.status import explain
 
-__all__ = ["BOUNDARIES", "CAVITATION", "Film", "FilmGrid", "FilmState", "Roughness", "explain", "film_state"]
+__all__ = [
+    "BOUNDARIES",
+    "CAVITATION",
+    "Film",
+    "FilmEquilibrium",
+    "FilmGrid",
+    "FilmState",
+    "Roughness",
+    "explain",
+    "film_equilibrium",
+    "film_state",
+]

@@ -96,7 +96,7 @@ CAMPAIGN: Final[dict[str, Variable]] = {
     "wear_cycles": Variable("1", "drive cycles of wear at the stop", JUMP),
     "wear_jump_cycles": Variable("1", "cycles that the cycle simulated there stands for", JUMP),
     "wear_depth_max": Variable("m", "wear depth at the deepest", JUMP),
-    "worn_volume": Variable("m3", "volume worn off the bushing", JUMP),
+    "wear_volume": Variable("m3", "volume worn off the bushing up to the stop", JUMP),
     "wear_rate": Variable("m", "wear depth of one cycle where it wears fastest", JUMP),
     "wear_load_change": Variable(
         "1", "change of the sliding load since the stop before, over its peak", JUMP

@@ -256,7 +256,7 @@ def _noted(worn: Campaign, cycle: Cycle, plan: Plan, jump: int = 0, lost: float 
         "wear_cycles": float(worn.cycles),
         "wear_jump_cycles": float(jump),
         "wear_depth_max": float(worn.depth.max()),
-        "worn_volume": worn_volume(worn.depth, plan.node_area),
+        "wear_volume": worn_volume(worn.depth, plan.node_area),
         "wear_rate": float(plan.law.depth(cycle.sliding_load).max()),
         "wear_load_change": load_change(cycle.sliding_load, worn.load),
         "wear_energy_lost": lost,

@@ -21,7 +21,7 @@ from tribodyn.simulation.campaign import Campaign
 from tribodyn.simulation.history import columns
 from tribodyn.simulation.provenance import provenance
 
-FORMAT: Final = 1
+FORMAT: Final = 2
 _ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
 
 

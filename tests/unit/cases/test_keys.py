@@ -63,6 +63,36 @@ def test_values_of_another_kind_are_refused(path: str, wrong: object) -> None:
             keys_of(built_in()["vsv"].model)[path].read(wrong, text=text)
 
 
+@pytest.mark.parametrize(
+    ("path", "number", "spelled"),
+    [
+        ("surfaces.trunnion.young_modulus", 210e9, "210 GPa"),
+        ("surfaces.trunnion.young_modulus", 210, "210 GPa"),
+        ("surfaces.trunnion.young_modulus", "210e9", "210 GPa"),
+        ("joint.clearance", 3e-5, "30 um"),
+        ("joint.clearance", "25", "25 um"),
+        ("joint.clearance", 0, "0 um"),
+        ("mechanism.lever_length", -0.05, "-50 mm"),
+        ("mechanism.gravity", 9.81, "9.81 m/s^2"),
+    ],
+)
+def test_a_number_without_a_unit_is_shown_with_the_one_that_was_meant(
+    path: str, number: object, spelled: str
+) -> None:
+    key = keys_of(CASES["vsv"].model)[path]
+    with pytest.raises(ValueProblem, match="unit is missing") as problem:
+        key.read(number, text=True)
+    assert str(problem.value).endswith(f'= "{spelled}"')
+
+
+@pytest.mark.parametrize("number", [0, 1e-300, 1e300, "1e400", -7, "1" * 90])
+def test_every_quantity_asks_for_its_unit(number: object) -> None:
+    for key in ALL_KEYS:
+        if key.kind == "quantity":
+            with pytest.raises(ValueProblem, match="unit is missing"):
+                key.read(number, text=True)
+
+
 @given(st.text(st.characters(codec="utf-8")))
 def test_strings_are_written_as_toml(value: str) -> None:
     assert tomllib.loads(f"key = {toml_string(value)}")["key"] == value

@@ -27,10 +27,9 @@ def tables() -> ModuleType:
 
 
 def test_every_table_has_rows_of_one_width(tables: ModuleType) -> None:
-    found = json.loads(TARGET.read_text(encoding="utf-8"))
-    assert set(found) == set(NAMES)
-    for table in tables.TABLES.values():
-        lines = list(table(found))
+    assert set(json.loads(TARGET.read_text(encoding="utf-8"))) == set(NAMES)
+    for source, table in tables.TABLES.values():
+        lines = list(table(json.loads(source.read_text(encoding="utf-8"))))
         assert len(lines) > 2
         assert len({line.count("|") for line in lines}) == 1
 

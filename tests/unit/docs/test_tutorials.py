@@ -1,4 +1,4 @@
-"""Every tutorial runs as it stands in the manual."""
+"""Every tutorial, and every guide with code to run, runs as it stands in the manual."""
 
 from __future__ import annotations
 
@@ -8,17 +8,21 @@ from pathlib import Path
 import matplotlib as mpl
 import pytest
 
-FOLDER = Path(__file__).parents[3] / "docs" / "tutorials"
-TUTORIALS = sorted(FOLDER.glob("*.md"))
+DOCS = Path(__file__).parents[3] / "docs"
 CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+TUTORIALS = sorted((DOCS / "tutorials").glob("*.md"))
+GUIDES = [
+    path for path in sorted((DOCS / "guide").glob("*.md")) if CELL.search(path.read_text(encoding="utf-8"))
+]
 
 
 def test_there_are_tutorials():
     assert len(TUTORIALS) >= 6
+    assert "bearing" in {path.stem for path in GUIDES}
 
 
-@pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
-def test_the_tutorial_runs(path, monkeypatch, tmp_path):
+@pytest.mark.parametrize("path", [*TUTORIALS, *GUIDES], ids=lambda path: path.stem)
+def test_the_page_runs(path, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     mpl.use("agg")
     names = {"__name__": path.stem}

@@ -11,13 +11,7 @@ import pytest
 
 from tribodyn.kernels.journal import ledger as journal_ledger
 from tribodyn.kernels.vsv import books
-from tribodyn.mechanisms.checks import (
-    CLIP_LIMIT,
-    ENERGY_LIMIT,
-    GRID_LIMIT,
-    REJECTED_LIMIT,
-    RESTART_LIMIT,
-)
+from tribodyn.mechanisms.checks import CLIP_LIMIT, ENERGY_LIMIT, GRID_LIMIT, REJECTED_LIMIT, RESTART_LIMIT
 from tribodyn.mechanisms.journal import checks as journal_checks
 from tribodyn.mechanisms.vsv import checks
 from tribodyn.mechanisms.vsv.checks import peaks

@@ -117,8 +117,8 @@ def test_volume_of_each_jump_is_the_rate_times_the_sliding_load():
     loads = [float((asked.node_area @ found.sliding_load).sum()) for _, _, found in punch.cycles[1:-1]]
     worn_off = RATE * jumps[:-1] * np.array(loads)
     # To rounding; asked for are 1e-10.
-    np.testing.assert_allclose(np.diff(worn.history["worn_volume"]), worn_off, rtol=1e-11)
-    assert worn.history["worn_volume"][0] == 0.0
+    np.testing.assert_allclose(np.diff(worn.history["wear_volume"]), worn_off, rtol=1e-11)
+    assert worn.history["wear_volume"][0] == 0.0
 
 
 def test_jumps_grow_with_the_bushing_worn_in():

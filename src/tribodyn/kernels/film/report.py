@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.film.data import HALF_SOMMERFELD, FilmData, FilmMemory
 from tribodyn.kernels.jit import entry, kernel
@@ -53,9 +51,3 @@ def _outflow(film: FilmData, memory: FilmMemory, i: int, j: int, inward: int) ->
     face = j if inward > 0 else j + 1
     k_z = memory.fields.k_z
     return (1.5 * k_z[i, face] - 0.5 * k_z[i, face + inward]) * (2.0 * first - 0.5 * second)
-
-
-@entry
-def groove_angle(film: FilmData, memory: FilmMemory) -> float:
-    """Return the angle of the first column of nodes [rad]; 0 without a groove."""
-    return math.atan2(memory.fields.sin_node[0], memory.fields.cos_node[0])

@@ -9,7 +9,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.cases.load import parse_case
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.figures.base import Family
@@ -29,6 +28,7 @@ from tribodyn.figures.style import (
     note,
     sheet,
 )
+from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.views.series import finite, series
 
