@@ -41,7 +41,7 @@ Kinds = Mapping[str, type[Case]]
 """Case models by what stands under ``case =`` in a file."""
 
 
-def load_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str, BuiltIn]) -> Case:
+def read_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str, BuiltIn]) -> Case:
     """Return a case by built-in name or from a TOML file.
 
     Parameters
@@ -65,10 +65,10 @@ def load_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str,
         return build(entry.model, given, source)
     name = os.fspath(case)
     source = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}..."
-    return parse_case(_text(Path(name), source, built_in), source, kinds, Path(name).parent)
+    return parse(_text(Path(name), source, built_in), source, kinds, Path(name).parent)
 
 
-def parse_case(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> Case:
+def parse(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> Case:
     """Return the case that a TOML text describes.
 
     Parameters

@@ -46,7 +46,7 @@ def load_case(case: str | os.PathLike[str]) -> Case:
     InputError
         There is no such case or file, or something in the file is wrong.
     """
-    return load.load_case(case, kinds(), built_in())
+    return load.read_case(case, kinds(), built_in())
 
 
 def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
@@ -61,4 +61,4 @@ def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
     folder
         Where the names of files in it begin; None is the current directory.
     """
-    return load.parse_case(text, source, kinds(), folder)
+    return load.parse(text, source, kinds(), folder)

@@ -79,7 +79,7 @@ def test_values_of_another_kind_are_refused(path: str, wrong: object) -> None:
 def test_a_number_without_a_unit_is_shown_with_the_one_that_was_meant(
     path: str, number: object, spelled: str
 ) -> None:
-    key = keys_of(CASES["vsv"].model)[path]
+    key = keys_of(built_in()["vsv"].model)[path]
     with pytest.raises(ValueProblem, match="unit is missing") as problem:
         key.read(number, text=True)
     assert str(problem.value).endswith(f'= "{spelled}"')

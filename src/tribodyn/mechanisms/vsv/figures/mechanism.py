@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.figures.base import Family
@@ -28,7 +29,6 @@ from tribodyn.figures.style import (
     note,
     sheet,
 )
-from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.views.series import finite, series
 
@@ -40,7 +40,7 @@ _LOOKS: Final[tuple[tuple[str, LineStyle], ...]] = ((BLUE, DASHED), (INK, SOLID)
 def case_of(dataset: xr.Dataset) -> VsvCase | None:
     """Return the case of a result; nothing where its text is not (or no longer) one of this mechanism."""
     try:
-        case = parse_case(str(dataset.attrs.get("case", "")), "case of the result", {VsvCase.kind(): VsvCase})
+        case = parse(str(dataset.attrs.get("case", "")), "case of the result", {VsvCase.kind(): VsvCase})
     except InputError:
         return None
     return case if isinstance(case, VsvCase) else None
