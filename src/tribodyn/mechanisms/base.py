@@ -1,14 +1,15 @@
 """What a mechanism is to the rest of the program: one descriptor, and the systems that its cases describe.
 
-A mechanism is one folder beside this file and one line in ``MECHANISMS`` of ``catalogue.py``. Everything above
-reads the descriptor and knows no mechanism by name.
+A mechanism is one folder beside this file and one line in ``FOLDERS`` of ``catalogue.py``. Everything
+above reads the descriptor and knows no mechanism by name.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import importlib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -201,8 +202,13 @@ class WearingSystem(System, Protocol):
 class Mechanism:
     """All that is known of one kind of case.
 
+    What compiles or draws stands in modules of the mechanism's folder that are imported when they are asked
+    for: reading a case needs neither.
+
     Attributes
     ----------
+    folder
+        Dotted name of its folder.
     case
         Its case model.
     built_in
@@ -213,30 +219,41 @@ class Mechanism:
         Its headline numbers by their names in ``summary.json``, in reading order.
     key_numbers
         Names of those that a reader wants first.
-    system
-        Makes a system of a case.
     of_cycle
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
-    figures
-        Its figures for ``figures/`` by the names of their files, in reading order.
-    chapters
-        Chapters of its report, in reading order.
-    overlays
-        What a comparison of several runs shows.
     """
 
+    folder: str
     case: type[Case]
     built_in: Mapping[str, BuiltIn]
     variables: Mapping[str, Variable]
     headlines: Mapping[str, Headline]
     key_numbers: tuple[str, ...]
-    system: Callable[[Any], System]
-    figures: Callable[[], Mapping[str, Family]]
-    chapters: Callable[[], Sequence[Chapter]]
-    overlays: Callable[[], Sequence[Overlay]]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
 
     @property
     def kind(self) -> str:
         """Its name under ``case =`` in a file."""
         return self.case.kind()
+
+    def system(self, case: SystemCase) -> System:
+        """Return the system of a case: ``SYSTEM`` of ``system.py``, called with it."""
+        return cast(System, self._module("system").SYSTEM(case))
+
+    @property
+    def figures(self) -> Mapping[str, Family]:
+        """``FIGURES`` of ``figures``: its figures by the names of their files, in reading order."""
+        return cast("Mapping[str, Family]", self._module("figures").FIGURES)
+
+    @property
+    def chapters(self) -> Sequence[Chapter]:
+        """``CHAPTERS`` of ``sections``: the chapters of its report, in reading order."""
+        return cast("Sequence[Chapter]", self._module("sections").CHAPTERS)
+
+    @property
+    def overlays(self) -> Sequence[Overlay]:
+        """``OVERLAYS`` of ``sections``: what a comparison of several runs shows."""
+        return cast("Sequence[Overlay]", self._module("sections").OVERLAYS)
+
+    def _module(self, name: str) -> Any:
+        return importlib.import_module(f"{self.folder}.{name}")

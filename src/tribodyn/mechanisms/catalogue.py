@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from pathlib import Path
-from typing import Final
+from typing import Final, cast
 
 from tribodyn.cases import load
 from tribodyn.cases.base import Case
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import Mechanism
-from tribodyn.mechanisms.journal.descriptor import JOURNAL
-from tribodyn.mechanisms.vsv.descriptor import VSV
+
+FOLDERS: Final = (
+    "vsv",
+    "journal",
+)
+"""Every mechanism by its folder beside this file, whose ``descriptor.py`` holds its ``MECHANISM``."""
+
+
+def _described(folder: str) -> Mechanism:
+    return cast(Mechanism, importlib.import_module(f"tribodyn.mechanisms.{folder}.descriptor").MECHANISM)
+
 
 MECHANISMS: Final[dict[str, Mechanism]] = {
-    mechanism.kind: mechanism
-    for mechanism in (
-        VSV,
-        JOURNAL,
-    )
+    mechanism.kind: mechanism for mechanism in map(_described, FOLDERS)
 }
 """Every mechanism, by the kind of its cases."""
 

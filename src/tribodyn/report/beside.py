@@ -36,7 +36,7 @@ def curves_over_each_other(
 def chapter_of(runs: dict[str, xr.Dataset]) -> Chapter:
     """Return the chapter with the curves of runs, by their names."""
     planned = {
-        overlay.name: overlay for dataset in runs.values() for overlay in mechanism_of(dataset).overlays()
+        overlay.name: overlay for dataset in runs.values() for overlay in mechanism_of(dataset).overlays
     }
     return Chapter("curves", "Curves over each other", LEAD, overlays(list(planned.values()), runs))
 

@@ -17,7 +17,7 @@ def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:
     """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
     if dataset.attrs.get("kind") == "sweep":
         return sweep.families(dataset)
-    return mechanism_of(dataset).figures()
+    return mechanism_of(dataset).figures
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:

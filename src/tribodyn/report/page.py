@@ -24,7 +24,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
     """Return the page of a result as text."""
     summary = summarise(dataset)
     mechanism = mechanism_of(dataset)
-    shown, payloads = chapters(dataset, mechanism.chapters(), stills, figures_of(dataset))
+    shown, payloads = chapters(dataset, mechanism.chapters, stills, figures_of(dataset))
     return page(
         payload={"clock": clock(dataset), "figures": payloads} if payloads else None,
         title=summary["title"] or "Result",

@@ -71,7 +71,8 @@ def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Sessio
     if kind not in MECHANISMS:
         raise InputError(f"given {kind!r}; allowed: {', '.join(MECHANISMS)}", key="case")
     mechanism = MECHANISMS[kind]
-    return Session(cast(SystemCase, case), mechanism, mechanism.system(case), progress, stop)
+    known = cast(SystemCase, case)
+    return Session(known, mechanism, mechanism.system(known), progress, stop)
 
 
 def _first_steps(case: Case) -> None:

@@ -198,3 +198,6 @@ def _contact_start(run: Run, rows: dict[str, FloatArray]) -> float:
     """Return the first output time at which any point is in contact [s]; NaN if there is none."""
     touching = np.flatnonzero(rows["contact_fraction"] > 0.0)
     return float(run.solution.t[touching[0]]) if touching.size else np.nan
+
+
+SYSTEM: Final = JournalSystem

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -203,3 +204,6 @@ class VsvSystem:
 def _mean(t: FloatArray, values: FloatArray) -> float:
     """Return the mean over time; output times crowd around events."""
     return 0.5 * float(np.sum((values[1:] + values[:-1]) * np.diff(t))) / float(t[-1] - t[0])
+
+
+SYSTEM: Final = VsvSystem

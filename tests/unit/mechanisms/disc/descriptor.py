@@ -1,0 +1,27 @@
+"""The disc as the rest of the program sees it."""
+
+from __future__ import annotations
+
+from tribodyn.cases.load import BuiltIn
+from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.disc.case import DiscCase
+from tribodyn.mechanisms.disc.variables import VARIABLES
+from tribodyn.results.headline import Headline
+from tribodyn.results.reading import column, peak
+
+MECHANISM = Mechanism(
+    folder="tribodyn.mechanisms.disc",
+    case=DiscCase,
+    built_in={"disc": BuiltIn(DiscCase, "a disc that falls on an elastic floor")},
+    variables=VARIABLES,
+    headlines={
+        "floor_force_max_N": Headline(
+            "Force of the floor, largest",
+            "N",
+            "Load",
+            "What the floor bears.",
+            lambda d: peak(column(d, "floor_force")),
+        )
+    },
+    key_numbers=("floor_force_max_N",),
+)

@@ -1,0 +1,19 @@
+"""What the report shows of the disc."""
+
+from __future__ import annotations
+
+from tribodyn.views.chart import Chart
+from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.overlay import Overlay, scaled
+from tribodyn.views.section import OVER_TIME, Chapter
+from tribodyn.views.series import series
+
+HEIGHT = Chart(
+    name="height",
+    title="Height of the disc",
+    caption="How it falls and bounces.",
+    needs=("height",),
+    panels=lambda dataset: [Panel("height [µm]", [Curve("height", series(dataset, "height", 1e6))])],
+)
+CHAPTERS = (Chapter("time", "Over time", OVER_TIME, (HEIGHT.section,)),)
+OVERLAYS = (Overlay("height", "Height", (scaled("height", "height [µm]", 1e6),)),)

@@ -1,0 +1,11 @@
+"""What its results hold."""
+
+from __future__ import annotations
+
+from tribodyn.results.variables import Variable
+
+VARIABLES = {
+    "height": Variable("m", "height of the disc over the floor"),
+    "floor_force": Variable("N", "force of the floor on the disc"),
+    "energy_lost": Variable("J", "what the energy of the disc misses"),
+}

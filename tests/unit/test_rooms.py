@@ -1,0 +1,29 @@
+"""Who may know whom by name."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tribodyn.mechanisms.catalogue import FOLDERS
+
+SOURCE = Path(__file__).parents[2] / "src" / "tribodyn"
+CATALOGUE = SOURCE / "mechanisms" / "catalogue.py"
+EXAMPLES = SOURCE / "cli" / "main.py"
+"""The help of the command line shows examples."""
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_no_mechanism_is_known_by_name_outside_its_folders(name: str) -> None:
+    word = re.compile(rf"\b{name}\b")
+    knowing = [
+        str(path.relative_to(SOURCE))
+        for path in SOURCE.rglob("*.py")
+        if name not in path.relative_to(SOURCE).parts
+        and path not in (CATALOGUE, EXAMPLES)
+        and "papers" not in path.relative_to(SOURCE).parts
+        and word.search(path.read_text(encoding="utf-8"))
+    ]
+    assert knowing == []
