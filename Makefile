@@ -10,12 +10,13 @@ PLOTS := $(filter-out docs/plots/demo.py,$(wildcard docs/plots/*.py))
 PYTEST := $(BIN)/python -m pytest -n 2
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-long lint format docs bench lock clean
+.PHONY: help demo test test-long golden lint format docs bench lock clean
 
 help:
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make test-long   those too"
+	@echo "make golden      store the headline numbers of the built-in cases anew"
 	@echo "make lint        style, types and layers"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
@@ -35,6 +36,9 @@ test-long: $(VENV)/.dev
 	@tools/ensure-browser
 	@tools/compile-kernels $(BIN)/python
 	$(PYTEST)
+
+golden: $(VENV)/.dev
+	$(BIN)/python tests/golden/test_headlines.py
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .
