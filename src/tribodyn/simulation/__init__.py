@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError
-from tribodyn.simulation.compilation import Simulator, compile_elsewhere, loaded
+from tribodyn.simulation.compilation import Simulator, compile_elsewhere, from_parent, loaded
 from tribodyn.simulation.journal import simulate_journal
 from tribodyn.simulation.vsv import simulate_vsv
 from tribodyn.simulation.vsv_wear import simulate_vsv_wear
@@ -39,10 +39,11 @@ def simulate(
     case
         From :func:`tribodyn.load_case`.
     progress
-        Called with the simulated time [s] after every accepted step; in a wear campaign with the cycles
-        of wear behind.
+        Called with the simulated time [s] after accepted steps, by the solver ``mebdf`` some ten times a
+        second; in a wear campaign with the cycles of wear behind.
     stop
-        Asked after every accepted step; when true the run ends there.
+        Asked whenever ``progress`` is called, and several times a second while equations are compiled; when
+        true the run ends there.
     checkpoint
         File in which a wear campaign is kept after every jump, and from which it goes on if the file is
         there. It stays when the campaign is over. Other runs do not use it.
@@ -57,9 +58,11 @@ def simulate(
     ------
     InputError
         If the case asks for something that cannot be.
+    Stopped
+        If ``stop`` was true before anything was computed.
     """
     simulator = _simulator(case)
-    prepare(case)
+    prepare(case, stop)
     dataset: xr.Dataset
     if case.campaign_cycles > 0:
         kept = None if checkpoint is None else Path(checkpoint)
@@ -76,11 +79,11 @@ def _simulator(case: Case) -> Simulator:
     return SIMULATORS[kind]
 
 
-def prepare(case: Case) -> None:
-    """Have the equations of a case compiled, if they are not, and load them."""
+def prepare(case: Case, stop: Callable[[], bool] | None = None) -> None:
+    """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
     simulator = _simulator(case)
     if not loaded(case, simulator):
-        compile_elsewhere(case)
+        compile_elsewhere(case, stop)
         loaded(case, simulator)
 
 
@@ -89,12 +92,12 @@ def load_equations(case: Case) -> None:
     loaded(case, _simulator(case))
 
 
-def compile_case(toml: str) -> None:
-    """Compile the equations of a case, given as TOML, and leave them in numba's cache: a few steps do."""
+def compile_for_parent() -> None:
+    """Compile the case that the parent process hands over into numba's cache: the first step does."""
     from tribodyn.cases import parse_case
 
-    case = parse_case(toml, "case")
+    case = parse_case(from_parent(), "case")
     _simulator(case)(case, stop=lambda: True)
 
 
-__all__ = ["CAMPAIGNS", "SIMULATORS", "compile_case", "load_equations", "prepare", "simulate"]
+__all__ = ["CAMPAIGNS", "SIMULATORS", "compile_for_parent", "load_equations", "prepare", "simulate"]
