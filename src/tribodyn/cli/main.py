@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
 from tribodyn.cli import bounce, cases, check, compare, report, reproduce, run, show, surface, sweep
-from tribodyn.cli.console import complain, forgive_encodings
+from tribodyn.cli.console import complain, forgive_encodings, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
 
@@ -106,6 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     with signals_heard():
         forgive_encodings()
+        silence_matplotlib()
         status = _executed(_parser().parse_args(arguments))
         end(status)
     return status

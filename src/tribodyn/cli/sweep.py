@@ -150,9 +150,8 @@ def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool, *, poi
 
     The reports of ``points`` take long, and can be left out.
     """
-    last_words(
-        f"interrupted while drawing; the results are saved in {path}; `tribodyn report {path}` draws them"
-    )
+    safe = f"the results are saved in {path}; `tribodyn report {path}` draws them"
+    last_words(f"interrupted while drawing; {safe}")
     try:
         if points and int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
             draw_points(path, console.note)

@@ -7,10 +7,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.integrate import INTERRUPTED
 from tribodyn.simulation.compilation import Simulator, compile_elsewhere, from_parent, loaded
-from tribodyn.simulation.journal import simulate_journal
-from tribodyn.simulation.vsv import simulate_vsv
+from tribodyn.simulation.journal import journals, simulate_journal
+from tribodyn.simulation.vsv import mechanism, simulate_vsv
 from tribodyn.simulation.vsv_wear import simulate_vsv_wear
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv, "journal": simulate_journal}
 """What runs each kind of case."""
+
+MODELS: Final[dict[str, Callable[..., object]]] = {"vsv": mechanism, "journal": journals}
+"""What makes of each kind of case the mechanism, its joint and its contact laws with it."""
 
 CAMPAIGNS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv_wear}
 """What runs a wear campaign of each kind of case that has one."""
@@ -87,6 +91,34 @@ def prepare(case: Case, stop: Callable[[], bool] | None = None) -> None:
         loaded(case, simulator)
 
 
+def check(case: Case, *, deep: bool = False) -> None:
+    """Find out without running it what a run of a case would refuse.
+
+    Parameters
+    ----------
+    case
+        The case. Its mechanism is put together, with the tables of its contact laws.
+    deep
+        Whether its equations are compiled too, if they are not yet, its start is found and the first step
+        taken.
+
+    Raises
+    ------
+    InputError
+        What the run would raise.
+    TribodynError
+        If the run would fail at its first step.
+    """
+    simulator = _simulator(case)
+    MODELS[case.case](case)
+    if not deep:
+        return
+    prepare(case)
+    failure = simulator(case, stop=lambda: True).attrs["failure"]
+    if failure not in ("", INTERRUPTED):
+        raise TribodynError(f"a run fails at its first step: {failure}")
+
+
 def load_equations(case: Case) -> None:
     """Load the equations of a case if they are compiled."""
     loaded(case, _simulator(case))
@@ -100,4 +132,13 @@ def compile_for_parent() -> None:
     _simulator(case)(case, stop=lambda: True)
 
 
-__all__ = ["CAMPAIGNS", "SIMULATORS", "compile_for_parent", "load_equations", "prepare", "simulate"]
+__all__ = [
+    "CAMPAIGNS",
+    "MODELS",
+    "SIMULATORS",
+    "check",
+    "compile_for_parent",
+    "load_equations",
+    "prepare",
+    "simulate",
+]
