@@ -27,7 +27,7 @@ import pytest
 from tribodyn.cases import parse_case
 from tribodyn.results import read
 
-SOON = 30.0
+SOON = 60.0
 """Time within which a process ends after the signal [s], drawing on a busy machine included."""
 UNDER_WAY, LONGEST = 5.0, 8.0
 """Processor time after which a run is certainly under way, and until which a command is left alone [s]."""
@@ -119,10 +119,10 @@ def spent(session: int) -> float:
 def members(session: int) -> list[psutil.Process]:
     """Return the processes of a session that have not ended."""
     found = []
-    for process in psutil.process_iter():
+    for pid in psutil.pids():
         with suppress(OSError, psutil.Error):
-            if os.getsid(process.pid) == session and process.status() != psutil.STATUS_ZOMBIE:
-                found.append(process)
+            if os.getsid(pid) == session and (one := psutil.Process(pid)).status() != psutil.STATUS_ZOMBIE:
+                found.append(one)
     return found
 
 
@@ -132,7 +132,7 @@ def goes_on(process: subprocess.Popen[str], until: float) -> bool:
         with suppress(psutil.Error):
             if spent(process.pid) >= until:
                 return True
-        time.sleep(0.01)
+        time.sleep(0.03)
     return False
 
 
@@ -179,7 +179,7 @@ def lasts(inputs: Callable[[Path], None], tmp_path_factory: pytest.TempPathFacto
         while process.poll() is None and reached < LONGEST:
             with suppress(psutil.Error):
                 reached = max(reached, spent(process.pid))
-            time.sleep(0.02)
+            time.sleep(0.1)
         for left in members(process.pid):
             with suppress(psutil.Error):
                 left.kill()
