@@ -86,16 +86,13 @@ def test_the_other_process_ends_when_this_one_is_to_stop(
 
 
 def test_what_compiles_ends_with_whoever_asked_for_it() -> None:
-    wait = "from tribodyn.simulation.compilation import from_parent; print(from_parent(), flush=True)"
-    with subprocess.Popen(
-        [sys.executable, "-c", f"{wait}; import time; time.sleep(60)"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-    ) as child:
-        assert child.stdin is not None
-        assert child.stdout is not None
-        child.stdin.write(b'"case text"\n')
-        child.stdin.flush()
-        assert child.stdout.readline() == b"case text\n"
-        child.stdin.close()
-        assert child.wait(timeout=30) == 1
+    child = "from tribodyn.simulation.compilation import from_parent; print(from_parent(), flush=True)"
+    command = [sys.executable, "-c", f"{child}; import time; time.sleep(60)"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdin.write(b'"case text"\n')
+        process.stdin.flush()
+        assert process.stdout.readline() == b"case text\n"
+        process.stdin.close()
+        assert process.wait(timeout=30) == 1
