@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sys
 
-from tribodyn.cli.interrupt import hear_signals
+from tribodyn.cli.interrupt import hear_signals_to_the_end
 
 
 def main() -> int:
     """Run the command in a process of its own, where signals are heard before all else is imported."""
-    hear_signals()
+    hear_signals_to_the_end()
     from tribodyn.cli.main import main as command
 
     return command()

@@ -8,6 +8,7 @@ else, and at the second signal, it ends the process there and then.
 
 from __future__ import annotations
 
+import atexit
 import os
 import signal
 import sys
@@ -77,8 +78,22 @@ _met = _Met()
 
 def hear_signals() -> None:
     """Let SIGINT and SIGTERM do from now on what this module says."""
+    _set(_handle)
+
+
+def hear_signals_to_the_end() -> None:
+    """Do so in a process that is a command, until it is gone.
+
+    Python puts the default back when it shuts down, which would kill a command that has done its work.
+    """
+    hear_signals()
+    # What is registered first is called last.
+    atexit.register(_set, signal.SIG_IGN)
+
+
+def _set(handler: signal.Handlers | Callable[[int, FrameType | None], None]) -> None:
     for number in _SIGNALS:
-        signal.signal(number, _handle)
+        signal.signal(number, handler)
 
 
 @contextmanager
@@ -123,9 +138,8 @@ def _handle(number: int, frame: FrameType | None) -> None:
 
 def _leave() -> None:
     """End the process."""
-    for number in _SIGNALS:
-        # Should anything below hang, the next signal does what it does to any process.
-        signal.signal(number, signal.SIG_DFL)
+    # Should anything below hang, the next signal does what it does to any process.
+    _set(signal.SIG_DFL)
     for action in (*_met.tidying, sys.stdout.flush):
         with suppress(Exception):
             action()

@@ -87,3 +87,21 @@ def test_after_the_work_a_signal_changes_nothing(leaving: None, capfd: pytest.Ca
 def test_a_signal_in_a_callback_of_the_interpreter_is_not_lost() -> None:
     done = subprocess.run([sys.executable, "-c", IN_A_CALLBACK], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (1, "", "\ntribodyn: aborted; nothing was saved\n")
+
+
+def test_python_shutting_down_does_not_turn_success_into_a_kill() -> None:
+    # An object that goes only when Python clears its modules, when it has put its own handlers back.
+    script = """
+import os, signal, sys
+from tribodyn.__main__ import main
+
+class Last:
+    def __del__(self, kill=os.kill, pid=os.getpid(), number=signal.SIGTERM):
+        kill(pid, number)
+
+sys.modules["last"] = Last()
+sys.argv[1:] = ["cases", "--quiet"]
+sys.exit(main())
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
