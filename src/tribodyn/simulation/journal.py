@@ -49,8 +49,11 @@ def simulate_journal(
             progress=_share(progress, number, len(prepared), case.duration),
             stop=stop,
         )
-        runs.append(_Run(case.laws[number], journal, problem, solution, _balance(journal)))
-        if solution.failure == INTERRUPTED:
+        interrupted = solution.failure == INTERRUPTED
+        # Whoever wants to stop does not wait for what takes many evaluations of a fine film.
+        balance = None if interrupted else _balance(journal)
+        runs.append(_Run(case.laws[number], journal, problem, solution, balance))
+        if interrupted:
             break
     return _dataset(case, runs)
 
