@@ -62,7 +62,7 @@ COMMANDS = {
     "sweep here": Command([*SWEEP, "--workers", "0", "-o", "out"]),
     "report": Command(["report", "made"]),
     "reproduce": Command(["reproduce", "fig8", "fig19", "-o", "out"]),
-    "surface": Command(["surface", "profile.csv", "--unit", "um", "-o", "out"]),
+    "surface": Command(["surface", "profile.csv", "--unit", "um", "--spacing", "0.5 um", "-o", "out"]),
     "bounce": Command(["bounce", "vsv"]),
     "check": Command(["check", "journal-oil", "--deep"]),
     "show": Command(["show", "vsv"]),
@@ -76,9 +76,8 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Path], None]:
     kept = tmp_path_factory.mktemp("inputs")
     short = [sys.executable, "-m", "tribodyn", "run", "vsv", *settings("run.duration=0.1 s"), "-o", "made"]
     subprocess.run(short, cwd=kept, check=True, capture_output=True)
-    x = np.arange(4000) * 0.5
-    heights = np.random.default_rng(1).normal(size=x.size)
-    np.savetxt(kept / "profile.csv", np.column_stack([x, heights]), delimiter=",")
+    heights = np.random.default_rng(1).normal(size=4000)
+    np.savetxt(kept / "profile.csv", heights, delimiter=",")
     return lambda folder: subprocess.run(["cp", "-r", f"{kept}/.", str(folder)], check=True)
 
 
