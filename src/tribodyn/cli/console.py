@@ -61,6 +61,16 @@ def forgive_encodings() -> None:
             reconfigure(errors="backslashreplace")
 
 
+def silence_matplotlib() -> None:
+    """Keep Matplotlib from telling where it puts its own files when the home folder cannot be written to.
+
+    It takes a private temporary folder then, and removes it.
+    """
+    import logging
+
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+
 def is_terminal(stream: TextIO) -> bool:
     """Tell whether a person watches the stream."""
     with contextlib.suppress(ValueError, AttributeError):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
+from tribodyn.cli.interrupt import last_words
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
 
@@ -38,6 +39,7 @@ def execute(args: Namespace) -> int:
     dataset = _read(Path(args.directory))
     directory = OutputDirectory(args.directory)
     console = Console.of(args)
+    last_words(f"interrupted; what was finished until then is in {os.fspath(directory.path)}")
     with directory.reserved():
         if args.points:
             draw_points(directory.path, console.note)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.interrupt import last_words
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -46,6 +48,7 @@ def execute(args: Namespace) -> int:
         )
     console = Console.of(args)
     directory = OutputDirectory(args.output)
+    last_words(f"interrupted; what was finished until then is in {os.fspath(directory.path)}")
     with directory.reserved(), announced_compilation(console.note):
         runs = Runs(note=console.note)
         for name in wanted:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import FIGURES, OutputDirectory
+from tribodyn.cli.interrupt import last_words
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -73,6 +74,7 @@ def _measure(args: Namespace, console: Console) -> None:
         figure = _drawn(surface, others)
         directory = OutputDirectory(args.output)
         with directory.reserved():
+            last_words(f"interrupted while saving; what stands in {args.output} is whole")
             _save(directory.path, outcome, block, figure)
     _tell(outcome, block, args.output, console)
 

@@ -14,7 +14,7 @@ from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
-from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
 
-_STOPPING: Final = b"\ntribodyn: stopping; finished points are kept; interrupt again to abort\n"
+_STOPPING: Final = "stopping; finished points are kept; interrupt again to leave at once"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -78,10 +78,11 @@ def execute(args: Namespace) -> int:
     directory = OutputDirectory(f"sweep-{Path(args.case).stem}" if args.output is None else args.output)
     with directory.reserved():
         with Interruption(_STOPPING) as interruption:
+            last_words(f"aborted; points that had finished are kept in {os.fspath(directory.path)}")
             dataset = _computed(plan, directory.path, means, console, interruption)
         # That of an earlier sweep would contradict this one.
         (directory.path / REPORT).unlink(missing_ok=True)
-        drawn = not interruption.requested and _draw(dataset, directory.path, console, args.debug)
+        drawn = _draw(dataset, directory.path, console, args.debug, points=not interruption.requested)
     _tell(directory.path, console)
     _warn(dataset)
     lost = int(dataset.attrs["points_failed"])
@@ -144,21 +145,24 @@ class _Shown:
         self._stack.enter_context(announced_compilation(self._bar.note))
 
 
-def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool) -> bool:
-    """Draw figures and reports; the results are safe whatever happens here. Tell whether all were drawn."""
+def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool, *, points: bool) -> bool:
+    """Draw figures and reports; the results are safe whatever happens here. Tell whether all were drawn.
+
+    The reports of ``points`` take long, and can be left out.
+    """
+    safe = f"the results are saved in {path}; `tribodyn report {path}` draws them"
+    last_words(f"interrupted while drawing; {safe}")
     try:
-        if int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
+        if points and int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
             draw_points(path, console.note)
         console.note("drawing figures and report")
         draw(dataset, path)
-    except KeyboardInterrupt:
-        complain(f"interrupted while drawing; the results are saved in {path}")
-        return False
     except Exception as error:
         if debug:
             traceback.print_exc()
-        complain(f"figures and report could not be made ({error}); the results are saved in {path}")
+        complain(f"figures and report could not be made ({error}); {safe}")
         return False
+    last_words(f"interrupted; everything is in {path}")
     return True
 
 

@@ -1,4 +1,4 @@
-"""The two ways in which tribodyn tells a user that something cannot go on."""
+"""The ways in which tribodyn tells a user that something cannot go on."""
 
 from __future__ import annotations
 
@@ -43,3 +43,10 @@ class IntegrationFailure(TribodynError):
         self.time = time
         self.reason = reason
         super().__init__(f"stopped at t = {time:.6g} s: {reason}")
+
+
+class Stopped(TribodynError):
+    """The caller asked to stop before there was anything to return."""
+
+    def __init__(self) -> None:
+        super().__init__("stopped before anything was computed; nothing was saved")

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
+import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -43,10 +44,12 @@ def start(case: str, changes: Mapping[str, str]) -> None:
         Values to change in it, by dotted path.
     """
     if METHOD == "forkserver":
-        from multiprocessing import forkserver
+        from multiprocessing import forkserver, resource_tracker
 
+        # Which the server would start, and which lets signals through again when it has begun.
+        resource_tracker.ensure_running()
         multiprocessing.get_context(METHOD).set_forkserver_preload([_MODULE])
-        with _set({**ENVIRONMENT, _CASE: json.dumps([case, changes])}):
+        with _set({**ENVIRONMENT, _CASE: json.dumps([case, changes])}), _uninterrupted():
             forkserver.ensure_running()
 
 
@@ -54,6 +57,16 @@ def take_case() -> tuple[str, dict[str, str]] | None:
     """Return case and changes to the server; None to any other process, and to whoever asks again."""
     given = os.environ.pop(_CASE, None)
     return None if given is None else tuple(json.loads(given))
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Hold back Ctrl-C, which is for the command: a process started meanwhile never hears it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -7,10 +7,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.core.errors import InputError
-from tribodyn.simulation.compilation import Simulator, compile_elsewhere, loaded
-from tribodyn.simulation.journal import simulate_journal
-from tribodyn.simulation.vsv import simulate_vsv
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.integrate import INTERRUPTED
+from tribodyn.simulation.compilation import Simulator, compile_elsewhere, from_parent, loaded
+from tribodyn.simulation.journal import journals, simulate_journal
+from tribodyn.simulation.vsv import mechanism, simulate_vsv
 from tribodyn.simulation.vsv_wear import simulate_vsv_wear
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv, "journal": simulate_journal}
 """What runs each kind of case."""
+
+MODELS: Final[dict[str, Callable[..., object]]] = {"vsv": mechanism, "journal": journals}
+"""What makes of each kind of case the mechanism, its joint and its contact laws with it."""
 
 CAMPAIGNS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv_wear}
 """What runs a wear campaign of each kind of case that has one."""
@@ -39,10 +43,11 @@ def simulate(
     case
         From :func:`tribodyn.load_case`.
     progress
-        Called with the simulated time [s] after every accepted step; in a wear campaign with the cycles
-        of wear behind.
+        Called with the simulated time [s] after accepted steps, by the solver ``mebdf`` some ten times a
+        second; in a wear campaign with the cycles of wear behind.
     stop
-        Asked after every accepted step; when true the run ends there.
+        Asked whenever ``progress`` is called, and several times a second while equations are compiled; when
+        true the run ends there.
     checkpoint
         File in which a wear campaign is kept after every jump, and from which it goes on if the file is
         there. It stays when the campaign is over. Other runs do not use it.
@@ -57,9 +62,11 @@ def simulate(
     ------
     InputError
         If the case asks for something that cannot be.
+    Stopped
+        If ``stop`` was true before anything was computed.
     """
     simulator = _simulator(case)
-    prepare(case)
+    prepare(case, stop)
     dataset: xr.Dataset
     if case.campaign_cycles > 0:
         kept = None if checkpoint is None else Path(checkpoint)
@@ -76,12 +83,40 @@ def _simulator(case: Case) -> Simulator:
     return SIMULATORS[kind]
 
 
-def prepare(case: Case) -> None:
-    """Have the equations of a case compiled, if they are not, and load them."""
+def prepare(case: Case, stop: Callable[[], bool] | None = None) -> None:
+    """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
     simulator = _simulator(case)
     if not loaded(case, simulator):
-        compile_elsewhere(case)
+        compile_elsewhere(case, stop)
         loaded(case, simulator)
+
+
+def check(case: Case, *, deep: bool = False) -> None:
+    """Find out without running it what a run of a case would refuse.
+
+    Parameters
+    ----------
+    case
+        The case. Its mechanism is put together, with the tables of its contact laws.
+    deep
+        Whether its equations are compiled too, if they are not yet, its start is found and the first step
+        taken.
+
+    Raises
+    ------
+    InputError
+        What the run would raise.
+    TribodynError
+        If the run would fail at its first step.
+    """
+    simulator = _simulator(case)
+    MODELS[case.case](case)
+    if not deep:
+        return
+    prepare(case)
+    failure = simulator(case, stop=lambda: True).attrs["failure"]
+    if failure not in ("", INTERRUPTED):
+        raise TribodynError(f"a run fails at its first step: {failure}")
 
 
 def load_equations(case: Case) -> None:
@@ -89,12 +124,21 @@ def load_equations(case: Case) -> None:
     loaded(case, _simulator(case))
 
 
-def compile_case(toml: str) -> None:
-    """Compile the equations of a case, given as TOML, and leave them in numba's cache: a few steps do."""
+def compile_for_parent() -> None:
+    """Compile the case that the parent process hands over into numba's cache: the first step does."""
     from tribodyn.cases import parse_case
 
-    case = parse_case(toml, "case")
+    case = parse_case(from_parent(), "case")
     _simulator(case)(case, stop=lambda: True)
 
 
-__all__ = ["CAMPAIGNS", "SIMULATORS", "compile_case", "load_equations", "prepare", "simulate"]
+__all__ = [
+    "CAMPAIGNS",
+    "MODELS",
+    "SIMULATORS",
+    "check",
+    "compile_for_parent",
+    "load_equations",
+    "prepare",
+    "simulate",
+]

@@ -38,7 +38,7 @@ def simulate_journal(
     stop: Callable[[], bool] | None = None,
 ) -> xr.Dataset:
     """Simulate a ``journal`` case, see :func:`tribodyn.simulation.simulate`."""
-    prepared = [_prepared(case, law) for law in case.laws]
+    prepared = [(journal, _problem(case, journal)) for journal in journals(case)]
     runs = []
     for number, (journal, problem) in enumerate(prepared):
         solution = integrate(
@@ -49,8 +49,11 @@ def simulate_journal(
             progress=_share(progress, number, len(prepared), case.duration),
             stop=stop,
         )
-        runs.append(_Run(case.laws[number], journal, problem, solution, _balance(journal)))
-        if solution.failure == INTERRUPTED:
+        interrupted = solution.failure == INTERRUPTED
+        # Whoever wants to stop does not wait for what takes many evaluations of a fine film.
+        balance = None if interrupted else _balance(journal)
+        runs.append(_Run(case.laws[number], journal, problem, solution, balance))
+        if interrupted:
             break
     return _dataset(case, runs)
 
@@ -78,6 +81,11 @@ def journal_of(case: JournalCase, law: str | None = None) -> Journal:
     )
 
 
+def journals(case: JournalCase) -> list[Journal]:
+    """Return the journal of a case with each of its contact laws."""
+    return [journal_of(case, law) for law in case.laws]
+
+
 def _film(case: JournalCase) -> Film | None:
     """Return the oil film of a case, if there is oil."""
     film, size, surfaces = case.film, case.joint, case.surfaces
@@ -96,19 +104,18 @@ def _film(case: JournalCase) -> Film | None:
     )
 
 
-def _prepared(case: JournalCase, law: str) -> tuple[Journal, Problem]:
-    """Return journal and problem of one contact law."""
-    journal, run, atol = journal_of(case, law), case.run, case.solver.atol
+def _problem(case: JournalCase, journal: Journal) -> Problem:
+    """Return the problem of one contact law."""
+    run, atol = case.run, case.solver.atol
     start = np.array([run.start_x, run.start_y, 0.0, 0.0])
     if run.start == "equilibrium":
         start = equilibrium(journal).attitude
-    problem = journal_problem(
+    return journal_problem(
         journal,
         duration=case.duration,
         start=start,
         atol=(atol.position, atol.tilt, atol.velocity, atol.tilt_rate),
     )
-    return journal, problem
 
 
 def _output_times(case: JournalCase) -> FloatArray:

@@ -71,7 +71,10 @@ def here(job: Job) -> Finished:
     for point in job.points:
         if job.stop():
             return
-        yield point, compute(point.toml, version("tribodyn"), job.keep_result)
+        outcome = compute(point.toml, version("tribodyn"), job.keep_result, stop=job.stop)
+        if outcome.failure and job.stop():
+            return
+        yield point, outcome
 
 
 def local(job: Job, workers: int | None) -> Finished:

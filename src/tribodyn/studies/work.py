@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -52,7 +52,13 @@ def failed(reason: str, *, final: bool) -> Outcome:
     return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": ""}, final=final)
 
 
-def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Outcome:
+def compute(
+    toml: str,
+    made_by: str,
+    keep_result: bool,
+    staging: str = "",
+    stop: Callable[[], bool] | None = None,
+) -> Outcome:
     """Simulate one case.
 
     Parameters
@@ -66,6 +72,8 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
     staging
         Path beside which it is left as a file, on a machine whose disk the caller sees: bytes of a worker go
         through two processes before they are written. Where that fails, the result is returned all the same.
+    stop
+        As for :func:`tribodyn.simulation.simulate`.
 
     Returns
     -------
@@ -76,7 +84,7 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
     if own != made_by:
         return failed(f"the worker has tribodyn {own}, the sweep was planned by {made_by}", final=False)
     try:
-        return _simulated(toml, keep_result, staging)
+        return _simulated(toml, keep_result, staging, stop)
     except TribodynError as error:
         return failed(str(error), final=True)
     except MemoryError:
@@ -85,13 +93,13 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
         return failed(f"internal error: {type(error).__name__}: {error}", final=True)
 
 
-def _simulated(toml: str, keep_result: bool, staging: str) -> Outcome:
+def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> Outcome:
     from tribodyn.cases import parse_case
     from tribodyn.results import netcdf_content, summarise
     from tribodyn.results.atomic import stage
     from tribodyn.simulation import simulate
 
-    dataset = simulate(parse_case(toml, "sweep"))
+    dataset = simulate(parse_case(toml, "sweep"), stop=stop)
     summary, content = summarise(dataset), netcdf_content(dataset) if keep_result else b""
     if content and staging:
         with contextlib.suppress(OSError):
