@@ -1,0 +1,201 @@
+"""Points computed by processes of this machine.
+
+A worker holds one end of a pair of sockets without a name, the sweep holds the other: nothing listens, so
+there is nothing that another user could connect to.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from typing import Any, Final
+
+from tribodyn.core import fork_server, machine
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.versions import version
+from tribodyn.studies.job import LISTEN, Finished, Job, stop_while_preparing
+from tribodyn.studies.plan import Point
+from tribodyn.studies.work import compute, failed, import_what_points_need, warm_up
+
+DEATHS: Final = 2
+"""How many deaths of its worker a task survives: it is tried once more after each."""
+_LOST: Final = failed("its worker process died at every attempt", final=False)
+_UNREADY: Final = (
+    "worker processes die while they get ready: the memory may be short, or a script calls sweep outside of "
+    '`if __name__ == "__main__":`'
+)
+_HANDLES: Final = 3
+"""Handles that this process holds of a worker: the connection, and two to tell when either has ended."""
+_OTHER_HANDLES: Final = 16
+"""Those that starting a process and writing files take for a moment."""
+
+
+def local(job: Job, workers: int | None) -> Finished:
+    """Compute points in processes of this machine, one thread each.
+
+    Parameters
+    ----------
+    job
+        The points.
+    workers
+        How many processes; by default one for each processor.
+
+    Raises
+    ------
+    InputError
+        There are too few handles for a single process.
+    TribodynError
+        Processes die before they compute anything.
+    """
+    size = _affordable(min(workers or machine.processors(), len(job.points)), job.note)
+    fork_server.start(toml=job.points[0].toml)
+    own = version("tribodyn")
+    with _crew(size) as crew:
+        _prepare(crew[0], job)
+        tasks = [
+            _Task(compute, (point.toml, own, job.keep_result, job.staging), point) for point in job.points
+        ]
+        for task, outcome in _answers(crew, tasks, job.stop):
+            assert task.point is not None
+            yield task.point, outcome
+
+
+def _affordable(workers: int, note: Callable[[str], None]) -> int:
+    """Return how many workers there may be of so many, for each takes handles of this process."""
+    free = machine.free_handles() - _OTHER_HANDLES
+    room = free // _HANDLES
+    if room < 1:
+        raise InputError(
+            f"given a limit of open files that is {_HANDLES - free} too low for one process; allowed: 0, "
+            "which computes in this process, or a higher limit (`ulimit -n`)",
+            key="--workers",
+        )
+    if room < workers:
+        note(f"{room} workers instead of {workers}: the limit of open files (`ulimit -n`) allows no more")
+    return int(min(room, workers))
+
+
+@dataclass
+class _Task:
+    """What a worker is to do: a function of a module, and its arguments."""
+
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...]
+    point: Point | None = None
+    deaths: int = 0
+
+
+class _Worker:
+    """A process that does one task at a time."""
+
+    def __init__(self) -> None:
+        self._start()
+
+    def _start(self) -> None:
+        self.connection, end = multiprocessing.Pipe()
+        with end:
+            self._process = fork_server.process(serve, end)
+
+    def give(self, task: _Task) -> None:
+        """Hand over a task; where the process is dead, the connection ends instead of giving an answer."""
+        self.task = task
+        with suppress(OSError):
+            self.connection.send((task.function, task.arguments))
+
+    def answer(self) -> Any:
+        """Return what came of the task; if the process has died meanwhile, begin another one."""
+        try:
+            return self.connection.recv()
+        except (EOFError, OSError):
+            self.task.deaths += 1
+            self.end()
+            self._start()
+            return _LOST
+
+    def end(self) -> None:
+        """Kill the process."""
+        self._process.kill()
+        self._process.join()
+        self._process.close()
+        self.connection.close()
+
+
+@contextmanager
+def _crew(size: int) -> Iterator[list[_Worker]]:
+    crew: list[_Worker] = []
+    try:
+        for _ in range(size):
+            crew.append(_Worker())
+        yield crew
+    finally:
+        for worker in crew:
+            worker.end()
+
+
+def _prepare(worker: _Worker, job: Job) -> None:
+    """Let one worker fill the cache of compiled code, from which the others read it."""
+    task = _Task(warm_up, (job.points[0].toml,))
+    for _, answer in _answers([worker], [task], stop_while_preparing(job)):
+        if answer is _LOST:
+            raise TribodynError(_UNREADY)
+
+
+def _answers(
+    crew: list[_Worker], tasks: Iterable[_Task], stop: Callable[[], bool]
+) -> Iterator[tuple[_Task, Any]]:
+    """Yield tasks and what came of them as they are done; at a stop, what has arrived by then."""
+    waiting = deque(tasks)
+    busy: dict[Any, _Worker] = {}
+
+    def employ(worker: _Worker) -> None:
+        if waiting:
+            worker.give(waiting.popleft())
+            busy[worker.connection] = worker
+
+    for worker in crew:
+        employ(worker)
+    stopping = False
+    while busy and not stopping:
+        stopping = stop()
+        for connection in wait(list(busy), 0.0 if stopping else LISTEN):
+            worker = busy.pop(connection)
+            task, answer = worker.task, worker.answer()
+            if again := answer is _LOST and task.deaths <= DEATHS:
+                waiting.appendleft(task)
+            if not stopping:
+                employ(worker)
+            if not again:
+                yield task, answer
+
+
+def serve(connection: Connection) -> None:
+    """Do what a worker is told, until nobody tells any more.
+
+    Parameters
+    ----------
+    connection
+        Gives functions and their arguments, and takes what they return.
+    """
+    # Ctrl-C is for the command, which ends its workers.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    import_what_points_need()
+    with suppress(EOFError, OSError):
+        while True:
+            function, arguments = connection.recv()
+            connection.send(function(*arguments))
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that started it has ended, in the middle of a point, too."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)
