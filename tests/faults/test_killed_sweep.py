@@ -12,16 +12,12 @@ import sys
 import time
 from pathlib import Path
 
-import cloudpickle
 import numpy as np
 import psutil
 import pytest
 import xarray as xr
 
-from tribodyn.cases import load_case
 from tribodyn.results import read
-from tribodyn.studies import make_plan, runners
-from tribodyn.studies.work import Outcome
 
 POINTS = 7
 KILLS, LONGEST = 10, 1800.0
@@ -197,27 +193,3 @@ def test_an_interrupted_sweep_saves_what_it_has(tmp_path: Path) -> None:
     assert np.isfinite(merged["contact_force_max_N"]).sum() == len(before) < POINTS
     assert merged.attrs["points_failed"] == POINTS - len(before)
     assert_whole(tmp_path, before)
-
-
-def deadly(toml: str, made_by: str, keep_result: bool, staging: str) -> Outcome:
-    """Stand for a point that no worker survives."""
-    if 'clearance = "30 um"' in toml:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return Outcome({"status": "complete", "failure": ""})
-
-
-@pytest.mark.long
-def test_a_point_that_kills_its_workers_has_no_result_and_the_rest_go_on(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    # Workers cannot import this module, so its functions are sent as they are.
-    cloudpickle.register_pickle_by_value(sys.modules[__name__])
-    monkeypatch.setattr(runners, "compute", deadly)
-    plan = make_plan(load_case("vsv"), {"joint.clearance": "20,30,40 um"})
-    found = {
-        point.changes["joint.clearance"]: outcome
-        for point, outcome in runners.local(runners.Job(plan.points, False, "", lambda: False, print), 2)
-    }
-    assert found["20 um"].failure == found["40 um"].failure == ""
-    assert "worker process died" in found["30 um"].failure
-    assert not found["30 um"].final

@@ -76,7 +76,9 @@ def process(function: Callable[..., None], *arguments: Any) -> BaseProcess:
 
 
 def _context() -> ForkServerContext | SpawnContext:
-    return multiprocessing.get_context("forkserver" if METHOD == "forkserver" else "spawn")
+    if METHOD == "forkserver":
+        return multiprocessing.get_context("forkserver")
+    return multiprocessing.get_context("spawn")
 
 
 @contextmanager

@@ -11,8 +11,8 @@ import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from typing import Any, Final
@@ -26,7 +26,8 @@ from tribodyn.studies.work import compute, failed, import_what_points_need, warm
 
 DEATHS: Final = 2
 """How many deaths of its worker a task survives: it is tried once more after each."""
-_LOST: Final = failed("its worker process died at every attempt", final=False)
+LOST: Final = failed("its worker process died at every attempt", final=False)
+"""What comes of a task whose worker died once more than that."""
 _UNREADY: Final = (
     "worker processes die while they get ready: the memory may be short, or a script calls sweep outside of "
     '`if __name__ == "__main__":`'
@@ -57,12 +58,12 @@ def local(job: Job, workers: int | None) -> Finished:
     size = _affordable(min(workers or machine.processors(), len(job.points)), job.note)
     fork_server.start(toml=job.points[0].toml)
     own = version("tribodyn")
-    with _crew(size) as crew:
-        _prepare(crew[0], job)
+    with crew(size) as workforce:
+        _prepare(workforce[0], job)
         tasks = [
-            _Task(compute, (point.toml, own, job.keep_result, job.staging), point) for point in job.points
+            Task(compute, (point.toml, own, job.keep_result, job.staging), point) for point in job.points
         ]
-        for task, outcome in _answers(crew, tasks, job.stop):
+        for task, outcome in answers(workforce, tasks, job.stop):
             assert task.point is not None
             yield task.point, outcome
 
@@ -73,17 +74,17 @@ def _affordable(workers: int, note: Callable[[str], None]) -> int:
     room = free // _HANDLES
     if room < 1:
         raise InputError(
-            f"given a limit of open files that is {_HANDLES - free} too low for one process; allowed: 0, "
-            "which computes in this process, or a higher limit (`ulimit -n`)",
+            f"the limit of open files (`ulimit -n`) is {_HANDLES - free} too low for one worker; allowed: a "
+            "higher limit, or 0 workers: all in this process",
             key="--workers",
         )
     if room < workers:
-        note(f"{room} workers instead of {workers}: the limit of open files (`ulimit -n`) allows no more")
+        note(f"the limit of open files (`ulimit -n`) allows {room} of {workers} workers")
     return int(min(room, workers))
 
 
 @dataclass
-class _Task:
+class Task:
     """What a worker is to do: a function of a module, and its arguments."""
 
     function: Callable[..., Any]
@@ -92,7 +93,7 @@ class _Task:
     deaths: int = 0
 
 
-class _Worker:
+class Worker:
     """A process that does one task at a time."""
 
     def __init__(self) -> None:
@@ -101,9 +102,9 @@ class _Worker:
     def _start(self) -> None:
         self.connection, end = multiprocessing.Pipe()
         with end:
-            self._process = fork_server.process(serve, end)
+            self.process = fork_server.process(serve, end)
 
-    def give(self, task: _Task) -> None:
+    def give(self, task: Task) -> None:
         """Hand over a task; where the process is dead, the connection ends instead of giving an answer."""
         self.task = task
         with suppress(OSError):
@@ -117,49 +118,58 @@ class _Worker:
             self.task.deaths += 1
             self.end()
             self._start()
-            return _LOST
+            return LOST
 
     def end(self) -> None:
         """Kill the process."""
-        self._process.kill()
-        self._process.join()
-        self._process.close()
+        self.process.kill()
+        self.process.join()
+        self.process.close()
         self.connection.close()
 
 
 @contextmanager
-def _crew(size: int) -> Iterator[list[_Worker]]:
-    crew: list[_Worker] = []
-    try:
+def crew(size: int) -> Iterator[list[Worker]]:
+    """Have so many workers while the block runs."""
+    with ExitStack() as stack:
+        workers = []
         for _ in range(size):
-            crew.append(_Worker())
-        yield crew
-    finally:
-        for worker in crew:
-            worker.end()
+            workers.append(Worker())
+            stack.callback(workers[-1].end)
+        yield workers
 
 
-def _prepare(worker: _Worker, job: Job) -> None:
+def _prepare(worker: Worker, job: Job) -> None:
     """Let one worker fill the cache of compiled code, from which the others read it."""
-    task = _Task(warm_up, (job.points[0].toml,))
-    for _, answer in _answers([worker], [task], stop_while_preparing(job)):
-        if answer is _LOST:
+    task = Task(warm_up, (job.points[0].toml,))
+    for _, answer in answers([worker], [task], stop_while_preparing(job)):
+        if answer is LOST:
             raise TribodynError(_UNREADY)
 
 
-def _answers(
-    crew: list[_Worker], tasks: Iterable[_Task], stop: Callable[[], bool]
-) -> Iterator[tuple[_Task, Any]]:
-    """Yield tasks and what came of them as they are done; at a stop, what has arrived by then."""
-    waiting = deque(tasks)
-    busy: dict[Any, _Worker] = {}
+def answers(
+    workers: Sequence[Worker], tasks: Iterable[Task], stop: Callable[[], bool]
+) -> Iterator[tuple[Task, Any]]:
+    """Yield tasks and what came of them as they are done.
 
-    def employ(worker: _Worker) -> None:
+    Parameters
+    ----------
+    workers
+        Who does them, one at a time each.
+    tasks
+        What is to be done, begun in this order.
+    stop
+        Asked several times a second; when true, what has arrived is still yielded.
+    """
+    waiting = deque(tasks)
+    busy: dict[Any, Worker] = {}
+
+    def employ(worker: Worker) -> None:
         if waiting:
             worker.give(waiting.popleft())
             busy[worker.connection] = worker
 
-    for worker in crew:
+    for worker in workers:
         employ(worker)
     stopping = False
     while busy and not stopping:
@@ -167,7 +177,7 @@ def _answers(
         for connection in wait(list(busy), 0.0 if stopping else LISTEN):
             worker = busy.pop(connection)
             task, answer = worker.task, worker.answer()
-            if again := answer is _LOST and task.deaths <= DEATHS:
+            if again := answer is LOST and task.deaths <= DEATHS:
                 waiting.appendleft(task)
             if not stopping:
                 employ(worker)
