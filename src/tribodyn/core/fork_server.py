@@ -21,7 +21,8 @@ from multiprocessing.process import BaseProcess
 from types import MappingProxyType
 from typing import Any, Final
 
-METHOD: Final = "forkserver" if sys.platform == "linux" else "spawn"
+# In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
+METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
 """How processes are started, as :mod:`multiprocessing` calls it."""
 # The threads of a worker would only take time from the other workers.
 ENVIRONMENT: Final = {
