@@ -105,6 +105,28 @@ def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: P
     assert len(finished(tmp_path)) == 2
 
 
+@pytest.mark.parametrize(
+    ("limit", "status", "told"),
+    [(20, 2, "--workers: the limit of open files"), (32, 0, "(`ulimit -n`) allows 2 of 3 workers")],
+)
+def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(
+    limit: int, status: int, told: str, tmp_path: Path
+) -> None:
+    command = [
+        *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--workers", "3", "--summary-only"),
+        *("--vary", "joint.clearance=20,24,28 um", "--set", "run.duration=20 ms"),
+    ]
+
+    def few_handles() -> None:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (limit, limit))
+
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, preexec_fn=few_handles)
+    assert done.returncode == status, done.stderr
+    assert told in done.stderr
+    assert len(done.stderr.splitlines()) < 10
+    assert not (status and list(tmp_path.iterdir())), "nothing is written after bad input"
+
+
 def killed(process: subprocess.Popen[str], after: float) -> bool:
     """Kill a sweep after a while, as a power cut would, and wait for its workers; False if it was over."""
     try:
