@@ -1,7 +1,7 @@
 """Points computed by processes of this machine.
 
 A worker holds one end of a pair of sockets without a name, the sweep holds the other: nothing listens, so
-there is nothing that another user could connect to.
+there is nothing that another user could connect to. The fork server listens where only this user may look.
 """
 
 from __future__ import annotations
@@ -101,8 +101,11 @@ class Worker:
 
     def _start(self) -> None:
         self.connection, end = multiprocessing.Pipe()
-        with end:
-            self.process = fork_server.process(serve, end)
+        try:
+            with end:
+                self.process = fork_server.process(serve, end)
+        except EOFError:  # that is how the fork server ends, too
+            raise TribodynError(_UNREADY) from None
 
     def give(self, task: Task) -> None:
         """Hand over a task; where the process is dead, the connection ends instead of giving an answer."""
