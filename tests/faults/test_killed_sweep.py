@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -107,7 +108,7 @@ def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: P
 
 @pytest.mark.parametrize(
     ("limit", "status", "told"),
-    [(20, 2, "--workers: the limit of open files"), (32, 0, "(`ulimit -n`) allows 2 of 3 workers")],
+    [(20, 2, r"--workers: the limit of open files"), (29, 0, r"\(`ulimit -n`\) allows [12] of 3 workers")],
 )
 def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(
     limit: int, status: int, told: str, tmp_path: Path
@@ -122,7 +123,7 @@ def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(
 
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, preexec_fn=few_handles)
     assert done.returncode == status, done.stderr
-    assert told in done.stderr
+    assert re.search(told, done.stderr)
     assert len(done.stderr.splitlines()) < 10
     assert not (status and list(tmp_path.iterdir())), "nothing is written after bad input"
 
