@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.directory import POINTS as POINTS_FOLDER
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
@@ -24,7 +25,7 @@ from tribodyn.core.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from tribodyn.studies import Arrival, Means, Plan
+    from tribodyn.studies import Arrival, Means, Plan, Tls
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
 
@@ -53,6 +54,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--workers", metavar="N", type=int, help="processes (default: one a processor; 0: this one alone)"
     )
     where.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://10.0.0.1:8786")
+    for name, meaning in (
+        ("ca", "certificate of the authority that a scheduler at tls://... is known by, in PEM format"),
+        ("cert", "certificate that the scheduler knows this command by"),
+        ("key", "its private key, unless it stands in the same file"),
+    ):
+        parser.add_argument(f"--tls-{name}", metavar="FILE", help=meaning)
     again = parser.add_mutually_exclusive_group()
     again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
     again.add_argument("--fresh", action="store_true", help="compute all points again")
@@ -65,17 +72,19 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Run the sweep; 0 when every point has a result and everything is written, else 1."""
-    if args.workers != 0 and args.scheduler is None:
+    folder = f"sweep-{Path(args.case).stem}" if args.output is None else args.output
+    # Where there are points already, there may be nothing to compute.
+    if args.workers != 0 and args.scheduler is None and not os.path.exists(f"{folder}/{POINTS_FOLDER}"):
         # It imports and loads while this process imports, too.
-        fork_server.start(args.case, changes(args))
+        fork_server.start(name=args.case, changes=changes(args))
     from tribodyn.studies import Means, Sampling, make_plan
 
     console = Console.of(args)
     plan = make_plan(
         chosen_case(args), _variations(args.vary), Sampling(args.samples, args.method, args.seed)
     )
-    means = Means(args.workers, args.scheduler, args.retry, args.fresh, not args.summary_only)
-    directory = OutputDirectory(f"sweep-{Path(args.case).stem}" if args.output is None else args.output)
+    means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
+    directory = OutputDirectory(folder)
     with directory.reserved():
         with Interruption(_STOPPING) as interruption:
             last_words(f"aborted; points that had finished are kept in {os.fspath(directory.path)}")
@@ -89,6 +98,17 @@ def execute(args: Namespace) -> int:
     if lost:
         complain(_lost(dataset, lost))
     return 0 if drawn and not lost else 1
+
+
+def _tls(args: Namespace) -> Tls | None:
+    """Return the certificates, None where there are none."""
+    if (args.tls_ca, args.tls_cert, args.tls_key) == (None, None, None):
+        return None
+    if args.tls_ca is None or args.tls_cert is None:
+        raise InputError("certificates need both --tls-ca and --tls-cert", key="--scheduler")
+    from tribodyn.studies import Tls
+
+    return Tls(args.tls_ca, args.tls_cert, args.tls_key)
 
 
 def _variations(texts: list[str]) -> dict[str, str]:

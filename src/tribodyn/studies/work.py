@@ -7,11 +7,10 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.core.versions import version
@@ -119,28 +118,32 @@ def warm_up(toml: str) -> None:
         prepare(parse_case(toml, "sweep"))
 
 
-def load(case: str, changes: Mapping[str, str]) -> None:
-    """Import what workers need, and load the equations of a case if they are compiled.
+def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
+    """Import what points need, and load the equations of a case if they are compiled.
 
     Parameters
     ----------
-    case
-        Its TOML, or the name of a file or of a built-in one.
+    name, toml
+        The case: a file or a built-in one, or its text. The other is empty.
     changes
         Values to change in it, by dotted path.
     """
-    import xarray as xr
-
+    import_what_points_need()
     from tribodyn.cases import load_case, parse_case
-    from tribodyn.results import netcdf_content
     from tribodyn.simulation import load_equations
 
     with contextlib.suppress(Exception):
+        case = parse_case(toml, "sweep") if toml else load_case(name)
+        load_equations(case.replace(changes))
+
+
+def import_what_points_need() -> None:
+    """Import what :func:`compute` does."""
+    import xarray as xr
+
+    from tribodyn import simulation  # noqa: F401
+    from tribodyn.results import netcdf_content
+
+    # It imports what it writes with.
+    with contextlib.suppress(Exception):
         netcdf_content(xr.Dataset())
-        chosen = parse_case(case, "sweep") if "\n" in case else load_case(case)
-        load_equations(chosen.replace(changes))
-
-
-def dask_setup(worker: Any) -> None:
-    """Prepare a local worker, as Dask's preload: Ctrl-C is for the command, which ends its workers."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
