@@ -71,11 +71,17 @@ def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str,
 def compile_elsewhere(case: Case) -> None:
     """Have another process compile the equations of a case; where that fails, this one will do it.
 
+    So it will where compiled code can be kept nowhere.
+
     Raises
     ------
     KeyboardInterrupt
         If the other process was interrupted, as by Ctrl-C, which reaches both.
     """
+    from tribodyn.kernels.cache import folder
+
+    if folder() is None:
+        return
     with suppress(OSError):
         done = subprocess.run(
             [sys.executable, "-c", _CHILD], input=case.to_toml().encode(), capture_output=True, check=False
