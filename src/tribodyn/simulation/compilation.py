@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from tribodyn.cases.base import Case
+    from tribodyn.cases.case import Case
 
 Simulator = Callable[..., Any]
 
