@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from tribodyn.cases.base import Case
+from tribodyn.cases.case import Case
 from tribodyn.cases.catalogue import CASES, KINDS, BuiltIn
 from tribodyn.cases.journal import Journal
 from tribodyn.cases.keys import Key, keys_of
 from tribodyn.cases.load import load_case, parse_case
+from tribodyn.cases.tables import keys_in
 from tribodyn.cases.vsv import Vsv
 
-__all__ = ["CASES", "KINDS", "BuiltIn", "Case", "Journal", "Key", "Vsv", "keys_of", "load_case", "parse_case"]
+__all__ = [
+    "CASES",
+    "KINDS",
+    "BuiltIn",
+    "Case",
+    "Journal",
+    "Key",
+    "Vsv",
+    "keys_in",
+    "keys_of",
+    "load_case",
+    "parse_case",
+]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
-from tribodyn.cases.base import Case
+from tribodyn.cases.case import Case
 from tribodyn.cases.journal import Journal
 from tribodyn.cases.vsv import Vsv
 

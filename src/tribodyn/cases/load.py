@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from tribodyn.cases.base import Case
-from tribodyn.cases.build import Entry, build, closest
+from tribodyn.cases.case import Case, build
 from tribodyn.cases.catalogue import CASES, KINDS
+from tribodyn.cases.entry import Entry, closest
 from tribodyn.cases.keys import shown
 from tribodyn.core.errors import InputError
 
@@ -130,5 +131,4 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, ob
 
 def _key_text(name: str) -> str:
     """Return a key as it stands in a file; quoted unless plain, so that dots inside do not mislead."""
-    plain = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
-    return name if plain else shown(name)
+    return name if re.fullmatch("[A-Za-z0-9_-]+", name) else shown(name)

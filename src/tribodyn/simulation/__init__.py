@@ -17,7 +17,7 @@ from tribodyn.simulation.vsv_wear import simulate_vsv_wear
 if TYPE_CHECKING:
     import xarray as xr
 
-    from tribodyn.cases.base import Case
+    from tribodyn.cases.case import Case
 
 SIMULATORS: Final[dict[str, Callable[..., Any]]] = {"vsv": simulate_vsv, "journal": simulate_journal}
 """What runs each kind of case."""

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Final
 from tribodyn.core.errors import Stopped
 
 if TYPE_CHECKING:
-    from tribodyn.cases.base import Case
+    from tribodyn.cases.case import Case
 
 Simulator = Callable[..., Any]
 
@@ -78,7 +78,7 @@ def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str,
 def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> None:
     """Have another process compile the equations of a case; where that fails, this one will do it.
 
-    However this process ends, the other one ends with it.
+    So it will where compiled code can be kept nowhere. However this process ends, the other one ends with it.
 
     Parameters
     ----------
@@ -94,6 +94,10 @@ def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> Non
     KeyboardInterrupt
         If the other process was interrupted, as by Ctrl-C, which reaches both.
     """
+    from tribodyn.kernels.cache import folder
+
+    if folder() is None:
+        return
     with suppress(OSError), _child() as child:
         assert child.stdin is not None
         child.stdin.write(json.dumps(case.to_toml()).encode() + b"\n")

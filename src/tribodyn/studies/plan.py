@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
-from tribodyn.cases import Case, Key, keys_of
+from tribodyn.cases import Case, Key, keys_in
 from tribodyn.cases.keys import Value
 from tribodyn.core.errors import InputError
 from tribodyn.core.versions import version
@@ -149,7 +149,7 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
 
 
 def _key(case: Case, path: str) -> Key:
-    keys = keys_of(type(case))
+    keys = keys_in(case)
     if path not in keys:
         # Raises, and the message names the nearest valid key.
         case.replace({path: ""}, source=SOURCE)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cases import Case, keys_of, load_case
+from tribodyn.cases import Case, keys_in, load_case
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.results import netcdf_content
@@ -250,7 +250,7 @@ def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -
 
 def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> dict[str, Any]:
     """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
-    keys = keys_of(type(plan.case))
+    keys = keys_in(plan.case)
     nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
     return {
         "title": plan.case.title,
