@@ -19,6 +19,7 @@ from pydantic import BaseModel, Field
 from pydantic.fields import FieldInfo
 
 from tribodyn.cases.units import MissingUnit, UnitProblem, dimension, from_si, si_unit, to_si, unit_of
+from tribodyn.core.quoting import brief
 
 Value: TypeAlias = float | int | bool | str
 """What a key can hold once read: numbers in SI units, switches, names."""
@@ -135,8 +136,24 @@ class Key:
 
     def _without_unit(self, value: object) -> str:
         """Show how a number given without a unit would be spelled with one."""
+        return f'the unit is missing, as in {self.name} = "{self._with_unit(value)}"'
+
+    def _with_unit(self, value: object) -> str:
+        """Return a number with the unit it was probably meant in: that of the key, or the SI unit.
+
+        Of both readings it is the one nearer to the example.
+        """
         number = str(value).strip()
-        return f'the unit is missing, as in {self.name} = "{number[:_LONGEST_SHOWN]} {self.unit}"'
+        in_unit = f"{brief(number)} {self.unit}"
+        try:
+            likely, first, second = (
+                to_si(text, self.unit) for text in (self.example, in_unit, f"{number} {si_unit(self.unit)}")
+            )
+        except UnitProblem:
+            return in_unit
+        if 0.0 in (likely, first, second) or _apart(first, likely) <= _apart(second, likely):
+            return in_unit
+        return from_si(second, self.unit)
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""
@@ -316,8 +333,7 @@ def shown(value: object) -> str:
         return "a list"
     if isinstance(value, int) and abs(value) > 10**_LONGEST_SHOWN:
         return "a number of too many digits"
-    quoted = toml_string(value) if isinstance(value, str) else str(value)
-    return quoted if len(quoted) <= _LONGEST_SHOWN else f"{quoted[: _LONGEST_SHOWN - 3]}..."
+    return brief(toml_string(value) if isinstance(value, str) else value, _LONGEST_SHOWN)
 
 
 def toml_string(value: str) -> str:
@@ -336,6 +352,11 @@ def _not_tiny(value: float) -> float:
     if 0.0 < abs(value) < _LEAST:
         raise ValueProblem(f"the number is too small to compute with; the least is {_LEAST:g} in SI units")
     return value
+
+
+def _apart(a: float, b: float) -> float:
+    """Return how many powers of e lie between the sizes of two numbers."""
+    return abs(math.log(abs(a)) - math.log(abs(b)))
 
 
 def _finite(value: float) -> bool:

@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
@@ -52,5 +53,7 @@ def _solver(args: Namespace) -> dict[str, str]:
 def _change(text: str) -> tuple[str, str]:
     path, equals, value = text.partition("=")
     if not (equals and path.strip()):
-        raise InputError(f'given "{text}"; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set")
+        raise InputError(
+            f'{as_given(text)}; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set"
+        )
     return path.strip(), value.strip()

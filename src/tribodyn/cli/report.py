@@ -11,6 +11,7 @@ from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,7 +33,7 @@ def execute(args: Namespace) -> int:
 
     if not os.path.isdir(args.directory):
         raise InputError(
-            f'given "{args.directory}", not a directory; allowed: a directory that `tribodyn run` wrote to',
+            f"{as_given(args.directory)}, not a directory; allowed: a directory that `tribodyn run` wrote to",
             key="DIR",
         )
     dataset = _read(Path(args.directory))

@@ -20,6 +20,7 @@ from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,7 +98,8 @@ def _variations(texts: list[str]) -> dict[str, str]:
         path, equals, values = (part.strip() for part in text.partition("="))
         if not (equals and path and values):
             raise InputError(
-                f'given "{text}"; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"', key="--vary"
+                f'{as_given(text)}; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"',
+                key="--vary",
             )
         if path in variations:
             raise InputError("this parameter is varied twice", key=path, source="--vary")

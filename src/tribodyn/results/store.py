@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import brief
 from tribodyn.results.atomic import write_together
 from tribodyn.results.netcdf import dataset_of, netcdf_content
 from tribodyn.results.summary import summarise
@@ -46,7 +47,9 @@ def prepare_directory(directory: str | Path) -> Path:
             return folder
     except OSError as error:
         reason = error.strerror or str(error)
-        raise InputError(f"cannot write results to {folder} ({reason}); choose another folder") from error
+        raise InputError(
+            f"cannot write results to {brief(folder)} ({reason}); choose another folder"
+        ) from error
 
 
 def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:

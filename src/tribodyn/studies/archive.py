@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Final
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import brief
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.store import CASE, RESULT, SUMMARY
 from tribodyn.studies.plan import Point
@@ -40,7 +41,7 @@ class Archive:
         self.staging = self.folder.absolute() / secrets.token_hex(4)
         """Path beside which workers of this machine leave whole results, under names of this sweep."""
         if self.folder.exists() and not self.folder.is_dir():
-            raise InputError(f"{self.folder} is a file; choose another directory", key="--output")
+            raise InputError(f"{brief(self.folder)} is a file; choose another directory", key="--output")
 
     def find(self, point: Point) -> Numbers | None:
         """Return the summary of a point that is done, None where there is none that can be read."""
