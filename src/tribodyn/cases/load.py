@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from tribodyn.cases import toml
 from tribodyn.cases.base import Case
 from tribodyn.cases.build import Entry, build, closest
 from tribodyn.cases.catalogue import CASES, KINDS
 from tribodyn.cases.keys import shown
+from tribodyn.core import toml
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import LONGEST, brief

@@ -25,6 +25,7 @@ from tribodyn.figures import (
 )
 from tribodyn.figures.base import Family
 from tribodyn.figures.save import remove, save
+from tribodyn.results.attributes import SWEEP
 
 FIGURES: Final[dict[str, Family]] = {
     module.FAMILY.name: module.FAMILY
@@ -56,7 +57,7 @@ __all__ = ["CAMPAIGN_FIGURES", "FIGURES", "JOURNAL_FIGURES", "Family", "draw_all
 def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
     """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
     kind = dataset.attrs.get("kind")
-    if kind == "sweep":
+    if kind == SWEEP:
         return sweep.families(dataset)
     if "wear_cycles" in dataset.variables:
         return CAMPAIGN_FIGURES

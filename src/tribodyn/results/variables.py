@@ -29,15 +29,18 @@ class Variable:
         Plain words, used as axis label and in the documentation.
     dims
         Dimensions of the array.
+    text
+        Whether it holds texts rather than numbers.
     """
 
     units: str
     long_name: str
     dims: tuple[str, ...] = TIME
+    text: bool = False
 
 
 COORDINATES: Final[dict[str, Variable]] = {
-    "law": Variable("1", "contact law, of runs side by side", ("law",)),
+    "law": Variable("1", "contact law, of runs side by side", ("law",), text=True),
     "time": Variable("s", "simulated time"),
     "snapshot": Variable("1", "number of the field snapshot", SNAPSHOT),
     "snapshot_time": Variable("s", "simulated time of the snapshot", SNAPSHOT),
@@ -213,3 +216,10 @@ VARIABLES: Final[dict[str, Variable]] = {
     **_CAMPAIGN,
 }
 """Every variable a result may hold, by name."""
+
+POINT_TEXTS: Final[dict[str, str]] = {
+    "failure": "why there are no numbers; empty where there are",
+    "warnings": "what the run says about its own trustworthiness",
+    "points": "name of the folder of the point below points/",
+}
+"""What a sweep says of each of its points in words, with its meaning; all else it holds are numbers."""
