@@ -118,6 +118,8 @@ class Key:
         expected = bool if self.kind == "switch" else str
         if not isinstance(value, expected):
             raise ValueProblem("")
+        if self.kind == "text" and not _is_text(value):
+            raise ValueProblem("these bytes are no text in UTF-8, nor in the encoding of the terminal")
         if self.kind == "file" and not _is_file_name(value):
             raise ValueProblem("")
         return value
@@ -341,6 +343,14 @@ def toml_string(value: str) -> str:
     escapes = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
     characters = (escapes.get(c, c if c.isprintable() else f"\\U{ord(c):08x}") for c in value)
     return '"' + "".join(characters) + '"'
+
+
+def _is_text(value: object) -> bool:
+    """Tell whether a text can be written: bytes that Python could not read stand in it as half characters."""
+    try:
+        return bool(str(value).encode() or True)
+    except UnicodeEncodeError:
+        return False
 
 
 def _is_file_name(value: object) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
@@ -50,8 +51,16 @@ def _solver(args: Namespace) -> dict[str, str]:
     return {} if args.solver is None else {"solver.name": args.solver}
 
 
+def typed(text: str) -> str:
+    """Return an argument as it was typed: where Python was told of no encoding, it is read as UTF-8."""
+    try:
+        return os.fsencode(text).decode()
+    except UnicodeError:
+        return text
+
+
 def _change(text: str) -> tuple[str, str]:
-    path, equals, value = text.partition("=")
+    path, equals, value = typed(text).partition("=")
     if not (equals and path.strip()):
         raise InputError(
             f'{as_given(text)}; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set"

@@ -11,6 +11,7 @@ from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
@@ -64,12 +65,20 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
     if not (directory / CASE).exists():
         write_text(directory / CASE, case_text(dataset))
     summary, text = directory / SUMMARY, summary_text(dataset)
-    if not summary.is_file() or summary.read_bytes() != text.encode():
+    if not _holds(summary, text):
         write_text(summary, text)
         complain(
             f"{os.fspath(summary)} was missing, damaged or of another result; it was written again "
             f"from {RESULT}"
         )
+
+
+def _holds(path: Path, text: str) -> bool:
+    """Tell whether a file holds this text and no other."""
+    try:
+        return read_regular(path, len(text.encode())) == text.encode()
+    except OSError:
+        return False
 
 
 def _read(directory: Path) -> xr.Dataset:

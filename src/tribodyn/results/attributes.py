@@ -11,6 +11,7 @@ from typing import Final
 TEXT: Final = "text"
 SIZE: Final = "finite number above zero"
 NUMBER: Final = "finite number"
+GAPS: Final = "finite number, or none (NaN)"
 OUTCOME: Final = "number"
 """A number that may be missing (NaN) or beyond all bounds (infinite)."""
 TEXTS: Final = "list of texts, as JSON"

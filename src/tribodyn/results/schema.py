@@ -17,6 +17,7 @@ from tribodyn.core.quoting import brief
 from tribodyn.results.attributes import (
     ATTRIBUTES,
     FACTS,
+    GAPS,
     NUMBER,
     OUTCOME,
     SIZE,
@@ -26,7 +27,7 @@ from tribodyn.results.attributes import (
     VARIABLE_ATTRIBUTES,
 )
 from tribodyn.results.dataset import dims_of
-from tribodyn.results.variables import COORDINATES, POINT_TEXTS, VARIABLES
+from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, VARIABLES
 
 LARGEST: Final = 1e60
 """Size of a number, at most: products and squares of numbers are numbers, too."""
@@ -59,6 +60,16 @@ def check(dataset: xr.Dataset) -> None:
         _check_run(dataset)
 
 
+def is_summary(content: object) -> bool:
+    """Tell whether something read as JSON is the summary of a run: texts and finite numbers by name."""
+    return (
+        isinstance(content, dict)
+        and "status" in content
+        and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure", "warnings"))
+        and all(_of_form(value, TEXT) or _is_number(value, NUMBER) for value in content.values())
+    )
+
+
 def _check_attributes(owner: str, attributes: Mapping[Any, Any], table: Mapping[str, str]) -> None:
     for name, value in attributes.items():
         form = TEXT if str(name).endswith("_version") else table.get(str(name))
@@ -79,7 +90,7 @@ def _of_form(value: object, form: str) -> bool:
 def _is_number(value: object, form: str) -> bool:
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):
         return False
-    return _in_bounds(np.float64(value), finite=form != OUTCOME) and (form != SIZE or float(value) > 0.0)
+    return _in_bounds(np.float64(value), form) and (form != SIZE or float(value) > 0.0)
 
 
 def _is_json(text: str, form: str) -> bool:
@@ -96,11 +107,13 @@ def _is_json(text: str, form: str) -> bool:
     )
 
 
-def _in_bounds(values: Any, *, finite: bool) -> bool:
-    """Tell whether numbers are finite, if they must be, and none of the finite ones is too large."""
+def _in_bounds(values: Any, form: str) -> bool:
+    """Tell whether numbers are finite, as far as they must be, and none of the finite ones is too large."""
     array = np.asarray(values)
     good = np.isfinite(array)
-    return bool(good.all() or not finite) and float(np.abs(array[good]).max(initial=0.0)) <= LARGEST
+    allowed = good | np.isnan(array) if form == GAPS else good
+    whole = form == OUTCOME or bool(allowed.all())
+    return whole and float(np.abs(array[good]).max(initial=0.0)) <= LARGEST
 
 
 def kind_of_case(dataset: xr.Dataset) -> str | None:
@@ -134,18 +147,26 @@ def _check_run(dataset: xr.Dataset) -> None:
             raise ValueError(f"{name} runs over {brief(variable.dims)}, not over {dims}")
         if variable.attrs.get("units") != about.units:
             raise ValueError(f"the unit of {name} is not {about.units}")
-        _check_values(str(name), variable, text=about.text, finite=name in COORDINATES)
+        _check_values(str(name), variable, text=about.text, form=_form_of(str(name)))
     _check_coordinates(dataset)
 
 
-def _check_values(name: str, variable: xr.Variable, *, text: bool, finite: bool) -> None:
+def _form_of(name: str) -> str:
+    """Return which numbers a variable may hold: only what a run has one of may be beyond all bounds."""
+    dims = VARIABLES[name].dims
+    if name in COORDINATES or len(dims) > 1:
+        return NUMBER
+    return GAPS if dims else OUTCOME
+
+
+def _check_values(name: str, variable: xr.Variable, *, text: bool, form: str) -> None:
     if text:
         if not _texts(variable.values):
             raise ValueError(f"{name} does not hold texts")
         return
     if variable.dtype.kind not in "fiu":
         raise ValueError(f"{name} does not hold numbers")
-    if not _in_bounds(variable.values, finite=finite):
+    if not _in_bounds(variable.values, form):
         raise ValueError(f"{name} holds numbers that cannot be")
 
 
@@ -161,8 +182,12 @@ def _check_coordinates(dataset: xr.Dataset) -> None:
         if dim not in dataset.variables:
             raise ValueError(f"it lacks the coordinate {brief(dim)}")
         values = dataset.variables[dim].values
-        if values.dtype.kind in "fiu" and np.any(np.diff(values) < 0):
-            raise ValueError(f"{brief(dim)} does not grow")
+        number = not VARIABLES[str(dim)].text
+        if dim not in EVENTS and values.size < 1 + number:
+            raise ValueError(f"it holds too few values of {dim}")
+        steps = np.diff(values) if number else np.ones(1)
+        if np.any(steps < 0.0) or (dim not in EVENTS and np.any(steps == 0.0)):
+            raise ValueError(f"{dim} does not grow")
 
 
 def _check_sweep(dataset: xr.Dataset) -> None:
@@ -173,12 +198,14 @@ def _check_sweep(dataset: xr.Dataset) -> None:
     if lacking:
         raise ValueError(f"it lacks the variable {lacking[0]}")
     dims = dataset["failure"].dims
+    if not dims or dataset["failure"].size == 0:
+        raise ValueError("it holds no points")
     for name, values in dataset.data_vars.items():
         if values.dims != dims:
             raise ValueError(f"{brief(name)} runs over {brief(values.dims)}, not over {brief(dims)}")
         if not str(name).isidentifier():
             raise ValueError(f"{brief(name)} is no name of a number")
-        _check_values(brief(name), values.variable, text=name in POINT_TEXTS, finite=False)
+        _check_values(brief(name), values.variable, text=name in POINT_TEXTS, form=GAPS)
     _check_parameters(dataset)
 
 
@@ -189,7 +216,7 @@ def _check_parameters(dataset: xr.Dataset) -> None:
             raise ValueError(f"{brief(name)} does not run over one dimension")
         if values.dtype.kind != "b":
             text = values.dtype.kind not in "fiu"
-            _check_values(brief(name), values.variable, text=text, finite=True)
+            _check_values(brief(name), values.variable, text=text, form=NUMBER)
     named = json.loads(dataset.attrs.get("varied") or "[]")
     lacking = [name for name in (*dataset.dims, *named) if name not in dataset.coords]
     if lacking:

@@ -15,6 +15,9 @@ TIME: Final = ("time",)
 SNAPSHOT: Final = ("snapshot",)
 JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
+STAGE: Final = ("stage_cycles",)
+EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *STAGE))
+"""Dimensions along which a result may hold nothing: it ended before."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "frame": Variable("1", "number of the pressure frame, over the last cycle", FRAME),
     "frame_time": Variable("s", "simulated time of the pressure frame", FRAME),
     "jump": Variable("1", "number of the stop of a wear campaign", JUMP),
-    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", ("stage_cycles",)),
+    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", STAGE),
     "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
@@ -192,7 +195,7 @@ _CAMPAIGN: Final[dict[str, Variable]] = {
     "wear_angle_error_max": Variable("rad", "vane-angle error, largest in the cycle", JUMP),
     "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
     "wear_energy_lost": Variable("J", "stored contact energy that the jump takes away", JUMP),
-    "stage_depth": Variable("m", "wear depth of the bushing, selected", ("stage_cycles", "theta", "z")),
+    "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z")),
 }
 
 _FIELDS: Final[dict[str, Variable]] = {
