@@ -1,4 +1,4 @@
-"""The command under watch: run again and again in one process of its own, with its memory and time measured.
+"""The command under watch: run again and again in one process, with its memory and time measured.
 
 A program that is started for each of thousands of files would mostly import. Run as a script this module reads
 command lines as JSON, one a line, and answers each with what came of it.
@@ -25,7 +25,7 @@ from tribodyn.cli.main import main
 MEGABYTES, SECONDS = 500, 10
 """What one command may take of memory, all of its process, and of time."""
 _SPARE = 6
-"""A process that takes so many times as much is ended by the system; address space counts that is never used."""
+"""A process that takes so many times as much is ended by the system, which counts what is never used."""
 
 
 @dataclass(frozen=True)

@@ -136,9 +136,8 @@ def _changed(versions: Mapping[str, str]) -> list[str]:
     ]
     if not begun:
         return []
-    return [
-        f"The campaign was begun with {brief(', '.join(begun), 3 * LONGEST)}: its later cycles were computed with others."
-    ]
+    names = brief(", ".join(begun), 3 * LONGEST)
+    return [f"The campaign was begun with {names}: its later cycles were computed with others."]
 
 
 def _refused(path: Path, reason: str) -> InputError:
