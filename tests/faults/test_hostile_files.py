@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import random
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -128,7 +129,7 @@ READERS: dict[str, tuple[list[Maker], str, list[list[str]]]] = {
     "result": ([*ANY, declared, declared], "result.nc", [["report", "{..}"], ["compare", "{..}", "{..}"]]),
     "sweep": ([*ANY, declared, declared], "sweep.nc", [["report", "{..}"]]),
     "checkpoint": (
-        ANY[:2] + ANY[4:],
+        [pipe, device, linked_pipe, sparse, noise, packed_zeros],
         "checkpoint.npz",
         [["run", "vsv", "--set", "wear.cycles=5", "-o", "{..}"]],
     ),
@@ -152,8 +153,7 @@ def test_hostile_files_are_refused(count: int, tmp_path: Path) -> None:
             ]
             outcome = process.run(texts)
             found.append((maker.__name__, texts[0], outcome))
-            for left in place.iterdir():
-                left.rmdir() if left.is_dir() and not left.is_symlink() else left.unlink()
+            shutil.rmtree(place)
     bad = [entry for entry in found if entry[2].status != 2 or not tolerable(entry[2])]
     assert not bad, bad[:5]
 

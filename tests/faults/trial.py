@@ -1,7 +1,7 @@
 """The command under watch: run again and again in one process, with its memory and time measured.
 
-A program that is started for each of thousands of files would mostly import. Run as a script this module reads
-command lines as JSON, one a line, and answers each with what came of it.
+A program that is started for each of thousands of files would mostly import. Run as a script this module
+reads command lines as JSON, one a line, and answers each with what came of it.
 """
 
 from __future__ import annotations
