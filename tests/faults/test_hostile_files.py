@@ -123,15 +123,23 @@ def far_point(path: Path, draw: random.Random) -> None:
 ANY: list[Maker] = [pipe, device, linked_pipe, folder, nowhere, sparse, noise, packed_zeros]
 TABLES: list[Maker] = [deep_key, deep_value, many_keys, long_name, open_strings]
 READERS: dict[str, tuple[list[Maker], str, list[list[str]]]] = {
-    "case": ([*ANY, *TABLES, *TABLES], "case.toml", [["check", "{}"], ["show", "{}"], ["run", "{}"]]),
-    "scan": ([*ANY, commas, far_point], "scan.csv", [["surface", "{}"], ["surface", "{}", "--unit", "um"]]),
-    "array": (ANY, "scan.npy", [["surface", "{}", "--unit", "um", "--spacing", "1 um"]]),
+    "case": (
+        [*ANY, *TABLES, *TABLES],
+        "case.toml",
+        [["check", "{}"], ["show", "{}"], ["run", "{}", "--quiet"]],
+    ),
+    "scan": (
+        [*ANY, commas, far_point],
+        "scan.csv",
+        [["surface", "{}", "--quiet"], ["surface", "{}", "--quiet", "--unit", "um"]],
+    ),
+    "array": (ANY, "scan.npy", [["surface", "{}", "--quiet", "--unit", "um", "--spacing", "1 um"]]),
     "result": ([*ANY, declared, declared], "result.nc", [["report", "{..}"], ["compare", "{..}", "{..}"]]),
     "sweep": ([*ANY, declared, declared], "sweep.nc", [["report", "{..}"]]),
     "checkpoint": (
         [pipe, device, linked_pipe, sparse, noise, packed_zeros],
         "checkpoint.npz",
-        [["run", "vsv", "--set", "wear.cycles=5", "-o", "{..}"]],
+        [["run", "vsv", "--set", "wear.cycles=5", "-o", "{..}", "--quiet"]],
     ),
 }
 

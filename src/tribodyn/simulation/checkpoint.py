@@ -99,10 +99,13 @@ def read(path: Path, case: str, field_shape: tuple[int, int]) -> tuple[Worn, lis
 
 def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the arrays of a file, and what it says about itself."""
-    with open_regular(path, LARGEST) as stream, np.load(stream, allow_pickle=False) as archive:
-        if any(member.compress_type != zipfile.ZIP_STORED for member in archive.zip.infolist()):
-            raise ValueError("it is compressed, which a checkpoint never is")
-        arrays = dict(archive)
+    with open_regular(path, LARGEST) as stream:
+        with zipfile.ZipFile(stream) as archive:
+            if any(member.compress_type != zipfile.ZIP_STORED for member in archive.infolist()):
+                raise ValueError("it is compressed, which a checkpoint never is")
+        stream.seek(0)
+        with np.load(stream, allow_pickle=False) as loaded:
+            arrays = dict(loaded)
     return arrays, dict(json.loads(str(arrays["facts"])))
 
 
