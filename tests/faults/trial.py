@@ -26,8 +26,8 @@ MEGABYTES, SECONDS = 500, 10
 """What one command may take of memory, all of its process, and of a processor's time."""
 PATIENCE = 60
 """Seconds by the clock after which a command counts as one that hangs."""
-_SPARE = 6
-"""A process that takes so many times as much is ended by the system, which counts what is never used."""
+_SPARE = 2
+"""So many times as much the system gives at all."""
 
 
 @dataclass(frozen=True)
@@ -92,16 +92,21 @@ def _attempt(arguments: Sequence[str]) -> Outcome:
             status = int(end.code or 0)
     signal.alarm(0)
     seconds = time.process_time() - began
-    peak = re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text(encoding="ascii"))
-    assert peak is not None
-    return Outcome(status, err.getvalue(), seconds, int(peak[1]) / 1024.0)
+    return Outcome(status, err.getvalue(), seconds, _from_status("VmHWM") / 1024**2)
+
+
+def _from_status(name: str) -> int:
+    """Return what the system says of this process [bytes]."""
+    found = re.search(rf"{name}:\s+(\d+) kB", Path("/proc/self/status").read_text(encoding="ascii"))
+    assert found is not None
+    return int(found[1]) * 1024
 
 
 def _serve() -> None:
     # What every command would import; the first one is not to be blamed for it.
     for name in ("figures", "report", "results.store", "simulation", "studies", "surfaces"):
         importlib.import_module(f"tribodyn.{name}")
-    limit = _SPARE * MEGABYTES * 1024**2
+    limit = _from_status("VmData") + _SPARE * MEGABYTES * 1024**2
     resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
     for line in sys.stdin:
         print(json.dumps(asdict(_attempt(json.loads(line)))), flush=True)

@@ -18,7 +18,16 @@ from typing import Any, Literal, TypeAlias, Union, get_args, get_origin
 from pydantic import BaseModel, Field
 from pydantic.fields import FieldInfo
 
-from tribodyn.cases.units import MissingUnit, UnitProblem, dimension, from_si, si_unit, to_si, unit_of
+from tribodyn.cases.units import (
+    MissingUnit,
+    UnitProblem,
+    dimension,
+    from_si,
+    likely_quantity,
+    si_unit,
+    to_si,
+    unit_of,
+)
 from tribodyn.core.quoting import brief
 
 Value: TypeAlias = float | int | bool | str
@@ -118,44 +127,23 @@ class Key:
         expected = bool if self.kind == "switch" else str
         if not isinstance(value, expected):
             raise ValueProblem("")
-        if self.kind == "text" and not _is_text(value):
+        if self.kind == "text" and any("\ud800" <= c <= "\udfff" for c in str(value)):
             raise ValueProblem("these bytes are no text in UTF-8, nor in the encoding of the terminal")
-        if self.kind == "file" and not _is_file_name(value):
+        if self.kind == "file" and ("\0" in str(value) or not 0 < len(str(value)) <= _LONGEST_FILE_NAME):
             raise ValueProblem("")
         return value
 
     def _read_quantity(self, value: object) -> float:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
-            raise ValueProblem(self._without_unit(value) if _finite(value) else "the number must be finite")
+            raise ValueProblem(_without_unit(self, value) if _finite(value) else "the number must be finite")
         if not isinstance(value, str):
             raise ValueProblem("")
         try:
             return _not_tiny(to_si(value, self.unit))
         except MissingUnit:
-            raise ValueProblem(self._without_unit(value)) from None
+            raise ValueProblem(_without_unit(self, value)) from None
         except UnitProblem as problem:
             raise ValueProblem(str(problem)) from None
-
-    def _without_unit(self, value: object) -> str:
-        """Show how a number given without a unit would be spelled with one."""
-        return f'the unit is missing, as in {self.name} = "{self._with_unit(value)}"'
-
-    def _with_unit(self, value: object) -> str:
-        """Return a number with the unit it was probably meant in: that of the key, or the SI unit.
-
-        Of both readings it is the one nearer to the example.
-        """
-        number = str(value).strip()
-        in_unit = f"{brief(number)} {self.unit}"
-        try:
-            likely, first, second = (
-                to_si(text, self.unit) for text in (self.example, in_unit, f"{number} {si_unit(self.unit)}")
-            )
-        except UnitProblem:
-            return in_unit
-        if 0.0 in (likely, first, second) or _apart(first, likely) <= _apart(second, likely):
-            return in_unit
-        return from_si(second, self.unit)
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""
@@ -345,16 +333,10 @@ def toml_string(value: str) -> str:
     return '"' + "".join(characters) + '"'
 
 
-def _is_text(value: object) -> bool:
-    """Tell whether a text can be written: bytes that Python could not read stand in it as half characters."""
-    try:
-        return bool(str(value).encode() or True)
-    except UnicodeEncodeError:
-        return False
-
-
-def _is_file_name(value: object) -> bool:
-    return isinstance(value, str) and 0 < len(value) <= _LONGEST_FILE_NAME and "\0" not in value
+def _without_unit(key: Key, value: object) -> str:
+    """Show how a number given without a unit would be spelled with one."""
+    likely = likely_quantity(str(value).strip(), key.example, key.unit)
+    return f'the unit is missing, as in {key.name} = "{likely}"'
 
 
 def _not_tiny(value: float) -> float:
@@ -362,11 +344,6 @@ def _not_tiny(value: float) -> float:
     if 0.0 < abs(value) < _LEAST:
         raise ValueProblem(f"the number is too small to compute with; the least is {_LEAST:g} in SI units")
     return value
-
-
-def _apart(a: float, b: float) -> float:
-    """Return how many powers of e lie between the sizes of two numbers."""
-    return abs(math.log(abs(a)) - math.log(abs(b)))
 
 
 def _finite(value: float) -> bool:

@@ -132,6 +132,35 @@ def from_si(value: float, unit: str) -> str:
     return f"{value!r} {si_unit(unit)}"
 
 
+def likely_quantity(number: str, example: str, unit: str) -> str:
+    """Return a number that was given without a unit with the one it was probably meant in.
+
+    Parameters
+    ----------
+    number
+        As it was given.
+    example
+        A likely quantity. Of the readings in ``unit`` and in SI units the one nearer to it is taken.
+    unit
+        In which such a quantity is shown.
+    """
+    in_unit = f"{brief(number)} {unit}"
+    try:
+        likely, first, second = (
+            to_si(text, unit) for text in (example, in_unit, f"{number} {si_unit(unit)}")
+        )
+    except UnitProblem:
+        return in_unit
+    if 0.0 in (likely, first, second) or _apart(first, likely) <= _apart(second, likely):
+        return in_unit
+    return from_si(second, unit)
+
+
+def _apart(a: float, b: float) -> float:
+    """Return how many powers of e lie between the sizes of two numbers."""
+    return abs(math.log(abs(a)) - math.log(abs(b)))
+
+
 def _plain(number: float) -> str:
     """Write a float as a person would: no trailing ``.0``."""
     return repr(number).removesuffix(".0")

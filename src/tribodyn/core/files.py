@@ -59,9 +59,10 @@ def open_regular(path: str | os.PathLike[str], most: int) -> BinaryIO:
 def read_regular(path: str | os.PathLike[str], most: int) -> bytes:
     """Return the content of a regular file; parameters and errors are those of :func:`open_regular`."""
     with open_regular(path, most) as stream:
-        content = stream.read(most + 1)
-    if len(content) > most:
-        raise _too_large(most)
+        size = os.fstat(stream.fileno()).st_size
+        content = stream.read(size + 1)
+    if len(content) > size:
+        raise OSError(errno.EBUSY, "the file grows while it is read")
     return content
 
 
