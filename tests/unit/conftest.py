@@ -152,6 +152,7 @@ def make_result() -> ResultFactory:
         others = [n for n, v in VARIABLES.items() if v.dims == ("time",) and n not in columns and n != "time"]
         facts: dict[str, object] = {
             "title": "Vane mechanism with a dry, rough trunnion joint",
+            "kind": "vsv",
             "case": 'case = "vsv"\ntitle = "Vane mechanism with a dry, rough trunnion joint"\n',
             "tribodyn_version": "0.0",
             "python_version": "3.11.0",

@@ -17,7 +17,15 @@ from typing import Literal, TypeAlias, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tribodyn.cases.units import MissingUnit, UnitProblem, dimension, from_si, to_si
+from tribodyn.cases.units import (
+    MissingUnit,
+    UnitProblem,
+    dimension,
+    from_si,
+    likely_quantity,
+    to_si,
+)
+from tribodyn.core.quoting import brief
 
 Value: TypeAlias = float | int | bool | str
 """What a key can hold once read: numbers in SI units, switches, names."""
@@ -116,32 +124,23 @@ class Key:
         expected = bool if self.kind == "switch" else str
         if not isinstance(value, expected):
             raise ValueProblem("")
-        if self.kind == "file" and not _is_file_name(value):
+        if self.kind == "text" and any("\ud800" <= c <= "\udfff" for c in str(value)):
+            raise ValueProblem("these bytes are no text in UTF-8, nor in the encoding of the terminal")
+        if self.kind == "file" and ("\0" in str(value) or not 0 < len(str(value)) <= _LONGEST_FILE_NAME):
             raise ValueProblem("")
         return value
 
     def _read_quantity(self, value: object) -> float:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
-            raise ValueProblem(self._without_unit(value) if _finite(value) else "the number must be finite")
+            raise ValueProblem(_without_unit(self, value) if _finite(value) else "the number must be finite")
         if not isinstance(value, str):
             raise ValueProblem("")
         try:
             return _not_tiny(to_si(value, self.unit))
         except MissingUnit:
-            raise ValueProblem(self._without_unit(value)) from None
+            raise ValueProblem(_without_unit(self, value)) from None
         except UnitProblem as problem:
             raise ValueProblem(str(problem)) from None
-
-    def _without_unit(self, value: object) -> str:
-        """Show how a number without a unit would be spelled, in SI units where it is more likely meant so."""
-        number, usual = float(str(value)), to_si(self.example, self.unit)
-        spelled = f"{str(value).strip()[:_LONGEST_SHOWN]} {self.unit}"
-        # Both readings are compared with the usual value, by their factors to it.
-        ratio = abs(number / usual) if usual else 0.0
-        if 0.0 < ratio < math.inf:
-            off, unit = math.log(ratio), math.log(to_si(f"1 {self.unit}", self.unit))
-            spelled = from_si(number, self.unit) if abs(off) < abs(off + unit) else spelled
-        return f'the unit is missing, as in {self.name} = "{spelled}"'
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""
@@ -217,8 +216,7 @@ def shown(value: object) -> str:
         return "a list"
     if isinstance(value, int) and abs(value) > 10**_LONGEST_SHOWN:
         return "a number of too many digits"
-    quoted = toml_string(value) if isinstance(value, str) else str(value)
-    return quoted if len(quoted) <= _LONGEST_SHOWN else f"{quoted[: _LONGEST_SHOWN - 3]}..."
+    return brief(toml_string(value) if isinstance(value, str) else value, _LONGEST_SHOWN)
 
 
 def toml_string(value: str) -> str:
@@ -228,8 +226,10 @@ def toml_string(value: str) -> str:
     return '"' + "".join(characters) + '"'
 
 
-def _is_file_name(value: object) -> bool:
-    return isinstance(value, str) and 0 < len(value) <= _LONGEST_FILE_NAME and "\0" not in value
+def _without_unit(key: Key, value: object) -> str:
+    """Show how a number given without a unit would be spelled with one."""
+    likely = likely_quantity(str(value).strip(), key.example, key.unit)
+    return f'the unit is missing, as in {key.name} = "{likely}"'
 
 
 def _not_tiny(value: float) -> float:

@@ -10,6 +10,7 @@ from typing import Final
 
 from tribodyn.cli.interrupt import on_leaving
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 CHECKPOINT: Final = "checkpoint.npz"
 """Where a wear campaign is kept until its result is written."""
@@ -17,7 +18,6 @@ FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html", CHECKPO
 FIGURES: Final = "figures"
 POINTS: Final = "points"
 REPORT: Final = "report.html"
-_LONGEST_SHOWN: Final = 200
 
 
 class OutputDirectory:
@@ -149,9 +149,8 @@ def _missing_parents(path: Path) -> list[Path]:
 
 
 def _refused(path: str, reason: str) -> InputError:
-    name = path if len(path) <= _LONGEST_SHOWN else f"{path[:_LONGEST_SHOWN]}..."
     return InputError(
-        f'given "{name}": results cannot be written there ({reason}); allowed: a directory that can be '
+        f"{as_given(path)}: results cannot be written there ({reason}); allowed: a directory that can be "
         "written to, or a new name in one",
         key="--output",
     )

@@ -13,6 +13,7 @@ from tribodyn.cli import bounce, cases, check, compare, report, reproduce, run, 
 from tribodyn.cli.console import complain, forgive_encodings, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.quoting import LONGEST, brief
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -58,7 +59,7 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose complaints are one line, like all others."""
 
     def error(self, message: str) -> NoReturn:
-        complain(f"{message}; see `{self.prog} --help`")
+        complain(f"{brief(message, 2 * LONGEST)}; see `{self.prog} --help`")
         raise SystemExit(BAD_INPUT)
 
 
@@ -134,7 +135,7 @@ def _in_words(error: BaseException) -> str:
     if isinstance(error, KeyboardInterrupt):
         return "aborted; nothing was saved"
     if isinstance(error, OSError):
-        return f"writing or reading failed: {error}"
+        return f"writing or reading failed: {brief(error, 2 * LONGEST)}"
     if isinstance(error, MemoryError):
         return "there is not enough memory for this run"
     return f"internal error, please report it: {type(error).__name__}: {error} (--debug shows where it arose)"

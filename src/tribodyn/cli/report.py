@@ -12,6 +12,8 @@ from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import last_words
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,7 +35,7 @@ def execute(args: Namespace) -> int:
 
     if not os.path.isdir(args.directory):
         raise InputError(
-            f'given "{args.directory}", not a directory; allowed: a directory that `tribodyn run` wrote to',
+            f"{as_given(args.directory)}, not a directory; allowed: a directory that `tribodyn run` wrote to",
             key="DIR",
         )
     dataset = _read(Path(args.directory))
@@ -65,12 +67,20 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
     if not (directory / CASE).exists():
         write_text(directory / CASE, case_text(dataset))
     summary, text = directory / SUMMARY, summary_text(dataset)
-    if not summary.is_file() or summary.read_bytes() != text.encode():
+    if not _holds(summary, text):
         write_text(summary, text)
         complain(
             f"{os.fspath(summary)} was missing, damaged or of another result; it was written again "
             f"from {RESULT}"
         )
+
+
+def _holds(path: Path, text: str) -> bool:
+    """Tell whether a file holds this text and no other."""
+    try:
+        return read_regular(path, len(text.encode())) == text.encode()
+    except OSError:
+        return False
 
 
 def _read(directory: Path) -> xr.Dataset:

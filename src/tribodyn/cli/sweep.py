@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
+from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import POINTS as POINTS_FOLDER
@@ -21,6 +21,7 @@ from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -115,10 +116,11 @@ def _variations(texts: list[str]) -> dict[str, str]:
     """Return what varies, by path."""
     variations: dict[str, str] = {}
     for text in texts:
-        path, equals, values = (part.strip() for part in text.partition("="))
+        path, equals, values = (part.strip() for part in typed(text).partition("="))
         if not (equals and path and values):
             raise InputError(
-                f'given "{text}"; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"', key="--vary"
+                f'{as_given(text)}; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"',
+                key="--vary",
             )
         if path in variations:
             raise InputError("this parameter is varied twice", key=path, source="--vary")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from tribodyn.core.quoting import brief
+
 
 class TribodynError(Exception):
     """Base class of the errors that are shown to a user as one message."""
@@ -17,14 +19,15 @@ class InputError(TribodynError):
     key
         Dotted path of the offending entry (``joint.clearance``), if there is one.
     source
-        File or option that held the entry, if known.
+        File or option that held the entry, if known. Of both the text shows no more than
+        :func:`~tribodyn.core.quoting.brief` does.
     """
 
     def __init__(self, message: str, *, key: str | None = None, source: str | None = None) -> None:
         self.key = key
         self.source = source
         self.reason = message
-        where = ": ".join(part for part in (source, key) if part)
+        where = ": ".join(brief(part) for part in (source, key) if part)
         super().__init__(f"{where}: {message}" if where else message)
 
 

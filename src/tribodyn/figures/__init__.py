@@ -7,6 +7,8 @@ from typing import Final
 
 import xarray as xr
 
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 from tribodyn.figures import (
     contact_force,
     energy,
@@ -25,6 +27,7 @@ from tribodyn.figures import (
 )
 from tribodyn.figures.base import Family
 from tribodyn.figures.save import remove, save
+from tribodyn.results.attributes import SWEEP
 
 FIGURES: Final[dict[str, Family]] = {
     module.FAMILY.name: module.FAMILY
@@ -50,17 +53,19 @@ JOURNAL_FIGURES: Final[dict[str, Family]] = {
 CAMPAIGN_FIGURES: Final[dict[str, Family]] = FIGURES | {wear_history.FAMILY.name: wear_history.FAMILY}
 """Every figure of a wear campaign of the mechanism."""
 
+_OF_RUNS: Final[dict[str, dict[str, Family]]] = {"vsv": FIGURES, "journal": JOURNAL_FIGURES}
+
 __all__ = ["CAMPAIGN_FIGURES", "FIGURES", "JOURNAL_FIGURES", "Family", "draw_all", "figures_of"]
 
 
 def figures_of(dataset: xr.Dataset) -> dict[str, Family]:
     """Return the figures that may be drawn of a result: those of a run, or of a sweep one for each number."""
-    kind = dataset.attrs.get("kind")
-    if kind == "sweep":
+    kind = str(dataset.attrs.get("kind", "vsv"))
+    if kind == SWEEP:
         return sweep.families(dataset)
-    if "wear_cycles" in dataset.variables:
-        return CAMPAIGN_FIGURES
-    return JOURNAL_FIGURES if kind == "journal" else FIGURES
+    if kind not in _OF_RUNS:
+        raise InputError(f"{as_given(kind)}; allowed: {', '.join([*_OF_RUNS, SWEEP])}", key="kind")
+    return CAMPAIGN_FIGURES if "wear_cycles" in dataset.variables else _OF_RUNS[kind]
 
 
 def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from tribodyn.results.variables import VARIABLES
+from tribodyn.results.variables import COORDINATES, VARIABLES
 
 
 def build(
@@ -42,21 +42,34 @@ def build(
         Each variable with ``units`` and ``long_name``.
     """
     data = {**columns, **(fields or {})}
-    first = ("law",) if "law" in coordinates else ()
     return xr.Dataset(
-        data_vars={name: _variable(name, values, first) for name, values in data.items()},
-        coords={name: _variable(name, values) for name, values in coordinates.items()},
+        data_vars={name: _variable(name, values, coordinates) for name, values in data.items()},
+        coords={name: _variable(name, values, coordinates) for name, values in coordinates.items()},
         attrs={name: plain_attribute(value) for name, value in (attributes or {}).items()},
     )
 
 
-def _variable(name: str, values: ArrayLike, first: tuple[str, ...] = ()) -> xr.Variable:
-    """Return the values as a variable described by the table, with dimensions in front of its own."""
+def dims_of(name: str, coordinates: Container[str]) -> tuple[str, ...]:
+    """Return the dimensions of a variable of the table in a result.
+
+    Parameters
+    ----------
+    name
+        Of the variable.
+    coordinates
+        Names of the coordinates of the result: where ``law`` is one, all that is no coordinate runs over it
+        first.
+    """
+    first = ("law",) if "law" in coordinates and name not in COORDINATES else ()
+    return first + VARIABLES[name].dims
+
+
+def _variable(name: str, values: ArrayLike, coordinates: Container[str]) -> xr.Variable:
+    """Return the values as a variable described by the table."""
     if name not in VARIABLES:
         raise KeyError(f"{name!r} is not in tribodyn.results.variables.VARIABLES: add its line there")
-    about = VARIABLES[name]
+    about, dims = VARIABLES[name], dims_of(name, coordinates)
     array = np.asarray(values)
-    dims = first + about.dims
     if array.ndim != len(dims):
         raise ValueError(f"{name} has shape {array.shape} but the table says it runs over {dims}")
     return xr.Variable(dims, array, {"units": about.units, "long_name": about.long_name})

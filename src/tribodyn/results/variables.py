@@ -15,6 +15,9 @@ TIME: Final = ("time",)
 SNAPSHOT: Final = ("snapshot",)
 JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
+STAGE: Final = ("stage_cycles",)
+EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *STAGE))
+"""Dimensions along which a result may hold nothing: it ended before."""
 
 
 @dataclass(frozen=True)
@@ -29,15 +32,18 @@ class Variable:
         Plain words, used as axis label and in the documentation.
     dims
         Dimensions of the array.
+    text
+        Whether it holds texts rather than numbers.
     """
 
     units: str
     long_name: str
     dims: tuple[str, ...] = TIME
+    text: bool = False
 
 
 COORDINATES: Final[dict[str, Variable]] = {
-    "law": Variable("1", "contact law, of runs side by side", ("law",)),
+    "law": Variable("1", "contact law, of runs side by side", ("law",), text=True),
     "time": Variable("s", "simulated time"),
     "snapshot": Variable("1", "number of the field snapshot", SNAPSHOT),
     "snapshot_time": Variable("s", "simulated time of the snapshot", SNAPSHOT),
@@ -46,7 +52,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "frame": Variable("1", "number of the pressure frame, over the last cycle", FRAME),
     "frame_time": Variable("s", "simulated time of the pressure frame", FRAME),
     "jump": Variable("1", "number of the stop of a wear campaign", JUMP),
-    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", ("stage_cycles",)),
+    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", STAGE),
     "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
@@ -189,7 +195,7 @@ _CAMPAIGN: Final[dict[str, Variable]] = {
     "wear_angle_error_max": Variable("rad", "vane-angle error, largest in the cycle", JUMP),
     "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
     "wear_energy_lost": Variable("J", "stored contact energy that the jump takes away", JUMP),
-    "stage_depth": Variable("m", "wear depth of the bushing, selected", ("stage_cycles", "theta", "z")),
+    "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z")),
 }
 
 _FIELDS: Final[dict[str, Variable]] = {
@@ -213,3 +219,10 @@ VARIABLES: Final[dict[str, Variable]] = {
     **_CAMPAIGN,
 }
 """Every variable a result may hold, by name."""
+
+POINT_TEXTS: Final[dict[str, str]] = {
+    "failure": "why there are no numbers; empty where there are",
+    "warnings": "what the run says about its own trustworthiness",
+    "points": "name of the folder of the point below points/",
+}
+"""What a sweep says of each of its points in words, with its meaning; all else it holds are numbers."""

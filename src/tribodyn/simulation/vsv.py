@@ -233,6 +233,7 @@ class Gathered:
         told = warnings(self.vsv, found, whole, clearance, grid_error, t_end, self._cost())
         return {
             "title": self.case.title,
+            "kind": self.case.kind(),
             "case": self.case.to_toml(),
             **provenance(),
             "solver": self._solver(),
