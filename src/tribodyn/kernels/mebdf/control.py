@@ -52,7 +52,7 @@ from tribodyn.kernels.mebdf.state import (
     T,
 )
 
-SMALLEST_SCALE = 1.0e-150
+SMALLEST_SCALE = 1.0e-300
 """What stands for a tolerance of zero where the solution is zero too."""
 CAUTION = 3
 """Steps that must prove their stages after Newton's iteration has failed."""

@@ -54,6 +54,7 @@ from tribodyn.kernels.mebdf.state import (
     HISTORY,
     JACOBIAN_AGE,
     K_LAST,
+    LAST,
     MATRIX_AGE,
     N_J,
     OLD_JACOBIAN,
@@ -127,7 +128,8 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
     limit_step(real, count, rows)
     h = real[H]
-    if not abs(h) > LEAST_STEP * abs(real[T]):
+    # A whole integration that is as short as that is one step.
+    if not abs(h) > LEAST_STEP * abs(real[T]) and (count[LAST] == 0 or h == 0.0):
         count[REASON] = STEP_TOO_SMALL
         return FAILED
     if count[VAIN] >= MOST_VAIN and _stands_still(real, count):

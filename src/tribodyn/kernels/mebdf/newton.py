@@ -190,7 +190,10 @@ def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matric
 
 @inlined
 def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> float:
-    """Add the Newton correction to Y and keep it in DELTA; return its norm. Note that of the residual before."""
+    """Add the Newton correction to Y and keep it in DELTA; return its norm.
+
+    The norm of the residual it answers is noted.
+    """
     n = rows.shape[1]
     scaled, relaxation = real[SCALED], real[RELAXATION]
     total = 0.0
