@@ -25,9 +25,9 @@ def reason(state: MebdfState, names: Sequence[str]) -> str:
         row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
         return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
     if state.counts[entry.REASON] == phases.NO_PROGRESS:
-        worst = names[int(state.counts[entry.WORST])]
+        name = names[int(state.counts[entry.WORST])]
         return (
-            f"Newton's iteration fails again and again, worst in {worst}, with hardly any progress: "
+            f"Newton's iteration fails again and again, worst in {name}, with hardly any progress: "
             "the rates jump there or the Jacobian is wrong"
         )
     text = "the step became shorter than the spacing between numbers"
