@@ -54,9 +54,9 @@ from tribodyn.kernels.mebdf.state import (
 
 SMALLEST_SCALE = 1.0e-300
 """What stands for a tolerance of zero where the solution is zero too."""
-CAUTION = 3
+CAUTION = 1
 """Steps that must prove their stages after Newton's iteration has failed."""
-MOST_CAUTION = 15
+MOST_CAUTION = 7
 """Most of them when it fails again meanwhile."""
 FAILED_NEWTON = 0.25
 """What the step is multiplied by when Newton's iteration fails although the Jacobian is new."""
