@@ -6,7 +6,7 @@ The time is that of ``tribodyn.studies.sweep`` as a whole, from the call to the 
 and the start and end of its processes: of the first sweep of a process, with points of several lengths, and
 of a later one, whose workers are forked from a process that is there already. Beside it stand the command
 ``tribodyn sweep`` from its start to its end, imports, figures and reports included, and what the machine
-gives: the same points in one plain process and in two at once, without Dask, files or a start. One and two
+gives: the same points in one plain process and in two at once, without files or a start. One and two
 take turns, and the shortest time of each counts.
 """
 

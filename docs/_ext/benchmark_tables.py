@@ -214,7 +214,7 @@ def sweep(found: Found) -> Lines:
         ("first sweep", "`studies.sweep`, the first of a process", 2),
         ("first sweep, 50 cycles", "the same", 50),
         ("later sweep", "a later sweep of the process", 2),
-        ("plain processes", "plain processes, without Dask, files and start", 2),
+        ("plain processes", "plain processes, without files and start", 2),
         ("command", "`tribodyn sweep`, imports, figures and reports included", 2),
     ):
         one, two = (min(found["sweep"]["seconds"][name][workers]) for workers in ("1", "2"))

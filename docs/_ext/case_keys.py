@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
-from typing import Any
+from typing import Any, get_args
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
 
 from tribodyn.cases import Case, Key, keys_of
+from tribodyn.cases.keys import ANY_NAME
 from tribodyn.mechanisms.catalogue import kinds
 
 
@@ -29,7 +30,8 @@ class CaseKeys(Directive):
 
 def _markdown(model: type[Case]) -> Iterator[str]:
     for table, keys in groupby(keys_of(model).values(), key=lambda key: key.table):
-        yield f"**`[{table}]`** {_purpose(model, table)}" if table else "**At the top**"
+        title = table.replace(ANY_NAME, "NAME")
+        yield f"**`[{title}]`** {_purpose(model, table)}" if table else "**At the top**"
         yield from ("", "| key | default | allowed | meaning | source |", "|---|---|---|---|---|")
         yield from (f"| {' | '.join(_cells(key))} |" for key in keys)
         yield ""
@@ -38,7 +40,8 @@ def _markdown(model: type[Case]) -> Iterator[str]:
 def _purpose(model: Any, table: str) -> str:
     """Return the first line that the class of a table says about itself."""
     for name in table.split("."):
-        model = model.model_fields[name].annotation
+        # Of tables that a user names, the annotation is a mapping from names.
+        model = get_args(model)[1] if name == ANY_NAME else model.model_fields[name].annotation
     return str(model.__doc__).splitlines()[0]
 
 

@@ -15,11 +15,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
     from tribodyn.mechanisms.catalogue import load_case
+    from tribodyn.mechanisms.results import read
     from tribodyn.simulation import simulate
 
-__all__ = ["__version__", "contact", "integrate", "load_case", "simulate", "studies"]
+__all__ = ["__version__", "contact", "integrate", "load_case", "read", "simulate", "studies"]
 
-_HOME = {"load_case": "tribodyn.mechanisms.catalogue", "simulate": "tribodyn.simulation"}
+_HOME = {
+    "load_case": "tribodyn.mechanisms.catalogue",
+    "read": "tribodyn.mechanisms.results",
+    "simulate": "tribodyn.simulation",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.summary import summarise
+from tribodyn.mechanisms.results import summarise
 from tribodyn.simulation import simulate
 from tribodyn.simulation import wear as vsv_wear
 

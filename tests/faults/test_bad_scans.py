@@ -178,8 +178,8 @@ def test_files_that_are_none(refused: Callable[..., str], tmp_path: Path) -> Non
 
 def test_huge_scans(refused: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "scan.csv").write_bytes(text(rows()))
-    monkeypatch.setattr("tribodyn.surfaces.text.LARGEST_FILE", 1000)
-    assert "larger than 1 GB" in refused("scan.csv")
+    monkeypatch.setattr("tribodyn.surfaces.read.LARGEST_FILE", 1000)
+    assert "larger than 1 kB" in refused("scan.csv")
     monkeypatch.undo()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tribodyn.surfaces.text.MOST_POINTS", 1000)

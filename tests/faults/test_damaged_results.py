@@ -25,7 +25,8 @@ TIME_LIMIT = 5.0
 READER = f"""
 import json, sys, time
 from tribodyn.core.errors import InputError
-from tribodyn.results import read
+from tribodyn.core.quoting import brief
+from tribodyn.mechanisms.results import read
 whole = read(sys.argv[1])
 for line in sys.stdin:
     began = time.perf_counter()
@@ -33,7 +34,7 @@ for line in sys.stdin:
         said = "read" if read(line.strip()).identical(whole) else "changed"
     except InputError as error:
         text = str(error)
-        expected = f"cannot read the result in {{line.strip()}}; it is damaged or no result: "
+        expected = f"cannot read the result in {{brief(line.strip())}}; it is damaged or no result: "
         said = "refused" if text.startswith(expected) and "\\n" not in text else text
     if time.perf_counter() - began > {TIME_LIMIT}:
         said += ", too slowly"

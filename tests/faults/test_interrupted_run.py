@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.results import read
+from tribodyn.mechanisms.results import read
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -16,7 +16,7 @@ import xarray as xr
 
 from tribodyn.cli.main import main
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.results import read
+from tribodyn.mechanisms.results import read
 from tribodyn.simulation import simulate
 
 CHANGES = {

@@ -18,8 +18,7 @@ import pytest
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.summary import summarise
-from tribodyn.results import read
+from tribodyn.mechanisms.results import read, summarise
 from tribodyn.results.atomic import remove_stale_parts
 
 RUN = [sys.executable, "-m", "tribodyn", "run", "vsv", "--set", "run.duration=1 s", "-o"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -12,16 +13,12 @@ import sys
 import time
 from pathlib import Path
 
-import cloudpickle
 import numpy as np
 import psutil
 import pytest
 import xarray as xr
 
-from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.results import read
-from tribodyn.studies import make_plan, runners
-from tribodyn.studies.work import Outcome
+from tribodyn.mechanisms.results import read
 
 POINTS = 7
 KILLS, LONGEST = 10, 1800.0
@@ -107,6 +104,28 @@ def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: P
     # Without whole results there is less to draw, and the reports of points are no matter here.
     subprocess.run([*command, "--summary-only"], cwd=tmp_path, capture_output=True, check=True)
     assert len(finished(tmp_path)) == 2
+
+
+@pytest.mark.parametrize(
+    ("limit", "status", "told"),
+    [(20, 2, r"--workers: the limit of open files"), (29, 0, r"\(`ulimit -n`\) allows [12] of 3 workers")],
+)
+def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(
+    limit: int, status: int, told: str, tmp_path: Path
+) -> None:
+    command = [
+        *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--workers", "3", "--summary-only"),
+        *("--vary", "joint.clearance=20,24,28 um", "--set", "run.duration=20 ms"),
+    ]
+
+    def few_handles() -> None:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (limit, limit))
+
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, preexec_fn=few_handles)
+    assert done.returncode == status, done.stderr
+    assert re.search(told, done.stderr)
+    assert len(done.stderr.splitlines()) < 10
+    assert not (status and list(tmp_path.iterdir())), "nothing is written after bad input"
 
 
 def killed(process: subprocess.Popen[str], after: float) -> bool:
@@ -197,27 +216,3 @@ def test_an_interrupted_sweep_saves_what_it_has(tmp_path: Path) -> None:
     assert np.isfinite(merged["contact_force_max_N"]).sum() == len(before) < POINTS
     assert merged.attrs["points_failed"] == POINTS - len(before)
     assert_whole(tmp_path, before)
-
-
-def deadly(toml: str, made_by: str, keep_result: bool, staging: str) -> Outcome:
-    """Stand for a point that no worker survives."""
-    if 'clearance = "30 um"' in toml:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return Outcome({"status": "complete", "failure": ""})
-
-
-@pytest.mark.long
-def test_a_point_that_kills_its_workers_has_no_result_and_the_rest_go_on(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    # Workers cannot import this module, so its functions are sent as they are.
-    cloudpickle.register_pickle_by_value(sys.modules[__name__])
-    monkeypatch.setattr(runners, "compute", deadly)
-    plan = make_plan(load_case("vsv"), {"joint.clearance": "20,30,40 um"})
-    found = {
-        point.changes["joint.clearance"]: outcome
-        for point, outcome in runners.local(runners.Job(plan.points, False, "", lambda: False, print), 2)
-    }
-    assert found["20 um"].failure == found["40 um"].failure == ""
-    assert "worker process died" in found["30 um"].failure
-    assert not found["30 um"].final

@@ -7,10 +7,12 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import psutil
 import pytest
+from distributed import Security
 
 SWEEP = [
     *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--summary-only", "--quiet", "--json"),
@@ -36,13 +38,13 @@ def end(process: subprocess.Popen[bytes]) -> None:
     process.wait()
 
 
-@pytest.fixture
-def address(tmp_path: Path) -> Iterator[str]:
-    """Start a scheduler and two workers; return the address."""
-    about = tmp_path / "scheduler.json"
+@contextmanager
+def started(folder: Path, *options: str) -> Iterator[str]:
+    """Start a scheduler and two workers; give the address."""
+    about = folder / "scheduler.json"
     file = ("--scheduler-file", str(about))
     local = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard")
-    processes = [dask("scheduler", *local, *file, folder=tmp_path)]
+    processes = [dask("scheduler", *local, *file, *options, folder=folder)]
     try:
         deadline = time.monotonic() + 120.0
         while not about.exists():
@@ -50,11 +52,28 @@ def address(tmp_path: Path) -> Iterator[str]:
             time.sleep(0.1)
         found = str(json.loads(about.read_text(encoding="utf-8"))["address"])
         workers = ("--nworkers", "2", "--nthreads", "1", "--no-dashboard")
-        processes.append(dask("worker", found, *workers, folder=tmp_path))
+        processes.append(dask("worker", found, *workers, *options, folder=folder))
         yield found
     finally:
         for process in processes:
             end(process)
+
+
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    """Return the address of a scheduler with two workers."""
+    with started(tmp_path) as found:
+        yield found
+
+
+def certificates(folder: Path) -> list[str]:
+    """Write keys of their own into a folder; return the options with which Dask and tribodyn take them."""
+    made = Security.temporary()
+    contents = {"ca": made.tls_ca_file, "cert": made.tls_scheduler_cert, "key": made.tls_scheduler_key}
+    folder.mkdir()
+    for name, content in contents.items():
+        (folder / f"{name}.pem").write_text(content, encoding="utf-8")
+    return [word for name in contents for word in (f"--tls-{name}", str(folder / f"{name}.pem"))]
 
 
 def rows(*options: str, folder: Path) -> list[dict[str, object]]:
@@ -99,3 +118,17 @@ def test_a_scheduler_that_goes_away_loses_no_point_that_had_finished(address: st
     done = subprocess.run(again, cwd=tmp_path, capture_output=True, text=True, check=True)
     assert f"computing {4 - len(before)} of 4 points" in done.stderr
     assert {path: path.stat().st_mtime_ns for path in before} == before
+
+
+def test_an_encrypted_cluster_takes_only_who_has_its_certificates(tmp_path: Path) -> None:
+    ours, others = (certificates(tmp_path / name) for name in ("ours", "others"))
+    dask_says = ["--tls-ca-file" if word == "--tls-ca" else word for word in ours]
+    with started(tmp_path, *dask_says) as address:
+        assert address.startswith("tls://")
+        to_it = ["--scheduler", address, "-o", "there"]
+        for strange in ([], others):
+            refused = subprocess.run([*SWEEP, *to_it, *strange], cwd=tmp_path, capture_output=True, text=True)
+            assert refused.returncode == 2
+            assert "no scheduler answers" in refused.stderr
+            assert refused.stderr.count("\n") == 1
+        assert len(rows(*to_it, *ours, folder=tmp_path)) == 4

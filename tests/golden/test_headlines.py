@@ -1,7 +1,7 @@
 """Built-in cases give the headline numbers that are stored beside this file.
 
-``make golden`` writes them anew. Do that when a change of the physics is meant, look at the difference, and say
-in the commit why.
+``make golden`` writes them anew. Do that when a change of the physics is meant, look at the difference, and
+say in the commit why.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ import pytest
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import built_in
-from tribodyn.mechanisms.summary import headlines_of, summarise
+from tribodyn.mechanisms.results import headlines_of, summarise
 
 STORED: Final = Path(__file__).with_name("headlines.json")
 OF_THE_MACHINE: Final = ("Trust", "Ledger", "Effort")
 """Groups of numbers that rounding and processors move; other tests bound them."""
 CLOSE: Final = 2e-3
-"""Means, angles and wear: seven neighbouring tolerances of the vane mechanism stay within 0.11 % of a force."""
+"""Means, angles and wear: neighbouring tolerances of the vane mechanism stay within 0.11 % of a force."""
 PEAKS: Final = 3e-2
 """What an impact decides: where steps fall moves it, from tolerance to tolerance as between processors."""
 OF_IMPACTS: Final = ("_max_", "peak_", "rebounds", "settling", "speed_error")

@@ -13,7 +13,7 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.summary import summarise
+from tribodyn.mechanisms.results import summarise
 
 FINAL = (14.563e-6, 7.281e-6)
 """Where statics put the centre [m] (model, 9)."""

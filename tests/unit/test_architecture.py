@@ -11,6 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import grimp
 import pytest
 
 pytestmark = pytest.mark.house
@@ -33,6 +34,18 @@ def test_tool_finds_nothing(command: tuple[str, ...]) -> None:
         [Path(sys.executable).with_name(tool), *arguments], cwd=ROOT, capture_output=True, text=True
     )
     assert found.returncode == 0, found.stdout + found.stderr
+
+
+def test_no_module_imports_a_package_that_imports_it() -> None:
+    """The contract on circles compares siblings only: neither is the package that a module is in."""
+    graph = grimp.build_graph("tribodyn", cache_dir=None)
+    circles = [
+        f"{module} imports {imported}"
+        for module in graph.modules
+        for imported in graph.find_modules_directly_imported_by(module)
+        if module.startswith(f"{imported}.") and graph.chain_exists(importer=imported, imported=module)
+    ]
+    assert not circles
 
 
 def test_long_files_say_why() -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tribodyn.cases.base import Case
+from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key, keys_of
+from tribodyn.cases.tables import keys_in
 
-__all__ = ["Case", "Key", "keys_of"]
+__all__ = ["Case", "Key", "keys_in", "keys_of"]

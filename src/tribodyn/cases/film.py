@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from tribodyn.cases.base import Group, demand
-from tribodyn.cases.keys import ASSUMED, choice, count, number, quantity, switch
+from tribodyn.cases.case import Group, demand
+from tribodyn.cases.fields import choice, count, number, quantity, switch
+from tribodyn.cases.keys import ASSUMED
 
 SECTION_4 = "paper, section 4.2"
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal
 
-from tribodyn.cases.base import Group, demand
-from tribodyn.cases.keys import ASSUMED, Value, choice, count, file, number, quantity, switch, text
+from tribodyn.cases.case import Group, demand
+from tribodyn.cases.fields import choice, count, file, number, quantity, switch, text
+from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair

@@ -1,8 +1,7 @@
-"""Declaring the keys of a case file: default, meaning, source, bounds.
+"""The keys of a case file: what each may hold, how it is read and written, what it means.
 
-The helpers below make pydantic fields. What they record about a key is collected by
-:func:`keys_of` into :class:`Key` objects, which read values, name what is allowed, and document
-the key in ``tribodyn show`` and in the user guide.
+They are collected from the models, whose fields :mod:`tribodyn.cases.fields` declares, and document
+themselves in ``tribodyn show`` and in the user guide.
 """
 
 from __future__ import annotations
@@ -13,22 +12,30 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Any, Literal, TypeAlias, Union, get_args, get_origin
+from typing import Literal, TypeAlias, Union, get_args, get_origin
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tribodyn.cases.units import MissingUnit, UnitProblem, dimension, from_si, si_unit, to_si, unit_of
+from tribodyn.cases.units import (
+    MissingUnit,
+    UnitProblem,
+    dimension,
+    from_si,
+    likely_quantity,
+    to_si,
+)
+from tribodyn.core.quoting import brief
 
 Value: TypeAlias = float | int | bool | str
 """What a key can hold once read: numbers in SI units, switches, names."""
 
-Bound: TypeAlias = str | float | None
-
 ASSUMED = "assumed"
 """Source of a value that the paper does not give."""
 
-_SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
+ANY_NAME = "*"
+"""Stands in the path of a key for the name that a user gives a table."""
+
 _LONGEST_SHOWN = 60
 _LEAST = 1.0e-60
 _LONGEST_FILE_NAME = 4096
@@ -117,32 +124,23 @@ class Key:
         expected = bool if self.kind == "switch" else str
         if not isinstance(value, expected):
             raise ValueProblem("")
-        if self.kind == "file" and not _is_file_name(value):
+        if self.kind == "text" and any("\ud800" <= c <= "\udfff" for c in str(value)):
+            raise ValueProblem("these bytes are no text in UTF-8, nor in the encoding of the terminal")
+        if self.kind == "file" and ("\0" in str(value) or not 0 < len(str(value)) <= _LONGEST_FILE_NAME):
             raise ValueProblem("")
         return value
 
     def _read_quantity(self, value: object) -> float:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
-            raise ValueProblem(self._without_unit(value) if _finite(value) else "the number must be finite")
+            raise ValueProblem(_without_unit(self, value) if _finite(value) else "the number must be finite")
         if not isinstance(value, str):
             raise ValueProblem("")
         try:
             return _not_tiny(to_si(value, self.unit))
         except MissingUnit:
-            raise ValueProblem(self._without_unit(value)) from None
+            raise ValueProblem(_without_unit(self, value)) from None
         except UnitProblem as problem:
             raise ValueProblem(str(problem)) from None
-
-    def _without_unit(self, value: object) -> str:
-        """Show how a number without a unit would be spelled, in SI units where it is more likely meant so."""
-        number, usual = float(str(value)), to_si(self.example, self.unit)
-        spelled = f"{str(value).strip()[:_LONGEST_SHOWN]} {self.unit}"
-        # Both readings are compared with the usual value, by their factors to it.
-        ratio = abs(number / usual) if usual else 0.0
-        if 0.0 < ratio < math.inf:
-            off, unit = math.log(ratio), math.log(to_si(f"1 {self.unit}", self.unit))
-            spelled = from_si(number, self.unit) if abs(off) < abs(off + unit) else spelled
-        return f'the unit is missing, as in {self.name} = "{spelled}"'
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""
@@ -153,113 +151,6 @@ class Key:
         if isinstance(value, str):
             return toml_string(value)
         return repr(value).removesuffix(".0") if abs(value) < 1e15 else repr(value)
-
-
-def quantity(
-    default: str | None,
-    description: str,
-    source: str,
-    *,
-    unit: str | None = None,
-    gt: Bound = None,
-    ge: Bound = None,
-    lt: Bound = None,
-    le: Bound = None,
-    example: str | None = None,
-) -> Any:
-    """Declare a key that carries a unit; default and bounds are written with it."""
-    shown = example or default or ""
-    unit = unit or unit_of(shown)
-    bounds = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    numbers = {k: to_si(b, unit) if isinstance(b, str) else b for k, b in bounds.items()}
-    return _field(
-        None if default is None else to_si(default, unit),
-        description,
-        source,
-        bounds,
-        numbers,
-        kind="quantity",
-        unit=unit,
-        example=shown,
-    )
-
-
-def number(
-    default: float | None,
-    description: str,
-    source: str,
-    *,
-    gt: float | None = None,
-    ge: float | None = None,
-    lt: float | None = None,
-    le: float | None = None,
-    example: str = "",
-) -> Any:
-    """Declare a dimensionless key; its values are bare numbers."""
-    bounds: dict[str, Bound] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    return _field(default, description, source, bounds, bounds, kind="number", example=example)
-
-
-def count(default: int, description: str, source: str, *, ge: int, le: int) -> Any:
-    """Declare a key that takes a whole number."""
-    bounds: dict[str, Bound] = {"ge": ge, "le": le}
-    return _field(default, description, source, bounds, bounds, kind="count")
-
-
-def switch(default: bool, description: str, source: str) -> Any:
-    """Declare a key that is true or false."""
-    return _field(default, description, source, {}, {}, kind="switch")
-
-
-def choice(default: str | None, description: str, source: str, *, family: str = "", example: str = "") -> Any:
-    """Declare a key that takes a name.
-
-    Parameters
-    ----------
-    default, description, source
-        As for the other kinds.
-    family
-        Where the allowed names are listed, as ``module:ATTRIBUTE`` (a mapping); ``module:ATTRIBUTE+none``
-        also allows the name ``none``. It is imported only when a value is checked. Empty when the
-        annotation is a ``Literal``, which lists them itself.
-    """
-    return _field(default, description, source, {}, {}, kind="choice", family=family, example=example)
-
-
-def file(description: str, example: str) -> Any:
-    """Declare a key that names a file, relative to the case file; what it holds takes its place."""
-    return _field(None, description, "", {}, {}, kind="file", example=example)
-
-
-def text(default: str, description: str) -> Any:
-    """Declare a key that takes one line of free text."""
-    return Field(
-        default,
-        description=description,
-        max_length=200,
-        pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]*$",
-        json_schema_extra={"kind": "text", "source": ""},
-    )
-
-
-def _field(
-    default: object,
-    description: str,
-    source: str,
-    bounds: Mapping[str, Bound],
-    numbers: Mapping[str, Any],
-    *,
-    kind: str,
-    **extra: str,
-) -> Any:
-    limits = " and ".join(f"{_SIGNS[k]} {b}" for k, b in bounds.items() if b is not None)
-    return Field(
-        default,
-        description=description,
-        allow_inf_nan=False if kind in {"quantity", "number"} else None,
-        json_schema_extra={"kind": kind, "source": source, "limits": limits, **extra},
-        **{k: b for k, b in numbers.items() if b is not None},
-    )
 
 
 @cache
@@ -274,7 +165,8 @@ def family_names(family: str) -> tuple[str, ...]:
 def keys_of(model: type[BaseModel], prefix: str = "") -> dict[str, Key]:
     """Return every key below a model, by dotted path, in the order of declaration.
 
-    Keys of a table come before its sub-tables, as TOML wants them.
+    Keys of a table come before its sub-tables, as TOML wants them. In tables that a user names,
+    :data:`ANY_NAME` stands for the name; see :mod:`tribodyn.cases.tables`.
     """
     own: dict[str, Key] = {}
     below: dict[str, Key] = {}
@@ -282,6 +174,8 @@ def keys_of(model: type[BaseModel], prefix: str = "") -> dict[str, Key]:
         group = info.annotation
         if isinstance(group, type) and issubclass(group, BaseModel):
             below |= keys_of(group, f"{prefix}{name}.")
+        elif get_origin(group) is Mapping:
+            below |= keys_of(get_args(group)[1], f"{prefix}{name}.{ANY_NAME}.")
         else:
             own[prefix + name] = _key(prefix + name, info)
     return own | below
@@ -322,8 +216,7 @@ def shown(value: object) -> str:
         return "a list"
     if isinstance(value, int) and abs(value) > 10**_LONGEST_SHOWN:
         return "a number of too many digits"
-    quoted = toml_string(value) if isinstance(value, str) else str(value)
-    return quoted if len(quoted) <= _LONGEST_SHOWN else f"{quoted[: _LONGEST_SHOWN - 3]}..."
+    return brief(toml_string(value) if isinstance(value, str) else value, _LONGEST_SHOWN)
 
 
 def toml_string(value: str) -> str:
@@ -333,8 +226,10 @@ def toml_string(value: str) -> str:
     return '"' + "".join(characters) + '"'
 
 
-def _is_file_name(value: object) -> bool:
-    return isinstance(value, str) and 0 < len(value) <= _LONGEST_FILE_NAME and "\0" not in value
+def _without_unit(key: Key, value: object) -> str:
+    """Show how a number given without a unit would be spelled with one."""
+    likely = likely_quantity(str(value).strip(), key.example, key.unit)
+    return f'the unit is missing, as in {key.name} = "{likely}"'
 
 
 def _not_tiny(value: float) -> float:
@@ -375,23 +270,3 @@ def _from_text(value: str, kind: str) -> object:
         except ValueError:
             return value
     return value
-
-
-__all__ = [
-    "ASSUMED",
-    "Key",
-    "Value",
-    "ValueProblem",
-    "choice",
-    "count",
-    "family_names",
-    "file",
-    "keys_of",
-    "number",
-    "quantity",
-    "shown",
-    "si_unit",
-    "switch",
-    "text",
-    "toml_string",
-]

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import os
-import tomllib
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
-from tribodyn.cases.base import Case
-from tribodyn.cases.build import Entry, build, closest
+from tribodyn.cases.case import Case, build
+from tribodyn.cases.entry import Entry, closest
 from tribodyn.cases.keys import shown
+from tribodyn.core import toml
 from tribodyn.core.errors import InputError
-
-_LARGEST_FILE: Final = 1_000_000
-_LONGEST_NAME: Final = 200
+from tribodyn.core.files import read_regular
+from tribodyn.core.quoting import LONGEST, brief
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,7 @@ def read_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str,
         given = {path: Entry(value, source) for path, value in entry.given.items()}
         return build(entry.model, given, source)
     name = os.fspath(case)
-    source = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}..."
-    return parse(_text(Path(name), source, built_in), source, kinds, Path(name).parent)
+    return parse(_text(name, built_in), name, kinds, Path(name).parent)
 
 
 def parse(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> Case:
@@ -107,26 +106,21 @@ def _kind(entries: Mapping[str, Entry], kinds: Kinds, source: str) -> type[Case]
     return kinds[name]
 
 
-def _text(path: Path, source: str, built_in: Mapping[str, BuiltIn]) -> str:
+def _text(name: str, built_in: Mapping[str, BuiltIn]) -> str:
     """Read a file as UTF-8 text."""
-    # Not path.is_dir, which fails on names that are too long.
-    if os.path.isdir(path):
-        raise InputError("this is a directory; a TOML file or a built-in case is needed", source=source)
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST_FILE + 1)
+        return _decoded(read_regular(Path(name), toml.LARGEST), name)
     except FileNotFoundError:
-        raise InputError(_no_such_file(source, built_in), source=source) from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InputError(f"the file cannot be read: {reason}", source=source) from None
-    return _decoded(content, source)
+        raise InputError(_no_such_file(name, built_in), source=name) from None
+    except IsADirectoryError:
+        reason = "this is a directory; a TOML file or a built-in case is needed"
+        raise InputError(reason, source=name) from None
+    except OSError as error:
+        raise InputError(f"the file cannot be read: {error.strerror}", source=name) from None
 
 
 def _decoded(content: bytes, source: str) -> str:
     """Return the text of a file, refusing what cannot be TOML."""
-    if len(content) > _LARGEST_FILE:
-        raise InputError("the file is larger than 1 MB; this is not a case", source=source)
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -144,11 +138,9 @@ def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
 
 def _tables(text: str, source: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise InputError("not valid TOML: nested too deeply", source=source) from None
+        return toml.parse(text)
     except ValueError as error:
-        raise InputError(f"not valid TOML: {error}", source=source) from None
+        raise InputError(f"not valid TOML: {brief(error, 2 * LONGEST)}", source=source) from None
 
 
 def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, object]]:
@@ -163,5 +155,4 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, ob
 
 def _key_text(name: str) -> str:
     """Return a key as it stands in a file; quoted unless plain, so that dots inside do not mislead."""
-    plain = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
-    return name if plain else shown(name)
+    return name if re.fullmatch("[A-Za-z0-9_-]+", name) else shown(name)

@@ -9,17 +9,17 @@ trunnion smooth; with a scan of each surface their spectral moments add up.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.keys import Key, shown, toml_string
 from tribodyn.cases.units import from_si, to_si
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
-    from tribodyn.cases.build import Entry
     from tribodyn.surfaces import Roughness, Treatment
 
 COMBINED: Final = "asperities.surface"
@@ -115,11 +115,13 @@ def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> di
             entry = entries[given[0]]
             hint = f"{path} is needed too; a scan of the one rough surface is given as {COMBINED}"
             raise InputError(hint, key=given[0], source=entry.source)
-    treatment = _treatment({path: _read(keys[path], entries[path]) for path in options}, entries)
+    treatment = _treatment({path: read_entry(keys[path], entries[path]) for path in options}, entries)
     found = equivalent(*(_measured(path, keys[path], entries[path], treatment) for path in given))
     kept = {path: entry for path, entry in entries.items() if path not in (*given, *options)}
     first = entries[given[0]]
-    return kept | {path: _like(first, value) for path, value in found.values().items() if path in keys}
+    return kept | {
+        path: replace(first, value=value) for path, value in found.values().items() if path in keys
+    }
 
 
 def scan_entries(entries: Mapping[str, Entry]) -> dict[str, Entry]:
@@ -151,7 +153,7 @@ def _measured(path: str, key: Key, entry: Entry, treatment: Treatment) -> Roughn
     """Return the surface in the file that a key names, relative to the case file."""
     from tribodyn.surfaces import analyse, read_scan
 
-    name = str(_read(key, entry))
+    name = str(read_entry(key, entry))
     file = (entry.folder or Path()) / name
     try:
         return analyse(read_scan(file, length), treatment)
@@ -171,18 +173,6 @@ def _treatment(values: dict[str, Any], entries: Mapping[str, Entry]) -> Treatmen
     except InputError as error:
         path = f"asperities.{error.key}"
         raise InputError(error.reason, key=path, source=entries[path].source) from None
-
-
-def _read(key: Key, entry: Entry) -> Any:
-    from tribodyn.cases.build import read_entry
-
-    return read_entry(key, entry)
-
-
-def _like(entry: Entry, value: str) -> Entry:
-    from dataclasses import replace
-
-    return replace(entry, value=value)
 
 
 def _in_words(treatment: Treatment) -> str:

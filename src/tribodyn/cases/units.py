@@ -16,6 +16,8 @@ from typing import Final
 
 import pint
 
+from tribodyn.core.quoting import brief
+
 _ARITHMETIC: Final = Context(prec=34)
 _REGISTRY: Final[pint.UnitRegistry[Decimal]] = pint.UnitRegistry(
     non_int_type=Decimal, on_redefinition="ignore", cache_folder=None, autoconvert_offset_to_baseunit=True
@@ -102,7 +104,7 @@ def to_si(text: str, like: str) -> float:
     number, unit = _split(text)
     factor, base = _known(unit)
     if base != _factor_and_base(like)[1]:
-        raise UnitProblem(f"{unit!r} is not a unit of {dimension(like)}")
+        raise UnitProblem(f"{brief(unit)!r} is not a unit of {dimension(like)}")
     value = float(_ARITHMETIC.multiply(number, factor))
     if not math.isfinite(value):
         raise UnitProblem("the number is too large")
@@ -130,6 +132,35 @@ def from_si(value: float, unit: str) -> str:
     return f"{value!r} {si_unit(unit)}"
 
 
+def likely_quantity(number: str, example: str, unit: str) -> str:
+    """Return a number that was given without a unit with the one it was probably meant in.
+
+    Parameters
+    ----------
+    number
+        As it was given.
+    example
+        A likely quantity. Of the readings in ``unit`` and in SI units the one nearer to it is taken.
+    unit
+        In which such a quantity is shown.
+    """
+    in_unit = f"{brief(number)} {unit}"
+    try:
+        likely, first, second = (
+            to_si(text, unit) for text in (example, in_unit, f"{number} {si_unit(unit)}")
+        )
+    except UnitProblem:
+        return in_unit
+    if 0.0 in (likely, first, second) or _apart(first, likely) <= _apart(second, likely):
+        return in_unit
+    return from_si(second, unit)
+
+
+def _apart(a: float, b: float) -> float:
+    """Return how many powers of e lie between the sizes of two numbers."""
+    return abs(math.log(abs(a)) - math.log(abs(b)))
+
+
 def _plain(number: float) -> str:
     """Write a float as a person would: no trailing ``.0``."""
     return repr(number).removesuffix(".0")
@@ -154,15 +185,17 @@ def _split(text: str) -> tuple[Decimal, str]:
 def _known(unit: str) -> tuple[Decimal, str]:
     """Return factor and base units of a unit that a user wrote."""
     if not _UNIT_PATTERN.fullmatch(unit):
-        raise UnitProblem(f"{unit!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)")
+        raise UnitProblem(
+            f"{brief(unit)!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)"
+        )
     try:
         return _factor_and_base(unit)
     except UnitProblem:
         raise
     except pint.UndefinedUnitError:
-        raise UnitProblem(f"unknown unit {unit!r}") from None
+        raise UnitProblem(f"unknown unit {brief(unit)!r}") from None
     except (pint.PintError, ArithmeticError, ValueError, TypeError):
-        raise UnitProblem(f"{unit!r} cannot be used as a unit here") from None
+        raise UnitProblem(f"{brief(unit)!r} cannot be used as a unit here") from None
 
 
 @lru_cache(maxsize=1024)
@@ -175,5 +208,5 @@ def _factor_and_base(unit: str) -> tuple[Decimal, str]:
     one = _REGISTRY.Quantity(Decimal(1), unit).to_base_units()
     nothing = _REGISTRY.Quantity(Decimal(0), unit).to_base_units()
     if nothing.magnitude != 0:
-        raise UnitProblem(f"{unit!r} has an offset; use kelvin")
+        raise UnitProblem(f"{brief(unit)!r} has an offset; use kelvin")
     return Decimal(one.magnitude), str(one.units)

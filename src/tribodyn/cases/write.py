@@ -2,41 +2,63 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 from textwrap import wrap
 
-from tribodyn.cases.base import Case
-from tribodyn.cases.keys import ASSUMED, Key, keys_of
+from pydantic import BaseModel
+
+from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of
+from tribodyn.cases.tables import keys_in, value_at
 
 _COMMENT_COLUMN = 38
 _LONGEST_LINE = 120
 _ASSUMED = "ASSUMED"
 
 
-def to_toml(case: Case, *, comments: bool) -> str:
-    """Return `case` as TOML; see :meth:`Case.to_toml`."""
-    lines = list(_head(case)) if comments else []
-    for table, keys in groupby(keys_of(type(case)).values(), key=lambda key: key.table):
+def to_toml(case: BaseModel, kind: str, *, comments: bool) -> str:
+    """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`."""
+    keys = keys_in(case)
+    lines = list(_head(kind)) if comments else []
+    for table, own in groupby(keys.values(), key=lambda key: key.table):
         if table:
             lines += ["", f"[{table}]"]
-        lines += [line for key in keys for line in _lines(case, key, comments)]
+        lines += [line for key in own for line in _lines(case, key, comments)]
+    if comments:
+        lines += _unnamed(keys_of(type(case)), keys)
     return "\n".join(lines) + "\n"
 
 
-def _head(case: Case) -> Iterator[str]:
-    yield f'# All keys of a "{case.kind()}" case. Copy, edit, then: tribodyn run FILE.toml'
+def _head(kind: str) -> Iterator[str]:
+    yield f'# All keys of a "{kind}" case. Copy, edit, then: tribodyn run FILE.toml'
     yield '# Values with a unit are text, "20 um"; others are bare. Keys left out take their defaults.'
     yield f"# {_ASSUMED}: the paper does not give this value."
     yield ""
 
 
-def _lines(case: Case, key: Key, comments: bool) -> Iterator[str]:
-    value = case.at(key.path)
+def _lines(case: BaseModel, key: Key, comments: bool) -> Iterator[str]:
+    value = value_at(case, key.path)
     line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
     if not comments:
         yield from [] if value is None else [line]
-        return
+    else:
+        yield from _commented(line, key)
+
+
+def _unnamed(declared: Mapping[str, Key], keys: Iterable[str]) -> Iterator[str]:
+    """Yield, commented out, tables with names of their own of which the case has none."""
+    keys = list(keys)
+    for table, own in groupby(declared.values(), key=lambda key: key.table):
+        before, name, _ = table.partition(ANY_NAME)
+        if name and not any(path.startswith(before) for path in keys):
+            yield from ("", f"# [{table.replace(ANY_NAME, 'NAME')}]")
+            for key in own:
+                value = _example(key) if key.default is None else key.write(key.default)
+                yield from _commented(f"# {key.name} = {value}", key)
+
+
+def _commented(line: str, key: Key) -> Iterator[str]:
+    """Yield a line with what its key means after it, or before it where that is too long."""
     together = f"{line:<{_COMMENT_COLUMN}}  # {comment(key)}"
     if len(together) <= _LONGEST_LINE:
         yield together

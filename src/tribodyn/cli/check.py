@@ -1,11 +1,16 @@
-"""``tribodyn check``: validate a case file without running it."""
+"""``tribodyn check``: find out what a run would refuse, without running it."""
 
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
+
+if TYPE_CHECKING:
+    from tribodyn.cases import Case
 
 HELP = "validate a case file without running it"
 
@@ -13,17 +18,32 @@ HELP = "validate a case file without running it"
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``check``."""
     add_case_arguments(parser)
+    parser.add_argument(
+        "--deep",
+        action="store_true",
+        help="also compile the equations, find the start of the run and take its first step",
+    )
 
 
 def execute(args: Namespace) -> int:
-    """Say that the case is valid; if not, loading it has raised, or its integrator is not installed."""
+    """Say that the case is valid; if not, something has raised."""
     from tribodyn.integrate import SOLVERS
 
+    console = Console.of(args)
     case = chosen_case(args)
     SOLVERS[str(case.at("solver.name"))].prepare()
+    _try(case, args.deep, console)
     cycles = case.campaign_cycles
     length = f"{cycles} cycles of wear" if cycles else f"{case.duration:.6g} s"
-    Console.of(args).say(f'{args.case}: valid, a "{case.kind()}" case of {length}')
+    tried = "; its start was found and the first step taken" if args.deep else ""
+    console.say(f'{args.case}: valid, a "{case.kind()}" case of {length}{tried}')
     if args.json:
         show_json({"case": args.case, "valid": True})
     return 0
+
+
+def _try(case: Case, deep: bool, console: Console) -> None:
+    with announced_compilation(console.note):
+        from tribodyn.simulation import check
+
+        check(case, deep=deep)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
@@ -49,8 +51,18 @@ def _solver(args: Namespace) -> dict[str, str]:
     return {} if args.solver is None else {"solver.name": args.solver}
 
 
+def typed(text: str) -> str:
+    """Return an argument as it was typed: where Python was told of no encoding, it is read as UTF-8."""
+    try:
+        return os.fsencode(text).decode()
+    except UnicodeError:
+        return text
+
+
 def _change(text: str) -> tuple[str, str]:
-    path, equals, value = text.partition("=")
+    path, equals, value = typed(text).partition("=")
     if not (equals and path.strip()):
-        raise InputError(f'given "{text}"; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set")
+        raise InputError(
+            f'{as_given(text)}; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set"
+        )
     return path.strip(), value.strip()

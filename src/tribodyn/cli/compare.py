@@ -12,6 +12,7 @@ from urllib.parse import quote
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import REPORT
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from tribodyn.report import Run
@@ -38,7 +39,7 @@ def execute(args: Namespace) -> int:
     if len(args.directories) < 2:
         raise InputError("given one directory; allowed: two or more", key="DIR")
     if Path(args.output).is_dir():
-        raise InputError(f'given "{args.output}", a directory; allowed: a file to write', key="--output")
+        raise InputError(f"{as_given(args.output)}, a directory; allowed: a file to write", key="--output")
     target = Path(args.output)
     runs = _runs(args.directories, target)
     from tribodyn.report import write_comparison
@@ -47,7 +48,9 @@ def execute(args: Namespace) -> int:
         write_comparison(runs, target)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        raise InputError(f'given "{args.output}": it cannot be written ({reason})', key="--output") from None
+        raise InputError(
+            f"{as_given(args.output)}: it cannot be written ({reason})", key="--output"
+        ) from None
     console = Console.of(args)
     console.say(f"look at {target}")
     if console.json:
@@ -57,13 +60,13 @@ def execute(args: Namespace) -> int:
 
 def _runs(directories: Sequence[str], target: Path) -> list[Run]:
     """Return the runs, named by their directories."""
+    from tribodyn.mechanisms.results import read
     from tribodyn.report import Run
-    from tribodyn.results.store import read
 
     for directory in directories:
         if not os.path.isdir(directory):
             raise InputError(
-                f'given "{directory}", not a directory; allowed: directories that `tribodyn run` wrote to',
+                f"{as_given(directory)}, not a directory; allowed: directories that `tribodyn run` wrote to",
                 key="DIR",
             )
     return [
@@ -91,6 +94,6 @@ def _link(directory: Path, target: Path) -> str:
 
 
 def _summaries(runs: Sequence[Run]) -> dict[str, object]:
-    from tribodyn.mechanisms.summary import summarise
+    from tribodyn.mechanisms.results import summarise
 
     return {run.name: summarise(run.dataset) for run in runs}

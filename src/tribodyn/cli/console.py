@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
 from argparse import Namespace
 from dataclasses import dataclass
@@ -37,7 +38,7 @@ class Console:
     def note(self, text: str) -> None:
         """Print how the work is going."""
         if not self.quiet:
-            print(text, file=sys.stderr, flush=True)
+            _on_stderr(text)
 
 
 def show_json(document: Any) -> None:
@@ -50,7 +51,17 @@ def show_json(document: Any) -> None:
 def complain(text: str) -> None:
     """Print one error or warning on stderr, on one line, whatever it quotes."""
     one_line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
-    print(f"tribodyn: {one_line}", file=sys.stderr, flush=True)
+    _on_stderr(f"tribodyn: {one_line}")
+
+
+def _on_stderr(text: str) -> None:
+    try:
+        print(text, file=sys.stderr, flush=True)
+    except OSError:
+        # Nobody can be told; what was done, and the exit status, stay what they are. Python would try again
+        # at its end, and make the status its own.
+        with contextlib.suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
 def forgive_encodings() -> None:
@@ -59,6 +70,16 @@ def forgive_encodings() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(errors="backslashreplace")
+
+
+def silence_matplotlib() -> None:
+    """Keep Matplotlib from telling where it puts its own files when the home folder cannot be written to.
+
+    It takes a private temporary folder then, and removes it.
+    """
+    import logging
+
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 
 def is_terminal(stream: TextIO) -> bool:

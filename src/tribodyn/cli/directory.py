@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
+from tribodyn.cli.interrupt import on_leaving
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 CHECKPOINT: Final = "checkpoint.npz"
 """Where a wear campaign is kept until its result is written."""
@@ -16,7 +18,6 @@ FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html", CHECKPO
 FIGURES: Final = "figures"
 POINTS: Final = "points"
 REPORT: Final = "report.html"
-_LONGEST_SHOWN: Final = 200
 
 
 class OutputDirectory:
@@ -38,6 +39,8 @@ class OutputDirectory:
         if not path:
             raise _refused(path, "the name is empty")
         self._made = _missing_parents(self.path)
+        self._reserved = False
+        on_leaving(self._abandon)
         # os.path, because pathlib's own tests fail on names that are too long.
         if os.path.isfile(self.path):
             raise _refused(path, "it is a file")
@@ -86,6 +89,7 @@ class OutputDirectory:
         try:
             if not _locked(handle):
                 raise _refused(os.fspath(self.path), "another tribodyn is writing results there")
+            self._reserved = True
             for folder in (self.path, self.path / FIGURES):
                 remove_stale_parts(folder)
             try:
@@ -94,6 +98,7 @@ class OutputDirectory:
                 self._forget()
                 raise
         finally:
+            self._reserved = False
             os.close(handle)
 
     @property
@@ -106,6 +111,14 @@ class OutputDirectory:
         for path in self._made:
             with contextlib.suppress(OSError, ValueError):
                 path.rmdir()
+
+    def _abandon(self) -> None:
+        """Leave nothing that is not whole behind, as this process is about to end."""
+        if self._reserved:
+            for folder in (self.path, self.path / FIGURES):
+                for part in folder.glob(".*.part"):
+                    part.unlink(missing_ok=True)
+        self._forget()
 
     def pictures(self) -> list[Path]:
         """Return report and figures that are there."""
@@ -136,9 +149,8 @@ def _missing_parents(path: Path) -> list[Path]:
 
 
 def _refused(path: str, reason: str) -> InputError:
-    name = path if len(path) <= _LONGEST_SHOWN else f"{path[:_LONGEST_SHOWN]}..."
     return InputError(
-        f'given "{name}": results cannot be written there ({reason}); allowed: a directory that can be '
+        f"{as_given(path)}: results cannot be written there ({reason}); allowed: a directory that can be "
         "written to, or a new name in one",
         key="--output",
     )

@@ -13,7 +13,7 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     summary
         Content of ``summary.json``.
     """
-    from tribodyn.mechanisms.summary import known
+    from tribodyn.mechanisms.results import known
 
     headlines = known(summary, str(summary.get("kind", "")))
     width = max((len(headline.label) for headline in headlines.values()), default=0)

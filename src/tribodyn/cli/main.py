@@ -10,9 +10,10 @@ from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
 from tribodyn.cli import bounce, cases, check, compare, report, reproduce, run, show, surface, sweep
-from tribodyn.cli.console import complain, forgive_encodings
-from tribodyn.cli.interrupt import termination_as_interrupt
+from tribodyn.cli.console import complain, forgive_encodings, silence_matplotlib
+from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.quoting import LONGEST, brief
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -58,7 +59,7 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose complaints are one line, like all others."""
 
     def error(self, message: str) -> NoReturn:
-        complain(f"{message}; see `{self.prog} --help`")
+        complain(f"{brief(message, 2 * LONGEST)}; see `{self.prog} --help`")
         raise SystemExit(BAD_INPUT)
 
 
@@ -104,20 +105,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         Exit status: 0 done, 1 failed, 2 bad input.
     """
-    forgive_encodings()
-    args = _parser().parse_args(arguments)
-    with termination_as_interrupt():
-        try:
-            return COMMANDS[args.command].execute(args)
-        except BrokenPipeError:
-            # Whoever read our output has gone; there is nobody left to tell.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return FAILED
-        except (Exception, KeyboardInterrupt) as error:
-            if args.debug:
-                traceback.print_exc()
-            complain(_in_words(error))
-            return BAD_INPUT if isinstance(error, InputError) else FAILED
+    with signals_heard():
+        forgive_encodings()
+        silence_matplotlib()
+        status = _executed(_parser().parse_args(arguments))
+        end(status)
+    return status
+
+
+def _executed(args: argparse.Namespace) -> int:
+    """Execute a command; say what went wrong."""
+    try:
+        return COMMANDS[args.command].execute(args)
+    except BrokenPipeError:
+        # Whoever read our output has gone; there is nobody left to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except (Exception, KeyboardInterrupt) as error:
+        if args.debug:
+            traceback.print_exc()
+        complain(_in_words(error))
+        return BAD_INPUT if isinstance(error, InputError) else FAILED
 
 
 def _in_words(error: BaseException) -> str:
@@ -127,7 +135,7 @@ def _in_words(error: BaseException) -> str:
     if isinstance(error, KeyboardInterrupt):
         return "aborted; nothing was saved"
     if isinstance(error, OSError):
-        return f"writing or reading failed: {error}"
+        return f"writing or reading failed: {brief(error, 2 * LONGEST)}"
     if isinstance(error, MemoryError):
         return "there is not enough memory for this run"
     return f"internal error, please report it: {type(error).__name__}: {error} (--debug shows where it arose)"

@@ -34,7 +34,8 @@ def draw_points(directory: Path, note: Callable[[str], None]) -> None:
         Prints a line.
     """
     from tribodyn import report
-    from tribodyn.results.store import RESULT, read
+    from tribodyn.mechanisms.results import read
+    from tribodyn.results.store import RESULT
     from tribodyn.studies.archive import POINTS
 
     found = sorted((directory / POINTS).glob(f"*/{RESULT}"))

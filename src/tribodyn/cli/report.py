@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
+from tribodyn.cli.interrupt import last_words
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,16 +31,17 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Draw figures and report beside the stored result."""
-    from tribodyn.mechanisms.summary import summarise
+    from tribodyn.mechanisms.results import summarise
 
     if not os.path.isdir(args.directory):
         raise InputError(
-            f'given "{args.directory}", not a directory; allowed: a directory that `tribodyn run` wrote to',
+            f"{as_given(args.directory)}, not a directory; allowed: a directory that `tribodyn run` wrote to",
             key="DIR",
         )
     dataset = _read(Path(args.directory))
     directory = OutputDirectory(args.directory)
     console = Console.of(args)
+    last_words(f"interrupted; what was finished until then is in {os.fspath(directory.path)}")
     with directory.reserved():
         if args.points:
             draw_points(directory.path, console.note)
@@ -55,7 +59,7 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
 
     A case file that is there stays as it is: somebody may have edited it on the way to the next run.
     """
-    from tribodyn.mechanisms.summary import summarise
+    from tribodyn.mechanisms.results import summarise
     from tribodyn.results.atomic import write_text
     from tribodyn.results.store import CASE, RESULT, SUMMARY, case_text, summary_text
 
@@ -64,7 +68,7 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
     if not (directory / CASE).exists():
         write_text(directory / CASE, case_text(dataset))
     summary, text = directory / SUMMARY, summary_text(summarise(dataset))
-    if not summary.is_file() or summary.read_bytes() != text.encode():
+    if not _holds(summary, text):
         write_text(summary, text)
         complain(
             f"{os.fspath(summary)} was missing, damaged or of another result; it was written again "
@@ -72,9 +76,18 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
         )
 
 
+def _holds(path: Path, text: str) -> bool:
+    """Tell whether a file holds this text and no other."""
+    try:
+        return read_regular(path, len(text.encode())) == text.encode()
+    except OSError:
+        return False
+
+
 def _read(directory: Path) -> xr.Dataset:
     """Return the result of a run, or of a sweep, stored in a directory."""
-    from tribodyn.results.store import RESULT, read
+    from tribodyn.mechanisms.results import read
+    from tribodyn.results.store import RESULT
     from tribodyn.studies.sweep import DATASET
 
     sweep = directory / DATASET

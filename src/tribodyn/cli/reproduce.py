@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -9,7 +10,9 @@ from typing import TYPE_CHECKING, Final
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.interrupt import last_words
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022 import PaperFigure, Runs
@@ -42,10 +45,11 @@ def execute(args: Namespace) -> int:
     wanted = _wanted(args.what or [ALL], list(FIGURES))
     if args.formulation not in FORMULATIONS:
         raise InputError(
-            f'given "{args.formulation}"; allowed: {", ".join(FORMULATIONS)}', key="--formulation"
+            f"{as_given(args.formulation)}; allowed: {', '.join(FORMULATIONS)}", key="--formulation"
         )
     console = Console.of(args)
     directory = OutputDirectory(args.output)
+    last_words(f"interrupted; what was finished until then is in {os.fspath(directory.path)}")
     with directory.reserved(), announced_compilation(console.note):
         runs = Runs(note=console.note)
         for name in wanted:
@@ -62,7 +66,7 @@ def _wanted(given: list[str], figures: list[str]) -> list[str]:
     names = [*figures, CLAIMS]
     for name in given:
         if name not in (*names, ALL):
-            raise InputError(f'given "{name}"; allowed: {", ".join(names)}, {ALL}', key="WHAT")
+            raise InputError(f"{as_given(name)}; allowed: {', '.join(names)}, {ALL}", key="WHAT")
     return names if ALL in given else [name for name in names if name in given]
 
 

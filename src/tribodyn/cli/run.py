@@ -13,7 +13,7 @@ from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.headlines import in_words
-from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import draw
 from tribodyn.cli.progress import CYCLES, Progress, progress
 
@@ -37,12 +37,13 @@ def execute(args: Namespace) -> int:
     case = chosen_case(args)
     directory = OutputDirectory(_name(args) if args.output is None else args.output)
     with directory.reserved():
-        with Interruption() as interruption:
-            dataset = _simulate(case, directory, console, interruption)
+        with Interruption() as stop:
+            dataset = _simulate(case, directory, console, stop)
+            last_words(f"aborted while saving; what stands in {os.fspath(directory.path)} is whole")
             summary = _save(dataset, directory)
             if case.campaign_cycles and not dataset.attrs.get("failure"):
                 directory.checkpoint.unlink(missing_ok=True)
-        drawn = _draw(dataset, directory, console, args.debug, skip=interruption.requested)
+        drawn = _draw(dataset, directory, console, args.debug)
     _tell(summary, directory.path, console)
     failure = str(dataset.attrs.get("failure", ""))
     if failure:
@@ -73,7 +74,7 @@ def _progress(case: Case, console: Console) -> Progress:
 
 
 def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
-    from tribodyn.mechanisms.summary import summarise
+    from tribodyn.mechanisms.results import summarise
     from tribodyn.results.store import write_run
 
     summary = summarise(dataset)
@@ -81,28 +82,22 @@ def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
     return summary
 
 
-def _draw(
-    dataset: xr.Dataset, directory: OutputDirectory, console: Console, debug: bool, *, skip: bool
-) -> bool:
+def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, debug: bool) -> bool:
     """Draw figures and report; the result is safe whatever happens here. Tell whether all were drawn."""
     path = os.fspath(directory.path)
-    again = f"`tribodyn report {path}` draws them"
-    if skip:
-        console.note(f"figures and report were left out; {again}")
-        return False
+    safe = f"the result is saved in {path}; `tribodyn report {path}` draws them"
+    last_words(f"interrupted while drawing figures and report; {safe}")
     console.note("drawing figures and report")
     try:
         draw(dataset, directory.path)
-    except KeyboardInterrupt:
-        complain(f"interrupted while drawing; the result is saved in {path}; {again}")
-        return False
     except Exception as error:
         if debug:
             traceback.print_exc()
         for picture in directory.pictures():
             picture.unlink(missing_ok=True)
-        complain(f"figures and report could not be made ({error}); the result is saved in {path}; {again}")
+        complain(f"figures and report could not be made ({error}); {safe}")
         return False
+    last_words(f"interrupted; everything is in {path}")
     return True
 
 

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import FIGURES, OutputDirectory
+from tribodyn.cli.interrupt import last_words
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -73,6 +75,7 @@ def _measure(args: Namespace, console: Console) -> None:
         figure = _drawn(surface, others)
         directory = OutputDirectory(args.output)
         with directory.reserved():
+            last_words(f"interrupted while saving; what stands in {args.output} is whole")
             _save(directory.path, outcome, block, figure)
     _tell(outcome, block, args.output, console)
 
@@ -100,7 +103,7 @@ def _scan(args: Namespace) -> Scan:
     from tribodyn.surfaces import Scale, read_scan
 
     if not (args.channel.isascii() and args.channel.isdigit() and len(args.channel) < 10):
-        raise InputError(f'given "{args.channel[:60]}"; allowed: a whole number from 1', key="channel")
+        raise InputError(f"{as_given(args.channel)}; allowed: a whole number from 1", key="channel")
     scale = Scale(args.unit, args.spacing)
     return read_scan(args.file, length, scale, file_format=args.format, channel=int(args.channel))
 
@@ -112,9 +115,9 @@ def _quantity(text: str, unit: str, key: str) -> float:
     try:
         value = to_si(text, unit)
     except UnitProblem as problem:
-        raise InputError(f'given "{text[:60]}": {problem}; allowed: a {dimension(unit)}', key=key) from None
+        raise InputError(f"{as_given(text)}: {problem}; allowed: a {dimension(unit)}", key=key) from None
     if not value > 0.0:
-        raise InputError(f'given "{text[:60]}"; allowed: a {dimension(unit)} above zero', key=key)
+        raise InputError(f"{as_given(text)}; allowed: a {dimension(unit)} above zero", key=key)
     return value
 
 

@@ -10,25 +10,27 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
+from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.directory import POINTS as POINTS_FOLDER
 from tribodyn.cli.directory import REPORT, OutputDirectory
-from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from tribodyn.studies import Arrival, Means, Plan
+    from tribodyn.studies import Arrival, Means, Plan, Tls
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
 
-_STOPPING: Final = b"\ntribodyn: stopping; finished points are kept; interrupt again to abort\n"
+_STOPPING: Final = "stopping; finished points are kept; interrupt again to leave at once"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -53,6 +55,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--workers", metavar="N", type=int, help="processes (default: one a processor; 0: this one alone)"
     )
     where.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://10.0.0.1:8786")
+    for name, meaning in (
+        ("ca", "certificate of the authority that a scheduler at tls://... is known by, in PEM format"),
+        ("cert", "certificate that the scheduler knows this command by"),
+        ("key", "its private key, unless it stands in the same file"),
+    ):
+        parser.add_argument(f"--tls-{name}", metavar="FILE", help=meaning)
     again = parser.add_mutually_exclusive_group()
     again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
     again.add_argument("--fresh", action="store_true", help="compute all points again")
@@ -65,23 +73,26 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Run the sweep; 0 when every point has a result and everything is written, else 1."""
-    if args.workers != 0 and args.scheduler is None:
+    folder = f"sweep-{Path(args.case).stem}" if args.output is None else args.output
+    # Where there are points already, there may be nothing to compute.
+    if args.workers != 0 and args.scheduler is None and not os.path.exists(f"{folder}/{POINTS_FOLDER}"):
         # It imports and loads while this process imports, too.
-        fork_server.start(args.case, changes(args))
+        fork_server.start(name=args.case, changes=changes(args))
     from tribodyn.studies import Means, Sampling, make_plan
 
     console = Console.of(args)
     plan = make_plan(
         chosen_case(args), _variations(args.vary), Sampling(args.samples, args.method, args.seed)
     )
-    means = Means(args.workers, args.scheduler, args.retry, args.fresh, not args.summary_only)
-    directory = OutputDirectory(f"sweep-{Path(args.case).stem}" if args.output is None else args.output)
+    means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
+    directory = OutputDirectory(folder)
     with directory.reserved():
         with Interruption(_STOPPING) as interruption:
+            last_words(f"aborted; points that had finished are kept in {os.fspath(directory.path)}")
             dataset = _computed(plan, directory.path, means, console, interruption)
         # That of an earlier sweep would contradict this one.
         (directory.path / REPORT).unlink(missing_ok=True)
-        drawn = not interruption.requested and _draw(dataset, directory.path, console, args.debug)
+        drawn = _draw(dataset, directory.path, console, args.debug, points=not interruption.requested)
     _tell(directory.path, console)
     _warn(dataset)
     lost = int(dataset.attrs["points_failed"])
@@ -90,14 +101,26 @@ def execute(args: Namespace) -> int:
     return 0 if drawn and not lost else 1
 
 
+def _tls(args: Namespace) -> Tls | None:
+    """Return the certificates, None where there are none."""
+    if (args.tls_ca, args.tls_cert, args.tls_key) == (None, None, None):
+        return None
+    if args.tls_ca is None or args.tls_cert is None:
+        raise InputError("certificates need both --tls-ca and --tls-cert", key="--scheduler")
+    from tribodyn.studies import Tls
+
+    return Tls(args.tls_ca, args.tls_cert, args.tls_key)
+
+
 def _variations(texts: list[str]) -> dict[str, str]:
     """Return what varies, by path."""
     variations: dict[str, str] = {}
     for text in texts:
-        path, equals, values = (part.strip() for part in text.partition("="))
+        path, equals, values = (part.strip() for part in typed(text).partition("="))
         if not (equals and path and values):
             raise InputError(
-                f'given "{text}"; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"', key="--vary"
+                f'{as_given(text)}; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"',
+                key="--vary",
             )
         if path in variations:
             raise InputError("this parameter is varied twice", key=path, source="--vary")
@@ -144,21 +167,24 @@ class _Shown:
         self._stack.enter_context(announced_compilation(self._bar.note))
 
 
-def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool) -> bool:
-    """Draw figures and reports; the results are safe whatever happens here. Tell whether all were drawn."""
+def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool, *, points: bool) -> bool:
+    """Draw figures and reports; the results are safe whatever happens here. Tell whether all were drawn.
+
+    The reports of ``points`` take long, and can be left out.
+    """
+    safe = f"the results are saved in {path}; `tribodyn report {path}` draws them"
+    last_words(f"interrupted while drawing; {safe}")
     try:
-        if int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
+        if points and int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
             draw_points(path, console.note)
         console.note("drawing figures and report")
         draw(dataset, path)
-    except KeyboardInterrupt:
-        complain(f"interrupted while drawing; the results are saved in {path}")
-        return False
     except Exception as error:
         if debug:
             traceback.print_exc()
-        complain(f"figures and report could not be made ({error}); the results are saved in {path}")
+        complain(f"figures and report could not be made ({error}); {safe}")
         return False
+    last_words(f"interrupted; everything is in {path}")
     return True
 
 

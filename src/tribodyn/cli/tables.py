@@ -30,7 +30,7 @@ def sweep_in_words(record: Mapping[str, Any]) -> Iterator[str]:
 
 def _headlines(given: Sequence[str], kind: str) -> dict[str, str]:
     """Return the headings of the numbers that a user wants to see, by name."""
-    from tribodyn.mechanisms.summary import known
+    from tribodyn.mechanisms.results import known
 
     wanted = {name: entry for name, entry in known(given, kind).items() if entry.group not in _LEFT_OUT}
     return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}

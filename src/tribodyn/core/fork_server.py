@@ -13,12 +13,19 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
+import signal
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Final
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final
 
-METHOD: Final = "forkserver" if sys.platform == "linux" else "spawn"
+if TYPE_CHECKING:
+    from multiprocessing.context import ForkServerContext, SpawnContext
+    from multiprocessing.process import BaseProcess
+
+# In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
+METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
 """How processes are started, as :mod:`multiprocessing` calls it."""
 # The threads of a worker would only take time from the other workers.
 ENVIRONMENT: Final = {
@@ -29,31 +36,65 @@ _MODULE: Final = "tribodyn.studies.template"
 """What the server imports: a name, for the module is of a higher layer."""
 _CASE: Final = "TRIBODYN_FORK_SERVER_CASE"
 """Environment variable with what :func:`start` is given, as JSON."""
+_LONGEST: Final = 100_000
+"""Length that fits into an environment variable of Linux. For a longer case the server prepares nothing."""
 
 
-def start(case: str, changes: Mapping[str, str]) -> None:
+def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = MappingProxyType({})) -> None:
     """Start the server, unless there is one; return at once.
 
     Parameters
     ----------
-    case
-        The case to be prepared for, or one with the same equations: its TOML, or the name of a file or of a
-        built-in one.
+    name, toml
+        The case to be prepared for, or one with the same equations: a file or a built-in one, or its text.
     changes
         Values to change in it, by dotted path.
     """
     if METHOD == "forkserver":
-        from multiprocessing import forkserver
+        from multiprocessing import forkserver, resource_tracker
 
-        multiprocessing.get_context(METHOD).set_forkserver_preload([_MODULE])
-        with _set({**ENVIRONMENT, _CASE: json.dumps([case, changes])}):
+        # Which the server would start, and which lets signals through again when it has begun.
+        resource_tracker.ensure_running()
+        given = json.dumps({"name": name, "toml": toml, "changes": dict(changes)})
+        _context().set_forkserver_preload([_MODULE])
+        with _set(ENVIRONMENT | ({_CASE: given} if len(given) < _LONGEST else {})), _uninterrupted():
             forkserver.ensure_running()
 
 
-def take_case() -> tuple[str, dict[str, str]] | None:
-    """Return case and changes to the server; None to any other process, and to whoever asks again."""
+def take_case() -> dict[str, Any] | None:
+    """Return what :func:`start` was given to the server; None to others, and to whoever asks again."""
     given = os.environ.pop(_CASE, None)
-    return None if given is None else tuple(json.loads(given))
+    return None if given is None else dict(json.loads(given))
+
+
+def process(function: Callable[..., None], *arguments: Any) -> BaseProcess:
+    """Start a process that ends with this one, by the server where there can be one.
+
+    Parameters
+    ----------
+    function, arguments
+        What it calls: a function of a module, and what that is given.
+    """
+    made = _context().Process(target=function, args=arguments, daemon=True)
+    with _set(ENVIRONMENT):
+        made.start()
+    return made
+
+
+def _context() -> ForkServerContext | SpawnContext:
+    if METHOD == "forkserver":
+        return multiprocessing.get_context("forkserver")
+    return multiprocessing.get_context("spawn")
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Hold back Ctrl-C, which is for the command: a process started meanwhile never hears it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

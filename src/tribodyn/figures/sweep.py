@@ -7,6 +7,7 @@ parameter, samples with their distribution. Points that failed are marked.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import partial
 from itertools import cycle, product
@@ -48,6 +49,7 @@ _COLOURS: Final = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, INK)
 _DASHES: Final = (SOLID, DASHED, DOTTED, DASHDOT)
 _MARKERS: Final = "os^Dv"
 _MOST_PANELS: Final = 6
+_MOST_BINS: Final = 100
 _WIDE_RANGE: Final = 50.0
 """Largest over smallest value of a parameter above which its axis is logarithmic."""
 _MOST_WRITTEN: Final = 60
@@ -302,13 +304,29 @@ def _distributions(axes: Axes, groups: list[tuple[FloatArray, str]]) -> None:
     for (values, label), colour, dash in zip(groups, cycle(_COLOURS), cycle(_DASHES)):
         if values.size:
             axes.hist(
-                values, bins="auto", orientation="horizontal", color=colour, alpha=0.35, label=label or "_"
+                values,
+                bins=_bins(values),
+                orientation="horizontal",
+                color=colour,
+                alpha=0.35,
+                label=label or "_",
             )
             axes.axhline(float(np.median(values)), color=colour, lw=1.2, ls=dash)
     if len(groups) > 1 and any(values.size for values, _ in groups):
         legend(axes, 2)
     elif groups[0][0].size:
         _mark_quantiles(axes, groups[0][0])
+
+
+def _bins(values: FloatArray) -> int:
+    """Return the number of bins by the rules of Sturges or of Freedman and Diaconis, whichever gives more.
+
+    NumPy's ``auto`` is the same without a bound: one value far from all others makes it ask for any number.
+    """
+    quarter, most = np.percentile(values, [25.0, 75.0])
+    width = 2.0 * (most - quarter) / np.cbrt(values.size)
+    fine = float(np.ptp(values)) / width if width > 0.0 else 0.0
+    return math.ceil(min(max(fine, math.log2(values.size) + 1.0), _MOST_BINS))
 
 
 def _mark_quantiles(axes: Axes, values: FloatArray) -> None:

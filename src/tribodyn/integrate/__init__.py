@@ -65,7 +65,7 @@ def integrate(
     output_times, picture_times
         When to call ``observe`` and ``picture`` [s]: increasing, inside the time span.
     progress
-        Called with the simulated time [s] after accepted steps; ``mebdf`` runs up to 500 of them in between.
+        Called with the simulated time [s] after accepted steps, by compiled ``mebdf`` ten times a second.
     stop
         Asked whenever ``progress`` is called; when true, the run ends with the failure
         ``"interrupted"``.

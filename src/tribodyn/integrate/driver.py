@@ -9,19 +9,22 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution, Statistics
-from tribodyn.integrate.base import Method, Step
+from tribodyn.integrate.base import Method, Step, VectorFunction
 from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 from tribodyn.integrate.schedule import Schedule
 
 INTERRUPTED = "interrupted"
 """Reason of a failure when the caller asked to stop."""
+
+LONG_STEP: Final = 0.3
+"""Time without an accepted step after which the caller is asked whether to stop all the same [s]."""
 
 
 class Integrator(Protocol):
@@ -100,6 +103,7 @@ class Walk:
         self.binding = Binding(problem, self.functions, self.statistics)
         self.t = float(schedule.edges[0])
         self.step_size = 0.0
+        self.asked = 0.0
         self.y = np.array(problem.y0, dtype=np.float64)
         self.marks = [*schedule.marks.tolist(), np.inf]  # plain floats compare faster
         self.next_mark = 0
@@ -128,13 +132,29 @@ class Walk:
     def segment(self, method: Method, rtol: float, t_end: float) -> None:
         """Integrate to the next breakpoint or to the end."""
         binding, atol = self.binding, self.problem.atol
-        for step in method.steps(
-            binding.rhs, binding.jac, self.t, self.y, t_end, rtol, atol, self.statistics
-        ):
+        rhs, jac = self.listening(binding.rhs), self.listening(binding.jac)
+        for step in method.steps(rhs, jac, self.t, self.y, t_end, rtol, atol, self.statistics):
             self.check(step)
             self.walk(step)
-            if self.stop is not None and self.stop() and self.t < self.schedule.edges[-1]:
-                raise IntegrationFailure(self.t, INTERRUPTED)
+            self.ask()
+
+    def ask(self) -> None:
+        """End the run where the caller asks to stop before its end."""
+        self.asked = time.monotonic()
+        if self.stop is not None and self.stop() and self.t < self.schedule.edges[-1]:
+            raise IntegrationFailure(self.t, INTERRUPTED)
+
+    def listening(self, function: VectorFunction) -> VectorFunction:
+        """Return a function that asks in the middle of a step, too, where steps take long."""
+        self.asked = time.monotonic()
+
+        def call(t: float, y: FloatArray) -> FloatArray:
+            value = function(t, y)
+            if time.monotonic() - self.asked > LONG_STEP:
+                self.ask()
+            return value
+
+        return call
 
     def check(self, step: Step) -> None:
         """Refuse a step whose end is not finite."""

@@ -7,11 +7,14 @@ code for stiff initial value problems, ACM Trans. Math. Softw. 18 (1992) 142-155
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
@@ -25,8 +28,8 @@ if TYPE_CHECKING:
 
 HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
 """Functions of a problem that the compiled loop is handed, in the order of its arguments."""
-STEPS_BETWEEN_LOOKS: Final = 500
-"""Steps in compiled code between two looks at ``progress`` and ``stop``: some milliseconds."""
+BETWEEN_LOOKS: Final = 0.1
+"""Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first."""
 
 
 class CompiledMebdf:
@@ -49,7 +52,8 @@ class CompiledMebdf:
         begin = time.perf_counter()
         failure: str | None = None
         try:
-            walk.run(walk.compiled_segment)
+            with walk.pauses():
+                walk.run(walk.compiled_segment)
         except IntegrationFailure as error:
             failure = walk.describe(error)
         walk.statistics.wall_time = time.perf_counter() - begin
@@ -62,23 +66,28 @@ class _CompiledWalk(Walk):
     _loop: Callable[..., int]
     _functions: tuple[Callable[..., None], ...]
     _marks: Marks
-    _at_once: int
+    _in_machine_code: bool
+    _pause: NDArray[np.int64]
     _rtol: float
 
     def prepare(self, rtol: float) -> None:
         """Compile, or find the compiled code; not counted as integration."""
-        from tribodyn.kernels.mebdf.drive import run
+        from tribodyn.kernels.mebdf.drive import AFTER_STEP, run
 
         self._rtol = rtol
+        self._pause = np.array([AFTER_STEP])
         self._marks = self._new_marks()
         self._functions = tuple(getattr(self.problem.functions, name) for name in HANDED)
-        if all(map(is_compiled, self._functions)):
+        self._in_machine_code = all(map(is_compiled, self._functions))
+        if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
-            self._loop = _compiled(run, self._functions, state, self.types, self._marks)
-            self._at_once = STEPS_BETWEEN_LOOKS
+            self._loop = _compiled(run, self._functions, state, self.types, self._marks, self._pause)
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
-            self._at_once = 1
+
+    def pauses(self) -> AbstractContextManager[None]:
+        """Have compiled code pause by the clock, whatever a step costs; Python does after every step."""
+        return _ticking(self._pause) if self._in_machine_code else nullcontext()
 
     def compiled_segment(self, t_end: float) -> None:
         """Integrate to the next breakpoint or to the end."""
@@ -91,7 +100,9 @@ class _CompiledWalk(Walk):
         before = vars(self.statistics).copy()
         outcome = PAUSED
         while outcome == PAUSED:
-            outcome = self._loop(*self._functions, state, problem.data, problem.memory, marks, self._at_once)
+            outcome = self._loop(*self._functions, state, problem.data, problem.memory, marks, self._pause)
+            if self._in_machine_code:
+                self._pause[0] = 0
             self._take_over(state, before)
             if outcome not in (ENDED, PAUSED):
                 raise IntegrationFailure(self.t, self._reason(state))
@@ -147,14 +158,36 @@ class _CompiledWalk(Walk):
         return reason(state, self.problem.state_names)
 
 
-def _compiled(run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any, Any], marks: Any) -> Any:
+@contextmanager
+def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
+    """Ask for a pause again and again, from a thread beside compiled code that ends with the block."""
+    from tribodyn.kernels.mebdf.drive import AFTER_EVALUATION
+
+    over = threading.Event()
+
+    def tick() -> None:
+        while not over.wait(BETWEEN_LOOKS):
+            pause[0] = AFTER_EVALUATION
+
+    thread = threading.Thread(target=tick, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
+
+
+def _compiled(
+    run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any, Any], marks: Any, pause: Any
+) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
     With the functions of a problem as ordinary arguments the loop would be compiled for each of them
     and never found in the cache by another process.
     """
     import numba
-    from numba import int64, void
+    from numba import void
     from numba.core.types import FunctionType
 
     typeof: Callable[[Any], Any] = numba.typeof
@@ -162,7 +195,7 @@ def _compiled(run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any
     for name, function in zip(HANDED, functions, strict=True):
         function.compile(arguments[name])
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
-    return run.compile((*handed, typeof(state), *types, typeof(marks), int64))
+    return run.compile((*handed, typeof(state), *types, typeof(marks), typeof(pause)))
 
 
 MEBDF = CompiledMebdf()

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
 
+SMALLEST_TOLERANCE = 1.0e-299
 SMALLEST_RTOL = 100.0 * float(np.finfo(np.float64).eps)
 
 
@@ -24,6 +25,30 @@ def tolerances(rtol: ArrayLike, atol: ArrayLike, n: int) -> tuple[FloatArray, Fl
         )
         relative = np.maximum(relative, SMALLEST_RTOL)
     return _vector("rtol", relative, n), _vector("atol", np.asarray(atol, dtype=np.float64), n)
+
+
+def span(t0: float, t_bound: float) -> None:
+    """Refuse a start or an end that is not a number."""
+    if not np.isfinite(t0) or np.isnan(t_bound):
+        raise ValueError(f"`t0` must be finite and `t_bound` a number, not {t0} and {t_bound}.")
+
+
+def order(max_order: int, largest: int) -> int:
+    """Return the largest order."""
+    if max_order != int(max_order) or not 2 <= max_order <= largest:
+        raise ValueError(f"`max_order` must be a whole number from 2 to {largest}, not {max_order}.")
+    return int(max_order)
+
+
+def resolved(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> None:
+    """Refuse what is too small for its relative tolerance to be a number of full precision."""
+    lost = (atol == 0.0) & (y0 != 0.0) & (rtol * np.abs(y0) < SMALLEST_TOLERANCE)
+    if np.any(lost):
+        i = int(np.argmax(lost))
+        raise ValueError(
+            f"`atol` must be positive for component {i}: with {y0[i]:g} the relative tolerance alone is "
+            f"below {SMALLEST_TOLERANCE:g}; or take another unit."
+        )
 
 
 def _vector(name: str, values: FloatArray, n: int) -> FloatArray:

@@ -24,6 +24,12 @@ def reason(state: MebdfState, names: Sequence[str]) -> str:
     if state.counts[entry.REASON] == phases.JACOBIAN_NOT_FINITE:
         row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
         return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
+    if state.counts[entry.REASON] == phases.NO_PROGRESS:
+        name = names[int(state.counts[entry.WORST])]
+        return (
+            f"Newton's iteration fails again and again, worst in {name}, with hardly any progress: "
+            "the rates jump there or the Jacobian is wrong"
+        )
     text = "the step became shorter than the spacing between numbers"
     if (bad := int(state.counts[entry.BAD])) >= 0:
         return f"{text}; the rate of {names[bad]} was not finite at t = {state.real[entry.T_BAD]:.9g} s"

@@ -11,7 +11,15 @@ from numpy.typing import ArrayLike
 from scipy.integrate import DenseOutput, OdeSolver
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.integrate.mebdf_checks import largest_step, starting_step, tolerances, warn_extraneous
+from tribodyn.integrate.mebdf_checks import (
+    largest_step,
+    order,
+    resolved,
+    span,
+    starting_step,
+    tolerances,
+    warn_extraneous,
+)
 from tribodyn.integrate.mebdf_jacobian import make_jacobian
 from tribodyn.integrate.mebdf_reasons import reason
 from tribodyn.kernels.mebdf import state as entry
@@ -74,11 +82,11 @@ class MEBDF(OdeSolver):
         **extraneous: Any,
     ) -> None:
         warn_extraneous(extraneous)
+        span(t0, t_bound)
         super().__init__(fun, t0, y0, t_bound, vectorized)
-        if not 2 <= max_order <= MAX_K + 1:
-            raise ValueError(f"`max_order` must lie between 2 and {MAX_K + 1}, not {max_order}.")
         self.max_step = largest_step(max_step)
         self.rtol, self.atol = tolerances(rtol, atol, self.n)
+        resolved(self.y, self.rtol, self.atol)
         self._state = new_state(
             float(self.t),
             self.y,
@@ -87,7 +95,7 @@ class MEBDF(OdeSolver):
             self.atol,
             max_step=self.max_step,
             first_step=starting_step(first_step, t0, t_bound),
-            largest_k=max_order - 1,
+            largest_k=order(max_order, MAX_K + 1) - 1,
             inside=True,
             differenced=jac is None,
         )

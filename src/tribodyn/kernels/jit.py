@@ -1,9 +1,10 @@
 """How kernels are compiled, in one place.
 
-All of them are cached on disk. Division by zero gives inf or NaN, which the integrators watch for: checking
-every division would cost more than the division. Products and sums may be contracted and divisions by
-constants turned into products, which changes the last bits but nothing that is not a number. Loops that
-add up over the nodes of a joint may do so in any order, which lets the processor take four nodes at once.
+All of them are kept on disk (:mod:`tribodyn.kernels.cache`). Division by zero gives inf or NaN, which the
+integrators watch for: checking every division would cost more than the division. Products and sums may be
+contracted and divisions by constants turned into products, which changes the last bits but nothing that is
+not a number. Loops that add up over the nodes of a joint may do so in any order, which lets the processor
+take four nodes at once.
 """
 
 from __future__ import annotations
@@ -12,14 +13,18 @@ from typing import Any, Final
 
 import numba as nb
 
-# Numba's own types do not know every option.
-_njit: Final[Any] = nb.njit
+from tribodyn.kernels.cache import cached
 
 _OPTIONS: Final[dict[str, Any]] = {
-    "cache": True,
     "error_model": "numpy",
     "fastmath": {"contract", "arcp"},
 }
+
+
+def _njit(**options: Any) -> Any:
+    """Return a decorator that compiles with these options."""
+    return lambda function: cached(nb.njit(**options)(function))
+
 
 entry: Final[Any] = _njit(**_OPTIONS)
 """A function that a compiled integrator may be handed."""

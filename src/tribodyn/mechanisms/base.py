@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.cases.base import Case
+from tribodyn.cases.case import Case
 from tribodyn.cases.groups import Solver, Wear
 from tribodyn.cases.load import BuiltIn
 from tribodyn.core.arrays import FloatArray
@@ -150,6 +150,10 @@ class WearingCase(SystemCase, Protocol):
 
 class System(Protocol):
     """What one case describes, ready to be integrated."""
+
+    def check(self) -> None:
+        """Put the mechanism together, joints and contact laws with it; raise what a run would refuse."""
+        ...
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; where nothing wears ``worn`` is None."""

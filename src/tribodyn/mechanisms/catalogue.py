@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final, cast
 
 from tribodyn.cases import load
-from tribodyn.cases.base import Case
+from tribodyn.cases.case import Case
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import Mechanism
 

@@ -8,9 +8,9 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.mechanisms.summary import mechanism_of
+from tribodyn.mechanisms.results import mechanism_of, read
 from tribodyn.report.parallel import POINTS, Axis, Point
-from tribodyn.results.store import RESULT, read
+from tribodyn.results.store import RESULT
 from tribodyn.views.overlay import overlays
 from tribodyn.views.section import Chapter
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
@@ -11,7 +10,8 @@ from typing import Any, Final
 
 import xarray as xr
 
-from tribodyn.mechanisms.summary import known, summarise
+from tribodyn.core import toml
+from tribodyn.mechanisms.results import known, summarise
 from tribodyn.report.beside import chapter_of
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
@@ -141,8 +141,8 @@ def _different_keys(datasets: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
 def _case(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the tables of a case; none where its text is not TOML."""
     try:
-        return tomllib.loads(str(dataset.attrs.get("case", "")))
-    except tomllib.TOMLDecodeError:
+        return toml.parse(str(dataset.attrs.get("case", "")))
+    except ValueError:
         return {}
 
 

@@ -6,14 +6,17 @@ import base64
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Final
 
 import xarray as xr
 
+from tribodyn.core.files import read_regular
 from tribodyn.figures.base import Family
 from tribodyn.views.section import Chapter, Section
 
 Shown = dict[str, Any]
+
+_LARGEST_PICTURE: Final = 100_000_000
 
 
 def chapters(
@@ -103,7 +106,7 @@ def _still(path: Path, family: Family | None) -> Shown:
 
 def embedded(path: Path) -> str:
     """Return a PNG file as a data address."""
-    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+    return "data:image/png;base64," + base64.b64encode(read_regular(path, _LARGEST_PICTURE)).decode("ascii")
 
 
 def reading(names: Iterable[str], file: str = "result.nc") -> str:

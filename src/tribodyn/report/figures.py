@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.figures import sweep
 from tribodyn.figures.base import Family
 from tribodyn.figures.save import remove, save
-from tribodyn.mechanisms.summary import mechanism_of
+from tribodyn.mechanisms.results import mechanism_of
 
 
 def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:

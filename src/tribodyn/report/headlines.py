@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from tribodyn.mechanisms.summary import known
+from tribodyn.mechanisms.results import known
 from tribodyn.results import Headline
 from tribodyn.views.numbers import in_words
 

@@ -9,7 +9,7 @@ from typing import Any
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from tribodyn.mechanisms.summary import mechanism_of, summarise
+from tribodyn.mechanisms.results import mechanism_of, summarise
 from tribodyn.report import assets
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of

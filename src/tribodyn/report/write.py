@@ -12,6 +12,7 @@ from tribodyn.report.figures import figures_of
 from tribodyn.report.page import render
 from tribodyn.report.sweep import render_sweep
 from tribodyn.results.atomic import write_text
+from tribodyn.results.attributes import SWEEP
 
 NAME: Final = "report.html"
 
@@ -38,7 +39,7 @@ def write(dataset: xr.Dataset, target: str | Path, figures: Sequence[str | Path]
     path = path if path.suffix == ".html" else path / NAME
     path.parent.mkdir(parents=True, exist_ok=True)
     stills = _beside(path, dataset) if figures is None else [Path(figure) for figure in figures]
-    sweep = dataset.attrs.get("kind") == "sweep"
+    sweep = dataset.attrs.get("kind") == SWEEP
     write_text(path, render_sweep(dataset, stills, path.parent) if sweep else render(dataset, stills))
     return path
 

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import zlib
-from typing import Final
+from typing import Any, Final
 
+import netCDF4
+import numpy as np
 import xarray as xr
+
+from tribodyn.core.quoting import brief
 
 _ONE_AT_A_TIME: Final = threading.Lock()
 _MARK: Final = b"\ntribodyn crc32 "
 """Stands behind the NetCDF file, before the checksum of all of it; what reads NetCDF does not look there."""
 _DIGITS: Final = 8
+_CHARACTER: Final = 4
+"""Bytes that a character of a text takes in an array."""
+MOST_COMPRESSED: Final = 64_000_000
+"""Size up to which what a file declares need not be in it [bytes]; a run of two cycles takes 10 MB."""
 
 
 def netcdf_content(dataset: xr.Dataset) -> bytes:
@@ -50,7 +59,54 @@ def dataset_of(content: bytes) -> xr.Dataset:
     if mark and len(checksum) == _DIGITS and checksum != _checksum(netcdf):
         raise ValueError("its checksum is wrong")
     with _ONE_AT_A_TIME:
+        _refuse_bombs(content)
         return xr.load_dataset(content, engine="netcdf4", decode_times=False, decode_timedelta=False)
+
+
+def _refuse_bombs(content: bytes) -> None:
+    """Refuse a file that declares far more than it holds, before anything is made room for.
+
+    What this program writes is not compressed, so that a file is as large as its numbers; other programs may
+    have compressed it since, by any factor, and up to a size that does no harm.
+    """
+    room = MOST_COMPRESSED + len(content)
+    with netCDF4.Dataset("result", memory=content) as file:
+        for name, variable in file.variables.items():
+            room -= _declared(variable) if variable.dtype is not str else _text_size(variable, room, content)
+            if room < 0:
+                limit = f"what is larger than {MOST_COMPRESSED // 10**6} MB must not be compressed"
+                shape = brief(variable.shape)
+                raise ValueError(f"it declares more than it holds, {brief(name)} of shape {shape}; {limit}")
+
+
+def _declared(variable: netCDF4.Variable[Any]) -> int:
+    """Return the room that a variable of numbers takes [bytes], that of its largest block at least."""
+    if not isinstance(variable.dtype, np.dtype):
+        raise ValueError(f"{brief(variable.name)} holds neither numbers nor texts")
+    blocks = variable.chunking()
+    block = math.prod(blocks) if isinstance(blocks, list) else 0
+    # A number of any size may become a double when its scale is applied.
+    return max(math.prod(variable.shape), block) * max(variable.dtype.itemsize, 8)
+
+
+def _text_size(variable: netCDF4.Variable[Any], room: int, content: bytes) -> int:
+    """Return the room that texts take, each as much as the longest [bytes].
+
+    A file may name the same long text many times, so they are read a few at a time.
+    """
+    shape = variable.shape
+    size = math.prod(shape) * _CHARACTER
+    if not shape or size > room:
+        return size
+    few = max(room // (8 * len(content)), 1)
+    longest = 0
+    for place in np.ndindex(*shape[:-1]):
+        for start in range(0, shape[-1], few):
+            texts = variable[(*place, slice(start, start + few))]
+            longest = max(longest, *map(len, texts))
+            if longest * size > room:
+                return longest * size
+    return longest * size
 
 
 def _checksum(content: bytes) -> bytes:

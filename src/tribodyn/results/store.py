@@ -12,12 +12,17 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
+from tribodyn.core.quoting import LONGEST, brief
 from tribodyn.results.atomic import write_together
 from tribodyn.results.netcdf import dataset_of, netcdf_content
+from tribodyn.results.schema import Kinds, check
 
 RESULT: Final = "result.nc"
 SUMMARY: Final = "summary.json"
 CASE: Final = "case.toml"
+LARGEST: Final = 4_000_000_000
+"""Size of a result that is read, at most [bytes]: it is held in memory, several times over."""
 
 
 def prepare_directory(directory: str | Path) -> Path:
@@ -45,7 +50,9 @@ def prepare_directory(directory: str | Path) -> Path:
             return folder
     except OSError as error:
         reason = error.strerror or str(error)
-        raise InputError(f"cannot write results to {folder} ({reason}); choose another folder") from error
+        raise InputError(
+            f"cannot write results to {brief(folder)} ({reason}); choose another folder"
+        ) from error
 
 
 def write_run(
@@ -99,13 +106,15 @@ def summary_text(summary: Mapping[str, float | int | str]) -> str:
     return json.dumps(summary, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def read(path: str | Path) -> xr.Dataset:
+def read(path: str | Path, kinds: Kinds) -> xr.Dataset:
     """Read a result into memory.
 
     Parameters
     ----------
     path
         Folder of a run, or a NetCDF file.
+    kinds
+        What is known of each kind of result.
 
     Returns
     -------
@@ -120,13 +129,18 @@ def read(path: str | Path) -> xr.Dataset:
     file = Path(path)
     file = file / RESULT if file.is_dir() else file
     try:
-        dataset = dataset_of(file.read_bytes())
+        dataset = dataset_of(read_regular(file, LARGEST))
+        dataset.attrs = {name: _python(value) for name, value in dataset.attrs.items()}
+        check(dataset, kinds)
     except FileNotFoundError as error:
-        raise InputError(f"there is no result at {file}; run a case with `-o {file.parent}` first") from error
+        hint = f"run a case with `-o {brief(file.parent)}` first"
+        raise InputError(f"there is no result at {brief(file)}; {hint}") from error
     # A damaged file makes its readers raise what they like, AttributeError among it.
     except Exception as error:
-        raise InputError(f"cannot read the result in {file}; it is damaged or no result: {error}") from error
-    dataset.attrs = {name: _python(value) for name, value in dataset.attrs.items()}
+        reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+        reason = brief(reason, 3 * LONGEST)
+        text = f"cannot read the result in {brief(file)}; it is damaged or no result: {reason}"
+        raise InputError(text) from error
     return dataset
 
 

@@ -15,6 +15,9 @@ TIME: Final = ("time",)
 SNAPSHOT: Final = ("snapshot",)
 JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
+STAGE: Final = ("stage_cycles",)
+EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *STAGE))
+"""Dimensions along which a result may hold nothing: it ended before."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,7 @@ COORDINATES: Final[dict[str, Variable]] = {
     "frame": Variable("1", "number of the pressure frame, over the last cycle", FRAME),
     "frame_time": Variable("s", "simulated time of the pressure frame", FRAME),
     "jump": Variable("1", "number of the stop of a wear campaign", JUMP),
-    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", ("stage_cycles",)),
+    "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", STAGE),
     "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
@@ -106,9 +109,16 @@ CAMPAIGN: Final[dict[str, Variable]] = {
 """What every wear campaign writes down at its stops; a mechanism adds what it says of each cycle."""
 
 STAGES: Final[dict[str, Variable]] = {
-    "stage_depth": Variable("m", "wear depth of the bushing, selected", ("stage_cycles", "theta", "z")),
+    "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z")),
 }
 """Worn profiles that are kept of a campaign."""
 
 VARIABLES: Final[dict[str, Variable]] = {**COORDINATES, **BUSHING, **FIELDS, **CAMPAIGN, **STAGES}
 """Every variable that mechanisms share, by name."""
+
+POINT_TEXTS: Final[dict[str, str]] = {
+    "failure": "why there are no numbers; empty where there are",
+    "warnings": "what the run says about its own trustworthiness",
+    "points": "name of the folder of the point below points/",
+}
+"""What a sweep says of each of its points in words, with its meaning; all else it holds are numbers."""

@@ -7,17 +7,18 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.base import Part, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.simulation.compilation import compile_elsewhere, loaded
+from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
 from tribodyn.simulation.session import Progress, Session, Stop
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from tribodyn.cases.base import Case
+    from tribodyn.cases.case import Case
 
 
 def simulate(
@@ -34,10 +35,11 @@ def simulate(
     case
         From :func:`tribodyn.load_case`.
     progress
-        Called with the simulated time [s] after every accepted step; in a wear campaign with the cycles
-        of wear behind.
+        Called with the simulated time [s] after accepted steps, by the solver ``mebdf`` some ten times a
+        second; in a wear campaign with the cycles of wear behind.
     stop
-        Asked after every accepted step; when true the run ends there.
+        Asked whenever ``progress`` is called, and several times a second while equations are compiled; when
+        true the run ends there.
     checkpoint
         File in which a wear campaign is kept after every jump, and from which it goes on if the file is
         there. It stays when the campaign is over. Other runs do not use it.
@@ -52,8 +54,10 @@ def simulate(
     ------
     InputError
         If the case asks for something that cannot be.
+    Stopped
+        If ``stop`` was true before anything was computed.
     """
-    prepare(case)
+    prepare(case, stop)
     return _simulated(case, progress, stop, None if checkpoint is None else Path(checkpoint))
 
 
@@ -75,17 +79,44 @@ def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Sessio
     return Session(known, mechanism, mechanism.system(known), progress, stop)
 
 
-def _first_steps(case: Case) -> None:
-    """Call every compiled function that a case needs: a few steps do."""
+def _first_steps(case: Case) -> str:
+    """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did."""
     session = _session(case, stop=lambda: True)
-    session.dataset(session.integrated(case.duration), Part())
+    return str(session.dataset(session.integrated(case.duration), Part()).attrs["failure"])
 
 
-def prepare(case: Case) -> None:
-    """Have the equations of a case compiled, if they are not, and load them."""
+def prepare(case: Case, stop: Stop = None) -> None:
+    """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
     if not loaded(case, _first_steps):
-        compile_elsewhere(case)
+        compile_elsewhere(case, stop)
         loaded(case, _first_steps)
+
+
+def check(case: Case, *, deep: bool = False) -> None:
+    """Find out without running it what a run of a case would refuse.
+
+    Parameters
+    ----------
+    case
+        The case. Its mechanism is put together, with the tables of its contact laws.
+    deep
+        Whether its equations are compiled too, if they are not yet, its start is found and the first step
+        taken.
+
+    Raises
+    ------
+    InputError
+        What the run would raise.
+    TribodynError
+        If the run would fail at its first step.
+    """
+    _session(case).system.check()
+    if not deep:
+        return
+    prepare(case)
+    failure = _first_steps(case)
+    if failure not in ("", INTERRUPTED):
+        raise TribodynError(f"a run fails at its first step: {failure}")
 
 
 def load_equations(case: Case) -> None:
@@ -93,11 +124,11 @@ def load_equations(case: Case) -> None:
     loaded(case, _first_steps)
 
 
-def compile_case(toml: str) -> None:
-    """Compile the equations of a case, given as TOML, and leave them in numba's cache."""
+def compile_for_parent() -> None:
+    """Compile the case that the parent process hands over into numba's cache: the first step does."""
     from tribodyn.mechanisms.catalogue import parse_case
 
-    _first_steps(parse_case(toml, "case"))
+    _first_steps(parse_case(from_parent(), "case"))
 
 
-__all__ = ["compile_case", "load_equations", "prepare", "simulate"]
+__all__ = ["check", "compile_for_parent", "load_equations", "prepare", "simulate"]

@@ -7,7 +7,7 @@ killed finds the last complete one.
 from __future__ import annotations
 
 import json
-import os
+import zipfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Final
@@ -15,6 +15,8 @@ from typing import Any, Final
 import numpy as np
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import open_regular
+from tribodyn.core.quoting import LONGEST, brief
 from tribodyn.mechanisms.base import Carried
 from tribodyn.results.atomic import replacing
 from tribodyn.simulation.campaign import Campaign
@@ -22,6 +24,8 @@ from tribodyn.simulation.history import columns
 from tribodyn.simulation.provenance import provenance
 
 FORMAT: Final = 2
+LARGEST: Final = 1_000_000_000
+"""Size of a checkpoint that is read, at most [bytes]."""
 _ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
 
 
@@ -91,18 +95,23 @@ def read(
         return None
     # A damaged archive makes its readers raise what they like, NotImplementedError among it.
     except Exception as error:
-        raise _refused(path, f"it cannot be read ({error})") from error
+        raise _refused(path, f"it cannot be read ({brief(error, 2 * LONGEST)})") from error
     if not known:
         raise _refused(path, "it was written by another version of tribodyn")
     if worn is None:
-        raise _refused(path, f"it holds {facts['cycles']} cycles of a campaign of another case")
+        raise _refused(path, f"it holds {brief(facts['cycles'])} cycles of a campaign of another case")
     return worn, told
 
 
 def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the arrays of a file, and what it says about itself."""
-    with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-        arrays = dict(archive)
+    with open_regular(path, LARGEST) as stream:
+        with zipfile.ZipFile(stream) as archive:
+            if any(member.compress_type != zipfile.ZIP_STORED for member in archive.infolist()):
+                raise ValueError("it is compressed, which a checkpoint never is")
+        stream.seek(0)
+        with np.load(stream, allow_pickle=False) as loaded:
+            arrays = dict(loaded)
     return arrays, dict(json.loads(str(arrays["facts"])))
 
 
@@ -119,6 +128,8 @@ def _worn(
     for name, shape in shapes.items():
         if arrays[name].shape != shape or arrays[name].dtype != np.float64:
             raise ValueError(f"{name} is no array of {shape} numbers")
+        if not np.isfinite(arrays[name]).all():
+            raise ValueError(f"{name} holds numbers that are not finite")
     return Campaign(
         cycles=int(facts["cycles"]),
         carried=Carried(arrays["state"], arrays["entry_velocity"]),
@@ -139,11 +150,12 @@ def _changed(versions: Mapping[str, str]) -> list[str]:
     ]
     if not begun:
         return []
-    return [f"The campaign was begun with {', '.join(begun)}: its later cycles were computed with others."]
+    names = brief(", ".join(begun), 3 * LONGEST)
+    return [f"The campaign was begun with {names}: its later cycles were computed with others."]
 
 
 def _refused(path: Path, reason: str) -> InputError:
-    name = os.fspath(path)
+    name = brief(path)
     return InputError(
         f"a wear campaign cannot go on from {name}: {reason}; choose another directory, or remove the file "
         "to begin anew",

@@ -7,19 +7,26 @@ but add up in other orders: the first run of all would differ in the last bits f
 
 from __future__ import annotations
 
+import json
+import os
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
+from tribodyn.core.errors import Stopped
+
 if TYPE_CHECKING:
-    from tribodyn.cases.base import Case
+    from tribodyn.cases.case import Case
 
 Steps = Callable[["Case"], Any]
 
-_CHILD: Final = "from tribodyn.simulation import compile_case; import sys; compile_case(sys.stdin.read())"
+_CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent()"
+_LISTEN: Final = 0.1
+"""Time between two looks at whether to stop [s]."""
 _loaded: Final[set[frozenset[tuple[str, object]]]] = set()
 """Choices of the cases whose equations this process has loaded."""
 
@@ -68,17 +75,65 @@ def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str,
             yield f"{path}{name}", value
 
 
-def compile_elsewhere(case: Case) -> None:
+def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> None:
     """Have another process compile the equations of a case; where that fails, this one will do it.
+
+    So it will where compiled code can be kept nowhere. However this process ends, the other one ends with it.
+
+    Parameters
+    ----------
+    case
+        The case.
+    stop
+        Asked several times a second.
 
     Raises
     ------
+    Stopped
+        If ``stop`` was true before they were compiled.
     KeyboardInterrupt
         If the other process was interrupted, as by Ctrl-C, which reaches both.
     """
-    with suppress(OSError):
-        done = subprocess.run(
-            [sys.executable, "-c", _CHILD], input=case.to_toml().encode(), capture_output=True, check=False
-        )
-        if done.returncode == -signal.SIGINT:
+    from tribodyn.kernels.cache import folder
+
+    if folder() is None:
+        return
+    with suppress(OSError), _child() as child:
+        assert child.stdin is not None
+        child.stdin.write(json.dumps(case.to_toml()).encode() + b"\n")
+        child.stdin.flush()
+        while child.poll() is None:
+            if stop is not None and stop():
+                raise Stopped
+            with suppress(subprocess.TimeoutExpired):
+                child.wait(_LISTEN)
+        if child.returncode == -signal.SIGINT:
             raise KeyboardInterrupt
+
+
+@contextmanager
+def _child() -> Iterator[subprocess.Popen[bytes]]:
+    """Start a process that compiles; it has ended when the block has."""
+    with subprocess.Popen(
+        [sys.executable, "-c", _CHILD],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as child:
+        try:
+            yield child
+        finally:
+            child.kill()
+
+
+def from_parent() -> str:
+    """Return the text of the case that the parent process wants compiled; from then on, end when it ends."""
+    toml = str(json.loads(sys.stdin.buffer.readline()))
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    return toml
+
+
+def _end_with_parent() -> None:
+    # The parent writes nothing more: what comes is the end of the pipe, when it closes it or is gone.
+    sys.stdin.buffer.read()
+    os._exit(1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tribodyn.studies.cluster import Tls
 from tribodyn.studies.distributions import DISTRIBUTIONS
 from tribodyn.studies.plan import Plan, Sampling, make_plan
 from tribodyn.studies.samplers import SAMPLERS
@@ -15,6 +16,7 @@ __all__ = [
     "Means",
     "Plan",
     "Sampling",
+    "Tls",
     "Watcher",
     "make_plan",
     "run",

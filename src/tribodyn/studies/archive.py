@@ -13,12 +13,16 @@ from pathlib import Path
 from typing import Final
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
+from tribodyn.core.quoting import brief
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
+from tribodyn.results.schema import is_summary
 from tribodyn.results.store import CASE, RESULT, SUMMARY
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import Numbers, Outcome
 
 POINTS: Final = "points"
+_LARGEST_SUMMARY: Final = 1_000_000
 
 
 class Archive:
@@ -40,15 +44,15 @@ class Archive:
         self.staging = self.folder.absolute() / secrets.token_hex(4)
         """Path beside which workers of this machine leave whole results, under names of this sweep."""
         if self.folder.exists() and not self.folder.is_dir():
-            raise InputError(f"{self.folder} is a file; choose another directory", key="--output")
+            raise InputError(f"{brief(self.folder)} is a file; choose another directory", key="--output")
 
     def find(self, point: Point) -> Numbers | None:
         """Return the summary of a point that is done, None where there is none that can be read."""
         try:
-            content = json.loads((self.folder / point.name / SUMMARY).read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            content = json.loads(read_regular(self.folder / point.name / SUMMARY, _LARGEST_SUMMARY))
+        except (OSError, ValueError, RecursionError):
             return None
-        return content if isinstance(content, dict) and "status" in content else None
+        return content if is_summary(content) else None
 
     @contextmanager
     def open(self) -> Iterator[None]:

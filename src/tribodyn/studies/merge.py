@@ -13,16 +13,13 @@ import xarray as xr
 from tribodyn.cases import Key
 from tribodyn.cases.units import si_unit, to_si
 from tribodyn.core.versions import version
-from tribodyn.mechanisms.summary import known
+from tribodyn.mechanisms.results import known
+from tribodyn.results.attributes import SWEEP
+from tribodyn.results.variables import POINT_TEXTS
 from tribodyn.studies.plan import POINT, Plan
 from tribodyn.studies.work import Numbers
 
 NOT_COMPUTED: Final = "not computed: the sweep was stopped before"
-_TEXTS: Final = {
-    "failure": "why there are no numbers; empty where there are",
-    "warnings": "what the run says about its own trustworthiness",
-    "points": "name of the folder of the point below points/",
-}
 
 
 def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
@@ -55,7 +52,9 @@ def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
     texts["points"] = [point.name for point in plan.points]
     return xr.Dataset(
         data_vars={name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
-        | {name: laid_out(values, object, {"long_name": _TEXTS[name]}) for name, values in texts.items()},
+        | {
+            name: laid_out(values, object, {"long_name": POINT_TEXTS[name]}) for name, values in texts.items()
+        },
         coords=_coordinates(plan),
         attrs=_attributes(plan, rows),
     )
@@ -103,7 +102,7 @@ def _attributes(plan: Plan, rows: Sequence[Numbers]) -> dict[str, Any]:
         s = plan.sampling
         sampling = {"samples": s.samples, "sampling_method": s.method, "sampling_seed": s.seed}
     return {
-        "kind": "sweep",
+        "kind": SWEEP,
         "swept_kind": plan.case.kind(),
         "title": plan.case.title,
         "case": plan.case.to_toml(),

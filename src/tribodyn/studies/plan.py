@@ -9,9 +9,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
-from tribodyn.cases import Case, Key, keys_of
+from tribodyn.cases import Case, Key, keys_in
 from tribodyn.cases.keys import Value
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import LONGEST, as_given, brief
 from tribodyn.core.versions import version
 from tribodyn.studies.samplers import SAMPLERS
 from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
@@ -149,7 +150,7 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
 
 
 def _key(case: Case, path: str) -> Key:
-    keys = keys_of(type(case))
+    keys = keys_in(case)
     if path not in keys:
         # Raises, and the message names the nearest valid key.
         case.replace({path: ""}, source=SOURCE)
@@ -158,7 +159,7 @@ def _key(case: Case, path: str) -> Key:
 
 def _check_sampling(sampling: Sampling, scatters: Sequence[Scatter]) -> None:
     if sampling.method not in SAMPLERS:
-        raise InputError(f'given "{sampling.method}"; allowed: {", ".join(SAMPLERS)}', key="--method")
+        raise InputError(f"{as_given(sampling.method)}; allowed: {', '.join(SAMPLERS)}", key="--method")
     if scatters and (sampling.samples is None or sampling.samples < 1):
         raise InputError(
             f"{scatters[0].key.path} is drawn from a distribution; say how many samples, 1 or more",
@@ -201,6 +202,8 @@ def _point(case: Case, changes: dict[str, str], which: str) -> Point:
         toml = case.replace(changes, source=SOURCE).to_toml()
     except InputError as error:
         values = ", ".join(f"{path} = {value}" for path, value in changes.items())
-        raise InputError(f"{error.reason} ({which}: {values})", key=error.key, source=SOURCE) from None
+        raise InputError(
+            f"{error.reason} ({which}: {brief(values, 2 * LONGEST)})", key=error.key, source=SOURCE
+        ) from None
     digest = hashlib.sha256(f"tribodyn {version('tribodyn')}\n{toml}".encode()).hexdigest()
     return Point(changes, toml, digest[:16])

@@ -10,20 +10,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cases import Case, keys_of
+from tribodyn.cases import Case, keys_in
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
 from tribodyn.results.store import prepare_directory
-from tribodyn.studies import runners
 from tribodyn.studies.archive import Archive
+from tribodyn.studies.cluster import Tls, cluster
+from tribodyn.studies.job import Finished, Job
+from tribodyn.studies.local import local
 from tribodyn.studies.merge import NOT_COMPUTED, merge
 from tribodyn.studies.plan import Plan, Point, Sampling, make_plan
 from tribodyn.studies.statistics import statistics
 from tribodyn.studies.variation import Asked, written
-from tribodyn.studies.work import Numbers
+from tribodyn.studies.work import Numbers, compute
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,6 +64,8 @@ class Means:
         Processes on this machine, by default one for each processor; 0 computes in this process.
     scheduler
         Address of a Dask scheduler to use instead.
+    tls
+        How to know it, where its address begins with ``tls://``.
     retry
         Whether points that failed before are computed again.
     fresh
@@ -72,6 +76,7 @@ class Means:
 
     workers: int | None = None
     scheduler: str | None = None
+    tls: Tls | None = None
     retry: bool = False
     fresh: bool = False
     keep_results: bool = True
@@ -110,6 +115,7 @@ def sweep(
     directory: str | Path | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     retry: bool = False,
     progress: Callable[[Arrival], None] | None = None,
     stop: Callable[[], bool] | None = None,
@@ -135,6 +141,8 @@ def sweep(
         that uses processes needs ``if __name__ == "__main__":``, as with :mod:`multiprocessing`.
     scheduler
         Address of a Dask scheduler to use instead, such as ``"tcp://10.0.0.1:8786"``.
+    tls
+        Certificates for a scheduler whose address begins with ``tls://``.
     retry
         Whether points that failed in an earlier sweep are computed again.
     progress
@@ -154,7 +162,7 @@ def sweep(
     """
     chosen = case if isinstance(case, Case) else load_case(case)
     plan = make_plan(chosen, vary, Sampling(samples, method, seed))
-    means = Means(workers, scheduler, retry)
+    means = Means(workers, scheduler, tls, retry)
     watcher = Watcher(progress or _nothing, stop or Watcher.stop)
     return run(plan, None if directory is None else Path(directory), means, watcher)
 
@@ -165,6 +173,8 @@ def run(
     """Compute what is missing of a plan and merge all of it; returns and raises as :func:`sweep`."""
     if means.workers is not None and means.workers < 0:
         raise InputError(f"given {means.workers}; allowed: 0 or more", key="--workers")
+    if means.tls is not None and means.scheduler is None:
+        raise InputError("certificates are for a scheduler; give its address too", key="--scheduler")
     archive = None if directory is None else Archive(prepare_directory(directory))
     summaries = _kept(plan, archive, means)
     try:
@@ -204,7 +214,7 @@ def _compute(
         return
     staging = "" if archive is None else str(archive.staging)
     keep_results = means.keep_results and archive is not None
-    job = runners.Job(missing, keep_results, staging, watcher.stop, watcher.note)
+    job = Job(missing, keep_results, staging, watcher.stop, watcher.note)
     with nullcontext() if archive is None else archive.open():
         for done, (point, outcome) in enumerate(_finished(job, means), 1):
             if archive is not None and outcome.final:
@@ -213,10 +223,21 @@ def _compute(
             watcher.arrived(Arrival(done, len(missing), point, outcome.failure))
 
 
-def _finished(job: runners.Job, means: Means) -> runners.Finished:
+def _finished(job: Job, means: Means) -> Finished:
     if means.scheduler is not None:
-        return runners.cluster(job, means.scheduler)
-    return runners.here(job) if means.workers == 0 else runners.local(job, means.workers)
+        return cluster(job, means.scheduler, means.tls)
+    return _here(job) if means.workers == 0 else local(job, means.workers)
+
+
+def _here(job: Job) -> Finished:
+    """Compute points one after the other in this process."""
+    for point in job.points:
+        if job.stop():
+            return
+        outcome = compute(point.toml, version("tribodyn"), job.keep_result, stop=job.stop)
+        if outcome.failure and job.stop():
+            return
+        yield point, outcome
 
 
 def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -> xr.Dataset:
@@ -230,7 +251,7 @@ def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -
 
 def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> dict[str, Any]:
     """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
-    keys = keys_of(type(plan.case))
+    keys = keys_in(plan.case)
     nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
     return {
         "title": plan.case.title,

@@ -9,22 +9,21 @@ from __future__ import annotations
 import gc
 import signal
 from collections.abc import Mapping
+from typing import Any
 
 from tribodyn.core.fork_server import take_case
 
 
-def _prepare(case: str, changes: Mapping[str, str]) -> None:
+def _prepare(given: Mapping[str, Any]) -> None:
     """Import and load what workers need, in the process they are forked from."""
     # Ctrl-C is for the command, which ends its workers.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    import distributed.nanny  # noqa: F401
-
     from tribodyn.studies.work import load
 
-    load(case, changes)
+    load(**given)
     # Objects that live for ever need not be searched for garbage in every worker.
     gc.freeze()
 
 
 if given := take_case():
-    _prepare(*given)
+    _prepare(given)

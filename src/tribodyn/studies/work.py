@@ -7,11 +7,10 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.core.versions import version
@@ -52,7 +51,13 @@ def failed(reason: str, *, final: bool) -> Outcome:
     return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": ""}, final=final)
 
 
-def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Outcome:
+def compute(
+    toml: str,
+    made_by: str,
+    keep_result: bool,
+    staging: str = "",
+    stop: Callable[[], bool] | None = None,
+) -> Outcome:
     """Simulate one case.
 
     Parameters
@@ -66,6 +71,8 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
     staging
         Path beside which it is left as a file, on a machine whose disk the caller sees: bytes of a worker go
         through two processes before they are written. Where that fails, the result is returned all the same.
+    stop
+        As for :func:`tribodyn.simulation.simulate`.
 
     Returns
     -------
@@ -76,7 +83,7 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
     if own != made_by:
         return failed(f"the worker has tribodyn {own}, the sweep was planned by {made_by}", final=False)
     try:
-        return _simulated(toml, keep_result, staging)
+        return _simulated(toml, keep_result, staging, stop)
     except TribodynError as error:
         return failed(str(error), final=True)
     except MemoryError:
@@ -85,14 +92,14 @@ def compute(toml: str, made_by: str, keep_result: bool, staging: str = "") -> Ou
         return failed(f"internal error: {type(error).__name__}: {error}", final=True)
 
 
-def _simulated(toml: str, keep_result: bool, staging: str) -> Outcome:
+def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> Outcome:
     from tribodyn.mechanisms.catalogue import parse_case
-    from tribodyn.mechanisms.summary import summarise
+    from tribodyn.mechanisms.results import summarise
     from tribodyn.results import netcdf_content
     from tribodyn.results.atomic import stage
     from tribodyn.simulation import simulate
 
-    dataset = simulate(parse_case(toml, "sweep"))
+    dataset = simulate(parse_case(toml, "sweep"), stop=stop)
     summary, content = summarise(dataset), netcdf_content(dataset) if keep_result else b""
     if content and staging:
         with contextlib.suppress(OSError):
@@ -112,28 +119,32 @@ def warm_up(toml: str) -> None:
         prepare(parse_case(toml, "sweep"))
 
 
-def load(case: str, changes: Mapping[str, str]) -> None:
-    """Import what workers need, and load the equations of a case if they are compiled.
+def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
+    """Import what points need, and load the equations of a case if they are compiled.
 
     Parameters
     ----------
-    case
-        Its TOML, or the name of a file or of a built-in one.
+    name, toml
+        The case: a file or a built-in one, or its text. The other is empty.
     changes
         Values to change in it, by dotted path.
     """
-    import xarray as xr
-
+    import_what_points_need()
     from tribodyn.mechanisms.catalogue import load_case, parse_case
-    from tribodyn.results import netcdf_content
     from tribodyn.simulation import load_equations
 
     with contextlib.suppress(Exception):
+        case = parse_case(toml, "sweep") if toml else load_case(name)
+        load_equations(case.replace(changes))
+
+
+def import_what_points_need() -> None:
+    """Import what :func:`compute` does."""
+    import xarray as xr
+
+    from tribodyn import simulation  # noqa: F401
+    from tribodyn.results import netcdf_content
+
+    # It imports what it writes with.
+    with contextlib.suppress(Exception):
         netcdf_content(xr.Dataset())
-        chosen = parse_case(case, "sweep") if "\n" in case else load_case(case)
-        load_equations(chosen.replace(changes))
-
-
-def dask_setup(worker: Any) -> None:
-    """Prepare a local worker, as Dask's preload: Ctrl-C is for the command, which ends its workers."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)

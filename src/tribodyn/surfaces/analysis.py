@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 from tribodyn.surfaces.asperities import LEAST_BANDWIDTH, Asperities, asperities
 from tribodyn.surfaces.checks import FEWEST_POINTS, checked
 from tribodyn.surfaces.filters import FILTERS, filtered
@@ -48,7 +49,7 @@ class Treatment:
         """Refuse names that do not exist."""
         for key, family in (("level", LEVELS), ("filter", FILTERS)):
             if getattr(self, key) not in family:
-                raise InputError(f'given "{getattr(self, key)}"; allowed: {", ".join(family)}', key=key)
+                raise InputError(f"{as_given(getattr(self, key))}; allowed: {', '.join(family)}", key=key)
 
 
 @dataclass(frozen=True, eq=False)

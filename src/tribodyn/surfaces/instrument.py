@@ -10,21 +10,25 @@ from typing import Any, BinaryIO, Final
 import numpy as np
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import LONGEST, as_given, brief
 from tribodyn.surfaces.scan import MOST_POINTS, Length, Scan, from_columns
 from tribodyn.surfaces.text import Scale, parse_spacing, unit_size
 
 _WITHOUT_MARK: Final = ("hgt", "nms")
 """Formats whose files carry no mark: taken only from a file whose name ends so."""
-_LONGEST_REASON: Final = 160
 
 
-def read_instrument(path: Path, length: Length, given: Scale, file_format: str | None, channel: int) -> Scan:
+def read_instrument(
+    stream: BinaryIO, source: str, length: Length, given: Scale, file_format: str | None, channel: int
+) -> Scan:
     """Return the heights in a file that SurfaceTopography reads.
 
     Parameters
     ----------
-    path
-        An existing regular file.
+    stream
+        An open file.
+    source
+        Its name.
     length
         Reads a length with its unit.
     given
@@ -39,12 +43,11 @@ def read_instrument(path: Path, length: Length, given: Scale, file_format: str |
     InputError
         The extra is missing, the file cannot be read, or lacks or repeats what ``given`` says.
     """
-    source = str(path)
     try:
         # What the package has to say about itself is not for a user of ours.
-        with warnings.catch_warnings(), path.open("rb") as stream:
+        with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return _scan(_package(), path, stream, length, given, file_format, channel)
+            return _scan(_package(), stream, source, length, given, file_format, channel)
     except (InputError, MemoryError):
         raise
     except Exception as error:
@@ -64,17 +67,16 @@ def _package() -> Any:
 
 def _scan(
     package: Any,
-    path: Path,
     stream: BinaryIO,
+    source: str,
     length: Length,
     given: Scale,
     file_format: str | None,
     channel: int,
 ) -> Scan:
-    source = str(path)
     if file_format is not None and file_format not in package.lookup_reader_by_format:
         known = ", ".join(["csv", *sorted(package.lookup_reader_by_format)])
-        raise InputError(f'given "{file_format}"; allowed: {known}', key="format", source=source)
+        raise InputError(f"{as_given(file_format)}; allowed: {known}", key="format", source=source)
     try:
         reader = package.open_topography(stream, format=file_format)
     except package.CannotDetectFileFormat:
@@ -82,13 +84,17 @@ def _scan(
             "this is in no format of a surface that is known here, or cut short", source=source
         ) from None
     with reader:
-        if file_format is None and reader.format() in _WITHOUT_MARK and path.suffix[1:] != reader.format():
+        if (
+            file_format is None
+            and reader.format() in _WITHOUT_MARK
+            and Path(source).suffix[1:] != reader.format()
+        ):
             raise InputError(
                 "this is in no format of a surface that is known here, or cut short", source=source
             )
         if reader.format() == "npy":
             # Of a file cut short the package returns whatever the memory held; mapping it fails.
-            np.load(path, mmap_mode="r", allow_pickle=False)
+            np.load(source, mmap_mode="r", allow_pickle=False)
         heights = _channel(reader, channel, source)
         if np.prod(heights.nb_grid_pts or 1, dtype=float) > MOST_POINTS:
             raise InputError(f"the scan has more than {MOST_POINTS} points; cut out a part", source=source)
@@ -98,7 +104,7 @@ def _scan(
 def _channel(reader: Any, channel: int, source: str) -> Any:
     channels = reader.height_channels
     if not 1 <= channel <= len(channels):
-        names = ", ".join(f"{k} {entry.name}" for k, entry in enumerate(channels, start=1)) or "none"
+        names = brief(", ".join(f"{k} {entry.name}" for k, entry in enumerate(channels, start=1)) or "none")
         raise InputError(f"given {channel}; channels of heights: {names}", key="channel", source=source)
     return channels[channel - 1]
 
@@ -144,4 +150,4 @@ def _read(channel: Any, length: Length, given: Scale, source: str) -> Scan:
 def _in_short(error: Exception) -> str:
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     reason = lines[0] if lines else type(error).__name__
-    return reason if len(reason) <= _LONGEST_REASON else f"{reason[:_LONGEST_REASON]}..."
+    return brief(reason, 2 * LONGEST)

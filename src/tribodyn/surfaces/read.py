@@ -7,11 +7,14 @@ from pathlib import Path
 from typing import Final
 
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import open_regular
 from tribodyn.surfaces.instrument import read_instrument
 from tribodyn.surfaces.scan import Length, Scan
 from tribodyn.surfaces.text import Scale, read_text
 
 OWN: Final = "csv"
+LARGEST_FILE: Final = 1_000_000_000
+_NEEDED: Final = "a file with a measured profile or map is needed"
 _NO_SCALE: Final = Scale()
 
 
@@ -45,17 +48,15 @@ def read_scan(
         There is no such file, or it does not hold a surface.
     """
     name = os.fspath(path)
-    # os.path, because pathlib's own tests fail on names that are too long; pipes and devices never end.
-    if not os.path.isfile(name):
-        kind = "this is a directory or a device" if os.path.exists(name) else "there is no such file"
-        raise InputError(f"{kind}; a file with a measured profile or map is needed", source=name[:200])
     file = Path(name)
+    own = file_format == OWN or (file_format is None and file.suffix.lower() == ".csv")
     try:
-        if file.stat().st_size == 0:
-            raise InputError("the file is empty", source=name)
-        own = file_format == OWN or (file_format is None and file.suffix.lower() == ".csv")
-        if own:
-            return read_text(file, length, given)
-        return read_instrument(file, length, given, file_format, channel)
+        with open_regular(name, LARGEST_FILE) as stream:
+            if own:
+                return read_text(stream, name, length, given)
+            return read_instrument(stream, name, length, given, file_format, channel)
+    except FileNotFoundError:
+        raise InputError(f"there is no such file; {_NEEDED}", source=name) from None
     except OSError as error:
-        raise InputError(f"the file cannot be read: {error.strerror or error}", source=name) from None
+        reason = error.strerror or str(error)
+        raise InputError(f"the file cannot be read: {reason}; {_NEEDED}", source=name) from None

@@ -16,6 +16,8 @@ Length: TypeAlias = Callable[[str], float]
 """Reads a length with its unit, such as ``0.5 um``, as metres; raises ValueError saying what is wrong."""
 
 MOST_POINTS: Final = 50_000_000
+_SPARSEST: Final = 100
+"""Steps for each point of a profile above which nearly all of it is missing, and no grid is made."""
 _JITTER: Final = 0.05
 """Part of a step by which the points of a profile may stand off equal steps."""
 
@@ -93,7 +95,7 @@ def from_columns(x: FloatArray, heights: FloatArray, source: str) -> Scan:
         raise InputError(_unsorted(x, steps), source=source)
     span = float(np.ptp(x))
     count = round(span / float(np.median(steps)))
-    if count >= MOST_POINTS:
+    if count >= min(MOST_POINTS, _SPARSEST * x.size):
         raise InputError(_unequal(steps), source=source)
     places = (x - x[0]) * (count / span)
     index = np.rint(places).astype(np.int64)

@@ -18,16 +18,17 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import BinaryIO, Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given, brief
 from tribodyn.surfaces.scan import MOST_POINTS, Length, Scan, from_columns
 
-LARGEST_FILE: Final = 1_000_000_000
 _SEPARATORS: Final = (";", "\t", ",")
+_BEGINNING: Final = 65_536
 _MISSING: Final = ("", "nan")
 _COLUMN: Final = re.compile(r"\s*([xh])\s*(?:\[\s*([^\]]+?)\s*\])?\s*", re.IGNORECASE)
 _NOTE: Final = re.compile(r"#\s*(unit|spacing)\s*[:=]\s*(.+?)\s*", re.IGNORECASE)
@@ -53,19 +54,27 @@ class Scale:
 
 @dataclass(frozen=True)
 class Line:
-    """A line of numbers: its place in the file, and its fields."""
+    """A line of the file: its place, its text, and what stands between its fields."""
 
     number: int
-    fields: list[str]
+    text: str
+    separator: str
+
+    @property
+    def fields(self) -> list[str]:
+        """Its fields; made when asked for, since they take twenty times the room of the text."""
+        return self.text.split(self.separator)
 
 
-def read_text(path: Path, length: Length, given: Scale) -> Scan:
+def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Scan:
     """Return the surface in a text file.
 
     Parameters
     ----------
-    path
-        An existing regular file.
+    stream
+        An open file.
+    source
+        Its name.
     length
         Reads a length with its unit.
     given
@@ -76,8 +85,7 @@ def read_text(path: Path, length: Length, given: Scale) -> Scan:
     InputError
         Anything is not as the module says; the message names the line.
     """
-    source = str(path)
-    notes, header, lines = _sorted_out(_lines(path), source)
+    notes, header, lines = _sorted_out(_lines(_decoded(stream, source)), source)
     scale = _settled(notes, given, source)
     if header is not None:
         return _profile(header, lines, scale, length, source)
@@ -103,9 +111,9 @@ def parse_spacing(text: str, dimensions: int, length: Length, key: str = "spacin
     """Return the spacing [m] in the order of :class:`Scan` from the text ``dx`` or ``dx, dy``."""
     steps = [_length(part, length, key) for part in text.split(",")]
     if len(steps) > 2:
-        raise InputError(f'given "{text}"; allowed: one length, or two with a comma between them', key=key)
+        raise InputError(f"{as_given(text)}; allowed: one length, or two with a comma between them", key=key)
     if not all(0.0 < step < math.inf for step in steps):
-        raise InputError(f'given "{text}"; allowed: lengths above zero', key=key)
+        raise InputError(f"{as_given(text)}; allowed: lengths above zero", key=key)
     return (steps[-1], steps[0]) if dimensions == 2 else (steps[0],)
 
 
@@ -113,7 +121,7 @@ def unit_size(unit: str, length: Length, key: str = "unit") -> float:
     """Return the size of a unit of length [m]."""
     size = _length(f"1 {unit}", length, key)
     if not size > 0.0:
-        raise InputError(f'given "{unit}"; allowed: a unit of length, such as um', key=key)
+        raise InputError(f"{as_given(unit)}; allowed: a unit of length, such as um", key=key)
     return size
 
 
@@ -122,28 +130,33 @@ def _length(text: str, length: Length, key: str) -> float:
         return length(text.strip())
     except ValueError as error:
         raise InputError(
-            f'given "{text.strip()[:60]}": {error}; allowed: a length with its unit, such as "0.5 um"',
+            f'{as_given(text.strip())}: {error}; allowed: a length with its unit, such as "0.5 um"',
             key=key,
         ) from None
 
 
-def _lines(path: Path) -> Iterator[Line]:
-    """Give the lines that are not empty, split at the separator of the first line of data."""
-    if path.stat().st_size > LARGEST_FILE:
-        raise InputError("the file is larger than 1 GB; cut out a part of the scan", source=str(path))
-    text = _decoded(path.read_bytes(), str(path))
+def _lines(text: str) -> Iterator[Line]:
+    """Give the lines that are not empty, with the separator of the first line of data."""
     separator = None
     for number, line in enumerate(text.splitlines(), start=1):
         if not line.strip():
             continue
-        if line.lstrip().startswith("#"):
-            yield Line(number, [line.strip()])
-            continue
-        separator = separator or next((mark for mark in _SEPARATORS if mark in line), ",")
-        yield Line(number, line.split(separator))
+        if separator is None and not _is_note(line):
+            separator = next((mark for mark in _SEPARATORS if mark in line), ",")
+        yield Line(number, line, separator or ",")
 
 
-def _decoded(content: bytes, source: str) -> str:
+def _is_note(line: str) -> bool:
+    return line.lstrip().startswith("#")
+
+
+def _decoded(stream: BinaryIO, source: str) -> str:
+    """Return the text of a file; what shows at its beginning that it is none is not read to the end."""
+    content = stream.read(_BEGINNING)
+    if not content:
+        raise InputError("the file is empty", source=source)
+    if b"\0" not in content:
+        content += stream.read()
     if b"\0" in content:
         raise InputError("this is a binary file, not text with commas", source=source)
     try:
@@ -158,8 +171,8 @@ def _sorted_out(lines: Iterator[Line], source: str) -> tuple[dict[str, str], Lin
     header: Line | None = None
     data: list[Line] = []
     for line in lines:
-        if line.fields[0].startswith("#"):
-            note = _NOTE.fullmatch(line.fields[0])
+        if _is_note(line.text):
+            note = _NOTE.fullmatch(line.text.strip())
             if note is not None:
                 notes[note[1].lower()] = note[2]
         elif not data and header is None and _is_header(line):
@@ -214,7 +227,7 @@ def _columns(header: Line, source: str) -> dict[str, str | None]:
     found = [_COLUMN.fullmatch(word) for word in header.fields]
     units = {match[1].lower(): match[2] for match in found if match is not None}
     if len(found) != 2 or set(units) != {"x", "h"}:
-        shown = ",".join(header.fields).strip()[:60]
+        shown = brief(",".join(header.fields).strip())
         raise InputError(
             f'line {header.number}: given the header "{shown}"; allowed: "x [um],h [um]" for a profile, and '
             "none for a table of heights",
@@ -234,13 +247,13 @@ def _numbers(lines: list[Line], source: str, width: int | None = None) -> FloatA
         raise InputError(f"more than {MOST_POINTS} heights; cut out a part of the scan", source=source)
     values = np.empty((len(lines), width))
     for row, line in zip(values, lines, strict=True):
-        if len(line.fields) != width:
+        fields = line.fields
+        if len(fields) != width:
             raise InputError(
-                f"line {line.number} has {len(line.fields)} fields where {width} are needed; "
-                "is the file cut off?",
+                f"line {line.number} has {len(fields)} fields where {width} are needed; is the file cut off?",
                 source=source,
             )
-        row[:] = [_number(word.strip(), line.number, source) for word in line.fields]
+        row[:] = [_number(word.strip(), line.number, source) for word in fields]
     return values
 
 
@@ -250,7 +263,7 @@ def _number(word: str, line: int, source: str) -> float:
     if _NUMBER.fullmatch(word) is None:
         hint = "; write a decimal point, not a comma" if _DECIMAL_COMMA.fullmatch(word) else ""
         raise InputError(
-            f'line {line}: given "{word[:30]}"; allowed: a number, or nothing or nan if it is missing{hint}',
+            f"line {line}: {as_given(word)}; allowed: a number, or nothing or nan if it is missing{hint}",
             source=source,
         )
     return float(word)

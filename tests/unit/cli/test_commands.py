@@ -50,6 +50,21 @@ def test_check_says_that_a_file_is_valid(tmp_path: Path, capsys: pytest.CaptureF
     assert json.loads(capsys.readouterr().out) == {"case": str(path), "valid": True}
 
 
+def test_check_puts_contact_laws_together(capsys: pytest.CaptureFixture[str]) -> None:
+    point = ["--set", "joint.contact=point-johnson", "--set", "contact.damping_factor=kelvin-voigt"]
+    assert main(["check", "vsv", *point]) == 2
+    assert "contact.damping_factor: kelvin-voigt is not for a point contact" in capsys.readouterr().err
+
+
+def test_check_takes_the_first_step_when_it_is_asked_to(capsys: pytest.CaptureFixture[str]) -> None:
+    heavy = ["check", "journal-oil", "--set", "loads.force_x=1e6 N", "--set", "run.start=equilibrium"]
+    assert main(heavy) == 0
+    assert main([*heavy, "--deep"]) == 2
+    assert "no equilibrium was found" in capsys.readouterr().err
+    assert main(["check", "vsv", "--deep"]) == 0
+    assert "first step taken" in capsys.readouterr().out
+
+
 def test_check_and_run_notice_a_solver_that_is_not_installed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

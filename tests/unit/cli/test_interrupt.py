@@ -2,26 +2,106 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 
 import pytest
 
-from tribodyn.cli.interrupt import Interruption, termination_as_interrupt
+from tribodyn.cli.interrupt import Interruption, end, last_words, on_leaving, signals_heard
+
+NUMBERS = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+IN_A_CALLBACK = """
+import os, signal, sys, time, weakref
+from tribodyn.cli import interrupt
+
+class Thing: pass
+
+def gone(reference):
+    # What a handler raises here is printed and lost.
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(0.1)
+
+with interrupt.signals_heard():
+    thing = Thing()
+    reference = weakref.ref(thing, gone)
+    del thing
+    print("went on")
+"""
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_the_first_signal_asks_and_the_second_aborts(number: signal.Signals) -> None:
+def send(number: int) -> None:
+    os.kill(os.getpid(), number)
+
+
+def status_of(number: int) -> object:
+    """Return the exit status with which a signal ends this process."""
+    with pytest.raises(SystemExit) as left:
+        send(number)
+    return left.value.code
+
+
+@NUMBERS
+def test_the_first_signal_asks_and_the_second_leaves(
+    number: signal.Signals, leaving: None, capfd: pytest.CaptureFixture[str]
+) -> None:
     before = signal.getsignal(number)
-    with Interruption() as stop:
+    with signals_heard(), Interruption("stopping") as stop:
         assert not stop()
-        os.kill(os.getpid(), number)
+        send(number)
         assert stop()
-        with pytest.raises(KeyboardInterrupt):
-            os.kill(os.getpid(), number)
+        assert "stopping" in capfd.readouterr().err
+        assert status_of(number) == 1
+    assert "aborted; nothing was saved" in capfd.readouterr().err
     assert signal.getsignal(number) is before
 
 
-def test_outside_a_simulation_termination_is_an_interrupt() -> None:
-    before = signal.getsignal(signal.SIGTERM)
-    with termination_as_interrupt(), pytest.raises(KeyboardInterrupt):
-        os.kill(os.getpid(), signal.SIGTERM)
-    assert signal.getsignal(signal.SIGTERM) is before
+@NUMBERS
+def test_where_nobody_has_asked_yet_there_is_nothing_to_save(number: signal.Signals, leaving: None) -> None:
+    with signals_heard(), Interruption() as stop:
+        assert status_of(number) == 1
+    assert not stop.requested
+
+
+def test_leaving_tidies_up_and_says_what_is_kept(leaving: None, capfd: pytest.CaptureFixture[str]) -> None:
+    done: list[str] = []
+
+    def fail() -> None:
+        raise OSError("no permission")
+
+    with signals_heard():
+        on_leaving(lambda: done.append("tidy"))
+        on_leaving(fail)
+        last_words("µ is kept")
+        assert status_of(signal.SIGTERM) == 1
+    assert done == ["tidy"]
+    assert capfd.readouterr().err == "\ntribodyn: µ is kept\n"
+
+
+def test_after_the_work_a_signal_changes_nothing(leaving: None, capfd: pytest.CaptureFixture[str]) -> None:
+    with signals_heard():
+        end(0)
+        assert status_of(signal.SIGINT) == 0
+    assert capfd.readouterr().err == ""
+
+
+def test_a_signal_in_a_callback_of_the_interpreter_is_not_lost() -> None:
+    done = subprocess.run([sys.executable, "-c", IN_A_CALLBACK], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", "\ntribodyn: aborted; nothing was saved\n")
+
+
+def test_python_shutting_down_does_not_turn_success_into_a_kill() -> None:
+    # An object that goes only when Python clears its modules, when it has put its own handlers back.
+    script = """
+import os, signal, sys
+from tribodyn.__main__ import main
+
+class Last:
+    def __del__(self, kill=os.kill, pid=os.getpid(), number=signal.SIGTERM):
+        kill(pid, number)
+
+sys.modules["last"] = Last()
+sys.argv[1:] = ["cases", "--quiet"]
+sys.exit(main())
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -126,6 +126,7 @@ def test_an_interrupted_run_is_saved(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     def interrupt(stop: Callable[[], bool]) -> str:
+        assert not stop()
         os.kill(os.getpid(), number)
         assert stop()
         return "interrupted"
@@ -136,22 +137,34 @@ def test_an_interrupted_run_is_saved(
     assert main(["run", "vsv"]) == 1
     assert "interrupted" in capsys.readouterr().err
     assert json.loads(Path("results-vsv/summary.json").read_text(encoding="utf-8"))["status"] == "failed"
-    # What the complete run had drawn would contradict the new result.
-    assert not Path("results-vsv/report.html").exists()
-    assert not list(Path("results-vsv/figures").iterdir())
+    # Drawn anew: what the complete run had drawn would contradict the new result.
+    made = Path("results-vsv/result.nc").stat().st_mtime_ns
+    for picture in (Path("results-vsv/report.html"), Path("results-vsv/figures/motion.png")):
+        assert picture.stat().st_mtime_ns >= made
 
 
-def test_a_second_interrupt_aborts_at_once(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("asked", [True, False])
+def test_a_second_interrupt_or_one_before_the_first_step_aborts_at_once(
+    asked: bool,
+    in_empty_directory: Path,
+    simulation: Callable[..., None],
+    capfd: pytest.CaptureFixture[str],
+    leaving: None,
 ) -> None:
     def interrupt(stop: Callable[[], bool]) -> str:
-        os.kill(os.getpid(), signal.SIGINT)
+        if asked:
+            stop()
+            os.kill(os.getpid(), signal.SIGINT)
+        # A file on its way goes too.
+        (in_empty_directory / "results-vsv" / ".result.nc.1.part").touch()
         os.kill(os.getpid(), signal.SIGINT)
         return "not reached"
 
     simulation(interrupt)
-    assert main(["run", "vsv"]) == 1
-    assert "aborted" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as left:
+        main(["run", "vsv"])
+    assert left.value.code == 1
+    assert "aborted; nothing was saved" in capfd.readouterr().err
     assert list(in_empty_directory.iterdir()) == []
 
 
@@ -206,7 +219,8 @@ def test_pictures_that_fail_do_not_lose_the_result(
 def test_an_interrupt_while_drawing_keeps_the_result(
     in_empty_directory: Path,
     simulation: Callable[..., None],
-    capsys: pytest.CaptureFixture[str],
+    capfd: pytest.CaptureFixture[str],
+    leaving: None,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def draw_all(dataset: xr.Dataset, directory: Path) -> None:
@@ -214,8 +228,10 @@ def test_an_interrupt_while_drawing_keeps_the_result(
 
     monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
     simulation()
-    assert main(["run", "vsv"]) == 1
-    assert "interrupted while drawing" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as left:
+        main(["run", "vsv"])
+    assert left.value.code == 1
+    assert "interrupted while drawing" in capfd.readouterr().err
     assert Path("results-vsv/result.nc").exists()
 
 

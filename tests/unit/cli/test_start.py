@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -34,6 +35,18 @@ def test_help_answers_in_under_half_a_second() -> None:
         subprocess.run(command, capture_output=True, check=True)
         times.append(time.perf_counter() - began)
     assert min(times) < 0.5
+
+
+def test_a_home_that_cannot_be_written_to_is_no_matter_to_drawing() -> None:
+    program = (
+        "from tribodyn.cli.main import main; main(['cases', '--quiet'])\n"
+        "import matplotlib; matplotlib.get_configdir()"
+    )
+    bare = {name: value for name, value in os.environ.items() if not name.startswith(("MPL", "XDG_"))}
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=bare | {"HOME": os.devnull}, capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])

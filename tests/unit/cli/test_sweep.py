@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ import tribodyn.report
 from tribodyn.cli.main import main
 
 SWEEP = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,25 um"]
+ON_TLS = ["--vary", "joint.clearance=20 um", "--scheduler", "tls://127.0.0.1:1"]
 
 
 @pytest.fixture(autouse=True)
@@ -118,7 +120,9 @@ def test_an_interrupt_keeps_what_is_done(
     assert main(SWEEP) == 1
     assert len(list(Path().glob("sweep-vsv/points/*/summary.json"))) == 1
     assert "1 of 2 points have no result" in capsys.readouterr().err
-    assert not Path("sweep-vsv/figures").exists()
+    assert Path("sweep-vsv/report.html").exists()
+    # Reports of points would take long.
+    assert not list(Path().glob("sweep-vsv/points/*/report.html"))
 
 
 def test_pictures_that_fail_do_not_lose_the_result(
@@ -145,6 +149,14 @@ def test_pictures_that_fail_do_not_lose_the_result(
         (["--vary", "joint.clearance=20 um", "--workers", "-1"], "--workers"),
         (["--vary", "joint.clearance=20 um", "--scheduler", "nonsense"], "--scheduler"),
         (["--vary", "joint.clearance=20 um", "-o", "/dev/null/x"], "--output"),
+        ([*ON_TLS, "--tls-ca", "ca.pem"], "--tls-cert"),
+        ([*ON_TLS, "--tls-cert", "cert.pem"], "--tls-ca"),
+        ([*ON_TLS, "--tls-ca", "ca.pem", "--tls-cert", "cert.pem"], "--tls-ca"),
+        ([*ON_TLS, "--tls-ca", __file__, "--tls-cert", __file__, "--tls-key", "key.pem"], "--tls-key"),
+        ([*ON_TLS, "--tls-ca", __file__, "--tls-cert", __file__], "--scheduler"),
+        ([*ON_TLS[:-1], "tcp://127.0.0.1:1", "--tls-ca", __file__, "--tls-cert", __file__], "tls://"),
+        ([*ON_TLS[:-2], "--tls-ca", __file__, "--tls-cert", __file__], "--scheduler"),
+        (ON_TLS, "certificates"),
     ],
 )
 def test_bad_input_names_the_key_and_leaves_nothing(
@@ -160,6 +172,27 @@ def test_bad_input_names_the_key_and_leaves_nothing(
     assert message.count("\n") == 1
     assert simulated == []
     assert list(in_empty_directory.iterdir()) == []
+
+
+def test_a_scheduler_without_dask_says_what_to_install(
+    simulated: list[Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert main(["sweep", "vsv", "--vary", "joint.clearance=20 um", "--scheduler", "tcp://127.0.0.1:1"]) == 2
+    assert "install tribodyn[cluster]" in capsys.readouterr().err
+
+
+def test_a_sweep_with_nothing_to_compute_starts_no_process(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*SWEEP, "-o", "out"]) == 0
+
+    def never(**_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("tribodyn.core.fork_server.start", never)
+    assert main([word for word in SWEEP if word not in {"--workers", "0"}] + ["-o", "out"]) == 0
+    assert "2 are there already" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("options", [[], ["--workers", "two"], ["--workers", "1", "--scheduler", "tcp://x"]])

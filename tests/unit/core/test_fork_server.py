@@ -13,12 +13,12 @@ def test_where_processes_cannot_be_forked_nothing_is_started(monkeypatch: pytest
 
     monkeypatch.setattr(fork_server, "METHOD", "spawn")
     monkeypatch.setattr("multiprocessing.forkserver.ensure_running", never)
-    fork_server.start("vsv", {})
+    fork_server.start(name="vsv")
     assert fork_server._CASE not in os.environ
 
 
 def test_the_case_is_taken_once_and_found_by_nobody_else(monkeypatch: pytest.MonkeyPatch) -> None:
     assert fork_server.take_case() is None
-    monkeypatch.setenv(fork_server._CASE, '["vsv", {"joint.clearance": "30 um"}]')
-    assert fork_server.take_case() == ("vsv", {"joint.clearance": "30 um"})
+    monkeypatch.setenv(fork_server._CASE, '{"name": "vsv"}')
+    assert fork_server.take_case() == {"name": "vsv"}
     assert fork_server.take_case() is None

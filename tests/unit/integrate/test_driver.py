@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -173,3 +174,22 @@ def test_progress_is_told_the_time_of_every_step():
     times = []
     run((0.5,), progress=times.append)
     np.testing.assert_allclose(times, [0.4, 0.5, 0.9, 1.0])
+
+
+@dataclass
+class OneLongStep(ExactSteps):
+    """Evaluate again and again for minutes before the first step."""
+
+    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics):
+        until = time.monotonic() + 300.0
+        while time.monotonic() < until:
+            rhs(t_start, y_start)
+        yield from super().steps(rhs, jac, t_start, y_start, t_end, rtol, atol, statistics)
+
+
+def test_stop_is_asked_in_the_middle_of_a_step_that_takes_long():
+    began = time.monotonic()
+    solution, _ = run((), [0.0], method=OneLongStep(), stop=lambda: True)
+    assert solution.failure == INTERRUPTED
+    assert (solution.t_end, solution.statistics.steps) == (0.0, 0)
+    assert time.monotonic() - began < 60.0

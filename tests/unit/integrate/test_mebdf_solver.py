@@ -161,7 +161,7 @@ def test_largest_order():
     assert low.success
     assert low.t.size > 5 * high.t.size
     for wrong in (1, 9):
-        with pytest.raises(ValueError, match="`max_order` must lie between 2 and 8"):
+        with pytest.raises(ValueError, match="whole number from 2 to 8"):
             solve(swing, (0.0, 10.0), [1.0, 0.0], max_order=wrong)
 
 
@@ -330,3 +330,30 @@ def test_many_equations():
     )
     np.testing.assert_allclose(solution.y[:, -1], np.exp(0.2 * rate) * np.sin(np.pi * x), atol=1e-6)
     assert solution.t.size < 100
+
+
+def test_an_interval_of_a_few_roundings():
+    solution = solve(lambda t, y: -y, (1.0, 1.0 + 1e-15), [1.0])
+    assert solution.success
+    assert solution.t[-1] == 1.0 + 1e-15
+
+
+@pytest.mark.parametrize("span", [(0.0, np.nan), (np.nan, 1.0), (np.inf, 1.0)])
+def test_times_that_are_no_numbers(span):
+    with pytest.raises(ValueError, match="`t0` must be finite and `t_bound` a number"):
+        MEBDF(swing, span[0], [1.0, 0.0], span[1])
+
+
+def test_an_order_between_two_orders():
+    with pytest.raises(ValueError, match="whole number from 2 to 8"):
+        MEBDF(swing, 0.0, [1.0, 0.0], 1.0, max_order=2.5)
+
+
+def test_a_start_too_small_for_a_relative_tolerance():
+    with pytest.raises(ValueError, match="`atol` must be positive for component 0"):
+        solve(lambda t, y: -y, (0.0, 1.0), [1e-310], atol=0.0)
+
+
+def test_a_start_just_large_enough_for_a_relative_tolerance():
+    solution = solve(lambda t, y: -y, (0.0, 1.0), [1e-290], rtol=1e-6, atol=0.0)
+    assert solution.y[0, -1] == pytest.approx(np.exp(-1.0) * 1e-290, rel=1e-5)

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.summary import summarise
+from tribodyn.mechanisms.results import summarise
 from tribodyn.results import build, prepare_directory, read, store, write_run
 from tribodyn.results.atomic import replacing, stage, write_text
 from tribodyn.results.store import summary_text

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.summary import summarise
+from tribodyn.mechanisms.results import summarise
 from tribodyn.mechanisms.vsv.headlines import HEADLINES
 from tribodyn.results import build
 

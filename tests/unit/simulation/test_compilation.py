@@ -1,13 +1,16 @@
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
 from collections.abc import Callable
-from typing import Any
+from pathlib import Path
 
 import numba as nb
 import pytest
 
 from tribodyn.cases import Case
+from tribodyn.core.errors import Stopped
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import compilation
 
@@ -58,9 +61,39 @@ def test_what_is_wrong_with_a_case_is_left_to_the_run() -> None:
 
 
 def test_ctrl_c_while_another_process_compiles_ends_this_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(command: list[str], **_: Any) -> subprocess.CompletedProcess[bytes]:
-        return subprocess.CompletedProcess(command, -2)
-
-    monkeypatch.setattr(subprocess, "run", interrupted)
+    monkeypatch.setattr(
+        compilation,
+        "_CHILD",
+        "import os, signal; signal.signal(2, signal.SIG_DFL); os.kill(os.getpid(), 2)",
+    )
     with pytest.raises(KeyboardInterrupt):
         compilation.compile_elsewhere(CASE)
+
+
+def test_the_other_process_ends_when_this_one_is_to_stop(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    note = tmp_path / "pid"
+    child = f"import os, time; open({os.fspath(note)!r}, 'w').write(str(os.getpid())); time.sleep(60)"
+    monkeypatch.setattr(compilation, "_CHILD", child)
+
+    def stop() -> bool:
+        return note.exists() and bool(note.read_text())
+
+    with pytest.raises(Stopped):
+        compilation.compile_elsewhere(CASE, stop)
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(note.read_text()), 0)
+
+
+def test_what_compiles_ends_with_whoever_asked_for_it() -> None:
+    child = "from tribodyn.simulation.compilation import from_parent; print(from_parent(), flush=True)"
+    command = [sys.executable, "-c", f"{child}; import time; time.sleep(60)"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdin.write(b'"case text"\n')
+        process.stdin.flush()
+        assert process.stdout.readline() == b"case text\n"
+        process.stdin.close()
+        assert process.wait(timeout=30) == 1

@@ -10,7 +10,7 @@ import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
-from tribodyn.results import read
+from tribodyn.mechanisms.results import read
 from tribodyn.studies import Arrival, Means, make_plan, run, sweep
 
 GRID = {"joint.friction_coefficient": "0.1,0.2", "joint.clearance": "20,25 um"}

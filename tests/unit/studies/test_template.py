@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -19,33 +20,33 @@ import json, os, sys
 
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.core import fork_server
-from tribodyn.studies import runners
 
 
-def found() -> dict[str, object]:
+def tell() -> None:
     from tribodyn.kernels.vsv.functions import rhs
 
     about = {"threads": os.environ["OMP_NUM_THREADS"], "loaded": len(rhs.signatures)}
-    return about | {"left": fork_server._CASE in os.environ}
+    print(json.dumps(about | {"left": fork_server._CASE in os.environ}))
 
 
 if __name__ == "__main__":
     before = dict(os.environ)
-    case, changes = json.loads(sys.argv[1])
-    fork_server.start(case, changes)
+    fork_server.start(**json.loads(sys.argv[1]))
     assert dict(os.environ) == before
-    with runners._local_client(1) as client:
-        print(json.dumps(client.submit(found).result()))
+    fork_server.process(tell).join()
+    assert dict(os.environ) == before
 """
 
 
 @pytest.mark.skipif(fork_server.METHOD != "forkserver", reason="workers begin from nothing here")
 @pytest.mark.parametrize(
-    ("case", "changes"), [(TOML, {}), ("vsv", {"solver.name": "mebdf", "joint.clearance": "31 um"})]
+    "given",
+    [{"toml": TOML}, {"name": "vsv", "changes": {"solver.name": "mebdf", "joint.clearance": "31 um"}}],
 )
-def test_a_worker_has_the_equations_from_its_birth(case: str, changes: dict[str, str]) -> None:
+def test_a_worker_has_the_equations_from_its_birth(given: dict[str, object], tmp_path: Path) -> None:
     # The template loads what is in the cache, and compiles nothing.
     simulate(load_case("vsv").replace({"run.duration": "20 ms"}))
-    asked = [sys.executable, "-c", ASKED, json.dumps([case, changes])]
+    (script := tmp_path / "asked.py").write_text(ASKED, encoding="utf-8")
+    asked = [sys.executable, str(script), json.dumps(given)]
     done = subprocess.run(asked, capture_output=True, text=True, check=True)
     assert json.loads(done.stdout) == {"threads": "1", "loaded": 1, "left": False}

@@ -42,7 +42,9 @@ from tribodyn.kernels.mebdf.state import (
     SAFETY_LOWER,
     T_END,
     TIGHT,
+    VAIN,
     WAIT,
+    WARY,
     WEIGHT,
     WORST,
     H,
@@ -50,8 +52,12 @@ from tribodyn.kernels.mebdf.state import (
     T,
 )
 
-SMALLEST_SCALE = 1.0e-150
+SMALLEST_SCALE = 1.0e-300
 """What stands for a tolerance of zero where the solution is zero too."""
+CAUTION = 1
+"""Steps that must prove their stages after Newton's iteration has failed."""
+MOST_CAUTION = 7
+"""Most of them when it fails again meanwhile."""
 FAILED_NEWTON = 0.25
 """What the step is multiplied by when Newton's iteration fails although the Jacobian is new."""
 
@@ -136,6 +142,8 @@ def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
         count[CARRIED] = 0
         count[PHASE] = STEP
     else:
+        count[WARY] = min(2 * count[WARY] + CAUTION, MOST_CAUTION)
+        count[VAIN] += 1
         reject(real, count, rows, FAILED_NEWTON, DELTA)
 
 

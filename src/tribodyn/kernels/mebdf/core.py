@@ -35,6 +35,7 @@ from tribodyn.kernels.mebdf.phases import (
     FAILED,
     ITERATE,
     NEED_JACOBIAN,
+    NO_PROGRESS,
     START_STAGE,
     STEP,
     STEP_ACCEPTED,
@@ -53,6 +54,7 @@ from tribodyn.kernels.mebdf.state import (
     HISTORY,
     JACOBIAN_AGE,
     K_LAST,
+    LAST,
     MATRIX_AGE,
     N_J,
     OLD_JACOBIAN,
@@ -69,8 +71,11 @@ from tribodyn.kernels.mebdf.state import (
     STEPS,
     T_END,
     T_EVAL,
+    T_MARK,
     T_OLD,
     UNSURE,
+    VAIN,
+    WARY,
     WORST,
     H,
     K,
@@ -80,6 +85,10 @@ from tribodyn.kernels.mebdf.state import (
 
 LEAST_STEP: Final = 10.0 * float(np.finfo(np.float64).eps)
 """Smallest step relative to the time."""
+MOST_VAIN: Final = 100
+"""Failures of Newton's iteration with a new Jacobian after which the progress is looked at."""
+LEAST_PROGRESS: Final = 1.0e-6
+"""Share of the remaining time that must have been covered meanwhile: else some 1e8 failures would follow."""
 ROUNDING: Final = 1.0e-10
 """Distance from the end, in steps, that is none."""
 
@@ -119,8 +128,12 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
     limit_step(real, count, rows)
     h = real[H]
-    if not abs(h) > LEAST_STEP * abs(real[T]):
+    # A whole integration that is as short as that is one step.
+    if not abs(h) > LEAST_STEP * abs(real[T]) and (count[LAST] == 0 or h == 0.0):
         count[REASON] = STEP_TOO_SMALL
+        return FAILED
+    if count[VAIN] >= MOST_VAIN and _stands_still(real, count):
+        count[REASON] = NO_PROGRESS
         return FAILED
     set_weights(real, rows)
     scaled = h * SCALARS[count[K], 0]
@@ -152,6 +165,15 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
 
 
 @inlined
+def _stands_still(real: FloatArray, count: NDArray[np.int64]) -> bool:
+    """Tell whether the last failures have brought next to no progress, and count anew."""
+    progress, left = abs(real[T] - real[T_MARK]), abs(real[T_END] - real[T])
+    count[VAIN] = 0
+    real[T_MARK] = real[T]
+    return progress < LEAST_PROGRESS * left
+
+
+@inlined
 def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
     """Make y_{n+1} the newest value."""
     push(rows, Y, count[K] + 3, HISTORY)
@@ -176,6 +198,7 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> Non
     count[RATE_AGE] += 1
     count[FRESH] = 0
     count[FAILURES] = 0
+    count[WARY] = max(count[WARY] - 1, 0)
     count[BAD] = -1
     count[WORST] = -1
     count[CARRIED] = 1

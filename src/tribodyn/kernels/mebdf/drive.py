@@ -25,6 +25,10 @@ from tribodyn.kernels.mebdf.state import H_LAST, HISTORY, JACOBIAN, K_LAST, T_EN
 ENDED: Final = 0
 PAUSED: Final = 1
 
+# When to pause.
+AFTER_STEP: Final = 1
+AFTER_EVALUATION: Final = 2
+
 # Entries of ``Marks.position``.
 NEXT_MARK: Final = 0
 N_OUTPUTS: Final = 1
@@ -86,23 +90,30 @@ def run(
     data: Any,
     memory: Any,
     marks: Marks,
-    most_steps: int,
+    pause: NDArray[np.int64],
 ) -> int:
-    """Integrate until the end or for ``most_steps``; return ENDED, PAUSED or FAILED."""
+    """Integrate until the end or until ``pause[0]``, zero for not at all; return ENDED, PAUSED or FAILED.
+
+    Another thread may ask for the pause. Called again, the loop goes on to the same bits, for all that it
+    needs stands in its arguments.
+    """
     real, count, rows, matrices = state
     jacobian = matrices[JACOBIAN]
     y, f, newest = rows[Y], rows[F], rows[HISTORY]
     times, position, reached = marks.times, marks.position, marks.reached
     middle, end, tolerance = marks.middle, marks.end, marks.tolerance[0]
-    steps = 0
     while True:
         request = resume(real, count, rows, matrices)
         if request == NEED_F:
             rhs(real[T_EVAL], y, data, memory, f)
+            if pause[0] == AFTER_EVALUATION:
+                return PAUSED
             continue
         if request == NEED_JACOBIAN:
             clear(jacobian)
             jac(real[T_EVAL], y, data, memory, f, jacobian)
+            if pause[0] == AFTER_EVALUATION:
+                return PAUSED
             continue
         if request == FAILED:
             return FAILED
@@ -129,8 +140,7 @@ def run(
                     position[N_PICTURES] += 1
                 position[NEXT_MARK] += 1
         accept(t, newest, data, memory)
-        steps += 1
         if t == real[T_END]:
             return ENDED
-        if steps >= most_steps:
+        if pause[0] != 0:
             return PAUSED

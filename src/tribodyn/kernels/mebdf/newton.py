@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.mebdf.acceptance import FALSE, SOLVED, judge
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
-from tribodyn.kernels.mebdf.control import newton_failed, norm, reject
+from tribodyn.kernels.mebdf.control import CAUTION, newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
 from tribodyn.kernels.mebdf.matrix import factorise, solve
 from tribodyn.kernels.mebdf.phases import ACCEPT, FAILED, ITERATE, JACOBIAN_NOT_FINITE, NEED_F, START_STAGE
@@ -55,6 +56,9 @@ from tribodyn.kernels.mebdf.state import (
     STAGE,
     STAGE_HISTORY,
     T_EVAL,
+    UNSOLVED,
+    UNSOLVED_BEFORE,
+    WARY,
     WEIGHT,
     Y_1,
     Y_2,
@@ -169,8 +173,14 @@ def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matric
     rate = real[RATE]
     left = size if rate >= 0.5 else size * rate / (1.0 - rate)
     if left <= real[KAPPA + stage]:
-        finish_stage(real, count, rows)
-        return 0
+        verdict = judge(real, count, rows, matrices, size)
+        if verdict == SOLVED:
+            finish_stage(real, count, rows)
+            return 0
+        if verdict == FALSE:
+            count[WARY] = max(count[WARY], CAUTION)
+            newton_failed(real, count, rows)
+            return 0
     if count[ITERATION] >= MAX_ITERATIONS[stage]:
         newton_failed(real, count, rows)
         return 0
@@ -180,11 +190,19 @@ def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matric
 
 @inlined
 def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> float:
-    """Add the Newton correction to Y and keep it in DELTA; return its norm."""
+    """Add the Newton correction to Y and keep it in DELTA; return its norm.
+
+    The norm of the residual it answers is noted.
+    """
     n = rows.shape[1]
     scaled, relaxation = real[SCALED], real[RELAXATION]
+    total = 0.0
     for i in range(n):
-        rows[RESIDUAL, i] = scaled * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
+        residual = scaled * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
+        rows[RESIDUAL, i] = residual
+        total += (residual * rows[WEIGHT, i]) ** 2
+    real[UNSOLVED_BEFORE] = real[UNSOLVED]
+    real[UNSOLVED] = math.sqrt(total / n)
     solve(count, rows, matrices)
     count[N_SOLVES] += 1
     squares = 0.0

@@ -12,6 +12,7 @@ FAILED: Final = 4
 STEP_TOO_SMALL: Final = 1
 NOT_FINITE: Final = 2
 JACOBIAN_NOT_FINITE: Final = 3
+NO_PROGRESS: Final = 4
 
 ERROR_TEST: Final = 1
 NEWTON: Final = 2

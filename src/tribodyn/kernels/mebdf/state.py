@@ -32,7 +32,13 @@ RELAXATION: Final = 13
 """What Newton corrections are multiplied by because the matrix belongs to another step."""
 T_BAD: Final = 14
 """Time at which the right-hand side was not finite last."""
-SETTINGS: Final = 15
+UNSOLVED: Final = 15
+"""Norm of the residual of the formula, in units of the tolerance, where f was known last."""
+UNSOLVED_BEFORE: Final = 16
+"""The same one iteration earlier."""
+T_MARK: Final = 17
+"""Time at which failures began to be counted."""
+SETTINGS: Final = 18
 """First of the entries that hold the settings of the controllers."""
 
 # Settings, in ``real[SETTINGS + ...]``; their values stand in ``DEFAULTS``.
@@ -66,12 +72,17 @@ EARLY: Final = SETTINGS + 17
 """Error, in units of the tolerance, above which the step is shortened before it fails."""
 TIGHT: Final = SETTINGS + 18
 """Share of the tolerances that the method uses: errors of steps add up."""
+DOUBTFUL: Final = SETTINGS + 19
+"""Residual of the formula, in units of the tolerance, above which a tiny correction proves nothing."""
+TINY: Final = SETTINGS + 20
+"""Correction, in units of the tolerance, that is tiny."""
 DEFAULTS: Final = (
     *(0.24, 0.42, 0.20),
     *(0.05, 40.0, 0.05),
     *(1.44, 1.54, 1.62, 1.05, 6.0),
     *(1.9, 0.28, 2.0, 1.9, 20.0, 3.0, 0.9),
     0.3,
+    *(10.0, 0.02),
 )
 N_REAL: Final = SETTINGS + len(DEFAULTS)
 
@@ -115,7 +126,11 @@ MATRIX_AGE: Final = 25
 """Steps since the matrix was factorised."""
 DIFFERENCED: Final = 26
 """Whether the Jacobian comes from differences: each costs as many evaluations as there are equations."""
-PIVOTS: Final = 27
+WARY: Final = 27
+"""Steps to come in which every stage must show by an evaluation that it solves its formula."""
+VAIN: Final = 28
+"""Failures of Newton's iteration with a new Jacobian since ``real[T_MARK]``."""
+PIVOTS: Final = 29
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -212,7 +227,7 @@ def new_state(
     """
     n = y.size
     real = np.zeros(N_REAL)
-    real[[T, T_OLD]] = t
+    real[[T, T_OLD, T_MARK]] = t
     real[T_END] = t_end
     real[DIRECTION] = 1.0 if t_end >= t else -1.0
     real[H] = first_step

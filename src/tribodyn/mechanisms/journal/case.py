@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal
 
-from tribodyn.cases.base import Case, Group, demand
+from tribodyn.cases.case import Case, Group, demand
+from tribodyn.cases.fields import choice, number, quantity, switch, text
 from tribodyn.cases.film import Film
 from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Tolerances
-from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, switch, text
+from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair

@@ -80,6 +80,10 @@ class JournalSystem:
         except InputError:
             return None
 
+    def check(self) -> None:
+        """Put the journal together, its joint, contact law and film with it."""
+        assert self.journal
+
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; a journal does not wear."""
         run = self.case.run
@@ -102,12 +106,14 @@ class JournalSystem:
     def gather(self, run: Run) -> Part:
         """Return what the mechanism knows about a run."""
         rows = run.rows(OBSERVED)
+        # Whoever wants to stop does not wait for what takes many evaluations of a fine film.
+        balance = None if run.solution.failure == INTERRUPTED else self.balance
         columns = self._columns(rows)
         residual = residual_fraction(columns, self.journal)
         grid_error = grid_force_error(self.journal.joint, rows)
         return Part(
             columns=columns,
-            fields=self._numbers(run, rows),
+            fields=self._numbers(run, rows, balance),
             attributes={**self._facts(), "energy_residual": residual, "grid_force_error": grid_error},
             warnings=warnings(
                 run.problem.memory.extremes,
@@ -140,11 +146,13 @@ class JournalSystem:
             facts["viscosity"] = case.film.viscosity
         return facts
 
-    def _numbers(self, run: Run, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
+    def _numbers(
+        self, run: Run, rows: dict[str, FloatArray], balance: Equilibrium | None
+    ) -> dict[str, FloatArray]:
         """Return what a run has one of, arrays of shape ()."""
-        extremes, balance = run.problem.memory.extremes, self.balance
+        extremes = run.problem.memory.extremes
         found = {
-            "settling_time": self._settling_time(run, rows),
+            "settling_time": self._settling_time(run, rows, balance),
             "contact_start": _contact_start(run, rows),
             "rebounds": float(extremes[ledger.REBOUNDS]),
             "contact_force_peak": float(extremes[ledger.PEAK_FORCE]),
@@ -160,11 +168,11 @@ class JournalSystem:
             found["friction_coefficient_end"] = self._friction_coefficient(rows)
         return {name: np.array(value) for name, value in found.items()}
 
-    def _settling_time(self, run: Run, rows: dict[str, FloatArray]) -> float:
+    def _settling_time(self, run: Run, rows: dict[str, FloatArray], balance: Equilibrium | None) -> float:
         """Return the time after which the centre stays near the static equilibrium; NaN if it never does."""
-        if self.balance is None or not run.solution.complete:
+        if balance is None or not run.solution.complete:
             return np.nan
-        off = np.hypot(rows["e_x"] - self.balance.attitude[0], rows["e_y"] - self.balance.attitude[1])
+        off = np.hypot(rows["e_x"] - balance.attitude[0], rows["e_y"] - balance.attitude[1])
         outside = np.flatnonzero(off > SETTLED * self.journal.joint.geometry.clearance)
         if not outside.size:
             return 0.0

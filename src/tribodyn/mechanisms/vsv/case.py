@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from tribodyn.cases.base import Case, Group, demand
+from tribodyn.cases.case import Case, Group, demand
+from tribodyn.cases.fields import choice, number, quantity, text
 from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Wear
-from tribodyn.cases.keys import ASSUMED, Value, choice, number, quantity, text
+from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair

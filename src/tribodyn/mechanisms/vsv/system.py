@@ -78,6 +78,10 @@ class VsvSystem:
         """Time of one drive cycle [s]."""
         return self.case.period
 
+    def check(self) -> None:
+        """Put the mechanism together, its joint and contact law with it."""
+        assert self.vsv
+
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
         return vsv_problem(

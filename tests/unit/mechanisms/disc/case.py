@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from tribodyn.cases.base import Case, Group
+from tribodyn.cases.case import Case, Group
 from tribodyn.cases.groups import Solver
 from tribodyn.cases.keys import ASSUMED, choice, quantity, text
 

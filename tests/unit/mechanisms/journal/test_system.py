@@ -11,8 +11,8 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.mechanisms.summary import summarise
-from tribodyn.results import VARIABLES, read, write_run
+from tribodyn.mechanisms.results import read, summarise
+from tribodyn.results import VARIABLES, write_run
 
 SHORT = {"run.duration": "0.4 ms", "run.output_interval": "2 us"}
 KE = {"contact.law": "ke"}

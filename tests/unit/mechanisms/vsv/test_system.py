@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.mechanisms.summary import summarise
+from tribodyn.mechanisms.results import summarise
 
 
 def test_a_valid_short_run_of_a_drive_that_would_go_out_of_reach_runs() -> None:

@@ -1,16 +1,38 @@
-"""Headline numbers of results of any mechanism."""
+"""Results of any mechanism: read and checked, and their headline numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 
 import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.base import Mechanism
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.results import summary
+from tribodyn.results import store, summary
 from tribodyn.results.headline import Headline
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """Read a result into memory, and check it.
+
+    Parameters
+    ----------
+    path
+        Folder of a run, or a NetCDF file.
+
+    Returns
+    -------
+    xarray.Dataset
+        As it was written: times stay numbers of seconds.
+
+    Raises
+    ------
+    InputError
+        If there is no result, it cannot be read, or it is not what its kind says.
+    """
+    return store.read(path, {kind: mechanism.variables for kind, mechanism in MECHANISMS.items()})
 
 
 def mechanism_of(dataset: xr.Dataset) -> Mechanism:

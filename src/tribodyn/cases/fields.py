@@ -1,0 +1,129 @@
+"""Declaring the keys of a case file: default, meaning, source, bounds.
+
+The helpers below make pydantic fields; :func:`tribodyn.cases.keys.keys_of` collects what they record.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeAlias
+
+from pydantic import Field
+
+from tribodyn.cases.units import to_si, unit_of
+
+Bound: TypeAlias = str | float | None
+
+_SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
+
+
+def quantity(
+    default: str | None,
+    description: str,
+    source: str,
+    *,
+    unit: str | None = None,
+    gt: Bound = None,
+    ge: Bound = None,
+    lt: Bound = None,
+    le: Bound = None,
+    example: str | None = None,
+) -> Any:
+    """Declare a key that carries a unit; default and bounds are written with it."""
+    shown = example or default or ""
+    unit = unit or unit_of(shown)
+    bounds = {"gt": gt, "ge": ge, "lt": lt, "le": le}
+    numbers = {k: to_si(b, unit) if isinstance(b, str) else b for k, b in bounds.items()}
+    return _field(
+        None if default is None else to_si(default, unit),
+        description,
+        source,
+        bounds,
+        numbers,
+        kind="quantity",
+        unit=unit,
+        example=shown,
+    )
+
+
+def number(
+    default: float | None,
+    description: str,
+    source: str,
+    *,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+    example: str = "",
+) -> Any:
+    """Declare a dimensionless key; its values are bare numbers."""
+    bounds: dict[str, Bound] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
+    return _field(default, description, source, bounds, bounds, kind="number", example=example)
+
+
+def count(default: int, description: str, source: str, *, ge: int, le: int) -> Any:
+    """Declare a key that takes a whole number."""
+    bounds: dict[str, Bound] = {"ge": ge, "le": le}
+    return _field(default, description, source, bounds, bounds, kind="count")
+
+
+def switch(default: bool, description: str, source: str) -> Any:
+    """Declare a key that is true or false."""
+    return _field(default, description, source, {}, {}, kind="switch")
+
+
+def choice(default: str | None, description: str, source: str, *, family: str = "", example: str = "") -> Any:
+    """Declare a key that takes a name.
+
+    Parameters
+    ----------
+    default, description, source
+        As for the other kinds.
+    family
+        Where the allowed names are listed, as ``module:ATTRIBUTE`` (a mapping); ``module:ATTRIBUTE+none``
+        also allows the name ``none``. It is imported only when a value is checked. Empty when the
+        annotation is a ``Literal``, which lists them itself.
+    """
+    return _field(default, description, source, {}, {}, kind="choice", family=family, example=example)
+
+
+def file(description: str, example: str) -> Any:
+    """Declare a key that names a file, relative to the case file; what it holds takes its place."""
+    return _field(None, description, "", {}, {}, kind="file", example=example)
+
+
+def text(default: str, description: str) -> Any:
+    """Declare a key that takes one line of free text."""
+    return Field(
+        default,
+        description=description,
+        max_length=200,
+        pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]*$",
+        json_schema_extra={"kind": "text", "source": ""},
+    )
+
+
+def _field(
+    default: object,
+    description: str,
+    source: str,
+    bounds: Mapping[str, Bound],
+    numbers: Mapping[str, Any],
+    *,
+    kind: str,
+    **extra: str,
+) -> Any:
+    limits = " and ".join(f"{_SIGNS[k]} {b}" for k, b in bounds.items() if b is not None)
+    return Field(
+        default,
+        description=description,
+        allow_inf_nan=False if kind in {"quantity", "number"} else None,
+        json_schema_extra={"kind": kind, "source": source, "limits": limits, **extra},
+        **{k: b for k, b in numbers.items() if b is not None},
+    )
+
+
+def tables(description: str) -> Any:
+    """Declare tables that a user names, each of the group that the annotation ``Mapping[str, ...]`` says."""
+    return Field(default_factory=dict, description=description)

@@ -1,0 +1,182 @@
+"""Where compiled kernels are kept: in a folder named by all that their machine code is made from.
+
+Numba compiles a function again when its own file has changed, but not when a function that it calls has. So
+after any change to any kernel, nothing that was compiled before is found: the folder has another name. What
+is found was made from these very sources, wherever a copy of them lies.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import os
+import platform
+import sys
+import tempfile
+import warnings
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+import llvmlite
+import numba as nb
+import numpy as np
+from llvmlite import binding
+from numba.core import caching, codegen
+
+from tribodyn.core.private_folder import NotPrivate, locked, mark_used, private_folder, prune
+
+_config: Final[Any] = nb.config  # made from the environment: its names are in no stub
+_PACKAGE: Final = Path(__file__).parents[1]
+_BELOW: Final = ("core/arrays.py", "core/tables.py")
+"""What kernels import from outside their package."""
+_SWITCHES: Final = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT")
+"""Settings of numba that change what it compiles."""
+_DIGITS: Final = 32
+
+
+def cached(dispatcher: Any) -> Any:
+    """Return a compiled function that keeps its machine code in :func:`folder`, if there is one."""
+    function = getattr(dispatcher, "py_func", None)  # None where NUMBA_DISABLE_JIT is set
+    if function is not None and os.path.isfile(inspect.getfile(function)) and folder() is not None:
+        dispatcher._cache = _KernelCache(function)
+    return dispatcher
+
+
+@cache
+def folder() -> Path | None:
+    """Return the folder of machine code made from the sources as they were when this process first asked.
+
+    It is in ``NUMBA_CACHE_DIR`` where that is set, else in the user's folder for caches, else in the one for
+    temporary files. None if the sources cannot be read or no place is safe: then nothing is kept.
+    """
+    with suppress(OSError):
+        name = fingerprint()
+        for parent in _places():
+            try:
+                return _opened(private_folder(parent) / name)
+            except NotPrivate as problem:
+                warnings.warn(f"Compiled code is not kept there: {problem}.", RuntimeWarning, stacklevel=2)
+            except OSError:
+                continue
+    return None
+
+
+def fingerprint() -> str:
+    """Return the hash of all that machine code is made from: sources, tools, settings and processor.
+
+    Raises
+    ------
+    OSError
+        If the sources cannot be read, as where the package is no folder.
+    """
+    digest = hashlib.sha256()
+    for path in sorted([*(_PACKAGE / "kernels").rglob("*.py"), *(_PACKAGE / name for name in _BELOW)]):
+        content = path.read_bytes()
+        digest.update(f"{path.relative_to(_PACKAGE).as_posix()} {len(content)} ".encode() + content)
+    digest.update(repr((*_tools(), *_processor())).encode())
+    return digest.hexdigest()[:_DIGITS]
+
+
+def _tools() -> tuple[object, ...]:
+    versions = (sys.implementation.cache_tag, nb.__version__, llvmlite.__version__, np.__version__)
+    return (*versions, *(getattr(_config, name, None) for name in _SWITCHES))
+
+
+@cache
+def _processor() -> tuple[str, ...]:
+    """Return the name and the abilities of the processor that numba compiles for."""
+    name = binding.get_host_cpu_name() if _config.CPU_NAME is None else _config.CPU_NAME
+    features = codegen.get_host_cpu_features() if _config.CPU_FEATURES is None else _config.CPU_FEATURES
+    return platform.machine(), name, features
+
+
+def _places() -> Iterator[Path]:
+    """Yield where the folder may be, the best place first."""
+    if _config.CACHE_DIR:
+        yield Path(_config.CACHE_DIR).absolute() / "tribodyn"
+    caches = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if not caches.is_absolute():
+        caches = Path(os.path.expanduser("~"), ".cache")
+    if caches.is_absolute():
+        yield caches / "tribodyn"
+    user = os.geteuid() if hasattr(os, "geteuid") else ""
+    yield Path(tempfile.gettempdir()) / f"tribodyn-{user}"
+
+
+def _opened(place: Path) -> Path:
+    """Return a folder for machine code; a new one takes the place of old ones."""
+    new = not place.exists()
+    mark_used(private_folder(place))
+    if new:
+        prune(place.parent, "[0-9a-f]" * _DIGITS)
+    return place
+
+
+@cache
+def _hash(path: str) -> str:
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+class _Locator(caching._CacheLocator):
+    """Tells numba where the machine code of a function is, and which function that is."""
+
+    def __init__(self, function: Any, path: str) -> None:
+        self._py_file = path  # numba's own messages ask for it
+        self._line = function.__code__.co_firstlineno
+
+    @classmethod
+    def from_function(cls, function: Any, path: str) -> _Locator:
+        return cls(function, path)
+
+    def get_cache_path(self) -> str:
+        return str(folder())
+
+    def ensure_cache_path(self) -> None:
+        """Make the folder again if another process, which had not seen it used for long, has removed it."""
+        private_folder(Path(self.get_cache_path()))
+
+    def get_source_stamp(self) -> str:
+        """Return the hash of the file: functions outside the package are no part of the folder's name."""
+        return _hash(self._py_file)
+
+    def get_disambiguator(self) -> str:
+        """Return what tells functions of one name apart, the same in every copy of the package."""
+        path = Path(self._py_file)
+        inside = path.is_relative_to(_PACKAGE)
+        place = path.relative_to(_PACKAGE).as_posix() if inside else str(path)
+        return f"{hashlib.sha256(place.encode()).hexdigest()[:12]}-{self._line}"
+
+
+class _Implementation(caching.CompileResultCacheImpl):
+    _locator_classes: list[type[object]] = [_Locator]  # noqa: RUF012 (numba says it is one of an instance)
+
+
+class _KernelCache(caching.FunctionCache):
+    """Numba's cache of a function that other processes may fill and remove at the same time."""
+
+    _impl_class = _Implementation
+
+    def load_overload(self, signature: Any, target: Any) -> Any:
+        """Return the compiled function; None where it is not there or damaged, as after a loss of power."""
+        try:
+            return super().load_overload(signature, target)
+        except Exception:
+            with suppress(OSError), locked(Path(self.cache_path)):
+                self.flush()
+            return None
+
+    def save_overload(self, signature: Any, compiled: Any) -> None:
+        """Keep a compiled function, unless sources have changed since this process read the first of them.
+
+        Index and code are two files: without the lock, two processes that compile a function for other
+        arguments could give the code of one the index of the other. A full disk costs the copy, no more.
+        """
+        place = Path(self.cache_path)
+        with suppress(OSError, NotPrivate):
+            self._impl.locator.ensure_cache_path()
+            with locked(place):
+                if fingerprint() == place.name:
+                    super().save_overload(signature, compiled)

@@ -1,0 +1,44 @@
+"""The attribute table: what a result says about itself beside its variables, and in which form.
+
+One line an attribute that this program reads again. What is not listed is a fact for readers: a text or a
+number. Names that end in ``_version`` hold texts.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEXT: Final = "text"
+SIZE: Final = "finite number above zero"
+NUMBER: Final = "finite number"
+GAPS: Final = "finite number, or none (NaN)"
+OUTCOME: Final = "number"
+"""A number that may be missing (NaN) or beyond all bounds (infinite)."""
+TEXTS: Final = "list of texts, as JSON"
+FACTS: Final = "table of numbers and texts, as JSON"
+
+SWEEP: Final = "sweep"
+"""The ``kind`` of a sweep; that of a run is the kind of its case."""
+
+ATTRIBUTES: Final[dict[str, str]] = {
+    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law"), TEXT),
+    **dict.fromkeys(("clearance", "joint_length", "cycle_period", "viscosity"), SIZE),
+    **dict.fromkeys(("roughness", "friction_coefficient", "load_x", "load_y", "speed"), NUMBER),
+    **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),
+    **dict.fromkeys(("contact_force_peak", "contact_force_peak_time"), OUTCOME),
+    **dict.fromkeys(("pressure_peak", "pressure_peak_time", "separation_least"), OUTCOME),
+    **dict.fromkeys(("collar_lift_off_time", "tensile_clip_time", "time_reached"), OUTCOME),
+    **dict.fromkeys(("worn_volume", "wear_life_cycles", "wear_cycles_reached"), OUTCOME),
+    **dict.fromkeys(("points_in_all", "points_failed", "samples", "sampling_seed"), NUMBER),
+    "sampling_method": TEXT,
+    "solver": FACTS,
+    "warnings": TEXTS,
+    "varied": TEXTS,
+}
+"""Attributes of a dataset by name."""
+
+VARIABLE_ATTRIBUTES: Final[dict[str, str]] = {
+    **dict.fromkeys(("units", "long_name", "comment", "group", "shown_unit"), TEXT),
+    "shown_scale": SIZE,
+}
+"""Attributes of a variable by name."""

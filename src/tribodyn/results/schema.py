@@ -1,0 +1,230 @@
+"""What a result must be like to be worked with: checked once, when it is read.
+
+The variable and attribute tables say it; what reads a result afterwards need not ask again.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core import toml
+from tribodyn.core.quoting import brief
+from tribodyn.results.attributes import (
+    ATTRIBUTES,
+    FACTS,
+    GAPS,
+    NUMBER,
+    OUTCOME,
+    SIZE,
+    SWEEP,
+    TEXT,
+    TEXTS,
+    VARIABLE_ATTRIBUTES,
+)
+from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, VARIABLES, Variable
+
+LARGEST: Final = 1e60
+"""Size of a number, at most: products and squares of numbers are numbers, too."""
+LONGEST: Final = 1_000_000
+"""Length of a text, at most."""
+MOST_VARIABLES: Final = 200
+"""Variables of a sweep, at most: each is drawn."""
+
+
+Kinds = Mapping[str, Mapping[str, Variable]]
+"""What results of each kind hold beside what all may hold."""
+
+
+def check(dataset: xr.Dataset, kinds: Kinds) -> None:
+    """Refuse what no run and no sweep writes.
+
+    Parameters
+    ----------
+    dataset
+        As it was read; values in memory.
+    kinds
+        What is known of each kind of result.
+
+    Raises
+    ------
+    ValueError
+        Names, dimensions, types or values are not those of a result; the message says which.
+    """
+    _check_attributes("the result", dataset.attrs, ATTRIBUTES)
+    for name, variable in dataset.variables.items():
+        _check_attributes(brief(name), variable.attrs, VARIABLE_ATTRIBUTES)
+    if dataset.attrs.get("kind") == SWEEP:
+        _check_sweep(dataset)
+    else:
+        known = {**VARIABLES, **_variables_of(dataset, kinds)}
+        _check_run(dataset, known)
+
+
+def is_summary(content: object) -> bool:
+    """Tell whether something read as JSON is the summary of a run: texts and finite numbers by name."""
+    return (
+        isinstance(content, dict)
+        and "status" in content
+        and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure", "warnings"))
+        and all(_of_form(value, TEXT) or _is_number(value, NUMBER) for value in content.values())
+    )
+
+
+def _check_attributes(owner: str, attributes: Mapping[Any, Any], table: Mapping[str, str]) -> None:
+    for name, value in attributes.items():
+        form = TEXT if str(name).endswith("_version") else table.get(str(name))
+        fits = _of_form(value, form) if form else _of_form(value, TEXT) or _of_form(value, OUTCOME)
+        if not fits:
+            raise ValueError(f"the attribute {brief(name)} of {owner} is not a {form or 'text or a number'}")
+
+
+def _of_form(value: object, form: str) -> bool:
+    """Tell whether an attribute has one of the forms of the attribute table."""
+    if form in (OUTCOME, NUMBER, SIZE):
+        return _is_number(value, form)
+    if not isinstance(value, str) or len(value) > LONGEST:
+        return False
+    return form == TEXT or value == "" or _is_json(value, form)
+
+
+def _is_number(value: object, form: str) -> bool:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+        return False
+    return _in_bounds(np.float64(value), form) and (form != SIZE or float(value) > 0.0)
+
+
+def _is_json(text: str, form: str) -> bool:
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        return False
+    if form == TEXTS:
+        return isinstance(found, list) and all(isinstance(entry, str) for entry in found)
+    return (
+        form == FACTS
+        and isinstance(found, dict)
+        and all(isinstance(value, str) or _is_number(value, OUTCOME) for value in found.values())
+    )
+
+
+def _in_bounds(values: Any, form: str) -> bool:
+    """Tell whether numbers are finite, as far as they must be, and none of the finite ones is too large."""
+    array = np.asarray(values)
+    good = np.isfinite(array)
+    allowed = good | np.isnan(array) if form == GAPS else good
+    whole = form == OUTCOME or bool(allowed.all())
+    return whole and float(np.abs(array[good]).max(initial=0.0)) <= LARGEST
+
+
+def _kind_of_case(dataset: xr.Dataset) -> str | None:
+    """Return the kind of the case that a result is of; nothing where its text does not say it."""
+    try:
+        kind = toml.parse(str(dataset.attrs.get("case", ""))).get("case")
+    except ValueError:
+        return None
+    return kind if isinstance(kind, str) else None
+
+
+def _variables_of(dataset: xr.Dataset, kinds: Kinds) -> Mapping[str, Variable]:
+    """Return what its kind of result may hold; refuse a kind that is unknown, or not that of its case."""
+    named = _kind_of_case(dataset)
+    kind = str(dataset.attrs.get("kind", ""))
+    if kind not in kinds:
+        raise ValueError(f"its kind is {brief(kind)}; known: {', '.join(kinds)}")
+    if named is not None and kind != named:
+        raise ValueError(f"its kind is {brief(kind)}, that of its case {brief(named)}")
+    return kinds[kind]
+
+
+def _check_run(dataset: xr.Dataset, known: Mapping[str, Variable]) -> None:
+    """Compare the variables of a run with what is known of them."""
+    if "time" not in dataset.variables:
+        raise ValueError("it lacks the variable time")
+    for name, variable in dataset.variables.items():
+        about = known.get(str(name))
+        if about is None:
+            raise ValueError(f"no result has a variable {brief(name)}")
+        if variable.dims != about.dims:
+            raise ValueError(f"{name} runs over {brief(variable.dims)}, not over {about.dims}")
+        if variable.attrs.get("units") != about.units:
+            raise ValueError(f"the unit of {name} is not {about.units}")
+        _check_values(str(name), variable, text=False, form=_form_of(str(name), about))
+    _check_coordinates(dataset)
+
+
+def _form_of(name: str, about: Variable) -> str:
+    """Return which numbers a variable may hold: only what a run has one of may be beyond all bounds."""
+    if name in COORDINATES or len(about.dims) > 1:
+        return NUMBER
+    return GAPS if about.dims else OUTCOME
+
+
+def _check_values(name: str, variable: xr.Variable, *, text: bool, form: str) -> None:
+    if text:
+        if not _texts(variable.values):
+            raise ValueError(f"{name} does not hold texts")
+        return
+    if variable.dtype.kind not in "fiu":
+        raise ValueError(f"{name} does not hold numbers")
+    if not _in_bounds(variable.values, form):
+        raise ValueError(f"{name} holds numbers that cannot be")
+
+
+def _texts(values: Any) -> bool:
+    return values.dtype.kind == "U" or (
+        values.dtype.kind == "O" and all(isinstance(value, str) for value in values.ravel())
+    )
+
+
+def _check_coordinates(dataset: xr.Dataset) -> None:
+    """Each dimension has its coordinate, and numbers along one grow."""
+    for dim in dataset.dims:
+        if dim not in dataset.variables:
+            raise ValueError(f"it lacks the coordinate {brief(dim)}")
+        values = dataset.variables[dim].values
+        if dim not in EVENTS and values.size < 2:
+            raise ValueError(f"it holds too few values of {dim}")
+        steps = np.diff(values)
+        if np.any(steps < 0.0) or (dim not in EVENTS and np.any(steps == 0.0)):
+            raise ValueError(f"{dim} does not grow")
+
+
+def _check_sweep(dataset: xr.Dataset) -> None:
+    """Compare a sweep with what the merging of its points makes."""
+    if len(dataset.variables) > MOST_VARIABLES:
+        raise ValueError(f"a sweep of more than {MOST_VARIABLES} variables")
+    lacking = [name for name in POINT_TEXTS if name not in dataset.data_vars]
+    if lacking:
+        raise ValueError(f"it lacks the variable {lacking[0]}")
+    dims = dataset["failure"].dims
+    if not dims or dataset["failure"].size == 0:
+        raise ValueError("it holds no points")
+    for name, values in dataset.data_vars.items():
+        if values.dims != dims:
+            raise ValueError(f"{brief(name)} runs over {brief(values.dims)}, not over {brief(dims)}")
+        if not str(name).isidentifier():
+            raise ValueError(f"{brief(name)} is no name of a number")
+        _check_values(brief(name), values.variable, text=name in POINT_TEXTS, form=GAPS)
+    _check_parameters(dataset)
+
+
+def _check_parameters(dataset: xr.Dataset) -> None:
+    """Check the values that the points of a sweep were computed with."""
+    for name, values in dataset.coords.items():
+        if values.ndim != 1:
+            raise ValueError(f"{brief(name)} does not run over one dimension")
+        if values.dtype.kind != "b":
+            text = values.dtype.kind not in "fiu"
+            _check_values(brief(name), values.variable, text=text, form=NUMBER)
+    named = json.loads(dataset.attrs.get("varied") or "[]")
+    lacking = [name for name in (*dataset.dims, *named) if name not in dataset.coords]
+    if lacking:
+        raise ValueError(f"it lacks the coordinate {brief(lacking[0])}")
+    for count in ("points_in_all", "points_failed"):
+        if not isinstance(dataset.attrs.get(count), int):
+            raise ValueError(f"its attribute {count} is not a whole number")

@@ -1,0 +1,58 @@
+"""What every runner is given, and what it gives back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+from tribodyn.studies.plan import Point
+from tribodyn.studies.work import Outcome
+
+Finished: TypeAlias = Iterator[tuple[Point, Outcome]]
+
+LISTEN: Final = 0.1
+"""Time between two looks at whether to stop [s]."""
+_SOON: Final = 5.0
+"""How long workers may get ready before a user is told why nothing happens [s]."""
+_PREPARING: Final = (
+    "preparing the workers; where the equations are not compiled yet this takes a minute or two"
+)
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is to be computed.
+
+    Attributes
+    ----------
+    points
+        One or more.
+    keep_result
+        Whether outcomes hold the whole result beside the headline numbers.
+    staging
+        Path beside which workers of this machine leave it instead; empty for none.
+    stop
+        Asked several times a second; when true, what is still to be done is called off.
+    note
+        Told what a user should know.
+    """
+
+    points: Sequence[Point]
+    keep_result: bool
+    staging: str
+    stop: Callable[[], bool]
+    note: Callable[[str], None]
+
+
+def stop_while_preparing(job: Job) -> Callable[[], bool]:
+    """Return what asks whether to stop, and says after a while why there are no points yet."""
+    began, news = time.monotonic(), [_PREPARING]
+
+    def stop() -> bool:
+        if news and time.monotonic() - began > _SOON:
+            job.note(news.pop())
+        return job.stop()
+
+    return stop

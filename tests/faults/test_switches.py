@@ -1,0 +1,276 @@
+"""A solver never says success where it has run away: random switches, kinks and wrong Jacobians.
+
+Their solutions are known in closed form.
+Every scalar law moves one coordinate z from 1 or so at a rate of 1 or so; the case scales it and time by
+powers of ten up to 10^±12 and mixes up to three of them by a rotation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from tribodyn.integrate import MEBDF
+
+Law = tuple[Callable[[float, float], float], Callable[[float, float], float], float, Callable[[float], float]]
+"""Rate f(t, z), its derivative ∂f/∂z, start z(0) and solution z(t)."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A problem for ``solve_ivp`` with its solution at the end and the largest of its norm on the way."""
+
+    name: str
+    fun: Callable[[float, Any], Any]
+    t_end: float
+    y0: Any
+    end: Any
+    size: float
+    rtol: float
+    atol: float
+    options: dict[str, Any]
+
+
+def _switch(rng: np.random.Generator) -> Law:
+    """z' = b − a sgn(z − c): slides along c where |b| < a, else crosses it."""
+    a, b, c, z0 = 10.0 ** rng.uniform(-1, 2), 10.0 ** rng.uniform(-1, 1), rng.choice([0.0, 0.3]), 1.0
+    b *= rng.choice([-1.0, 0.0])
+    reach = (z0 - c) / (a - b)
+    after = min(b + a, 0.0)
+
+    def solution(t: float) -> float:
+        return z0 + (b - a) * t if t < reach else c + after * (t - reach)
+
+    return lambda t, z: b - a * np.sign(z - c), lambda t, z: 0.0, z0, solution
+
+
+def _smooth_switch(rng: np.random.Generator) -> Law:
+    """z' = −a tanh((z − c)/w): sinh((z − c)/w) decays by exp(−a t/w)."""
+    a, w, c, z0 = 10.0 ** rng.uniform(-1, 3), 10.0 ** rng.uniform(-13, 0), rng.choice([0.0, 0.3]), 1.0
+
+    def solution(t: float) -> float:
+        u = (z0 - c) / w
+        log_sinh = (u + np.log1p(-np.exp(-2.0 * u)) - np.log(2.0)) - a * t / w
+        rest = log_sinh + np.log(2.0) if log_sinh > 30.0 else np.arcsinh(np.exp(log_sinh))
+        return c + w * float(rest)
+
+    def slope(t: float, z: float) -> float:
+        return -a / w / np.cosh(min(abs(z - c) / w, 300.0)) ** 2
+
+    return lambda t, z: -a * np.tanh((z - c) / w), slope, z0, solution
+
+
+def _clip(rng: np.random.Generator) -> Law:
+    """z' = −a clip((z − c)/w, −1, 1): a straight line, then an exponential."""
+    a, w, c, z0 = 10.0 ** rng.uniform(-1, 3), 10.0 ** rng.uniform(-13, -0.5), rng.choice([0.0, 0.3]), 1.0
+    reach = (z0 - c - w) / a
+
+    def solution(t: float) -> float:
+        return z0 - a * t if t < reach else c + w * float(np.exp(-a * (t - reach) / w))
+
+    def slope(t: float, z: float) -> float:
+        return -a / w if abs(z - c) < w else 0.0
+
+    return lambda t, z: -a * np.clip((z - c) / w, -1.0, 1.0), slope, z0, solution
+
+
+def _stop(rng: np.random.Generator) -> Law:
+    """z' = a − max(z − c, 0)/w: a straight line, then an exponential to c + a w."""
+    a, w, c = 10.0 ** rng.uniform(-1, 2), 10.0 ** rng.uniform(-13, 0), rng.choice([1.0, 0.3])
+    reach = c / a
+
+    def solution(t: float) -> float:
+        return a * t if t < reach else c - a * w * float(np.expm1(-(t - reach) / w))
+
+    return lambda t, z: a - max(z - c, 0.0) / w, lambda t, z: -1.0 / w if z > c else 0.0, 0.0, solution
+
+
+def _reversal(rng: np.random.Generator) -> Law:
+    """z' = a sgn(t − s): the rate jumps in time."""
+    a, s = 10.0 ** rng.uniform(-1, 2), rng.uniform(0.1, 0.9)
+    return lambda t, z: a * np.sign(t - s), lambda t, z: 0.0, 1.0, lambda t: 1.0 + a * (abs(t - s) - s)
+
+
+def _stick_slip(rng: np.random.Generator) -> Law:
+    """z' = A sin ωt − µ tanh(z/w), w so small that it is Coulomb's friction: sticks and slips."""
+    omega, force, w = rng.uniform(1, 12), 10.0 ** rng.uniform(-0.5, 1.5), 10.0 ** rng.uniform(-16, -12)
+    mu = force * rng.uniform(0.05, 1.1)
+
+    def solution(t_end: float) -> float:
+        return _slid(t_end, omega, force, mu)
+
+    def slope(t: float, z: float) -> float:
+        return -mu / w / np.cosh(min(abs(z) / w, 300.0)) ** 2
+
+    return lambda t, z: force * np.sin(omega * t) - mu * np.tanh(z / w), slope, 0.0, solution
+
+
+def _slid(t_end: float, omega: float, force: float, mu: float) -> float:
+    """Return the speed under Coulomb's friction: at rest until |A sin ωt| > µ, and again later."""
+    if mu >= force:
+        return 0.0
+    rise, t = np.arcsin(mu / force), 0.0
+    while True:
+        half = np.floor(omega * t / np.pi + 1e-12)
+        if force * abs(np.sin(omega * t)) <= mu * (1.0 + 1e-12):
+            half += omega * t > half * np.pi + rise * (1.0 + 1e-9)
+            t = (half * np.pi + rise) / omega
+        if t >= t_end:
+            return 0.0
+        direction = 1.0 if half % 2 == 0 else -1.0
+
+        def speed(s: Any, start: float = t, direction: float = direction) -> Any:
+            pushed = force / omega * (np.cos(omega * start) - np.cos(omega * s))
+            return pushed - direction * mu * (s - start)
+
+        later = t + np.arange(6, 4000) * (0.01 / omega)
+        rests = np.flatnonzero(direction * speed(later) <= 0.0)
+        if not rests.size or later[rests[0]] - 0.01 / omega >= t_end:
+            return float(speed(t_end))
+        t = brentq(speed, later[rests[0]] - 0.01 / omega, later[rests[0]], xtol=1e-15)
+        if t >= t_end:
+            return float(speed(t_end))
+
+
+def _tracking(rng: np.random.Generator) -> Law:
+    """z' = λ(z − cos ωt) − ω sin ωt: stiff and linear."""
+    rate, omega, z0 = -(10.0 ** rng.uniform(-1, 4)), rng.uniform(0.5, 6), rng.choice([1.0, 2.0])
+
+    def solution(t: float) -> float:
+        return float(np.cos(omega * t) + (z0 - 1.0) * np.exp(rate * t))
+
+    return (
+        lambda t, z: rate * (z - np.cos(omega * t)) - omega * np.sin(omega * t),
+        lambda t, z: rate,
+        z0,
+        solution,
+    )
+
+
+def _logistic(rng: np.random.Generator) -> Law:
+    """z' = a z(1 − z): nonlinear and smooth."""
+    a, z0 = 10.0 ** rng.uniform(0, 2), 10.0 ** rng.uniform(-2, 0.3)
+
+    def solution(t: float) -> float:
+        return 1.0 / (1.0 + (1.0 / z0 - 1.0) * float(np.exp(-a * t)))
+
+    return lambda t, z: a * z * (1.0 - z), lambda t, z: a * (1.0 - 2.0 * z), z0, solution
+
+
+SWITCHES = (_switch, _smooth_switch, _smooth_switch, _clip, _stop, _reversal, _stick_slip)
+SMOOTH = (_tracking, _logistic)
+SCALES = (("right", 1.0), ("sign", -1.0), ("zero", 0.0), ("large", 1e6), ("small", 1e-6))
+
+
+def random_case(seed: int) -> Case:
+    """Return a case; the same seed gives the same case."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.choice([1, 1, 2, 3]))
+    makers = [SWITCHES[rng.integers(len(SWITCHES))] for _ in range(n)]
+    wrong = rng.random() < 0.6
+    if wrong:
+        makers = [(SMOOTH if rng.random() < 0.6 else SWITCHES)[rng.integers(2)] for _ in range(n)]
+    laws = [make(rng) for make in makers]
+    turn = np.linalg.qr(rng.normal(size=(n, n)))[0] if n > 1 else np.ones((1, 1))
+    length, time = 10.0 ** rng.uniform(-12, 12, 2)
+    rtol = 10.0 ** rng.uniform(-8, -2)
+
+    def fun(t: float, y: Any) -> Any:
+        z = turn.T @ y / length
+        return (
+            turn
+            @ np.array([law[0](t / time, z_i) for law, z_i in zip(laws, z, strict=True)])
+            * (length / time)
+        )
+
+    def jac(t: float, y: Any) -> Any:
+        z = turn.T @ y / length
+        slopes = [law[1](t / time, z_i) for law, z_i in zip(laws, z, strict=True)]
+        return turn @ np.diag(slopes) @ turn.T / time
+
+    y0 = turn @ np.array([law[2] for law in laws]) * length
+    options, kind = _jacobian(rng, jac, y0) if wrong or rng.random() < 0.3 else ({}, "differences")
+    path = [np.linalg.norm([law[3](t) for law in laws]) for t in np.linspace(0.0, 1.0, 33)]
+    return Case(
+        name=f"{'+'.join(make.__name__[1:] for make in makers)}, Jacobian {kind}",
+        fun=fun, t_end=time, y0=y0, end=turn @ np.array([law[3](1.0) for law in laws]) * length,
+        size=float(max(path)) * length, rtol=rtol, atol=rtol * length * 10.0 ** rng.uniform(-4, 0),
+        options=options,
+    )  # fmt: skip
+
+
+def _jacobian(rng: np.random.Generator, jac: Callable[..., Any], y0: Any) -> tuple[dict[str, Any], str]:
+    """Return a Jacobian as given to the solver: right, wrong by a factor, or that of the start for ever."""
+    if rng.random() < 0.2:
+        return {"jac": jac(0.0, y0)}, "stale"
+    kind, factor = SCALES[rng.integers(len(SCALES))]
+    return {"jac": lambda t, y: factor * jac(t, y)}, kind
+
+
+class TooManyError(Exception):
+    """More evaluations than a case is worth."""
+
+
+def error_of(case: Case, most: int) -> float | None:
+    """Return the error at the end in units of the tolerance; ``None`` where no success was claimed."""
+    calls = 0
+
+    def fun(t, y):
+        nonlocal calls
+        calls += 1
+        if calls > most:
+            raise TooManyError
+        return case.fun(t, y)
+
+    try:
+        solution = solve_ivp(
+            fun, (0.0, case.t_end), case.y0, method=MEBDF, rtol=case.rtol, atol=case.atol, **case.options
+        )
+    except TooManyError:
+        return None
+    if not solution.success:
+        return None
+    return float(np.linalg.norm(solution.y[:, -1] - case.end) / (case.atol + case.rtol * case.size))
+
+
+def assert_honest(seeds: range, most: int, ended: float) -> None:
+    found = [(error_of(case := random_case(seed), most), seed, case.name) for seed in seeds]
+    claimed = [row for row in found if row[0] is not None]
+    assert [row for row in claimed if not row[0] <= 100.0] == []
+    assert len(claimed) > ended * len(seeds)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_no_success_far_from_the_solution():
+    assert_honest(range(40), 600, 0.3)
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_ten_thousand_switches_and_wrong_jacobians():
+    assert_honest(range(10_000), 3000, 0.3)
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-6])
+def test_a_jump_without_a_solution_is_a_failure_with_its_reason(rtol):
+    solution = solve_ivp(lambda t, y: -10.0 * np.sign(y), (0.0, 1.0), [1.0], method=MEBDF, rtol=rtol)
+    assert not solution.success
+    assert "jump" in solution.message
+    assert solution.t[-1] == pytest.approx(0.1, abs=1e-5)
+    assert solution.nfev < 3000
+
+
+@pytest.mark.parametrize("width", [1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize("rate", [10.0, 1000.0])
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-6])
+def test_a_smooth_switch_holds_however_narrow(rtol, rate, width):
+    solution = solve_ivp(lambda t, y: -rate * np.tanh(y / width), (0.0, 1.0), [1.0], method=MEBDF, rtol=rtol)
+    assert solution.success
+    assert abs(solution.y[0, -1]) < 1e-6
+    assert solution.nfev < 2000

@@ -1,0 +1,116 @@
+"""The command under watch: run again and again in one process, with its memory and time measured.
+
+A program that is started for each of thousands of files would mostly import. Run as a script this module
+reads command lines as JSON, one a line, and answers each with what came of it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import json
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from tribodyn.cli.main import main
+
+MEGABYTES, SECONDS = 500, 10
+"""What one command may take of memory, all of its process, and of a processor's time."""
+PATIENCE = 60
+"""Seconds by the clock after which a command counts as one that hangs."""
+_SPARE = 2
+"""So many times as much the system gives at all."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one command."""
+
+    status: int
+    said: str
+    seconds: float
+    megabytes: float
+
+
+class Watched:
+    """A process that runs commands."""
+
+    def __init__(self) -> None:
+        command = [sys.executable, __file__]
+        self._process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        )
+
+    def run(self, arguments: Sequence[str]) -> Outcome:
+        """Run a command; a process that did not survive it answers nothing, which is an error."""
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        print(json.dumps(list(arguments)), file=self._process.stdin, flush=True)
+        answer = self._process.stdout.readline()
+        assert answer, f"the process did not survive {arguments}"
+        return Outcome(**json.loads(answer))
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.communicate()
+
+
+@contextlib.contextmanager
+def watched() -> Iterator[Watched]:
+    """Have a process that runs commands while the block runs."""
+    process = Watched()
+    try:
+        yield process
+    finally:
+        process.close()
+
+
+def tolerable(outcome: Outcome) -> bool:
+    """Tell whether a command kept the limits and ended well, or in one line that blames its input."""
+    small = outcome.megabytes <= MEGABYTES and outcome.seconds <= SECONDS
+    one_line = outcome.said.count("\n") == 1 and outcome.said[:-1].isprintable()
+    return small and (outcome.status == 0 or (outcome.status == 2 and one_line and len(outcome.said) < 1500))
+
+
+def _attempt(arguments: Sequence[str]) -> Outcome:
+    Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
+    out, err = io.StringIO(), io.StringIO()
+    began = time.process_time()
+    signal.alarm(PATIENCE)
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            status = main(arguments)
+        except SystemExit as end:
+            status = int(end.code or 0)
+    signal.alarm(0)
+    seconds = time.process_time() - began
+    return Outcome(status, err.getvalue(), seconds, _from_status("VmHWM") / 1024**2)
+
+
+def _from_status(name: str) -> int:
+    """Return what the system says of this process [bytes]."""
+    found = re.search(rf"{name}:\s+(\d+) kB", Path("/proc/self/status").read_text(encoding="ascii"))
+    assert found is not None
+    return int(found[1]) * 1024
+
+
+def _serve() -> None:
+    # What every command would import; the first one is not to be blamed for it.
+    for name in ("figures", "report", "results.store", "simulation", "studies", "surfaces"):
+        importlib.import_module(f"tribodyn.{name}")
+    limit = _from_status("VmData") + _SPARE * MEGABYTES * 1024**2
+    resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
+    for line in sys.stdin:
+        print(json.dumps(asdict(_attempt(json.loads(line)))), flush=True)
+
+
+if __name__ == "__main__":
+    _serve()

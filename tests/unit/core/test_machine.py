@@ -1,0 +1,33 @@
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+from tribodyn.core import machine
+
+
+@pytest.mark.parametrize(
+    ("said", "allowed"),
+    [("max 100000", 8), ("nonsense", 8), ("1000 100000", 1), ("250000 100000", 3), ("900000 100000", 8)],
+)
+def test_a_container_may_use_less_than_the_machine_has(
+    said: str, allowed: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: range(8), raising=False)
+    monkeypatch.setattr("os.cpu_count", lambda: 8)
+    quota = tmp_path / "cpu.max"
+    monkeypatch.setattr(machine, "_QUOTA", quota)
+    assert machine.processors() == 8
+    quota.write_text(f"{said}\n", encoding="ascii")
+    assert machine.processors() == allowed
+
+
+def test_every_open_file_is_counted() -> None:
+    before = machine.free_handles()
+    with ExitStack() as stack:
+        for _ in range(5):
+            stack.enter_context(open(__file__, encoding="utf-8"))
+        assert machine.free_handles() == before - 5
+    assert machine.free_handles() == before
