@@ -111,6 +111,7 @@ def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: P
 
 def killed(process: subprocess.Popen[str], after: float) -> bool:
     """Kill a sweep after a while, as a power cut would, and wait for its workers; False if it was over."""
+    print(f"to be killed {after:.4f} s after its start")  # which pytest shows where a test fails
     try:
         process.communicate(timeout=after)
     except subprocess.TimeoutExpired:

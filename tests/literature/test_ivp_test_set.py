@@ -63,9 +63,9 @@ def test_digits_are_within_a_decade_of_the_tolerance(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_digits_grow_with_the_tolerance(name):
-    # At one point in time an error may pass through zero: single runs have up to two digits too many, as those
-    # of CVODE and of SciPy's solvers have (docs/theory/mebdf.md). Over two decades the mean over a decade
-    # gains 1.01 ± 0.06 at the least (ROBER), over one 0.34 ± 0.05 (the same).
+    # At one point in time an error may pass through zero: single runs have up to two digits too many, as
+    # those of CVODE and of SciPy's solvers have (docs/theory/mebdf.md). Over two decades the mean over a
+    # decade gains 1.01 ± 0.06 at the least (ROBER), over one 0.34 ± 0.05 (the same).
     means = np.mean(digits(name), axis=1)[far_from_rounding(name)]
     assert np.all(means[1:] > means[:-1]), means
     assert np.all(means[2:] > means[:-2] + 0.7), means
