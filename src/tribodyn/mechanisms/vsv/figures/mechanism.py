@@ -9,9 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import (
     BLUE,
@@ -30,41 +28,11 @@ from tribodyn.figures.style import (
     sheet,
 )
 from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.mechanisms.vsv.places import MM, case_of, crank_pivot, crank_tip, ring_points
 from tribodyn.views.series import finite, series
 
 TITLE: Final = "The mechanism at three vane positions"
-MM: Final = 1e3
 _LOOKS: Final[tuple[tuple[str, LineStyle], ...]] = ((BLUE, DASHED), (INK, SOLID), (VERMILION, DOTTED))
-
-
-def case_of(dataset: xr.Dataset) -> VsvCase | None:
-    """Return the case of a result; nothing where its text is not (or no longer) one of this mechanism."""
-    try:
-        case = parse(str(dataset.attrs.get("case", "")), "case of the result", {VsvCase.kind(): VsvCase})
-    except InputError:
-        return None
-    return case if isinstance(case, VsvCase) else None
-
-
-def crank_pivot(case: VsvCase) -> FloatArray:
-    """Return the crank pivot A [mm], shape (3,)."""
-    m = case.mechanism
-    reach, gamma = m.pivot_distance, m.pivot_angle
-    return MM * np.array([reach * np.cos(gamma), m.lever_length, reach * np.sin(gamma)])
-
-
-def crank_tip(case: VsvCase, theta_a: FloatArray) -> FloatArray:
-    """Return S1 = A + l_1 (−sin θ_a, 0, cos θ_a) [mm], shape (n, 3)."""
-    arm = np.stack([-np.sin(theta_a), np.zeros_like(theta_a), np.cos(theta_a)], axis=1)
-    return crank_pivot(case) + MM * case.mechanism.crank_length * arm
-
-
-def ring_points(case: VsvCase, theta_b: float, h_1: float, angles: FloatArray) -> FloatArray:
-    """Return points of the ring at angles from its pin [rad], in mm, shape (n, 3)."""
-    m = case.mechanism
-    beta = angles - theta_b
-    height = np.full_like(beta, m.lever_length + h_1)
-    return MM * np.stack([m.ring_radius * np.sin(beta), height, m.ring_radius * np.cos(beta)], axis=1)
 
 
 def draw(dataset: xr.Dataset) -> Figure:
