@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.peers import paired, peers, setting
 from benchmarks.vsv_case import NATIVE, RTOL, accurate, errors, one, reference
-from tribodyn.mechanisms.vsv.ledger import ledger_columns, residual_fractions
+from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
 
 SOLVERS = (NATIVE, "cvode", "bdf", "radau", "lsoda")
 LADDER = ((1e-3, 1.0), (1e-4, 1.0), (1e-4, 0.1), (1e-5, 0.1), (1e-5, 0.01))
@@ -60,7 +60,8 @@ def _row(
 ) -> dict[str, Any]:
     """Return and print cost and errors of a run."""
     found = errors(done, exact)
-    ledgers = residual_fractions(ledger_columns(done["columns"]))
+    columns = ledger_columns(done["columns"])
+    ledgers = WHOLE.fraction(columns), CLEARANCE.fraction(columns)
     kept = {name: done[name] for name in ("steps", "rhs", "seconds")}
     shown = " ".join(f"{found[name]:8.1e}" for name in ("angle", "force", "angle 50-100 ms"))
     cost = f"{done['steps']:6d} {done['rhs']:6d} {done['seconds']:8.3f}"

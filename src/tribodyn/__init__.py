@@ -1,7 +1,7 @@
 """Tribo-dynamics of mechanisms with dry, rough, worn clearance joints.
 
 >>> import tribodyn as td
->>> case = td.load_case("vsv").replace({"joint.clearance": "30 um"})
+>>> case = td.load_case("mine.toml").replace({"joint.clearance": "30 um"})  # doctest: +SKIP
 >>> result = td.simulate(case)  # doctest: +SKIP
 
 Names are imported when first used, so that ``import tribodyn`` costs nothing.

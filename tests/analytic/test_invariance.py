@@ -12,7 +12,7 @@ import xarray as xr
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.results import write_run
+from tribodyn.mechanisms.results import write_run
 from tribodyn.simulation import simulate
 
 BRIEF = {"run.duration": "0.2 s", "run.output_interval": "5 ms"}

@@ -21,8 +21,8 @@ from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.figures.style import sheet
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.results import write_run
 from tribodyn.report.parallel import points_of
-from tribodyn.results import write_run
 from tribodyn.simulation import simulate
 
 SOURCE = Path(tribodyn.__file__).parent

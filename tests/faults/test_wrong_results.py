@@ -17,7 +17,8 @@ import xarray as xr
 from tests.faults.trial import Watched, tolerable, watched
 
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.results import netcdf_content, write_run
+from tribodyn.mechanisms.results import write_run
+from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 

@@ -65,7 +65,7 @@ def draw(chart: Chart, dataset: xr.Dataset) -> Figure:
         _draw_panel(axes, panel, time)
         if panel.marks is not None:
             _draw_marks(axes, panel.marks, scale)
-        if panel.smooth:
+        if panel.smooth and time.size:
             limit_to_smooth(axes, time / scale, _values(panel), turns / scale, panel.unit)
         mark_reversals(axes, turns, label=axes is every[-1] and not panel.smooth)
     every[-1].set_xlabel(f"time [{unit}]", size=style.TEXT)

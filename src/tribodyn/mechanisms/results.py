@@ -35,6 +35,11 @@ def read(path: str | Path) -> xr.Dataset:
     return store.read(path, {kind: mechanism.variables for kind, mechanism in MECHANISMS.items()})
 
 
+def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:
+    """Write a run with its headline numbers, see :func:`tribodyn.results.store.write_run`."""
+    return store.write_run(dataset, directory, summarise(dataset), stale)
+
+
 def mechanism_of(dataset: xr.Dataset) -> Mechanism:
     """Return the mechanism that a result is of.
 

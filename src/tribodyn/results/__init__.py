@@ -5,7 +5,7 @@ from __future__ import annotations
 from tribodyn.results.dataset import build, json_attribute
 from tribodyn.results.headline import Headline
 from tribodyn.results.netcdf import netcdf_content
-from tribodyn.results.store import prepare_directory, write_run
+from tribodyn.results.store import prepare_directory
 from tribodyn.results.variables import COORDINATES, VARIABLES, Variable
 
 __all__ = [
@@ -17,5 +17,4 @@ __all__ = [
     "json_attribute",
     "netcdf_content",
     "prepare_directory",
-    "write_run",
 ]

@@ -21,7 +21,8 @@ _SHORT: Final = 0.5
 
 def time_unit(dataset: xr.Dataset) -> tuple[str, float]:
     """Return the unit in which the times of a run read well, and the factor to it from seconds."""
-    return ("s", 1.0) if np.ptp(series(dataset, "time")) >= _SHORT else ("ms", 1e3)
+    time = series(dataset, "time")
+    return ("ms", 1e3) if time.size and np.ptp(time) < _SHORT else ("s", 1.0)
 
 
 def playback_times(dataset: xr.Dataset) -> FloatArray:

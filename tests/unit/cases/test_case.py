@@ -210,14 +210,14 @@ def test_the_kind_of_a_case_cannot_be_replaced() -> None:
 
 
 def test_models_check_values_without_a_file() -> None:
-    from tribodyn.cases.groups import Joint
+    from tribodyn.cases.groups import PlainJoint
 
     with pytest.raises(ValidationError):
-        Joint(clearance=-1.0)
+        PlainJoint(clearance=-1.0)
     with pytest.raises(ValidationError):
-        Joint(slack=1.0)  # type: ignore[call-arg]
+        PlainJoint(slack=1.0)  # type: ignore[call-arg]
     with pytest.raises(InputError, match="a tenth of"):
-        Joint(clearance=1e-3)
+        PlainJoint(clearance=1e-3)
 
 
 def test_every_case_is_a_case() -> None:

@@ -43,7 +43,8 @@ def test_options_reach_the_law() -> None:
 
 def test_another_law_of_the_same_case_is_not_damped_without_a_restitution() -> None:
     case = changed(law="rsdc")
-    assert case.contact.law_of(case.surface_pair, "ke").damping_factor == "none"
+    other = case.contact.model_copy(update={"law": "ke"})
+    assert other.law_of(case.surface_pair).damping_factor == "none"
 
 
 def test_what_the_surfaces_cannot_have_is_found_before_a_run() -> None:

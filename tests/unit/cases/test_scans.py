@@ -10,6 +10,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases.scans import FOLLOWING
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import brief
 from tribodyn.mechanisms.catalogue import built_in, parse_case
 from tribodyn.surfaces import SelfAffine, Treatment, analyse, asperities, generate, write_text
 
@@ -138,4 +139,4 @@ def test_what_cannot_be_is_refused(lines: str, key: str, said: str, folder: Path
         td.load_case(folder / "mine.toml")
     assert caught.value.key == key
     assert said in str(caught.value)
-    assert str(caught.value).startswith(f"{folder / 'mine.toml'}: ")
+    assert str(caught.value).startswith(f"{brief(folder / 'mine.toml')}: ")

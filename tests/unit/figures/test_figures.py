@@ -13,7 +13,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from tribodyn.mechanisms.vsv.figures import FIGURES
+from tribodyn.mechanisms.vsv.figures import FIGURES as ALL
 from tribodyn.report import draw_all
 from tribodyn.results import build
 
@@ -35,6 +35,10 @@ RUNS = {
     "nan": _nan_tail,
     "all nan": lambda make: make(0.3) * np.nan,
 }
+
+
+FIGURES = {name: family for name, family in ALL.items() if name != "wear_history"}
+"""Those of every run; the other one is of campaigns."""
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +107,11 @@ def test_draw_all_writes_png_of_sensible_size_and_pdf(make_result, tmp_path):
 
 def test_what_a_result_does_not_hold_is_not_drawn_and_not_left_over(tmp_path):
     (tmp_path / "motion.png").write_bytes(b"of an earlier run")
-    result = build(coordinates={"time": [0.0, 1.0]}, columns={"e_x": [0.0, 1e-6], "e_y": [0.0, 1e-6]})
+    result = build(
+        coordinates={"time": [0.0, 1.0]},
+        columns={"e_x": [0.0, 1e-6], "e_y": [0.0, 1e-6]},
+        attributes={"kind": "vsv"},
+    )
     assert draw_all(result, tmp_path) == []
     assert list(tmp_path.iterdir()) == []
 

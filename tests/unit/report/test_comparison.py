@@ -3,8 +3,8 @@ from __future__ import annotations
 import pytest
 
 from tribodyn.cli.main import main
+from tribodyn.mechanisms.results import write_run
 from tribodyn.report import Run, write_comparison
-from tribodyn.results import write_run
 
 WIDE = 'case = "vsv"\n[joint]\nclearance = "40 um"\n'
 NARROW = 'case = "vsv"\n[joint]\nclearance = "20 um"\n'

@@ -157,7 +157,10 @@ def test_a_run_of_nothing_but_nan_has_a_page(make_result, tmp_path):
 
 
 def test_a_result_with_next_to_nothing(tmp_path):
-    path = write(build(coordinates={"time": []}, columns={}), tmp_path / "new" / "some.html")
+    path = write(
+        build(coordinates={"time": []}, columns={}, attributes={"kind": "vsv"}),
+        tmp_path / "new" / "some.html",
+    )
     assert path.name == "some.html"
     assert "Nothing was computed" in _page(path).words
 

@@ -33,7 +33,7 @@ def test_axes_hold_parameters_in_their_units_and_numbers(sweep):
     assert axes["contact.law"].categories == ("ke", "rsdc")
     assert axes["contact.law"].texts == ("ke", "rsdc") * 3
     assert axes["contact_force_max_N"].texts[3] == "—"
-    assert at_first(list(axes.values()))[:2] == ["joint.clearance", "contact.law"]
+    assert at_first(list(axes.values()), ())[:2] == ["joint.clearance", "contact.law"]
 
 
 def test_the_page_links_the_reports_that_are_there(sweep, tmp_path):
@@ -51,7 +51,7 @@ def test_the_page_links_the_reports_that_are_there(sweep, tmp_path):
 
 def test_a_sweep_without_any_result_still_has_a_page(sweep, tmp_path):
     bare = sweep.drop_vars(["contact_force_max_N", "tilt_max_mrad"])
-    assert payload(axes_of(bare), points_of(bare, None)) is None
+    assert payload(axes_of(bare), points_of(bare, None), ()) is None
     text = write(bare, tmp_path).read_text(encoding="utf-8")
     assert "page-data" not in text
     assert "Table of all 6 points" in text

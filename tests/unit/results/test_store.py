@@ -9,8 +9,8 @@ import pytest
 import xarray as xr
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.results import summarise
-from tribodyn.results import build, prepare_directory, read, store, write_run
+from tribodyn.mechanisms.results import read, summarise, write_run
+from tribodyn.results import build, prepare_directory, store
 from tribodyn.results.atomic import replacing, stage, write_text
 from tribodyn.results.store import summary_text
 
@@ -43,7 +43,9 @@ def test_partial_runs_are_stored(make_result, tmp_path, end):
 
 def test_a_run_without_a_single_sample_is_stored(tmp_path):
     result = build(
-        coordinates={"time": []}, columns={"e_x": [], "F_cx": []}, attributes={"failure": "at once"}
+        coordinates={"time": []},
+        columns={"e_x": [], "F_cx": []},
+        attributes={"kind": "vsv", "failure": "at once"},
     )
     write_run(result, tmp_path)
     xr.testing.assert_identical(read(tmp_path), result)
@@ -51,7 +53,9 @@ def test_a_run_without_a_single_sample_is_stored(tmp_path):
 
 def test_a_long_case_text_is_stored(tmp_path):
     # HDF5 holds attributes of up to 64 kB in the usual way; a case with its comments may be longer.
-    result = build(coordinates={"time": [0.0]}, columns={}, attributes={"case": "# é\n" * 50_000})
+    result = build(
+        coordinates={"time": [0.0]}, columns={}, attributes={"kind": "vsv", "case": "# é\n" * 50_000}
+    )
     write_run(result, tmp_path)
     assert read(tmp_path).attrs == result.attrs
 
@@ -146,7 +150,10 @@ def test_nothing_ever_stands_beside_a_result_of_which_it_is_not(make_result, tmp
         there = old if read(folder).identical(old) else new
         xr.testing.assert_identical(read(folder), there)
         seen.append(there is new)
-        for name, text in (("summary.json", summary_text(there)), ("case.toml", there.attrs["case"])):
+        for name, text in (
+            ("summary.json", summary_text(summarise(there))),
+            ("case.toml", there.attrs["case"]),
+        ):
             assert not (folder / name).exists() or (folder / name).read_text() == text
         assert there is old or not report.exists()
     # Three removals, then three renames, the first of which brings the new result.

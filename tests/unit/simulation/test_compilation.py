@@ -3,7 +3,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numba as nb
@@ -27,7 +26,7 @@ def never_compiled(number: float) -> float:
     return number
 
 
-def asks_for_compilation(case: Case, *, stop: Callable[[], bool]) -> None:
+def asks_for_compilation(case: Case) -> None:
     never_compiled(1.0)
 
 
@@ -42,22 +41,21 @@ def test_loading_compiles_nothing() -> None:
 def test_equations_are_loaded_once_whatever_the_numbers() -> None:
     runs: list[Case] = []
 
-    def simulator(case: Case, *, stop: Callable[[], bool]) -> None:
-        assert stop()
+    def first_steps(case: Case) -> None:
         runs.append(case)
 
     for clearance in ("20 um", "30 um"):
-        assert compilation.loaded(CASE.replace({"joint.clearance": clearance}), simulator)
+        assert compilation.loaded(CASE.replace({"joint.clearance": clearance}), first_steps)
     assert len(runs) == 1
-    assert compilation.loaded(CASE.replace({"solver.name": "bdf"}), simulator)
+    assert compilation.loaded(CASE.replace({"solver.name": "bdf"}), first_steps)
     assert len(runs) == 2
 
 
 def test_what_is_wrong_with_a_case_is_left_to_the_run() -> None:
-    def simulator(case: Case, *, stop: Callable[[], bool]) -> None:
+    def first_steps(case: Case) -> None:
         raise ValueError("wrong")
 
-    assert compilation.loaded(CASE, simulator)
+    assert compilation.loaded(CASE, first_steps)
 
 
 def test_ctrl_c_while_another_process_compiles_ends_this_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,8 +11,8 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.mechanisms.results import read, summarise
-from tribodyn.results import VARIABLES, write_run
+from tribodyn.mechanisms.results import read, summarise, write_run
+from tribodyn.results import VARIABLES
 
 SHORT = {"run.duration": "0.4 ms", "run.output_interval": "2 us"}
 KE = {"contact.law": "ke"}
@@ -68,7 +68,7 @@ def test_headline_numbers(dry: xr.Dataset, undamped: xr.Dataset, oil: xr.Dataset
 
 
 def test_a_result_survives_the_disk(oil: xr.Dataset, tmp_path: Path) -> None:
-    write_run(oil, tmp_path, summarise(oil))
+    write_run(oil, tmp_path)
     again = read(tmp_path)
     assert summarise(again) == summarise(oil)
     assert td.load_case(tmp_path / "case.toml").to_toml() == oil.attrs["case"]
