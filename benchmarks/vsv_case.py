@@ -15,8 +15,8 @@ from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
 from tribodyn.integrate.schedule import make_schedule
-from tribodyn.kernels.vsv.data import MECHANISM, VsvData
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.data import Mechanism, VsvData
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv import Vsv, vsv_problem
 from tribodyn.simulation.times import output_times
 from tribodyn.simulation.vsv import mechanism
@@ -33,8 +33,8 @@ FAR, NEAR = 0.1, 0.05
 
 def constants(data: VsvData) -> SimpleNamespace:
     """Return the constants as ordinary numbers: attributes of a record take as long as some arithmetic."""
-    mechanism = dict(zip(MECHANISM.names or (), data.mechanism.item(), strict=True))
-    return SimpleNamespace(**mechanism, joint=data.joint)
+    mechanism = dict(zip(Mechanism.names or (), data.mechanism.item(), strict=True))
+    return SimpleNamespace(**mechanism, collar_radius=float(data.collar.radius), joint=data.joint)
 
 
 def vsv_case(cycles: float, **changes: Any) -> tuple[VsvCase, Vsv]:

@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Drive, Inertias, Lengths, Vsv, vsv_problem
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, math.radians(20.0), math.radians(55.0))

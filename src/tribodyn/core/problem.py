@@ -29,8 +29,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from tribodyn.core.arrays import FloatArray
 
 
@@ -47,8 +45,7 @@ class CompiledFunctions:
     enter
         ``enter(t, y, data, memory)`` begins a segment at ``t``.
     advance
-        ``advance(t_a, t_b, y_middle, y_b, data, memory)`` adds path integrals over
-        ``[t_a, t_b]``; ``y_middle`` is the solution at the middle of that interval. The values at
+        ``advance(t_a, t_b, y_b, data, memory)`` adds path integrals over ``[t_a, t_b]``. The values at
         ``t_a`` were left in ``memory`` by the previous ``advance`` or by ``enter``.
     accept
         ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step.
@@ -155,8 +152,3 @@ class Solution:
     def complete(self) -> bool:
         """Whether the end of the time span was reached."""
         return self.failure is None
-
-
-def empty_times() -> FloatArray:
-    """Return a time array with no entries."""
-    return np.empty(0, dtype=np.float64)

@@ -74,7 +74,7 @@ class _CompiledWalk(Walk):
         self._functions = tuple(getattr(self.problem.functions, name) for name in HANDED)
         if all(map(is_compiled, self._functions)):
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
-            self._loop = _compiled(run, self._functions, state, self.types, self._marks)
+            self._loop = _compiled(run, self.problem, state, self.types, self._marks)
             self._at_once = STEPS_BETWEEN_LOOKS
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
@@ -108,7 +108,6 @@ class _CompiledWalk(Walk):
     def _new_marks(self) -> Marks:
         from tribodyn.kernels.mebdf.drive import Marks
 
-        n = self.y.size
         pictures = self.pictures if self.pictures.ndim > 1 else self.pictures[:, None]
         return Marks(
             times=np.array(self.marks),
@@ -119,8 +118,7 @@ class _CompiledWalk(Walk):
             pictures=pictures,
             position=np.zeros(3, dtype=np.int64),
             reached=np.zeros(1),
-            middle=np.zeros(n),
-            end=np.zeros(n),
+            end=np.zeros(self.y.size),
         )
 
     def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
@@ -147,7 +145,7 @@ class _CompiledWalk(Walk):
         return reason(state, self.problem.state_names)
 
 
-def _compiled(run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any, Any], marks: Any) -> Any:
+def _compiled(run: Any, problem: Problem, state: Any, types: tuple[Any, Any], marks: Any) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
     With the functions of a problem as ordinary arguments the loop would be compiled for each of them
@@ -158,9 +156,7 @@ def _compiled(run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any
     from numba.core.types import FunctionType
 
     typeof: Callable[[Any], Any] = numba.typeof
-    arguments = argument_types(types, marks.pictures.ndim - 1)
-    for name, function in zip(HANDED, functions, strict=True):
-        function.compile(arguments[name])
+    arguments = argument_types(problem, types)
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
     return run.compile((*handed, typeof(state), *types, typeof(marks), int64))
 

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Compiled functions on plain arrays, numbers and records."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Mechanisms: what the user gives, made into initial value problems."""

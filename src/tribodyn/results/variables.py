@@ -1,6 +1,6 @@
 """The variable table: name, unit, meaning and dimensions of everything a result may hold.
 
-One line a variable, listed once. A mechanism that produces a new quantity adds its line here; the
+One line a variable, listed once: observed quantities in the tables of their mechanism, all others here. The
 builder, the NetCDF file and the documentation follow. All values are SI with angles in radians.
 Signs are those of the theory manual: moments about X and Z are right-handed, about Y left-handed in the
 joint; forces ``F_ab`` act on body ``b`` from body ``a``.
@@ -11,7 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-TIME: Final = ("time",)
+from tribodyn.core.quantities import TIME, Table
+from tribodyn.kernels.joints import quantities as joint
+from tribodyn.kernels.journal import quantities as journal
+from tribodyn.kernels.vsv import quantities as vsv
+
 SNAPSHOT: Final = ("snapshot",)
 JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
@@ -51,66 +55,22 @@ COORDINATES: Final[dict[str, Variable]] = {
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
 
-_ATTITUDE: Final[dict[str, Variable]] = {
-    "e_x": Variable("m", "offset of the trunnion centre along X"),
-    "e_y": Variable("m", "offset of the trunnion centre along Y"),
-    "phi_x": Variable("rad", "tilt of the trunnion about X (right-handed)"),
-    "phi_y": Variable("rad", "tilt of the trunnion about Y (left-handed)"),
-    "e_x_dot": Variable("m s-1", "velocity of the trunnion centre along X"),
-    "e_y_dot": Variable("m s-1", "velocity of the trunnion centre along Y"),
-    "phi_x_dot": Variable("rad s-1", "tilt rate of the trunnion about X"),
-    "phi_y_dot": Variable("rad s-1", "tilt rate of the trunnion about Y"),
-}
 
-_MOTION: Final[dict[str, Variable]] = {
-    "theta_a": Variable("rad", "crank angle"),
-    "theta_b": Variable("rad", "unison ring angle"),
-    "theta_v": Variable("rad", "vane angle"),
-    "theta_v_ideal": Variable("rad", "vane angle without clearance"),
-    "omega_a": Variable("rad s-1", "crank speed"),
-    "omega_v": Variable("rad s-1", "vane speed"),
-    "omega_v_ideal": Variable("rad s-1", "vane speed without clearance"),
-    "h_1": Variable("m", "axial travel of the unison ring"),
-}
+def _of(table: Table) -> dict[str, Variable]:
+    """Return the variables that hold the quantities of a table."""
+    return {entry.name: Variable(entry.unit, entry.meaning, entry.dimensions) for entry in table}
 
-_JOINT: Final[dict[str, Variable]] = {
-    "F_cx": Variable("N", "normal contact force on the trunnion along X"),
-    "F_cy": Variable("N", "normal contact force on the trunnion along Y"),
-    "F_kx": Variable("N", "rigid (asperity stiffness) part of the contact force along X"),
-    "F_ky": Variable("N", "rigid (asperity stiffness) part of the contact force along Y"),
+
+_OBSERVED: Final[dict[str, Variable]] = _of(
+    (*joint.STATES, *vsv.MOTION, *joint.REPORTED, *vsv.COLLAR, *journal.FILM, *vsv.REACTIONS, *vsv.AIR)
+)
+
+_DERIVED: Final[dict[str, Variable]] = {
     "F_dx": Variable("N", "damping part of the contact force along X"),
     "F_dy": Variable("N", "damping part of the contact force along Y"),
-    "F_fx": Variable("N", "friction force on the trunnion along X"),
-    "F_fy": Variable("N", "friction force on the trunnion along Y"),
-    "F_cz": Variable("N", "force of the thrust collar on the trunnion along Z"),
-    "M_jcx": Variable("N m", "moment of the contact pressure about X"),
-    "M_jcy": Variable("N m", "moment of the contact pressure about Y (left-handed)"),
-    "M_fx": Variable("N m", "moment of the bushing friction about X"),
-    "M_fy": Variable("N m", "moment of the bushing friction about Y (left-handed)"),
-    "M_tcx": Variable("N m", "moment of the thrust collar about X"),
-    "M_tcy": Variable("N m", "moment of the thrust collar about Y (left-handed)"),
-    "M_jf": Variable("N m", "friction moment of the bushing about Z"),
-    "M_tf": Variable("N m", "friction moment of the thrust collar about Z"),
-    "p_max": Variable("Pa", "peak contact pressure in the bushing, edges included"),
-    "separation_min": Variable("m", "smallest gap in the bushing, negative where mean surfaces overlap"),
-    "tensile_clip_share": Variable(
-        "1", "share of the contact force held back by the clip of tensile pressure"
-    ),
-    "M_kx": Variable("N m", "moment of the rigid part of the contact pressure about X"),
-    "M_ky": Variable("N m", "moment of the rigid part of the contact pressure about Y (left-handed)"),
-    "damping_power": Variable("W", "power of the damping pressure, turned into heat"),
-    "friction_power": Variable("W", "power of the bushing friction, turned into heat"),
-    "contact_fraction": Variable("1", "share of the bushing surface in contact"),
-}
-
-_FILM: Final[dict[str, Variable]] = {
-    "F_ox": Variable("N", "force of the oil film on the journal along X"),
-    "F_oy": Variable("N", "force of the oil film on the journal along Y"),
-    "M_ox": Variable("N m", "moment of the oil film about X"),
-    "M_oy": Variable("N m", "moment of the oil film about Y (left-handed)"),
-    "M_of": Variable("N m", "friction moment of the oil film about Z"),
     "energy_film": Variable("J", "heat of the oil film"),
 }
+"""What is worked out from observed quantities."""
 
 _JOURNAL: Final[dict[str, Variable]] = {
     "settling_time": Variable(
@@ -127,31 +87,6 @@ _JOURNAL: Final[dict[str, Variable]] = {
     "e_y_balance": Variable("m", "e_y of the static equilibrium", ()),
     "friction_coefficient_end": Variable("1", "friction moment over radius and load, at the end", ()),
     "residual_fraction": Variable("1", "largest energy residual over the largest energy", ()),
-}
-
-_REACTIONS: Final[dict[str, Variable]] = {
-    "F_ax": Variable("N", "force of the casing on the crank pivot along X"),
-    "F_ay": Variable("N", "force of the casing on the crank pivot along Y"),
-    "F_az": Variable("N", "force of the casing on the crank pivot along Z"),
-    "M_ax": Variable("N m", "moment of the casing on the crank pivot about X"),
-    "M_az": Variable("N m", "moment of the casing on the crank pivot about Z"),
-    "M_d": Variable("N m", "drive moment on the crank"),
-    "F_21x": Variable("N", "force of the drag link on the crank along X"),
-    "F_21y": Variable("N", "force of the drag link on the crank along Y"),
-    "F_21z": Variable("N", "force of the drag link on the crank along Z"),
-    "F_32x": Variable("N", "force of the unison ring on the drag link along X"),
-    "F_32y": Variable("N", "force of the unison ring on the drag link along Y"),
-    "F_32z": Variable("N", "force of the unison ring on the drag link along Z"),
-    "F_43x": Variable("N", "force of the lever arm on the unison ring along X"),
-    "F_43y": Variable("N", "force of the lever arm on the unison ring along Y"),
-    "F_43z": Variable("N", "force of the lever arm on the unison ring along Z"),
-    "F_bx": Variable("N", "force of the casing on the unison ring along X"),
-    "F_bz": Variable("N", "force of the casing on the unison ring along Z"),
-    "M_bx": Variable("N m", "moment of the casing on the unison ring about X"),
-    "M_bz": Variable("N m", "moment of the casing on the unison ring about Z"),
-    "F_airx": Variable("N", "aerodynamic force on the vane along X"),
-    "F_airy": Variable("N", "aerodynamic force on the vane along Y"),
-    "M_air": Variable("N m", "aerodynamic moment on the vane about Z"),
 }
 
 _ENERGY: Final[dict[str, Variable]] = {
@@ -202,12 +137,9 @@ _FIELDS: Final[dict[str, Variable]] = {
 
 VARIABLES: Final[dict[str, Variable]] = {
     **COORDINATES,
-    **_ATTITUDE,
-    **_MOTION,
-    **_JOINT,
-    **_FILM,
+    **_OBSERVED,
+    **_DERIVED,
     **_JOURNAL,
-    **_REACTIONS,
     **_ENERGY,
     **_FIELDS,
     **_CAMPAIGN,

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.vsv import books
+from tribodyn.core.quantities import Record
 
 History = dict[str, FloatArray]
 """Columns over the stops of a campaign, by their names in the result, each of shape (n_jumps,)."""
@@ -43,7 +43,7 @@ def appended(history: Mapping[str, FloatArray], entry: Mapping[str, float]) -> H
     return {name: np.append(history[name], entry[name]) for name in COLUMNS}
 
 
-def of_motion(t: FloatArray, rows: Mapping[str, FloatArray], extremes: FloatArray) -> dict[str, float]:
+def of_motion(t: FloatArray, rows: Mapping[str, FloatArray], peaks: Record) -> dict[str, float]:
     """Return the entries that describe the motion of one cycle.
 
     Parameters
@@ -52,12 +52,12 @@ def of_motion(t: FloatArray, rows: Mapping[str, FloatArray], extremes: FloatArra
         Output times [s], shape (n_t,).
     rows
         Observed columns by name, each of shape (n_t,).
-    extremes
-        Peaks over all accepted steps.
+    peaks
+        Of the joint over all accepted steps.
     """
     error = rows["theta_v"] - rows["theta_v_ideal"]
     return {
-        "wear_pressure_max": float(extremes[books.PEAK_PRESSURE]),
+        "wear_pressure_max": float(peaks.pressure_peak),
         "wear_pressure_mean": _mean(t, rows["p_max"]),
         "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
         "wear_angle_error_max": float(np.abs(error).max()),

@@ -13,9 +13,9 @@ from tribodyn.cases.journal import Journal as JournalCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.core.quantities import names
 from tribodyn.integrate import INTERRUPTED, integrate
-from tribodyn.kernels.journal import ledger
-from tribodyn.kernels.journal.observe import FILM, OBSERVED
+from tribodyn.kernels.journal.quantities import FILM, OBSERVED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
 from tribodyn.mechanisms.journal import Equilibrium, Journal, Loads, equilibrium, journal_problem
 from tribodyn.results import build
@@ -155,13 +155,13 @@ class _Run:
         if self.solution.failure in (None, INTERRUPTED):
             return self.solution.failure or ""
         memory, reason = self.problem.memory, str(self.solution.failure)
-        if memory.beyond[0] > 0.0:
+        if memory.course.beyond > 0.0:
             reason = (
                 f"stopped at t = {self.solution.t_end:.6g} s: the surfaces came closer than the contact law "
                 f"reaches ({self.journal.joint.table.h_first:g} sigma); load or impact is too much for it"
             )
-        elif memory.scratch.film_status[0] > 0.0:
-            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status[0]))}"
+        elif memory.scratch.film_status > 0.0:
+            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status))}"
         return f"{self.law}: {reason}"
 
     def columns(self) -> dict[str, FloatArray]:
@@ -169,7 +169,7 @@ class _Run:
         rows = self.rows
         kept = {name: values for name, values in rows.items() if not name.startswith(NOT_STORED)}
         if self.journal.film is None:
-            kept = {name: values for name, values in kept.items() if name not in FILM}
+            kept = {name: values for name, values in kept.items() if name not in names(FILM)}
         kept["F_dx"] = rows["F_cx"] - rows["F_kx"]
         kept["F_dy"] = rows["F_cy"] - rows["F_ky"]
         kept["friction_power"] = -rows["friction_power"]
@@ -177,21 +177,21 @@ class _Run:
 
     def numbers(self) -> dict[str, float]:
         """Return what a run has one of."""
-        extremes = self.problem.memory.extremes
+        joint, journal = self.problem.memory.joint.peaks, self.problem.memory.peaks
         found = {
             "settling_time": self._settling_time(),
             "contact_start": self._contact_start(),
-            "rebounds": float(extremes[ledger.REBOUNDS]),
-            "contact_force_peak": float(extremes[ledger.PEAK_FORCE]),
-            "contact_force_peak_time": float(extremes[ledger.PEAK_FORCE_TIME]),
-            "pressure_peak": float(extremes[ledger.PEAK_PRESSURE]),
-            "separation_least": float(extremes[ledger.LEAST_SEPARATION]),
+            "rebounds": float(journal.rebounds),
+            "contact_force_peak": float(joint.contact_force_peak),
+            "contact_force_peak_time": float(joint.contact_force_peak_time),
+            "pressure_peak": float(joint.pressure_peak),
+            "separation_least": float(joint.separation_least),
             "e_x_balance": np.nan if self.balance is None else float(self.balance.attitude[0]),
             "e_y_balance": np.nan if self.balance is None else float(self.balance.attitude[1]),
             "residual_fraction": residual_fraction(self.rows, self.journal),
         }
         if self.journal.film is not None:
-            found["film_force_peak"] = float(extremes[ledger.PEAK_FILM_FORCE])
+            found["film_force_peak"] = float(journal.film_force_peak)
         if self.journal.speed != 0.0:
             found["friction_coefficient_end"] = self._friction_coefficient()
         return found
@@ -279,7 +279,7 @@ def _warnings(run: _Run) -> list[str]:
     return [
         f"{run.law}: {text}"
         for text in warnings(
-            run.problem.memory.extremes,
+            run.problem.memory.joint.peaks,
             run.journal.joint,
             residual=residual_fraction(run.rows, run.journal),
             grid_error=grid_force_error(run.journal.joint, run.rows),

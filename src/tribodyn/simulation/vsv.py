@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import INTERRUPTED, integrate
 from tribodyn.kernels.vsv.functions import vane_direction
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv import AirLoads, Carried, Inertias, Vsv, ideal_vane_angle, vsv_problem
 from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.mechanisms.vsv.reach import at_limit
@@ -42,7 +42,7 @@ def simulate_vsv(
     """Simulate a ``vsv`` case, see :func:`tribodyn.simulation.simulate`."""
     vsv = mechanism(case)
     problem, solution = integrated(case, vsv, case.duration, progress=progress, stop=stop)
-    depth = archard(case).depth(problem.memory.sliding_load)
+    depth = archard(case).depth(problem.memory.joint.sliding_load)
     return Gathered(case, vsv, problem, solution, depth).dataset(linear_life(case, solution.t_end, depth))
 
 
@@ -228,7 +228,7 @@ class Gathered:
     ) -> dict[str, object]:
         whole, clearance = residual_fractions(ledger)
         grid_error = grid_force_error(self.vsv.joint, rows, self.problem.data.joint.wear)
-        found = peaks(self.problem.memory.books.extremes)
+        found = peaks(self.problem.memory)
         t_end = float(self.solution.t_end)
         told = warnings(self.vsv, found, whole, clearance, grid_error, t_end, self._cost())
         return {

@@ -12,8 +12,8 @@ import xarray as xr
 from tribodyn.cases.vsv import Vsv as VsvCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.kernels.bushing.joint import stored
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.joints.bushing import contact_energy
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv import Carried
 from tribodyn.simulation import checkpoint as checkpoints
 from tribodyn.simulation.campaign import Cycle, Plan, Worn, run_campaign
@@ -87,16 +87,17 @@ class _WearingVane:
         memory, solution = self.problem.memory, self.solution
         rows = {name: solution.rows[:, i] for i, name in enumerate(OBSERVED)}
         return Cycle(
-            carried=Carried(solution.y_end, memory.entry_velocity),
-            sliding_load=memory.sliding_load,
-            motion=of_motion(solution.t, rows, memory.books.extremes) if solution.complete else {},
+            carried=Carried(solution.y_end, memory.joint.entry_velocity),
+            sliding_load=memory.joint.sliding_load,
+            motion=of_motion(solution.t, rows, memory.joint.peaks) if solution.complete else {},
             statistics=solution.statistics,
             failure=solution.failure,
         )
 
     def contact_energy(self, wear: FloatArray, carried: Carried) -> float:
         """Return the energy stored in the contact [J]."""
-        return float(stored(self.vsv.joint.data(wear), carried.entry_velocity, carried.state))
+        data = self.vsv.joint.data(wear)
+        return contact_energy(data, carried.state, carried.entry_velocity)
 
 
 def _more(case: VsvCase, worn: Worn, told: list[str]) -> More:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from tribodyn.kernels.vsv import books
+from tribodyn.core.quantities import names
+from tribodyn.kernels.joints import collar, quantities
 from tribodyn.simulation import checks
-from tribodyn.simulation.checks import peaks
 
 PAGE = Path(__file__).parents[3] / "docs" / "guide" / "self_checks.md"
 LIMITS = {name: value for name, value in vars(checks).items() if name.endswith("_LIMIT")}
@@ -34,7 +33,7 @@ def test_the_attributes_of_the_table_are_those_of_a_run() -> None:
     cells = [line.split("|")[3] for line in lines if line.startswith("| ")][1:]
     named = set(re.findall(r"`(\w+)`", " ".join(cells)))
     stored = {
-        *peaks(np.zeros(books.N_EXTREMES)),
+        *names((*quantities.PEAKS, *collar.PEAKS)),
         "energy_residual",
         "clearance_energy_residual",
         "grid_force_error",

@@ -6,11 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import pytest
 
-from tribodyn.kernels.journal import ledger as journal_ledger
-from tribodyn.kernels.vsv import books
+from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.quantities import Peaks
 from tribodyn.mechanisms.vsv import Vsv
 from tribodyn.simulation import checks, journal_checks
 from tribodyn.simulation.checks import (
@@ -19,7 +18,6 @@ from tribodyn.simulation.checks import (
     GRID_LIMIT,
     REJECTED_LIMIT,
     RESTART_LIMIT,
-    peaks,
 )
 
 T_END = 2.0
@@ -54,20 +52,21 @@ def statistics(seen: dict[str, float]) -> dict[str, float]:
 
 
 def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    extremes = np.zeros(books.N_EXTREMES)
-    extremes[books.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
-    extremes[books.CLIPPED] = seen["clipped"] * T_END
-    extremes[books.LIFT_OFF] = seen["lift_off"]
+    found = {
+        "separation_least": seen["depth"] * vsv.joint.roughness,
+        "tensile_clip_time": seen["clipped"] * T_END,
+        "collar_lift_off_time": seen["lift_off"],
+    }
     residuals = seen["energy"], seen["clearance_energy"]
-    return checks.warnings(vsv, peaks(extremes), *residuals, seen["grid"], T_END, cost)
+    return checks.warnings(vsv, found, *residuals, seen["grid"], T_END, cost)
 
 
 def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    extremes = np.zeros(journal_ledger.N_EXTREMES)
-    extremes[journal_ledger.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
-    extremes[journal_ledger.CLIPPED] = seen["clipped"] * T_END
+    found = new_record(Peaks)
+    found.separation_least = seen["depth"] * vsv.joint.roughness
+    found.tensile_clip_time = seen["clipped"] * T_END
     numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
-    return journal_checks.warnings(extremes, vsv.joint, **numbers, statistics=cost)
+    return journal_checks.warnings(found, vsv.joint, **numbers, statistics=cost)
 
 
 @pytest.mark.parametrize("told", [of_vsv, of_journal])
