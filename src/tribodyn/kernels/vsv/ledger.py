@@ -98,20 +98,20 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     motion, collar, out = scratch.motion, scratch.collar, memory.joint.scratch.report
     fill_joint_forces(y, out, forces)
     for j in range(4):
-        turning, force = motion[THETA_V, 1 + j], forces[j].view(Forces)[0]
+        turning = motion[THETA_V, 1 + j]
+        loads, momentum = -scratch.wrench[4] * turning, 0.0
+        for row in range(N_BODY):
+            inertia = mechanism.inertia[row]
+            if row < E_X:
+                loads += (scratch.force[row] - inertia * motion[row, BIAS]) * motion[row, 1 + j]
+            momentum += inertia * clearance_velocity(motion, row, y) * motion[row, 1 + j]
+        force = forces[j].view(Forces)[0]
         force.work_clearance_friction += out.M_jf * turning
-        force.work_clearance_loads = -scratch.wrench[4] * turning
+        force.work_clearance_loads = loads
         force.work_clearance_collar = scratch.f_cz * collar[THETA_V] * turning
-        here[POSITION, j], here[SPEED, j], here[MOMENTUM, j] = y[j], y[4 + j], 0.0
+        here[POSITION, j], here[SPEED, j], here[MOMENTUM, j] = y[j], y[4 + j], momentum
     forces[2].view(Forces)[0].work_clearance_collar += scratch.f_cz * collar[PHI_X]
     forces[3].view(Forces)[0].work_clearance_collar += scratch.f_cz * collar[PHI_Y]
-    for row in range(N_BODY):
-        inertia = mechanism.inertia[row]
-        applied = scratch.force[row] - inertia * motion[row, BIAS] if row < E_X else 0.0
-        momentum = inertia * clearance_velocity(motion, row, y)
-        for j in range(4):
-            forces[j].view(Forces)[0].work_clearance_loads += applied * motion[row, 1 + j]
-            here[MOMENTUM, j] += momentum * motion[row, 1 + j]
 
 
 @kernel
