@@ -15,11 +15,11 @@ or :func:`add_part`.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
-
-import numpy as np
+from typing import Final
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import kernel
 
 NOW: Final = 0
@@ -34,11 +34,9 @@ NEAR: Final = 0.2
 """Marks closer than this part of the next interval do not tell how the integrands bend."""
 
 
-class Books(NamedTuple):
-    """What has been added up, and what is needed to go on.
+def new_books(n_powers: int, n_forces: int, n: int) -> Record:
+    """Return books of ``n`` coordinates that nothing has been added to, a record of these fields.
 
-    Attributes
-    ----------
     times
         Of the three marks [s], shape (3,).
     powers
@@ -51,34 +49,26 @@ class Books(NamedTuple):
         Path integrals [J], shape (n_powers + n_forces + 1,): of the powers, of the forces, and what inertia
         has taken in.
     """
-
-    times: FloatArray
-    powers: FloatArray
-    forces: FloatArray
-    motion: FloatArray
-    works: FloatArray
-
-
-def new_books(n_powers: int, n_forces: int, n: int) -> Books:
-    """Return books of ``n`` coordinates that nothing has been added to."""
-    return Books(
-        times=np.zeros(3),
-        powers=np.zeros((3, n_powers)),
-        forces=np.zeros((3, n, n_forces)),
-        motion=np.zeros((2, 3, n)),
-        works=np.zeros(n_powers + n_forces + 1),
+    return new_record(
+        record_type(
+            ("times", "f8", (3,)),
+            ("powers", "f8", (3, n_powers)),
+            ("forces", "f8", (3, n, n_forces)),
+            ("motion", "f8", (2, 3, n)),
+            ("works", "f8", (n_powers + n_forces + 1,)),
+        )
     )
 
 
 @kernel
-def begin(books: Books, t: float) -> None:
+def begin(books: Record, t: float) -> None:
     """Make the present entries, of the time ``t`` [s], the mark from which :func:`add_part` goes on."""
     _set_mark(books, t)
     books.times[EARLIER] = t
 
 
 @kernel
-def add_part(books: Books, t: float) -> None:
+def add_part(books: Record, t: float) -> None:
     """Add the works from the last mark to the present entries, of the time ``t`` [s], and set the mark there.
 
     Where the earlier mark is too near for its parabola to be trusted, as after a restart, the straight line
@@ -96,7 +86,7 @@ def add_part(books: Books, t: float) -> None:
 
 
 @kernel
-def is_at_mark(books: Books, t: float, y: FloatArray) -> bool:
+def is_at_mark(books: Record, t: float, y: FloatArray) -> bool:
     """Tell whether the last mark was set at the time ``t`` and the state ``y``, shape (2n,)."""
     motion, n = books.motion, books.motion.shape[2]
     same = books.times[LAST] == t
@@ -106,7 +96,7 @@ def is_at_mark(books: Books, t: float, y: FloatArray) -> bool:
 
 
 @kernel
-def _set_mark(books: Books, t: float) -> None:
+def _set_mark(books: Record, t: float) -> None:
     """Take over the present entries as those of the last mark."""
     _take_over(books, NOW, LAST)
     motion = books.motion
@@ -117,7 +107,7 @@ def _set_mark(books: Books, t: float) -> None:
 
 
 @kernel
-def _take_over(books: Books, source: int, target: int) -> None:
+def _take_over(books: Record, source: int, target: int) -> None:
     """Copy powers and forces of one mark to another."""
     powers, forces = books.powers, books.forces
     for k in range(powers.shape[1]):
@@ -134,7 +124,7 @@ def _bend(now: float, last: float, earlier: float, h: float, back: float, known:
 
 
 @kernel
-def _add_powers(books: Books, h: float, back: float, known: bool) -> None:
+def _add_powers(books: Record, h: float, back: float, known: bool) -> None:
     """Add ∫ P dt = h (P_a + P_b)/2 − h b/6 of the parabola with the bend b."""
     powers = books.powers
     for k in range(powers.shape[1]):
@@ -144,7 +134,7 @@ def _add_powers(books: Books, h: float, back: float, known: bool) -> None:
 
 
 @kernel
-def _add_forces(books: Books, h: float, back: float, known: bool) -> None:
+def _add_forces(books: Record, h: float, back: float, known: bool) -> None:
     """Add ∫ F dq of the parabola F and the cubic Hermite polynomial q, and what inertia takes in.
 
     With Δq = q_b − q_a and the bend b of the force that is Δq (F_a + F_b)/2 + h ΔF Δq̇/12 −

@@ -8,7 +8,6 @@ from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
-from tribodyn.kernels.ledger import Books
 
 N_COORDINATES: Final = 5
 """Of the ledger: e_x, e_y, φ_x, φ_y and the angle of rotation."""
@@ -102,7 +101,7 @@ class JournalMemory(NamedTuple):
     joint
         What the bushing remembers.
     books
-        What the energy ledger has added up.
+        What the energy ledger has added up, see ``kernels/ledger.py``.
     peaks
         See ``kernels/journal/quantities.py``.
     course
@@ -114,7 +113,7 @@ class JournalMemory(NamedTuple):
     """
 
     joint: JointMemory
-    books: Books
+    books: Record
     peaks: Record
     course: Record
     film: FilmMemory | None

@@ -9,7 +9,6 @@ from tribodyn.core.quantities import Quantity, Record, names, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
-from tribodyn.kernels.ledger import Books
 from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS, N_UNKNOWNS
 
 CONSTANTS: Final = tuple(
@@ -123,7 +122,7 @@ class VsvMemory(NamedTuple):
         Direction of the ideal vane motion, ±1, and the vane speed that traction is told instead of
         the actual one (0: none), shape (2,).
     books
-        What the energy ledgers have added up.
+        What the energy ledgers have added up, see ``kernels/ledger.py``.
     scratch
         See :data:`Scratch`.
     """
@@ -131,5 +130,5 @@ class VsvMemory(NamedTuple):
     joint: JointMemory
     collar: Record
     regime: FloatArray
-    books: Books
+    books: Record
     scratch: Record
