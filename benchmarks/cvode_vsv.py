@@ -90,10 +90,10 @@ def _loop(functions: CompiledFunctions) -> Any:
     set_data = _function("CVodeSetUserData", ct.c_int64, ct.c_int64)
 
     @nb.njit
-    def run(solver, vectors, middle, end, times, rows, position, reached, t_end, tolerance, data, memory):  # type: ignore[no-untyped-def]
+    def run(solver, vectors, end, times, rows, position, reached, t_end, tolerance, data, memory):  # type: ignore[no-untyped-def]
         given = (data, memory)
         set_data(solver, address_of(given))
-        newest = numbers(vectors[0], middle.size)
+        newest = numbers(vectors[0], end.size)
         where = np.zeros(1)
         while where[0] < t_end:
             flag = step(solver, t_end, vectors[0], where.ctypes.data, CV_ONE_STEP)
@@ -106,12 +106,11 @@ def _loop(functions: CompiledFunctions) -> Any:
                 inside = mark < t - tolerance
                 ended = not inside
                 t_part = mark if inside else t
-                interpolate(solver, 0.5 * (reached[0] + t_part), 0, vectors[1])
                 if inside:
-                    interpolate(solver, t_part, 0, vectors[2])
+                    interpolate(solver, t_part, 0, vectors[1])
                 else:
                     end[:] = newest
-                advance(reached[0], t_part, middle, end, data, memory)
+                advance(reached[0], t_part, end, data, memory)
                 reached[0] = t_part
                 if mark <= t + tolerance:
                     observe(t_part, end, data, memory, rows[position[0]])
@@ -156,13 +155,12 @@ class _NativeWalk(Walk):
         rhs, jac = _callbacks(problem.functions, kind, y.size)
         solver = Cvode(rhs.address, jac.address, self.t, y, rtol, problem.atol)
         solver("CVodeSetStopTime", ct.c_double(t_end))
-        middle, end = y.copy(), y.copy()
-        vectors = [solver.y, vector(middle, solver.context), vector(end, solver.context)]
+        end = y.copy()
+        vectors = [solver.y, vector(end, solver.context)]
         position = np.array([self.next_mark])
         flag = _loop(problem.functions)(
             solver.memory.value,
             np.array([each.value for each in vectors]),
-            middle,
             end,
             np.array(self.marks),
             self.rows,

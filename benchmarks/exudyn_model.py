@@ -23,8 +23,10 @@ from numpy.typing import NDArray
 
 from benchmarks.vsv_case import constants
 from tribodyn.core.problem import Problem
+from tribodyn.joints.bushing import pose_at
 from tribodyn.joints.point_contact import point_damping
-from tribodyn.kernels.bushing.joint import update_entry_velocity, wrench
+from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity, wrench
+from tribodyn.kernels.joints.pose import N_WRENCH
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.motion import fill_motion
 from tribodyn.mechanisms.vsv.case import VsvCase
@@ -52,7 +54,7 @@ class ExudynModel:
 
     def __init__(self, case: VsvCase, vsv: Vsv, problem: Problem, contact: str) -> None:
         self.case, self.vsv, self.surface = case, vsv, contact == "surface"
-        self.data, self.entry = constants(problem.data), problem.memory.entry_velocity
+        self.data, self.memory = constants(problem.data), problem.memory.joint
         self.motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
         fill_motion(problem.data.mechanism, 0.0, problem.y0, self.motion)
         self.container = exu.SystemContainer()
@@ -191,16 +193,16 @@ class ExudynModel:
         turning = self.mbs.GetNodeOutput(self.vane_node, kind.AngularVelocity)
         y = np.empty(8)
         fill_state(offset, q[3:], velocity, turning, y)
-        update_entry_velocity(self.data.joint, y, self.entry, 0.0)
+        update_entry_velocity(self.data.joint, self.memory, pose_at(y), 0.0)
 
     def _surface(self) -> None:
         """Connect trunnion and bushing by the rough contact; the connector takes forces on the bushing."""
-        joint, entry, y, out = self.data.joint, self.entry, np.zeros(8), np.zeros(5)
+        joint, memory, y, out = self.data.joint, self.memory, np.zeros(8), np.zeros(N_WRENCH)
 
         def force(mbs: Any, t: float, item: int, *motion: Any) -> list[float]:
             fill_state(*motion[:4], y)
-            wrench(joint, entry, y, motion[3][2], 0.0, out)
-            return [-out[0], -out[1], 0.0, -out[2], out[3], -out[4]]
+            wrench(joint, memory, pose_at(y, omega=motion[3][2]), out)
+            return [-component for component in out]
 
         self.mbs.AddObject(
             items.ObjectConnectorRigidBodySpringDamper(

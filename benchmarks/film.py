@@ -55,7 +55,7 @@ class General:
 
     def matrix(self) -> csc_matrix:
         """Return the matrix of all cells."""
-        k_theta, k_z = self.fields.k_theta, self.fields.k_z
+        k_theta, k_z = self.fields.cells["k_theta"], self.fields.z_faces["k_z"]
         n, m = k_theta.shape
         number = np.arange(n * m).reshape(n, m)
         rows = np.concatenate([number.ravel(), number[:, :-1].ravel()])
@@ -67,7 +67,7 @@ class General:
 
     def solve(self) -> tuple[FloatArray, FloatArray]:
         """Return the pressure and the adjoints."""
-        matrix, source = self.matrix(), self.fields.source.ravel()
+        matrix, source = self.matrix(), self.fields.cells["source"].ravel()
         while True:
             full = np.flatnonzero(self.active)
             factors = splu(matrix[full][:, full], permc_spec="MMD_AT_PLUS_A")

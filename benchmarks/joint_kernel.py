@@ -15,7 +15,9 @@ import numpy as np
 from benchmarks.numpy_joint import numpy_wrench
 from benchmarks.repeated import many_jacobians, many_wrenches
 from tribodyn.joints import BushingJoint, Grid
-from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
+from tribodyn.joints.bushing import joint_wrench, new_memory, pose_at
+from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.pose import N_MOTION, N_WRENCH
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.vsv.system import vsv_of
 
@@ -36,21 +38,21 @@ def microseconds(call: Callable[[], object], calls: int = CALLS) -> float:
 
 def measure(joint: BushingJoint) -> dict[str, float]:
     """Return nodes in contact and times of a call on one grid, medians of alternated runs."""
-    data, entry, field = joint.data(), joint.no_memory(), joint.no_memory()
-    update_entry_velocity(data, STATE, entry, 1.0)
-    pressure_field(data, entry, STATE, field)
-    out, jacobian, gradient = np.empty(5), np.empty((5, 9)), np.empty((3, 5))
+    data, field = joint.data(), np.empty(joint.field_shape)
+    memory, pose = new_memory(data), pose_at(STATE, omega=OMEGA)
+    update_entry_velocity(data, memory, pose, 1.0)
+    pressure_field(data, memory, pose, field)
+    entry, out, jacobian = memory.entry_velocity, np.empty(N_WRENCH), np.empty((N_WRENCH, N_MOTION))
     # Called from Python, a kernel first takes its arguments apart: 25 µs that a compiled caller does not see.
-    many_wrenches(data, entry, STATE, OMEGA, out, 1)
-    many_jacobians(data, entry, STATE, OMEGA, out, jacobian, gradient, 1)
-    np.testing.assert_allclose(numpy_wrench(data, entry, STATE, OMEGA)[0], out, rtol=1e-9)
+    many_wrenches(data, memory, pose, out, 1)
+    many_jacobians(data, memory, pose, out, jacobian, 1)
+    alone = joint_wrench(data, STATE, omega=OMEGA, entry_velocity=entry)
+    np.testing.assert_allclose(numpy_wrench(data, entry, STATE, OMEGA)[0], alone, rtol=1e-9)
     times: dict[str, list[float]] = {"wrench": [], "with Jacobian": [], "numpy": []}
     for _ in range(PAIRS):
-        once = microseconds(lambda: many_wrenches(data, entry, STATE, OMEGA, out, 200), 1)
+        once = microseconds(lambda: many_wrenches(data, memory, pose, out, 200), 1)
         times["wrench"].append(once / 200)
-        once = microseconds(
-            lambda: many_jacobians(data, entry, STATE, OMEGA, out, jacobian, gradient, 200), 1
-        )
+        once = microseconds(lambda: many_jacobians(data, memory, pose, out, jacobian, 200), 1)
         times["with Jacobian"].append(once / 200)
         times["numpy"].append(microseconds(lambda: numpy_wrench(data, entry, STATE, OMEGA)))
     result = {name: float(np.median(values)) for name, values in times.items()}

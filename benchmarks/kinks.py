@@ -21,7 +21,9 @@ from benchmarks.vsv_case import RTOL, problem_of, ranges, vsv_case
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
+from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import entry
+from tribodyn.kernels.joints.collar import Collar
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 
 TOLERANCES: Final = (0.9 * RTOL, RTOL, 1.1 * RTOL)
@@ -36,7 +38,7 @@ def _forget_nothing(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -
 
 def _frozen(problem: Problem, entry_velocity: float) -> Problem:
     """Return the problem with one entry velocity everywhere and for ever [m/s]; 0: none."""
-    problem.memory.entry_velocity[:] = entry_velocity
+    problem.memory.joint.entry_velocity[:] = entry_velocity
     return replace(problem, functions=replace(problem.functions, accept=_forget_nothing))
 
 
@@ -49,9 +51,7 @@ def _no_memory(problem: Problem) -> Problem:
 
 
 def _no_collar(problem: Problem) -> Problem:
-    mechanism = problem.data.mechanism.copy()
-    mechanism.collar_radius = mechanism.collar_friction = 0.0
-    return replace(problem, data=problem.data._replace(mechanism=mechanism))
+    return replace(problem, data=problem.data._replace(collar=new_record(Collar)))
 
 
 def _same(problem: Problem) -> Problem:
@@ -101,7 +101,7 @@ def count(variant: Variant, cycles: float, rtol: float) -> dict[str, float]:
 
     def look(t: float) -> None:
         reached.append(t)
-        in_contact.append(problem.memory.entry_velocity > 0.0)
+        in_contact.append(problem.memory.joint.entry_velocity > 0.0)
 
     with patch(LOOKS, 1):
         solution = integrate(problem, rtol=rtol, output_times=[case.duration], progress=look)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.kernels.joints.cylinder.data import BushingData
 
 FloatArray = NDArray[np.float64]
 

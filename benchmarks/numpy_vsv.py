@@ -194,7 +194,7 @@ class NumpyVsv:
 
 def integrate_with_scipy(problem: Problem, rtol: float, output_times: FloatArray) -> dict[str, Any]:
     """Step SciPy's BDF over all segments; return vane angle and contact force at the output times."""
-    model = NumpyVsv(problem.data, problem.memory.entry_velocity)
+    model = NumpyVsv(problem.data, problem.memory.joint.entry_velocity)
     y, rows, steps, calls = problem.y0, [], 0, 0
     edges = [problem.t_span[0], *problem.breakpoints, problem.t_span[1]]
     for start, end in pairwise(edges):

@@ -3,31 +3,24 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.wrench import wrench, wrench_and_jacobian
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.memory import JointMemory
 
 
 @kernel
-def many_wrenches(
-    joint: BushingData, entry: FloatArray, y: FloatArray, omega: float, out: FloatArray, calls: int
-) -> None:
+def many_wrenches(joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray, calls: int) -> None:
     """Call ``wrench`` ``calls`` times."""
     for _ in range(calls):
-        wrench(joint, entry, y, omega, 1.0, out)
+        wrench(joint, memory, pose, out)
 
 
 @kernel
 def many_jacobians(
-    joint: BushingData,
-    entry: FloatArray,
-    y: FloatArray,
-    omega: float,
-    out: FloatArray,
-    jacobian: FloatArray,
-    gradient: FloatArray,
-    calls: int,
+    joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray, jacobian: FloatArray, calls: int
 ) -> None:
     """Call ``wrench_and_jacobian`` ``calls`` times."""
     for _ in range(calls):
-        wrench_and_jacobian(joint, entry, y, omega, 1.0, out, jacobian, gradient)
+        wrench_and_jacobian(joint, memory, pose, out, jacobian)

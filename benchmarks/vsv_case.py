@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
 from tribodyn.integrate.schedule import make_schedule
-from tribodyn.kernels.vsv.data import MECHANISM, VsvData
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.data import Mechanism, VsvData
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -34,8 +34,8 @@ FAR, NEAR = 0.1, 0.05
 
 def constants(data: VsvData) -> SimpleNamespace:
     """Return the constants as ordinary numbers: attributes of a record take as long as some arithmetic."""
-    mechanism = dict(zip(MECHANISM.names or (), data.mechanism.item(), strict=True))
-    return SimpleNamespace(**mechanism, joint=data.joint)
+    mechanism = dict(zip(Mechanism.names or (), data.mechanism.item(), strict=True))
+    return SimpleNamespace(**mechanism, collar_radius=float(data.collar.radius), joint=data.joint)
 
 
 def vsv_case(cycles: float, **changes: Any) -> tuple[VsvCase, Vsv]:

@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Drive, Inertias, Lengths, Vsv
 from tribodyn.mechanisms.vsv.problem import vsv_problem
 

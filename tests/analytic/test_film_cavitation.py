@@ -27,7 +27,8 @@ def make(cavitation: str, boundary: str, roughness: Roughness = ROUGH) -> Film:
 
 def balance(memory: FilmMemory) -> tuple[csr_matrix, FloatArray]:
     """Return matrix and source of all cells, node (i, j) at i m + j, assembled anew from the conductances."""
-    k_theta, k_z, source = memory.fields.k_theta, memory.fields.k_z, memory.fields.source
+    cells, k_z = memory.fields.cells, memory.fields.z_faces["k_z"]
+    k_theta, source = cells["k_theta"], cells["source"]
     n, m = source.shape
     number = np.arange(n * m).reshape(n, m)
     along = np.concatenate([number.ravel(), number[:, :-1].ravel()])
@@ -83,16 +84,17 @@ def test_jfo_conserves_mass(state: str, omega: float) -> None:
     p, fill, fields = memory.pressure, memory.fill, memory.fields
     d_zeta = film.length / (film.grid.z * film.radius)
     upstream = fill if omega > 0.0 else np.roll(fill, -1, axis=0)
-    across = omega * d_zeta * fields.wedge * upstream - fields.k_theta * (np.roll(p, -1, axis=0) - p)
+    cells = fields.cells
+    across = omega * d_zeta * cells["wedge"] * upstream - cells["k_theta"] * (np.roll(p, -1, axis=0) - p)
     padded = np.pad(p, ((0, 0), (1, 1)))
-    up = -fields.k_z * np.diff(padded, axis=1)
+    up = -fields.z_faces["k_z"] * np.diff(padded, axis=1)
     supplied = (across[0] - across[-1]).sum() + (up[0, -1] - up[0, 0])
     lost = up[1:, -1].sum() - up[1:, 0].sum()
     carried = abs(across).sum(axis=1).max()
     # From groove to ends, and in every cell: 1e-8 asked for, rounding found.
     assert abs(across[0].sum() - across[-1].sum() - lost) < 1e-12 * carried
-    cells = (across - np.roll(across, 1, axis=0) + up[:, 1:] - up[:, :-1])[1:]
-    assert abs(cells).max() < 1e-12 * carried
+    missed = (across - np.roll(across, 1, axis=0) + up[:, 1:] - up[:, :-1])[1:]
+    assert abs(missed).max() < 1e-12 * carried
     assert supplied > 0.0
     # What makes it a solution: full where it presses, never more than full.
     assert p.min() >= -1e-12 * p.max()
@@ -149,5 +151,5 @@ def test_rough_journal_is_surface_one(rms: tuple[float, float], sign: float) -> 
     theta = film.theta + np.pi / film.grid.theta
     gap = 20e-6 + 8e-6 * np.cos(theta)
     # h > 3σ everywhere, so that h_T = h: what is left of the wedge is σ φ_s.
-    shear = memory.fields.wedge[:, 0] * 20e-6 - gap
+    shear = memory.fields.cells["wedge"][:, 0] * 20e-6 - gap
     np.testing.assert_allclose(shear, sign * 1e-6 * shear_factor(gap / 1e-6, 1.0), atol=1e-6 * 1e-6)

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from tribodyn.joints.bushing import joint_jacobian, joint_wrench
-from tribodyn.kernels.bushing.wrench import wrench_and_jacobian
+from tribodyn.joints.bushing import joint_jacobian, joint_wrench, new_memory, pose_at
+from tribodyn.kernels.joints.cylinder.wrench import wrench, wrench_and_jacobian
 
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
@@ -122,9 +122,10 @@ def test_wrench_of_both_kernels_is_the_same(make_joint):
     data = make_joint().data()
     for seed in range(20):
         arguments, entry = draw(seed, data)
-        out, jacobian, gradient = np.empty(5), np.empty((5, 9)), np.empty((3, 5))
-        wrench_and_jacobian(data, entry, arguments[:8], arguments[8], 1.0, out, jacobian, gradient)
-        alone = joint_wrench(data, arguments[:8], omega=arguments[8], entry_velocity=entry)
+        out, alone, jacobian = np.empty(6), np.empty(6), np.empty((6, 12))
+        memory, pose = new_memory(data, entry), pose_at(arguments[:8], omega=arguments[8])
+        wrench_and_jacobian(data, memory, pose, out, jacobian)
+        wrench(data, memory, pose, alone)
         # Two orders of the same sums over some hundred nodes.
         np.testing.assert_allclose(out, alone, rtol=0.0, atol=1e-13 * np.abs(out).max())
 

@@ -14,9 +14,7 @@ from scipy.integrate import quad
 from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.contact import law
-from tribodyn.joints.bushing import joint_wrench
-from tribodyn.kernels.bushing import report as report_kernel
-from tribodyn.kernels.bushing.report import report, stored
+from tribodyn.joints.bushing import joint_report, joint_wrench
 
 C, R_J, LENGTH = 20e-6, 6e-3, 20e-3
 R_B = R_J + C
@@ -29,10 +27,7 @@ def state(e_x=0.0, e_y=0.0, phi_x=0.0, phi_y=0.0, rates=(0.0, 0.0, 0.0, 0.0)):
 
 def seen(data, y, *, omega=0.0, sign=1.0, entry=None):
     """Return the joint's report by name."""
-    out, entry = np.empty(report_kernel.N_REPORT), np.zeros(data.wear.shape) if entry is None else entry
-    report(data, entry, y, omega, sign, out)
-    out[report_kernel.STORED] = stored(data, entry, y)
-    return {name: out[k] for name, k in vars(report_kernel).items() if name.isupper() and name != "N_REPORT"}
+    return joint_report(data, y, omega=omega, sign=sign, entry_velocity=entry)
 
 
 def line_load(pair, eccentricity, weight):
@@ -64,18 +59,18 @@ def test_a_centred_trunnion_in_a_wide_clearance_feels_nothing(make_joint):
     # 20 µm are 12 σ, beyond the contact law's 8.
     y = state(rates=(1e-3, -2e-3, 0.1, 0.2))
     assert not joint_wrench(make_joint().data(), y, omega=0.3).any()
-    assert seen(make_joint().data(), y)["SEPARATION_MIN"] == pytest.approx(C)
+    assert seen(make_joint().data(), y)["separation_min"] == pytest.approx(C)
 
 
 def test_a_centred_trunnion_in_a_narrow_clearance_is_pushed_evenly(make_joint):
     found = seen(make_joint(2e-6).data(), state(), omega=0.3)
-    assert found["P_MAX"] > 1e7
-    pressure_load = found["P_MAX"] * 2.0 * math.pi * (R_J + 2e-6) * LENGTH
-    for name in ("F_CX", "F_CY", "F_FX", "F_FY"):
+    assert found["p_max"] > 1e7
+    pressure_load = found["p_max"] * 2.0 * math.pi * (R_J + 2e-6) * LENGTH
+    for name in ("F_cx", "F_cy", "F_fx", "F_fy"):
         assert abs(found[name]) < 1e-12 * pressure_load
     ratio = 0.1 / math.hypot(1.0, 1e-5 / (0.3 * R_J))
-    assert found["M_JF"] == pytest.approx(-ratio * pressure_load * R_J, rel=1e-9)
-    assert found["CONTACT_FRACTION"] == pytest.approx(1.0)
+    assert found["M_jf"] == pytest.approx(-ratio * pressure_load * R_J, rel=1e-9)
+    assert found["contact_fraction"] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(("tilt", "moment", "other"), [("phi_x", 2, 3), ("phi_y", 3, 2)])
@@ -92,8 +87,8 @@ def test_moment_of_one_end(make_joint):
     # Leaning by 1.3 mrad and shifted by 8 µm, the axis meets the bushing at its top only, at −Y. The force
     # is along +Y; its arm falls short of half the length by the way over which the gap grows by about σ/2.
     found = seen(make_joint(coefficient=0.0).data(), state(e_y=-8e-6, phi_x=1.3e-3))
-    assert found["F_CY"] > 1.0
-    assert 0.9 < found["M_JCX"] / -found["F_CY"] / (0.5 * LENGTH) < 0.95
+    assert found["F_cy"] > 1.0
+    assert 0.9 < found["M_jcx"] / -found["F_cy"] / (0.5 * LENGTH) < 0.95
 
 
 @pytest.mark.parametrize("angle", np.radians([0.0, 90.0, 200.0]))
@@ -103,16 +98,16 @@ def test_sliding_friction_by_hand(make_joint, angle, omega):
     # ω × r = ω r_j (sin θ, −cos θ) and friction holds it back. At θ = 0, ω > 0: surface −Y, friction +Y.
     push = np.array([math.cos(angle), math.sin(angle)])
     found = seen(make_joint().data(), state(*(-19e-6 * push)), omega=omega)
-    normal = np.array([found["F_CX"], found["F_CY"]])
+    normal = np.array([found["F_cx"], found["F_cy"]])
     assert normal @ push == pytest.approx(np.hypot(*normal), rel=1e-9)
     u = omega * R_J
     ratio = 0.1 * u / math.hypot(u, 1e-5)
-    friction = np.array([found["F_FX"], found["F_FY"]])
+    friction = np.array([found["F_fx"], found["F_fy"]])
     np.testing.assert_allclose(friction, -ratio * np.array([normal[1], -normal[0]]), rtol=1e-9, atol=1e-12)
-    assert found["M_JF"] * omega < 0.0
+    assert found["M_jf"] * omega < 0.0
     # The torque is r_j μ ∬P; ∬P exceeds the force by what its directions spread.
-    assert abs(found["M_JF"]) == pytest.approx(R_J * abs(ratio) * np.hypot(*normal), rel=0.03)
-    assert abs(found["M_JF"]) > R_J * abs(ratio) * np.hypot(*normal)
+    assert abs(found["M_jf"]) == pytest.approx(R_J * abs(ratio) * np.hypot(*normal), rel=0.03)
+    assert abs(found["M_jf"]) > R_J * abs(ratio) * np.hypot(*normal)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -121,8 +116,8 @@ def test_friction_moment_of_the_paper(make_joint, table_1_pair, sign):
     eccentricity = C - table_1_pair.roughness_rms
     found = seen(make_joint(friction="moment", grid=FINE).data(), state(-eccentricity), omega=0.3, sign=sign)
     load = line_load(table_1_pair, eccentricity, lambda theta: 1.0)
-    assert found["M_JF"] == pytest.approx(sign * 0.1 * R_B * load, rel=2e-6)
-    assert (found["F_FX"], found["F_FY"], found["M_FX"], found["M_FY"]) == (0.0, 0.0, 0.0, 0.0)
+    assert found["M_jf"] == pytest.approx(sign * 0.1 * R_B * load, rel=2e-6)
+    assert (found["F_fx"], found["F_fy"], found["M_fx"], found["M_fy"]) == (0.0, 0.0, 0.0, 0.0)
 
 
 def node_by_node(joint, y, omega, sign, entry, wear):
@@ -184,9 +179,9 @@ def test_window_and_row_sums_lose_nothing(make_joint, clearance, friction, clip)
         scale = np.hypot(*expected[:2]) * np.array([1.0, 1.0, LENGTH, LENGTH, R_J])
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11 * scale.max() + 1e-9)
         parts = seen(joint.data(wear), y, omega=omega, sign=sign, entry=entry)
-        sums = [("F_CX", "F_FX"), ("F_CY", "F_FY"), ("M_JCX", "M_FX"), ("M_JCY", "M_FY")]
+        sums = [("F_cx", "F_fx"), ("F_cy", "F_fy"), ("M_jcx", "M_fx"), ("M_jcy", "M_fy")]
         total = [parts[normal] + parts[friction_part] for normal, friction_part in sums]
-        np.testing.assert_allclose([*total, parts["M_JF"]], found, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose([*total, parts["M_jf"]], found, rtol=1e-12, atol=1e-12)
 
 
 def turned(y, angle):
@@ -250,6 +245,6 @@ def test_peaks_are_taken_at_the_edges(make_joint, table_1_pair):
     y = state(phi_x=1.9e-3)
     found = seen(joint.data(), y)
     least = C - 0.5 * LENGTH * math.tan(1.9e-3)
-    assert found["SEPARATION_MIN"] == pytest.approx(least, rel=1e-12)
+    assert found["separation_min"] == pytest.approx(least, rel=1e-12)
     peak = law("ke", table_1_pair).stiffness_pressure(np.array([least / joint.roughness]))
-    assert found["P_MAX"] == pytest.approx(peak[0], rel=2e-6)
+    assert found["p_max"] == pytest.approx(peak[0], rel=2e-6)

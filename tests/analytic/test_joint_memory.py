@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.joints.bushing import joint_wrench
-from tribodyn.kernels.bushing.memory import pressure_field, update_entry_velocity
-from tribodyn.kernels.bushing.pressure import node_pressure
+from tribodyn.joints.bushing import joint_wrench, new_memory, pose_at
+from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.pressure import node_pressure
 
 V_MIN = 1e-3
 ONSET = 4.0
@@ -20,6 +20,12 @@ def at(depth, roughness, v_x=0.0):
     return y
 
 
+def accept(data, memory, y, at_start=0.0):
+    """End an accepted step and return the entry velocities."""
+    update_entry_velocity(data, memory, pose_at(y), at_start)
+    return memory.entry_velocity
+
+
 def middle(joint):
     """Return the index of the node where the gap is smallest."""
     return joint.grid.z // 2, joint.grid.theta // 2
@@ -27,49 +33,51 @@ def middle(joint):
 
 def test_a_point_enters_with_the_speed_it_has(make_joint):
     joint = make_joint()
-    data, memory, node = joint.data(), joint.no_memory(), middle(joint)
-    update_entry_velocity(data, at(4.01, joint.roughness, v_x=5e-3), memory, 0.0)
-    assert not memory.any()
-    update_entry_velocity(data, at(3.99, joint.roughness, v_x=5e-3), memory, 0.0)
+    data, node = joint.data(), middle(joint)
+    memory = new_memory(data)
+    accept(data, memory, at(4.01, joint.roughness, v_x=5e-3))
+    assert not memory.entry_velocity.any()
+    accept(data, memory, at(3.99, joint.roughness, v_x=5e-3))
     # Approaching with v_x = 5 mm/s at θ = 180°.
-    assert memory[node] == pytest.approx(5e-3)
-    assert 0 < np.count_nonzero(memory) < memory.size / 10
+    assert memory.entry_velocity[node] == pytest.approx(5e-3)
+    assert 0 < np.count_nonzero(memory.entry_velocity) < memory.entry_velocity.size / 10
 
 
 @pytest.mark.parametrize("speed", [2e-4, -2e-4, 0.0])
 def test_a_slow_point_enters_with_the_least_velocity(make_joint, speed):
     joint = make_joint()
-    memory = joint.no_memory()
-    update_entry_velocity(joint.data(), at(3.0, joint.roughness, v_x=speed), memory, 0.0)
-    assert set(memory[memory > 0.0]) == {V_MIN}
+    memory = new_memory(joint.data())
+    entry = accept(joint.data(), memory, at(3.0, joint.roughness, v_x=speed), 0.0)
+    assert set(entry[entry > 0.0]) == {V_MIN}
 
 
 def test_a_leaving_point_enters_with_its_speed_all_the_same(make_joint):
     # max(|δ̇|, v_min): a point that a long step finds inside and already on its way out.
     joint = make_joint()
-    memory = joint.no_memory()
-    update_entry_velocity(joint.data(), at(3.0, joint.roughness, v_x=-5e-3), memory, 0.0)
-    assert memory[middle(joint)] == pytest.approx(5e-3)
+    memory = new_memory(joint.data())
+    entry = accept(joint.data(), memory, at(3.0, joint.roughness, v_x=-5e-3), 0.0)
+    assert entry[middle(joint)] == pytest.approx(5e-3)
 
 
 def test_it_is_kept_in_contact_and_forgotten_outside(make_joint):
     joint = make_joint()
-    data, memory, node = joint.data(), joint.no_memory(), middle(joint)
-    update_entry_velocity(data, at(3.9, joint.roughness, v_x=5e-3), memory, 0.0)
+    data, node = joint.data(), middle(joint)
+    memory = new_memory(data)
+    accept(data, memory, at(3.9, joint.roughness, v_x=5e-3))
     for depth, speed in ((2.0, 3e-3), (1.0, 0.0), (3.9, -8e-3)):
-        update_entry_velocity(data, at(depth, joint.roughness, v_x=speed), memory, 0.0)
-        assert memory[node] == pytest.approx(5e-3)
-    update_entry_velocity(data, at(4.1, joint.roughness, v_x=-8e-3), memory, 0.0)
-    assert not memory.any()
-    update_entry_velocity(data, at(3.9, joint.roughness, v_x=2e-3), memory, 0.0)
-    assert memory[node] == pytest.approx(2e-3)
+        accept(data, memory, at(depth, joint.roughness, v_x=speed))
+        assert memory.entry_velocity[node] == pytest.approx(5e-3)
+    accept(data, memory, at(4.1, joint.roughness, v_x=-8e-3))
+    assert not memory.entry_velocity.any()
+    accept(data, memory, at(3.9, joint.roughness, v_x=2e-3))
+    assert memory.entry_velocity[node] == pytest.approx(2e-3)
 
 
 def test_at_the_start_points_in_contact_take_the_least_velocity(make_joint):
     joint = make_joint()
-    memory = joint.no_memory()
-    update_entry_velocity(joint.data(), at(2.0, joint.roughness, v_x=5e-3), memory, 1.0)
-    assert set(memory[memory > 0.0]) == {V_MIN}
+    memory = new_memory(joint.data())
+    entry = accept(joint.data(), memory, at(2.0, joint.roughness, v_x=5e-3), 1.0)
+    assert set(entry[entry > 0.0]) == {V_MIN}
 
 
 def test_a_worn_point_enters_later(make_joint):
@@ -77,10 +85,10 @@ def test_a_worn_point_enters_later(make_joint):
     node = middle(joint)
     wear = np.zeros(joint.field_shape)
     wear[node] = joint.roughness
-    memory = joint.no_memory()
-    update_entry_velocity(joint.data(wear), at(3.5, joint.roughness, v_x=5e-3), memory, 0.0)
-    assert memory[node] == 0.0
-    assert memory[node[0], node[1] + 1] > 0.0
+    memory = new_memory(joint.data())
+    entry = accept(joint.data(wear), memory, at(3.5, joint.roughness, v_x=5e-3), 0.0)
+    assert entry[node] == 0.0
+    assert entry[node[0], node[1] + 1] > 0.0
 
 
 @pytest.mark.parametrize("clearance", [20e-6, 3e-6])
@@ -89,7 +97,8 @@ def test_every_node_follows_the_rules_on_a_random_walk(make_joint, clearance):
     joint = make_joint(clearance, grid=(36, 6))
     random = np.random.default_rng(3)
     wear = 1.5 * joint.roughness * random.random(joint.field_shape)
-    data, memory, expected = joint.data(wear), joint.no_memory(), joint.no_memory()
+    data, expected = joint.data(wear), np.zeros(joint.field_shape)
+    memory = new_memory(data)
     z, cos, sin = joint.z[:, None], np.cos(joint.theta), np.sin(joint.theta)
     entered = kept = left = 0
     for _ in range(120):
@@ -104,8 +113,7 @@ def test_every_node_follows_the_rules_on_a_random_walk(make_joint, clearance):
         left += np.count_nonzero(~touching & before)
         fresh = np.where(before, expected, np.maximum(np.abs(approach), V_MIN))
         expected = np.where(touching, fresh, 0.0)
-        update_entry_velocity(data, y, memory, 0.0)
-        np.testing.assert_allclose(memory, expected, rtol=1e-12)
+        np.testing.assert_allclose(accept(data, memory, y), expected, rtol=1e-12)
     assert min(entered, kept, left) > 100
 
 
@@ -135,16 +143,19 @@ def test_no_jump_at_the_onset(make_joint, approach, entry):
 def test_no_jump_at_acceptance(make_joint, speed):
     # Before acceptance a point uses max(|δ̇|, v_min) of the moment, which is what it will remember.
     joint = make_joint()
-    data, memory = joint.data(), joint.no_memory()
+    data = joint.data()
+    memory = new_memory(data)
     y = at(2.5, joint.roughness, v_x=speed)
     before, after = np.empty(joint.field_shape), np.empty(joint.field_shape)
-    pressure_field(data, memory, y, before)
-    wrench = joint_wrench(data, y, omega=0.2, entry_velocity=memory)
-    update_entry_velocity(data, y, memory, 0.0)
-    assert memory.any()
-    pressure_field(data, memory, y, after)
+    pressure_field(data, memory, pose_at(y), before)
+    wrench = joint_wrench(data, y, omega=0.2, entry_velocity=memory.entry_velocity)
+    accept(data, memory, y)
+    assert memory.entry_velocity.any()
+    pressure_field(data, memory, pose_at(y), after)
     np.testing.assert_array_equal(after, before)
-    np.testing.assert_array_equal(joint_wrench(data, y, omega=0.2, entry_velocity=memory), wrench)
+    np.testing.assert_array_equal(
+        joint_wrench(data, y, omega=0.2, entry_velocity=memory.entry_velocity), wrench
+    )
 
 
 def test_total_pressure_is_never_tensile_unless_asked(make_joint):

@@ -5,10 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.joints.bushing import joint_wrench
-from tribodyn.kernels.bushing import report as names
-from tribodyn.kernels.bushing.report import report
-from tribodyn.kernels.bushing.report import stored as stored_energy
+from tribodyn.joints.bushing import joint_report, joint_wrench
 
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
@@ -19,15 +16,12 @@ AGREE = 1e-8
 
 
 def out_of(data, y, omega, sign, entry):
-    out = np.empty(names.N_REPORT)
-    report(data, entry, y, omega, sign, out)
-    out[names.STORED] = stored_energy(data, entry, y)
-    return out
+    return joint_report(data, y, omega=omega, sign=sign, entry_velocity=entry)
 
 
 def stored(data, q):
     y = np.concatenate([q, np.zeros(4)])
-    return out_of(data, y, 0.0, 1.0, np.zeros(data.wear.shape))[names.STORED]
+    return out_of(data, y, 0.0, 1.0, np.zeros(data.wear.shape))["energy_contact"]
 
 
 def energy_slope(data, q, direction, step):
@@ -72,9 +66,9 @@ def test_normal_power_is_stored_energy_and_damping_heat(make_joint, seed, clip):
     data = make_joint(clip=clip).data()
     y, omega, entry = draw(seed, data)
     out = out_of(data, y, omega, 1.0, entry)
-    terms = powers(y, *out[[names.F_CX, names.F_CY, names.M_JCX, names.M_JCY]])
+    terms = powers(y, out["F_cx"], out["F_cy"], out["M_jcx"], out["M_jcy"])
     rate = energy_slope(data, y[:4], y[4:], 1e-9 / np.abs(y[4:6]).max() * 1e-2)
-    assert terms.sum() + rate + out[names.HEAT_DAMPING] == pytest.approx(0.0, abs=AGREE * np.abs(terms).max())
+    assert terms.sum() + rate + out["damping_power"] == pytest.approx(0.0, abs=AGREE * np.abs(terms).max())
 
 
 def test_damping_takes_and_never_gives(make_joint):
@@ -84,7 +78,7 @@ def test_damping_takes_and_never_gives(make_joint):
     heats = []
     for seed in range(40):
         y, omega, entry = draw(seed, data)
-        heats.append(out_of(data, y, omega, 1.0, entry)[names.HEAT_DAMPING])
+        heats.append(out_of(data, y, omega, 1.0, entry)["damping_power"])
     assert min(heats) >= 0.0
     assert np.count_nonzero(heats) > 30
 
@@ -97,10 +91,10 @@ def test_friction_power_is_that_of_the_friction_wrench(make_joint, seed, frictio
     data = make_joint(friction=friction).data()
     y, omega, entry = draw(seed, data)
     out = out_of(data, y, omega, -np.sign(omega), entry)
-    terms = powers(y, *out[[names.F_FX, names.F_FY, names.M_FX, names.M_FY]])
-    every = [*terms, out[names.M_JF] * omega]
-    assert out[names.POWER_FRICTION] == pytest.approx(sum(every), rel=1e-11)
-    assert out[names.POWER_FRICTION] < 0.0
+    terms = powers(y, out["F_fx"], out["F_fy"], out["M_fx"], out["M_fy"])
+    every = [*terms, out["M_jf"] * omega]
+    assert out["friction_power"] == pytest.approx(sum(every), rel=1e-11)
+    assert out["friction_power"] < 0.0
 
 
 def test_the_opposite_tangent_would_conserve_power_too(make_joint):
@@ -111,8 +105,8 @@ def test_the_opposite_tangent_would_conserve_power_too(make_joint):
     y = np.zeros(8)
     y[1], y[4] = -19e-6, 1e-3
     out = out_of(data, y, 0.0, 1.0, np.zeros(data.wear.shape))
-    assert out[names.F_CY] > 1.0
-    assert out[names.F_FX] == pytest.approx(-0.1 * out[names.F_CY], rel=0.05)
+    assert out["F_cy"] > 1.0
+    assert out["F_fx"] == pytest.approx(-0.1 * out["F_cy"], rel=0.05)
     # Sliding along +X below its axis, the surface is dragged towards −X: a moment r_j F about −Z... r × F
     # = (−r_j ŷ) × (−F x̂) = −r_j F ẑ.
-    assert out[names.M_JF] == pytest.approx(6e-3 * out[names.F_FX], rel=0.05)
+    assert out["M_jf"] == pytest.approx(6e-3 * out["F_fx"], rel=0.05)

@@ -15,7 +15,7 @@ from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint
 from tribodyn.kernels.journal.functions import jac, rhs, static_residual
-from tribodyn.kernels.journal.observe import OBSERVED
+from tribodyn.kernels.journal.quantities import OBSERVED
 from tribodyn.lubrication import Film, FilmGrid, Roughness
 from tribodyn.mechanisms.journal.equilibrium import equilibrium
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
@@ -81,7 +81,7 @@ def test_jacobian_is_the_derivative_of_the_rate(
     journal = make_journal(**options)
     data = journal_data(journal)
     memory = journal_memory(journal, data)
-    memory.entry_velocity[:] = 0.05  # every node remembers: the law is smooth in the state
+    memory.joint.entry_velocity[:] = 0.05  # every node remembers: the law is smooth in the state
     n = journal.freedoms
     y = np.array([13.1e-6, 6.3e-6, 2e-5, -3e-5, 2e-3, 1.5e-3, 1e-2, 2e-2])[[*range(n), *range(4, 4 + n)]]
     steps = np.array([1e-10, 1e-10, 1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6])[[*range(n), *range(4, 4 + n)]]

@@ -14,7 +14,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
-from tribodyn.kernels.journal.observe import OBSERVED
+from tribodyn.kernels.journal.quantities import OBSERVED
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
 from tribodyn.mechanisms.journal.problem import journal_problem
 
@@ -77,7 +77,7 @@ def test_agrees_with_the_journal_as_a_mechanism(make: MakeJoint, table_1_pair: S
     problem = journal_problem(
         journal, duration=duration, start=np.array([onset, 0.0]), atol=(1e-13, 1.0, 1e-9, 1.0)
     )
-    problem.memory.entry_velocity[:] = 0.0
+    problem.memory.joint.entry_velocity[:] = 0.0
     flying = dataclasses.replace(problem, y0=np.array([onset, 0.0, speed, 0.0]))
     solution = integrate(flying, rtol=1e-7, output_times=np.linspace(0.0, duration, 3001))
     rows = {name: solution.rows[:, k] for k, name in enumerate(OBSERVED)}

@@ -13,7 +13,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 from tribodyn.integrate import integrate
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv.problem import vsv_problem
 
 ALLOWED = 0.01

@@ -17,7 +17,8 @@ import pytest
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.equations import drive_moment
 from tribodyn.kernels.vsv.newton_euler import M_D
-from tribodyn.kernels.vsv.observe import OBSERVED, observe
+from tribodyn.kernels.vsv.observe import observe
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
 
 FORMULATIONS = ("exact", "paper")
@@ -51,7 +52,7 @@ def evaluate(data, t, y, direction, entry):
     """Return everything observed, accelerations of both systems and both drive moments."""
     memory = vsv_memory(data)
     memory.regime[0] = direction
-    memory.entry_velocity[:, :] = entry
+    memory.joint.entry_velocity[:, :] = entry
     rate, row = np.empty(8), np.empty(len(OBSERVED))
     functions.rhs(t, y, data, memory, rate)
     projected_moment = drive_moment(memory.scratch)

@@ -15,10 +15,16 @@ from tribodyn.contact.bounce import bounce
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint, point_table
-from tribodyn.joints.bushing import joint_jacobian, joint_wrench
+from tribodyn.joints.bushing import (
+    contact_energy,
+    joint_jacobian,
+    joint_report,
+    joint_wrench,
+    new_memory,
+    pose_at,
+)
 from tribodyn.joints.point_contact import POINT_CONTACTS, johnson, lankarani_nikravesh
-from tribodyn.kernels.bushing import report as names
-from tribodyn.kernels.bushing.joint import pressure_field, report, stored, update_entry_velocity
+from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
 
 MakeJoint = Callable[..., BushingJoint]
 SCALE = np.array([1e-6, 1e-6, 1e-4, 1e-4, 1e-3, 1e-3, 0.1, 0.1, 0.17])
@@ -105,50 +111,47 @@ def test_report_agrees_with_the_wrench_and_its_power(joint: BushingJoint) -> Non
     for seed in range(20):
         x, memory = draw(seed)
         y, omega = x[:8], x[8]
-        out = np.empty(names.N_REPORT)
-        report(data, memory, y, omega, 1.0, out)
+        out = joint_report(data, y, omega=omega, entry_velocity=memory)
         wrench = joint_wrench(data, y, omega=omega, entry_velocity=memory)
-        normal, friction = out[[names.F_CX, names.F_CY]], out[[names.F_FX, names.F_FY]]
+        normal, friction = np.array([out["F_cx"], out["F_cy"]]), np.array([out["F_fx"], out["F_fy"]])
         np.testing.assert_allclose(normal + friction, wrench[:2], rtol=1e-12, atol=1e-12)
-        tilts = out[[names.M_JCX, names.M_JCY]] + out[[names.M_FX, names.M_FY]]
+        tilts = np.array([out["M_jcx"], out["M_jcy"]]) + np.array([out["M_fx"], out["M_fy"]])
         np.testing.assert_allclose(tilts, wrench[2:4], rtol=1e-12, atol=1e-12)
-        assert out[names.M_JF] == pytest.approx(wrench[4], rel=1e-12, abs=1e-15)
+        assert out["M_jf"] == pytest.approx(wrench[4], rel=1e-12, abs=1e-15)
         rates = np.array([y[4], y[5], y[6] / np.cos(y[2]) ** 2, y[7] / np.cos(y[3]) ** 2, omega])
         h = 1e-7
-        later, before = (report_of(data, memory, y + s * h * np.append(y[4:], np.zeros(4))) for s in (1, -1))
-        rate = (later[names.STORED] - before[names.STORED]) / (2.0 * h)
-        power = out[names.POWER_FRICTION] - out[names.HEAT_DAMPING] - rate
+        later, before = (
+            contact_energy(data, y + s * h * np.append(y[4:], np.zeros(4)), memory) for s in (1, -1)
+        )
+        rate = (later - before) / (2.0 * h)
+        power = out["friction_power"] - out["damping_power"] - rate
         # The stored energy is differenced over 0.1 µs, in which its rate changes by some 1e-6.
         assert wrench @ rates == pytest.approx(power, rel=1e-4, abs=1e-8)
 
 
-def report_of(data, memory, y):  # type: ignore[no-untyped-def]
-    out = np.empty(names.N_REPORT)
-    report(data, memory, y, 0.0, 1.0, out)
-    out[names.STORED] = stored(data, memory, y)
-    return out
-
-
 def test_a_point_has_no_pressure_field(joint: BushingJoint) -> None:
     pressure = np.ones(joint.field_shape)
-    pressure_field(joint.data(), joint.no_memory(), np.array([22e-6, *np.zeros(7)]), pressure)
+    data = joint.data()
+    pressure_field(data, new_memory(data), pose_at(np.array([22e-6, *np.zeros(7)])), pressure)
     assert not pressure.any()
 
 
 def test_each_end_remembers_its_own_entry(joint: BushingJoint) -> None:
-    data, memory = joint.data(), joint.no_memory()
+    data = joint.data()
+    memory = new_memory(data)
+    entry = memory.entry_velocity
     # The top leans outwards: it is 22 µm off the axis, the bottom 18 µm.
     y = np.array([20e-6, 0.0, 0.0, -2e-4, 5e-3, 0.0, 0.0, 0.0])
-    update_entry_velocity(data, y, memory, 0.0)
-    assert memory[-1, 0] == pytest.approx(5e-3)
-    assert memory[0, 0] == 0.0
+    update_entry_velocity(data, memory, pose_at(y), 0.0)
+    assert entry[-1, 0] == pytest.approx(5e-3)
+    assert entry[0, 0] == 0.0
     y[4] = 9e-3
-    update_entry_velocity(data, y, memory, 0.0)
-    assert memory[-1, 0] == pytest.approx(5e-3)  # kept
-    update_entry_velocity(data, np.zeros(8), memory, 0.0)
-    assert not memory.any()  # forgotten
-    update_entry_velocity(data, y, memory, 1.0)
-    assert memory[-1, 0] == pytest.approx(1e-3)  # v_min at the start
+    update_entry_velocity(data, memory, pose_at(y), 0.0)
+    assert entry[-1, 0] == pytest.approx(5e-3)  # kept
+    update_entry_velocity(data, memory, pose_at(np.zeros(8)), 0.0)
+    assert not entry.any()  # forgotten
+    update_entry_velocity(data, memory, pose_at(y), 1.0)
+    assert entry[-1, 0] == pytest.approx(1e-3)  # v_min at the start
 
 
 def test_lankarani_and_nikravesh_is_the_sphere_of_hertz(joint: BushingJoint) -> None:

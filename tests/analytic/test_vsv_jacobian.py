@@ -44,7 +44,7 @@ def test_jacobian_of_the_accelerations(make_vsv, formulation, friction):
         t, y, entry = draw(data, seed)
         memory = vsv_memory(data)
         memory.regime[0] = math.copysign(1.0, math.sin(t))
-        memory.entry_velocity[:, :] = entry
+        memory.joint.entry_velocity[:, :] = entry
         f, jacobian, columns = np.empty(8), np.empty((8, 8)), []
         for k in range(8):
             points = y + np.outer(np.arange(-3.0, 4.0) * STEP[k], np.eye(8)[k])
@@ -67,7 +67,7 @@ def test_jacobian_brings_the_same_rates(make_vsv):
     data = vsv_data(make_vsv())
     t, y, entry = draw(data, 0)
     memory = vsv_memory(data)
-    memory.entry_velocity[:, :] = entry
+    memory.joint.entry_velocity[:, :] = entry
     alone, together, jacobian = np.empty(8), np.empty(8), np.empty((8, 8))
     functions.rhs(t, y, data, memory, alone)
     functions.jac(t, y, data, memory, together, jacobian)

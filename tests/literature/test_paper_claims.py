@@ -10,8 +10,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.kernels.bushing.memory import pressure_field
-from tribodyn.kernels.vsv.observe import STATES
+from tribodyn.core.quantities import names
+from tribodyn.joints.bushing import new_memory, pose_at
+from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field
+from tribodyn.kernels.joints.quantities import STATES
 
 
 @pytest.fixture(scope="module", params=[20e-6, 40e-6], ids=["20um", "40um"])
@@ -67,7 +69,7 @@ def test_contact_forces(run):
 def zone(data, theta, state):
     """Return whether each angle sees more than 5 % of the peak pressure at any height."""
     pressure = np.empty(data.wear.shape)
-    pressure_field(data, np.zeros_like(pressure), state, pressure)
+    pressure_field(data, new_memory(data), pose_at(state), pressure)
     return theta[(pressure > 0.05 * pressure.max()).any(axis=0)]
 
 
@@ -76,7 +78,7 @@ def test_contact_zone(run, clearance, make_joint):
     # 300° to 55° and 127° to 241°; at 40 µm 310° to 48° and 139° to 229°.
     joint = make_joint(clearance, friction="moment", grid=(720, 16))
     data, theta = joint.data(), np.degrees(joint.theta)
-    states = np.column_stack([run[name] for name in STATES])
+    states = np.column_stack([run[name] for name in names(STATES)])
     settled = np.flatnonzero(np.mod(run["t"], np.pi) > 0.5)[::20]
     touched = {True: [], False: []}
     for row in settled:
@@ -95,9 +97,9 @@ def test_contact_is_at_the_edges(run, clearance, make_joint):
     # "The contact areas are concentrated at the edge": no pressure in the middle half of the bushing.
     joint = make_joint(clearance, friction="moment")
     data, pressure = joint.data(), np.empty(joint.field_shape)
-    states = np.column_stack([run[name] for name in STATES])
+    states = np.column_stack([run[name] for name in names(STATES)])
     for row in np.flatnonzero(np.mod(run["t"], np.pi) > 0.5)[::40]:
-        pressure_field(data, np.zeros_like(pressure), states[row], pressure)
+        pressure_field(data, new_memory(data), pose_at(states[row]), pressure)
         peaks = pressure.max(axis=1)
         assert joint.z[np.argmax(peaks)] in (joint.z[0], joint.z[-1])
         assert peaks[np.abs(joint.z) < 0.2 * 20e-3].max() < 0.05 * peaks.max()

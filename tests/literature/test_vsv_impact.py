@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from tribodyn.integrate import integrate
-from tribodyn.kernels.vsv.books import PEAK_FORCE, PEAK_FORCE_TIME
 from tribodyn.mechanisms.vsv.problem import vsv_problem
 
 
@@ -20,8 +19,8 @@ def peak(vsv, rtol):
     problem = vsv_problem(vsv, duration=3.3, start="equilibrium", atol=atol)
     solution = integrate(problem, solver="mebdf", rtol=rtol, output_times=[0.0])
     assert solution.complete, solution.failure
-    extremes = problem.memory.books.extremes
-    return extremes[PEAK_FORCE], extremes[PEAK_FORCE_TIME] - np.pi
+    peaks = problem.memory.joint.peaks
+    return peaks.contact_force_peak, peaks.contact_force_peak_time - np.pi
 
 
 def test_peak_of_the_independent_run(make_vsv):

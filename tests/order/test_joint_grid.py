@@ -12,8 +12,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tribodyn.core.quantities import names
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.kernels.vsv.observe import STATES
+from tribodyn.kernels.joints.quantities import STATES
 
 DEFAULT = (96, 16)
 FOUR_TIMES_FINER = (384, 64)
@@ -33,7 +34,7 @@ def errors(request, vsv_run, make_joint):
     early = np.arange(np.searchsorted(run["t"], np.pi), np.searchsorted(run["t"], np.pi + SETTLED))
     rows = np.union1d(np.arange(0, run["t"].size - 1, 20), early)
     settled = np.mod(run["t"][rows], np.pi) > SETTLED
-    states = np.column_stack([run[name] for name in STATES])[rows]
+    states = np.column_stack([run[name] for name in names(STATES)])[rows]
 
     def wrenches(grid):
         data = make_joint(clearance, grid=grid).data()

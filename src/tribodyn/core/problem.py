@@ -45,8 +45,7 @@ class CompiledFunctions:
     enter
         ``enter(t, y, data, memory)`` begins a segment at ``t``.
     advance
-        ``advance(t_a, t_b, y_middle, y_b, data, memory)`` adds path integrals over
-        ``[t_a, t_b]``; ``y_middle`` is the solution at the middle of that interval. The values at
+        ``advance(t_a, t_b, y_b, data, memory)`` adds path integrals over ``[t_a, t_b]``. The values at
         ``t_a`` were left in ``memory`` by the previous ``advance`` or by ``enter``.
     accept
         ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step.

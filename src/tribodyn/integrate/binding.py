@@ -31,15 +31,15 @@ def kernel_types(problem: Problem) -> tuple[Any, Any]:
     return typeof(problem.data), typeof(problem.memory)
 
 
-def argument_types(types: tuple[Any, Any], field_dimensions: int) -> dict[str, tuple[Any, ...]]:
+def argument_types(problem: Problem, types: tuple[Any, Any]) -> dict[str, tuple[Any, ...]]:
     """Return numba's types of the arguments of each function of a problem, by its name.
 
     Parameters
     ----------
+    problem
+        The problem.
     types
         Of data and memory, from :func:`kernel_types`.
-    field_dimensions
-        Of an array with the fields of a picture.
     """
     from numba import float64
     from numba.core.types import Array
@@ -49,10 +49,10 @@ def argument_types(types: tuple[Any, Any], field_dimensions: int) -> dict[str, t
         "rhs": (float64, vector, *types, vector),
         "jac": (float64, vector, *types, vector, square),
         "enter": (float64, vector, *types),
-        "advance": (float64, float64, vector, vector, *types),
+        "advance": (float64, float64, vector, *types),
         "accept": (float64, vector, *types),
         "observe": (float64, vector, *types, vector),
-        "picture": (float64, vector, *types, Array(float64, field_dimensions, "C")),
+        "picture": (float64, vector, *types, Array(float64, max(len(problem.field_shape), 1), "C")),
     }
 
 
@@ -71,7 +71,7 @@ def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
     types
         From :func:`kernel_types`.
     """
-    arguments = argument_types(types, len(problem.field_shape))
+    arguments = argument_types(problem, types)
     functions = {name: getattr(problem.functions, name) for name in arguments}
     return CompiledFunctions(
         **{

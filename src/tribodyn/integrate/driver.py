@@ -168,10 +168,10 @@ class Walk:
         inside = t - self.schedule.tolerance
         t_part = self.t
         while (mark := self.marks[self.next_mark]) < inside:
-            self.advance(step, t_part, mark, step.interpolate(mark))
+            self.advance(t_part, mark, step.interpolate(mark))
             t_part = mark
             self.take()
-        self.advance(step, t_part, t, y)
+        self.advance(t_part, t, y)
         if mark <= t + self.schedule.tolerance:
             self.take()
         self.functions.accept(t, y, self.problem.data, self.problem.memory)
@@ -181,11 +181,10 @@ class Walk:
         if self.progress is not None:
             self.progress(t)
 
-    def advance(self, step: Step, t_a: float, t_b: float, y_b: FloatArray) -> None:
-        """Add the path integrals from ``t_a`` to ``t_b`` inside ``step``."""
+    def advance(self, t_a: float, t_b: float, y_b: FloatArray) -> None:
+        """Add the path integrals from ``t_a`` to ``t_b``, where the state is ``y_b``."""
         problem = self.problem
-        y_middle = step.interpolate(0.5 * (t_a + t_b))
-        self.functions.advance(t_a, t_b, y_middle, y_b, problem.data, problem.memory)
+        self.functions.advance(t_a, t_b, y_b, problem.data, problem.memory)
         self.t, self.y = t_b, y_b
 
     def take(self) -> None:

@@ -81,7 +81,7 @@ class _CompiledWalk(Walk):
         self._in_machine_code = all(map(is_compiled, self._functions))
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
-            self._loop = _compiled(run, self._functions, state, self.types, self._marks, self._pause)
+            self._loop = _compiled(run, self.problem, state, self.types, self._marks, self._pause)
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
 
@@ -119,7 +119,6 @@ class _CompiledWalk(Walk):
     def _new_marks(self) -> Marks:
         from tribodyn.kernels.mebdf.drive import Marks
 
-        n = self.y.size
         pictures = self.pictures if self.pictures.ndim > 1 else self.pictures[:, None]
         return Marks(
             times=np.array(self.marks),
@@ -130,8 +129,7 @@ class _CompiledWalk(Walk):
             pictures=pictures,
             position=np.zeros(3, dtype=np.int64),
             reached=np.zeros(1),
-            middle=np.zeros(n),
-            end=np.zeros(n),
+            end=np.zeros(self.y.size),
         )
 
     def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
@@ -178,9 +176,7 @@ def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
         thread.join()
 
 
-def _compiled(
-    run: Any, functions: tuple[Any, ...], state: Any, types: tuple[Any, Any], marks: Any, pause: Any
-) -> Any:
+def _compiled(run: Any, problem: Problem, state: Any, types: tuple[Any, Any], marks: Any, pause: Any) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
     With the functions of a problem as ordinary arguments the loop would be compiled for each of them
@@ -191,9 +187,7 @@ def _compiled(
     from numba.core.types import FunctionType
 
     typeof: Callable[[Any], Any] = numba.typeof
-    arguments = argument_types(types, marks.pictures.ndim - 1)
-    for name, function in zip(HANDED, functions, strict=True):
-        function.compile(arguments[name])
+    arguments = argument_types(problem, types)
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
     return run.compile((*handed, typeof(state), *types, typeof(marks), typeof(pause)))
 

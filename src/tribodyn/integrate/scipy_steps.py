@@ -27,7 +27,7 @@ class ScipyMethod:
     interpolant
         Makes of a solver the function that gives the state inside its last step. What
         ``solver.dense_output()`` returns does the same; its checks take as long as two to
-        four right-hand sides of a mechanism, and the middle of every step is needed.
+        four right-hand sides of a mechanism.
     resume
         Called with the solver before each step but the first: the memory of the problem may
         have changed the right-hand side since the step before.

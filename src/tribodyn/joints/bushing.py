@@ -9,12 +9,17 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.quantities import Record, names
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
-from tribodyn.kernels.bushing.nodes import LISTED, PART
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.joint import report, stored, wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.joints.memory import new_memory as memory_of_nodes
+from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_report, from_wrench
+from tribodyn.kernels.joints.pose import Pose
+from tribodyn.kernels.joints.quantities import REPORTED
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -174,14 +179,41 @@ class BushingJoint:
             z=self.z,
             area=self.node_area,
             wear=depth,
-            listed=new_record(LISTED),
-            kept=np.zeros(depth.size),
-            kept_pieces=np.zeros((2 * self.field_shape[0] + depth.size // PART + 3, 3), dtype=np.int64),
         )
 
-    def no_memory(self) -> FloatArray:
-        """Return a field of entry velocities in which no point is in contact [m/s]."""
-        return np.zeros(self.field_shape)
+
+def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> JointMemory:
+    """Return the memory of a bushing that never touched.
+
+    Parameters
+    ----------
+    data
+        From :meth:`BushingJoint.data`.
+    entry_velocity
+        Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
+    """
+    n_rows, n_theta = data.wear.shape
+    memory = memory_of_nodes((n_rows, n_theta), data.clearance)
+    if entry_velocity is not None:
+        memory.entry_velocity[:] = entry_velocity
+    return memory
+
+
+def pose_at(y: FloatArray, *, omega: float = 0.0, sign: float = 0.0) -> Record:
+    """Return the pose of a trunnion, see ``kernels/joints/pose.py``.
+
+    Parameters
+    ----------
+    y
+        Attitude and its rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), shape (8,), SI units.
+    omega
+        Vane speed ω_v [rad/s].
+    sign
+        s' of Eq. 45, against the direction of rotation; used by the friction moment only.
+    """
+    pose = new_record(Pose)
+    fill_pose(np.asarray(y, dtype=np.float64), float(omega), -float(sign), pose)
+    return pose
 
 
 def joint_wrench(
@@ -192,24 +224,20 @@ def joint_wrench(
     sign: float = 1.0,
     entry_velocity: FloatArray | None = None,
 ) -> FloatArray:
-    """Return the wrench (F_x, F_y, M_x, M_y, M_z) on the trunnion [N, N m], shape (5,).
+    """Return the wrench (F_x, F_y, M_x, M_y, M_z) on the trunnion [N, N m], shape (5,), signs of the paper.
 
     Parameters
     ----------
     data
         From :meth:`BushingJoint.data`.
-    y
-        Attitude and its rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), shape (8,), SI units.
-    omega
-        Vane speed ω_v [rad/s].
-    sign
-        s' of Eq. 45; used by the friction moment only.
+    y, omega, sign
+        As for :func:`pose_at`.
     entry_velocity
         Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
     """
-    memory = np.zeros(data.wear.shape) if entry_velocity is None else entry_velocity
-    out = np.empty(5)
-    wrench(data, memory, np.asarray(y, dtype=np.float64), float(omega), float(sign), out)
+    memory, out = new_memory(data, entry_velocity), np.empty(5)
+    wrench(data, memory, pose_at(y, omega=omega, sign=sign), memory.scratch.wrench)
+    from_wrench(memory.scratch.wrench, out)
     return out
 
 
@@ -222,8 +250,30 @@ def joint_jacobian(
     entry_velocity: FloatArray | None = None,
 ) -> FloatArray:
     """Return the derivative of :func:`joint_wrench` in the eight states and ω_v, shape (5, 9)."""
-    memory = np.zeros(data.wear.shape) if entry_velocity is None else entry_velocity
-    out, jacobian, gradient = np.empty(5), np.empty((5, 9)), np.empty((3, 5))
-    state = np.asarray(y, dtype=np.float64)
-    wrench_and_jacobian(data, memory, state, float(omega), float(sign), out, jacobian, gradient)
-    return jacobian
+    memory, out = new_memory(data, entry_velocity), np.empty((5, 9))
+    scratch = memory.scratch
+    wrench_and_jacobian(data, memory, pose_at(y, omega=omega, sign=sign), scratch.wrench, scratch.jacobian)
+    from_jacobian(scratch.jacobian, out)
+    return out
+
+
+def joint_report(
+    data: BushingData,
+    y: FloatArray,
+    *,
+    omega: float = 0.0,
+    sign: float = 1.0,
+    entry_velocity: FloatArray | None = None,
+) -> dict[str, float]:
+    """Return what is told about a joint, see ``kernels/joints/quantities.py``; arguments as above."""
+    memory, pose = new_memory(data, entry_velocity), pose_at(y, omega=omega, sign=sign)
+    out = memory.scratch.report
+    report(data, memory, pose)
+    from_report(out)
+    out.energy_contact = stored(data, memory, pose)
+    return {name: float(out[name]) for name in names(REPORTED)}
+
+
+def contact_energy(data: BushingData, y: FloatArray, entry_velocity: FloatArray | None = None) -> float:
+    """Return the energy stored in the contact [J]; arguments as for :func:`joint_wrench`."""
+    return float(stored(data, new_memory(data, entry_velocity), pose_at(y)))

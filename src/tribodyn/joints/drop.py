@@ -17,9 +17,10 @@ from scipy.integrate import DOP853
 from tribodyn.contact.bounce import undamped_depth
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.joints.bushing import BushingJoint
+from tribodyn.joints.bushing import BushingJoint, contact_energy, new_memory
 from tribodyn.joints.point_contact import SURFACE
-from tribodyn.kernels.bushing.joint import stored, update_entry_velocity, wrench
+from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity, wrench
+from tribodyn.kernels.joints.pose import F_X, N_WRENCH
 
 _MOST_STEPS: Final = 20_000
 _LONGEST_STEP: Final = 0.05
@@ -58,13 +59,14 @@ def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:
         Speed at the onset of contact [m/s].
     """
     data = replace(joint, friction=replace(joint.friction, coefficient=0.0)).data()
-    memory, state, out = joint.no_memory(), np.zeros(8), np.empty(5)
+    memory, out = new_memory(data), np.empty(N_WRENCH)
+    pose = memory.scratch.pose
     onset = onset_eccentricity(joint)
 
     def motion(_: float, y: FloatArray) -> FloatArray:
-        state[0], state[4] = y
-        wrench(data, memory, state, 0.0, 1.0, out)
-        return np.array([y[1], out[0] / mass])
+        pose.d_x, pose.v_x = y
+        wrench(data, memory, pose, out)
+        return np.array([y[1], out[F_X] / mass])
 
     sigma = joint.roughness
     solver = DOP853(
@@ -84,8 +86,8 @@ def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:
         if e <= onset:
             # Out there is no force to speak of: the speed at the end of the step is that of leaving.
             return Drop(-float(v) / speed, force, joint.geometry.clearance - deepest)
-        state[0], state[4] = e, v
-        update_entry_velocity(data, state, memory, 0.0)
+        pose.d_x, pose.v_x = e, v
+        update_entry_velocity(data, memory, pose, 0.0)
         deepest, force = max(deepest, float(e)), max(force, -float(motion(0.0, solver.y)[1]) * mass)
     return Drop(0.0, force, joint.geometry.clearance - deepest)
 
@@ -121,4 +123,4 @@ def stored_energy(joint: BushingJoint, eccentricity: float) -> float:
     """Return the energy stored in the contact of an untilted journal [J]."""
     y = np.zeros(8)
     y[0] = eccentricity
-    return float(stored(joint.data(), joint.no_memory(), y))
+    return contact_energy(joint.data(), y)

@@ -15,7 +15,7 @@ def new_record(fields: np.dtype[np.void]) -> Any:
 
     A compiled function takes one address instead of every number and seven for every array.
     """
-    return np.zeros(1, dtype=fields).view(np.recarray)[0]
+    return np.zeros(1, dtype=fields)[0]
 
 
 @kernel

@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.film.data import (
     HALF_SOMMERFELD,
     JFO,
@@ -17,9 +19,15 @@ from tribodyn.kernels.film.data import (
     REYNOLDS,
     SIDES,
     BandSystem,
+    Cell,
+    Column,
+    Constants,
     FilmData,
     FilmFields,
     FilmMemory,
+    Row,
+    Work,
+    ZFace,
 )
 from tribodyn.lubrication.roughness import Roughness
 from tribodyn.lubrication.tables import flow_table
@@ -119,29 +127,32 @@ class Film:
             Wear depth at the nodes [m], shape :attr:`field_shape`; none by default.
         """
         depth = self._wear(wear)
-        z_face = 0.5 * (self.z[1:] + self.z[:-1])
-        half_step = np.pi / self.grid.theta
+        constants = new_record(Constants)
+        for name in ("viscosity", "clearance", "radius", "length"):
+            constants[name] = getattr(self, name)
+        constants.roughness = self.roughness.combined
+        constants.cavitation = CAVITATION[self.cavitation]
+        constants.groove = self.boundary == "groove"
+        constants.uniform = np.ptp(depth, axis=0).max() == 0.0
+        constants.mirror = np.array_equal(depth, depth[::-1])
         return FilmData(
-            viscosity=float(self.viscosity),
-            clearance=float(self.clearance),
-            radius=float(self.radius),
-            length=float(self.length),
-            roughness=self.roughness.combined,
-            cavitation=CAVITATION[self.cavitation],
-            groove=int(self.boundary == "groove"),
-            uniform=int(np.ptp(depth, axis=0).max() == 0.0),
-            mirror=int(np.array_equal(depth, depth[::-1])),
-            cos_node=np.cos(self.theta),
-            sin_node=np.sin(self.theta),
-            cos_face=np.cos(self.theta + half_step),
-            sin_face=np.sin(self.theta + half_step),
+            constants=constants,
+            columns=self._columns(),
             z_node=self.z,
-            z_face=z_face,
+            z_face=0.5 * (self.z[1:] + self.z[:-1]),
             wear_node=np.ascontiguousarray(depth.T),
             wear_theta=np.ascontiguousarray((0.5 * (depth + np.roll(depth, -1, axis=1))).T),
             wear_z=np.ascontiguousarray((0.5 * (depth[1:] + depth[:-1])).T),
             table=flow_table(self.roughness),
         )
+
+    def _columns(self) -> NDArray[np.void]:
+        """Return cosines and sines of the grid."""
+        columns = np.zeros(self.grid.theta, dtype=Column)
+        columns["cos_node"], columns["sin_node"] = np.cos(self.theta), np.sin(self.theta)
+        face = self.theta + np.pi / self.grid.theta
+        columns["cos_face"], columns["sin_face"] = np.cos(face), np.sin(face)
+        return columns
 
     def _wear(self, wear: FloatArray | None) -> FloatArray:
         depth = np.zeros(self.field_shape) if wear is None else np.asarray(wear, dtype=np.float64)
@@ -164,13 +175,11 @@ class Film:
             fill=np.ones((n, m)),
             adjoint=np.zeros((5, n, m)),
             gradient=np.zeros((5, 6, m + 1)),
-            state=np.zeros(8),
-            chart=np.zeros((5, 9)),
             fields=_fields(n, m),
             system=_system(n, m),
             transport=np.zeros((unknowns, 2 * m + 1)),
             amount=np.zeros(unknowns),
-            effort=np.zeros(2, dtype=np.int64),
+            work=new_record(Work),
         )
 
 
@@ -180,16 +189,11 @@ def _require(value: str, allowed: tuple[str, ...], key: str) -> None:
 
 
 def _fields(n: int, m: int) -> FilmFields:
-    on_theta = ("k_theta", "wedge", "drag", "contact", "dk_theta", "d_wedge", "d_drag", "d_contact", "source")
-    on_z = ("k_z", "couette", "dk_z", "d_couette")
-    columns = ("cos_node", "sin_node", "cos_face", "sin_face")
     return FilmFields(
-        **{name: np.zeros(n) for name in columns},
-        **{name: np.zeros((n, m)) for name in on_theta},
-        **{name: np.zeros((n, m + 1)) for name in on_z},
-        offset=np.zeros((4, m)),
-        face_offset=np.zeros((2, m + 1)),
-        weight=np.ones(m),
+        columns=np.zeros(n, dtype=Column),
+        rows=np.zeros(m + 1, dtype=Row),
+        cells=np.zeros((n, m), dtype=Cell),
+        z_faces=np.zeros((n, m + 1), dtype=ZFace),
     )
 
 

@@ -11,7 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-TIME: Final = ("time",)
+from tribodyn.core.quantities import TIME, Table
+from tribodyn.kernels.joints.quantities import REPORTED, STATES
+
 SNAPSHOT: Final = ("snapshot",)
 JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
@@ -51,38 +53,16 @@ COORDINATES: Final[dict[str, Variable]] = {
     "z": Variable("m", "axial coordinate of the bushing from its middle", ("z",)),
 }
 
+
+def described(*tables: Table) -> dict[str, Variable]:
+    """Return what is known of quantities by the tables of the kernels that compute them."""
+    return {q.name: Variable(q.unit, q.meaning, q.dimensions) for table in tables for q in table}
+
+
 BUSHING: Final[dict[str, Variable]] = {
-    "e_x": Variable("m", "offset of the trunnion centre along X"),
-    "e_y": Variable("m", "offset of the trunnion centre along Y"),
-    "phi_x": Variable("rad", "tilt of the trunnion about X (right-handed)"),
-    "phi_y": Variable("rad", "tilt of the trunnion about Y (left-handed)"),
-    "e_x_dot": Variable("m s-1", "velocity of the trunnion centre along X"),
-    "e_y_dot": Variable("m s-1", "velocity of the trunnion centre along Y"),
-    "phi_x_dot": Variable("rad s-1", "tilt rate of the trunnion about X"),
-    "phi_y_dot": Variable("rad s-1", "tilt rate of the trunnion about Y"),
-    "F_cx": Variable("N", "normal contact force on the trunnion along X"),
-    "F_cy": Variable("N", "normal contact force on the trunnion along Y"),
-    "F_kx": Variable("N", "rigid (asperity stiffness) part of the contact force along X"),
-    "F_ky": Variable("N", "rigid (asperity stiffness) part of the contact force along Y"),
+    **described(STATES, REPORTED),
     "F_dx": Variable("N", "damping part of the contact force along X"),
     "F_dy": Variable("N", "damping part of the contact force along Y"),
-    "F_fx": Variable("N", "friction force on the trunnion along X"),
-    "F_fy": Variable("N", "friction force on the trunnion along Y"),
-    "M_jcx": Variable("N m", "moment of the contact pressure about X"),
-    "M_jcy": Variable("N m", "moment of the contact pressure about Y (left-handed)"),
-    "M_fx": Variable("N m", "moment of the bushing friction about X"),
-    "M_fy": Variable("N m", "moment of the bushing friction about Y (left-handed)"),
-    "M_jf": Variable("N m", "friction moment of the bushing about Z"),
-    "p_max": Variable("Pa", "peak contact pressure in the bushing, edges included"),
-    "separation_min": Variable("m", "smallest gap in the bushing, negative where mean surfaces overlap"),
-    "tensile_clip_share": Variable(
-        "1", "share of the contact force held back by the clip of tensile pressure"
-    ),
-    "M_kx": Variable("N m", "moment of the rigid part of the contact pressure about X"),
-    "M_ky": Variable("N m", "moment of the rigid part of the contact pressure about Y (left-handed)"),
-    "damping_power": Variable("W", "power of the damping pressure, turned into heat"),
-    "friction_power": Variable("W", "power of the bushing friction, turned into heat"),
-    "contact_fraction": Variable("1", "share of the bushing surface in contact"),
 }
 """Motion of a shaft in its bushing, and what acts on it there."""
 

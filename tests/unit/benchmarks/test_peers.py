@@ -14,7 +14,7 @@ from benchmarks.vsv_case import NATIVE, one, problem_of, vsv_case
 def test_the_right_hand_side_in_numpy_is_that_of_the_kernels(t: float, speed: float) -> None:
     rng = np.random.default_rng(3)
     problem = problem_of(*vsv_case(1.0))
-    model = NumpyVsv(problem.data, problem.memory.entry_velocity)
+    model = NumpyVsv(problem.data, problem.memory.joint.entry_velocity)
     y = problem.y0 * (1.0 + 0.1 * rng.standard_normal(8))
     y[4:] = speed * rng.standard_normal(4) * np.array([1.0, 1.0, 100.0, 100.0])
     problem.functions.enter(t, y, problem.data, problem.memory)

@@ -6,15 +6,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import pytest
 
-from tribodyn.kernels.journal import ledger as journal_ledger
-from tribodyn.kernels.vsv import books
+from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.quantities import Peaks
 from tribodyn.mechanisms.checks import CLIP_LIMIT, ENERGY_LIMIT, GRID_LIMIT, REJECTED_LIMIT, RESTART_LIMIT
 from tribodyn.mechanisms.journal import checks as journal_checks
 from tribodyn.mechanisms.vsv import checks
-from tribodyn.mechanisms.vsv.checks import peaks
 from tribodyn.mechanisms.vsv.parameters import Vsv
 
 T_END = 2.0
@@ -49,20 +47,21 @@ def statistics(seen: dict[str, float]) -> dict[str, float]:
 
 
 def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    extremes = np.zeros(books.N_EXTREMES)
-    extremes[books.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
-    extremes[books.CLIPPED] = seen["clipped"] * T_END
-    extremes[books.LIFT_OFF] = seen["lift_off"]
+    found = {
+        "separation_least": seen["depth"] * vsv.joint.roughness,
+        "tensile_clip_time": seen["clipped"] * T_END,
+        "collar_lift_off_time": seen["lift_off"],
+    }
     residuals = seen["energy"], seen["clearance_energy"]
-    return checks.warnings(vsv, peaks(extremes), *residuals, seen["grid"], T_END, cost)
+    return checks.warnings(vsv, found, *residuals, seen["grid"], T_END, cost)
 
 
 def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    extremes = np.zeros(journal_ledger.N_EXTREMES)
-    extremes[journal_ledger.LEAST_SEPARATION] = seen["depth"] * vsv.joint.roughness
-    extremes[journal_ledger.CLIPPED] = seen["clipped"] * T_END
+    found = new_record(Peaks)
+    found.separation_least = seen["depth"] * vsv.joint.roughness
+    found.tensile_clip_time = seen["clipped"] * T_END
     numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
-    return journal_checks.warnings(extremes, vsv.joint, **numbers, statistics=cost)
+    return journal_checks.warnings(found, vsv.joint, **numbers, statistics=cost)
 
 
 @pytest.mark.parametrize("told", [of_vsv, of_journal])

@@ -10,7 +10,7 @@ import pytest
 from benchmarks.vsv_case import problem_of, vsv_case
 from tribodyn import load_case, simulate
 from tribodyn.integrate import integrate
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.quantities import OBSERVED
 
 
 @pytest.mark.long

@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 
 from tribodyn.figures.contact_force import close_up
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import build
 from tribodyn.views.events import direction, reversal_times
 
+VSV = MECHANISMS["vsv"]
+
 
 def _speeds(time, speed):
-    return build(coordinates={"time": time}, columns={"omega_v_ideal": speed})
+    return build(coordinates={"time": time}, columns={"omega_v_ideal": speed}, variables=VSV.variables)
 
 
 def test_reversals_of_a_sine():

@@ -11,7 +11,7 @@ What a mechanism calls, with ``film`` and ``memory`` from ``lubrication.Film(...
 ``film_leakage(film, memory) -> float``
     Volume that leaves both ends per second [m³/s], of the last evaluation with this memory.
 
-Arguments and signs are those of ``kernels.bushing.wrench``: y = (e_x, e_y, φ_x, φ_y and their rates), ω
+Arguments and signs are those of the source paper: y = (e_x, e_y, φ_x, φ_y and their rates), ω
 right-handed about Z, M_x right-handed, M_y left-handed, M_z about the journal axis (fluid friction, which
 opposes ω).
 

@@ -25,9 +25,9 @@ def friction_load(memory: FilmMemory, i: int, j: int) -> float:
     −½ ∫ h φ_fp ∂p/∂θ dA, summed by parts.
     """
     n = memory.pressure.shape[0]
-    drag = memory.fields.drag
+    cells = memory.fields.cells
     before = i - 1 if i > 0 else n - 1
-    return (drag[i, j] - drag[before, j]) * n / (4.0 * math.pi)
+    return (cells[i, j].drag - cells[before, j].drag) * n / (4.0 * math.pi)
 
 
 @kernel
@@ -36,7 +36,7 @@ def solve_adjoints(film: FilmData, memory: FilmMemory, omega: float, rows: int, 
 
     A symmetric film answers tilts with odd fields, which vanish in the middle row: a system of its own.
     """
-    if film.cavitation == JFO:
+    if film.constants.cavitation == JFO:
         _solve_transport(film, memory, omega)
         return
     if not half:
@@ -54,14 +54,14 @@ def solve_adjoints(film: FilmData, memory: FilmMemory, omega: float, rows: int, 
 def _solve_for(film: FilmData, memory: FilmMemory, rows: int, solved: int, first: int, count: int) -> None:
     """Solve for ``count`` members in the order F_x, F_y, M_z, M_x, M_y, over the first ``solved`` rows."""
     fields, system, active = memory.fields, memory.system, memory.active
-    positive_only = film.cavitation == HALF_SOMMERFELD
+    positive_only = film.constants.cavitation == HALF_SOMMERFELD
     for i in range(active.shape[0]):
-        c, s = fields.cos_node[i], fields.sin_node[i]
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(solved):
             if active[i, j] == 0:
                 continue
             k = system.number[i, j]
-            weight = fields.weight[j]
+            weight = fields.rows[j].weight
             z = film.z_node[j + 1]
             share = 0.0 if positive_only and memory.pressure[i, j] <= 0.0 else 1.0
             loads = (c, s, friction_load(memory, i, j) / weight, -z * s, -z * c)
@@ -84,23 +84,23 @@ def _solve_transport(film: FilmData, memory: FilmMemory, omega: float) -> None:
     friction = couette_scale(film) * omega / force_scale(film)
     for m in range(5):
         for i in range(1, n):
-            c, s = fields.cos_node[i], fields.sin_node[i]
+            c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
             for j in range(rows):
                 k = (i - 1) * rows + j
                 z = film.z_node[j + 1]
                 if active[i, j] == 1:
                     memory.amount[k] = (c, s, friction_load(memory, i, j), -z * s, -z * c)[m]
                 else:
-                    memory.amount[k] = friction * couette_by_fill(fields.couette, i, j) if m == 2 else 0.0
+                    memory.amount[k] = friction * couette_by_fill(fields, i, j) if m == 2 else 0.0
         transport_adjoint(memory, m)
 
 
 @kernel
 def fill_chart(film: FilmData, memory: FilmMemory, omega: float, rows: int, half: bool) -> None:
-    """Fill ``memory.chart`` from the adjoints: rows F_x, F_y, M_x, M_y, M_z; columns the chart and ω."""
-    chart = memory.chart
+    """Fill ``memory.work.chart`` from the adjoints: rows F_x, F_y, M_x, M_y, M_z; columns the chart and ω."""
+    chart = memory.work.chart
     clear(chart)
-    step = film.length / film.z_face.size
+    step = film.constants.length / film.z_face.size
     scale = force_scale(film)
     couette = couette_scale(film)
     order = (0, 1, 4, 2, 3)
@@ -109,7 +109,7 @@ def fill_chart(film: FilmData, memory: FilmMemory, omega: float, rows: int, half
         gradient = memory.gradient[m]
         clear(gradient)
         explicit = 1.0 if m == 2 else 0.0
-        speed = _theta_sums(film, memory, omega, m, explicit, rows, step / film.radius)
+        speed = _theta_sums(film, memory, omega, m, explicit, rows, step / film.constants.radius)
         _z_sums(memory, m, rows, half)
         if m == 2:
             speed += _couette_sums(memory, omega, couette / scale, rows, half)
@@ -125,18 +125,25 @@ def fill_chart(film: FilmData, memory: FilmMemory, omega: float, rows: int, half
 
 
 @kernel
+def _cell_area(film: FilmData) -> float:
+    """Return r dθ dz of a cell [m²]."""
+    constants = film.constants
+    return 2.0 * math.pi * constants.radius / film.columns.size * constants.length / film.z_face.size
+
+
+@kernel
 def force_scale(film: FilmData) -> float:
     """Return p r dθ dz of a node with π = 1/s [N s]."""
-    cell = 2.0 * math.pi * film.radius / film.cos_node.size * film.length / film.z_face.size
-    slender = film.radius / film.clearance
-    return 6.0 * film.viscosity * slender * slender * cell
+    constants = film.constants
+    slender = constants.radius / constants.clearance
+    return 6.0 * constants.viscosity * slender * slender * _cell_area(film)
 
 
 @kernel
 def couette_scale(film: FilmData) -> float:
     """Return the torque per ω of a cell with c φ_f/h = 1 [N m s]; it opposes ω."""
-    cell = 2.0 * math.pi * film.radius / film.cos_node.size * film.length / film.z_face.size
-    return -film.viscosity * film.radius * film.radius * cell / film.clearance
+    constants = film.constants
+    return -constants.viscosity * constants.radius**2 * _cell_area(film) / constants.clearance
 
 
 @kernel
@@ -165,30 +172,31 @@ def _theta_sums(
     """Sum what θ faces and nodes add to the derivatives by offset and velocity; return that by ω."""
     fields, sums, adjoint, pressure = memory.fields, memory.gradient[m], memory.adjoint[m], memory.pressure
     n = pressure.shape[0]
-    squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.clearance
-    if film.cavitation == JFO:
+    squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.constants.clearance
+    if film.constants.cavitation == JFO:
         squeeze = 0.0
     friction = explicit * n / (4.0 * math.pi)
-    positive_only = film.cavitation == HALF_SOMMERFELD
+    positive_only = film.constants.cavitation == HALF_SOMMERFELD
     speed = 0.0
     for i in range(n):
         after = i + 1 if i < n - 1 else 0
-        c_f, s_f = fields.cos_face[i], fields.sin_face[i]
-        c, s = fields.cos_node[i], fields.sin_node[i]
+        c_f, s_f = fields.columns[i].cos_face, fields.columns[i].sin_face
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(rows):
             rise = adjoint[i, j] - adjoint[after, j]
             filled = memory.fill[i, j] if omega > 0.0 else memory.fill[after, j]
             flow = d_zeta * filled * rise
             here, there = pressure[i, j], pressure[after, j]
-            face = -rise * fields.dk_theta[i, j] * (here - there) - omega * flow * fields.d_wedge[i, j]
+            cell = fields.cells[i, j]
+            face = -rise * cell.dk_theta * (here - there) - omega * flow * cell.d_wedge
             if positive_only:
                 here, there = max(here, 0.0), max(there, 0.0)
-            face += friction * fields.d_drag[i, j] * (here - there)
-            speed -= flow * fields.wedge[i, j]
-            rate = fields.offset[2, j] * c + fields.offset[3, j] * s
+            face += friction * cell.d_drag * (here - there)
+            speed -= flow * cell.wedge
+            rate = fields.rows[j].v_a * c + fields.rows[j].v_b * s
             node = -squeeze * adjoint[i, j]
-            bend = node * fields.d_contact[i, j] * rate
-            node *= fields.contact[i, j]
+            bend = node * cell.d_contact * rate
+            node *= cell.contact
             sums[0, j] += face * c_f + bend * c
             sums[1, j] += face * s_f + bend * s
             sums[2, j] += node * c
@@ -201,20 +209,20 @@ def _z_sums(memory: FilmMemory, m: int, rows: int, half: bool) -> None:
     """Sum what z faces add to the derivatives by offset."""
     fields, sums, adjoint, pressure = memory.fields, memory.gradient[m], memory.adjoint[m], memory.pressure
     for i in range(pressure.shape[0]):
-        c, s = fields.cos_node[i], fields.sin_node[i]
-        face = -fields.dk_z[i, 0] * adjoint[i, 0] * pressure[i, 0]
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
+        face = -fields.z_faces[i, 0].dk_z * adjoint[i, 0] * pressure[i, 0]
         sums[4, 0] += face * c
         sums[5, 0] += face * s
         for j in range(1, rows):
             face = (
-                -fields.dk_z[i, j]
+                -fields.z_faces[i, j].dk_z
                 * (adjoint[i, j] - adjoint[i, j - 1])
                 * (pressure[i, j] - pressure[i, j - 1])
             )
             sums[4, j] += face * c
             sums[5, j] += face * s
         if not half:
-            face = -fields.dk_z[i, rows] * adjoint[i, rows - 1] * pressure[i, rows - 1]
+            face = -fields.z_faces[i, rows].dk_z * adjoint[i, rows - 1] * pressure[i, rows - 1]
             sums[4, rows] += face * c
             sums[5, rows] += face * s
 
@@ -226,11 +234,11 @@ def _couette_sums(memory: FilmMemory, omega: float, share: float, rows: int, hal
     faces = rows if half else rows + 1
     total = 0.0
     for i in range(memory.pressure.shape[0]):
-        c, s = fields.cos_node[i], fields.sin_node[i]
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(faces):
             filled = share * filled_column(memory.fill, i, j)
-            slope = omega * filled * fields.d_couette[i, j]
+            slope = omega * filled * fields.z_faces[i, j].d_couette
             sums[4, j] += slope * c
             sums[5, j] += slope * s
-            total += filled * fields.couette[i, j]
+            total += filled * fields.z_faces[i, j].couette
     return total

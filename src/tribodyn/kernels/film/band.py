@@ -79,24 +79,27 @@ def assemble(system: BandSystem, fields: FilmFields, rows: int) -> None:
             if k < 0:
                 continue
             centre = (
-                fields.k_theta[i, j] + fields.k_theta[before, j] + fields.k_z[i, j] + fields.k_z[i, j + 1]
+                fields.cells[i, j].k_theta
+                + fields.cells[before, j].k_theta
+                + fields.z_faces[i, j].k_z
+                + fields.z_faces[i, j + 1].k_z
             )
             above = system.number[i, j + 1] if j + 1 < rows else -1
             if i == start:
                 e = k - inner
                 system.corner[e, e] = centre
                 if above >= 0:
-                    system.corner[e + 1, e] = -fields.k_z[i, j + 1]
+                    system.corner[e + 1, e] = -fields.z_faces[i, j + 1].k_z
                 if system.number[before, j] >= 0:
-                    system.border[system.number[before, j], e] -= fields.k_theta[before, j]
+                    system.border[system.number[before, j], e] -= fields.cells[before, j].k_theta
                 if system.number[after, j] >= 0:
-                    system.border[system.number[after, j], e] -= fields.k_theta[i, j]
+                    system.border[system.number[after, j], e] -= fields.cells[i, j].k_theta
                 continue
             system.band[k, 0] = centre
             if above >= 0:
-                system.band[k, above - k] = -fields.k_z[i, j + 1]
+                system.band[k, above - k] = -fields.z_faces[i, j + 1].k_z
             if after != start and system.number[after, j] >= 0:
-                system.band[k, system.number[after, j] - k] = -fields.k_theta[i, j]
+                system.band[k, system.number[after, j] - k] = -fields.cells[i, j].k_theta
 
 
 @kernel

@@ -32,15 +32,15 @@ ROUNDING = 1e-13
 @kernel
 def solve_pressure(film: FilmData, memory: FilmMemory, rows: int) -> int:
     """Fill ``memory.pressure`` and leave the factors of the last system; return a status."""
-    active, effort = memory.active, memory.effort
+    active, effort = memory.active, memory.work.effort
     effort[0] = 0
     _first_guess(film, memory, rows)
     for _ in range(MOST_SOLVES):
         _solve_over(memory.system, memory.fields, active, memory.pressure, rows)
         effort[0] += 1
-        if film.cavitation != REYNOLDS:
+        if film.constants.cavitation != REYNOLDS:
             return CONVERGED
-        if _exchange(memory.fields, active, memory.pressure, film.groove, rows) == 0:
+        if _exchange(memory.fields, active, memory.pressure, film.constants.groove, rows) == 0:
             return CONVERGED
     return NO_CONVERGENCE
 
@@ -51,13 +51,13 @@ def _first_guess(film: FilmData, memory: FilmMemory, rows: int) -> None:
     moving = False
     for i in range(memory.active.shape[0]):
         for j in range(rows):
-            if memory.fields.source[i, j] != 0.0:
+            if memory.fields.cells[i, j].source != 0.0:
                 moving = True
-    if not moving or film.cavitation != REYNOLDS:
+    if not moving or film.constants.cavitation != REYNOLDS:
         for i in range(memory.active.shape[0]):
             for j in range(rows):
                 memory.active[i, j] = 1
-    if film.groove == 1:
+    if film.constants.groove == 1:
         for j in range(rows):
             memory.active[0, j] = 0
 
@@ -73,7 +73,7 @@ def _solve_over(
     for i in range(active.shape[0]):
         for j in range(rows):
             if active[i, j] == 1:
-                system.single[system.number[i, j]] = fields.source[i, j]
+                system.single[system.number[i, j]] = fields.cells[i, j].source
     solve_one(system)
     for i in range(active.shape[0]):
         for j in range(rows):
@@ -88,7 +88,7 @@ def _exchange(fields: FilmFields, active: FlagArray, pressure: FloatArray, groov
     for i in range(n):
         for j in range(rows):
             highest = max(highest, abs(pressure[i, j]))
-            strongest = max(strongest, abs(fields.source[i, j]))
+            strongest = max(strongest, abs(fields.cells[i, j].source))
     changes = 0
     for i in range(groove, n):
         before = i - 1 if i > 0 else n - 1
@@ -99,14 +99,15 @@ def _exchange(fields: FilmFields, active: FlagArray, pressure: FloatArray, groov
                     active[i, j] = 0
                     changes += 1
                 continue
-            inflow = fields.source[i, j]
+            inflow = fields.cells[i, j].source
             inflow += (
-                fields.k_theta[i, j] * pressure[after, j] + fields.k_theta[before, j] * pressure[before, j]
+                fields.cells[i, j].k_theta * pressure[after, j]
+                + fields.cells[before, j].k_theta * pressure[before, j]
             )
             if j > 0:
-                inflow += fields.k_z[i, j] * pressure[i, j - 1]
+                inflow += fields.z_faces[i, j].k_z * pressure[i, j - 1]
             if j + 1 < rows:
-                inflow += fields.k_z[i, j + 1] * pressure[i, j + 1]
+                inflow += fields.z_faces[i, j + 1].k_z * pressure[i, j + 1]
             if inflow > ROUNDING * strongest:
                 active[i, j] = 1
                 changes += 1

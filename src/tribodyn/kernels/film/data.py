@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record, record_type
 
 IntArray = NDArray[np.int64]
 FlagArray = NDArray[np.int8]
@@ -55,30 +56,44 @@ class FlowTable(NamedTuple):
     mean_gap: FloatArray
 
 
+Constants: Final = record_type(
+    *((name, "f8") for name in ("viscosity", "clearance", "radius", "length", "roughness")),
+    *((name, "i8") for name in ("cavitation", "groove", "uniform", "mirror")),
+)
+"""Constants of a film, SI units.
+
+viscosity
+    η [Pa s].
+clearance, radius, length
+    c, r_j, l_z [m].
+roughness
+    Combined rms roughness σ [m]; 0 for smooth surfaces, which have no factors.
+cavitation
+    ``REYNOLDS``, ``HALF_SOMMERFELD``, ``NO_CAVITATION`` or ``JFO``.
+groove
+    1 for p = 0 on the line of maximum gap, to which the grid then turns; 0 for a periodic film.
+uniform
+    1 if the wear does not depend on z.
+mirror
+    1 if the wear is the same at z and −z.
+"""
+
+Column: Final = record_type(*((name, "f8") for name in ("cos_node", "sin_node", "cos_face", "sin_face")))
+"""Cosine and sine of θ at the nodes of a column and on the faces behind them."""
+
+
 class FilmData(NamedTuple):
-    """Constants of a film, SI units.
+    """What the kernels of a film read.
 
     Nodes are uniform in θ and z; those at both ends (z = ∓length/2) carry p = 0. ``theta`` fields live on
     faces half a step after a node in θ, ``z`` fields half a step after it in z.
 
     Attributes
     ----------
-    viscosity
-        η [Pa s].
-    clearance, radius, length
-        c, r_j, l_z [m].
-    roughness
-        Combined rms roughness σ [m]; 0 for smooth surfaces, which have no factors.
-    cavitation
-        ``REYNOLDS``, ``HALF_SOMMERFELD``, ``NO_CAVITATION`` or ``JFO``.
-    groove
-        1 for p = 0 on the line of maximum gap, to which the grid then turns; 0 for a periodic film.
-    uniform
-        1 if the wear does not depend on z.
-    mirror
-        1 if the wear is the same at z and −z.
-    cos_node, sin_node, cos_face, sin_face
-        Cosine and sine of θ at nodes and faces, shape (n_theta,).
+    constants
+        See :data:`Constants`.
+    columns
+        Of the grid, see :data:`Column`, shape (n_theta,).
     z_node, z_face
         Axial positions [m], shapes (n_z + 1,) and (n_z,).
     wear_node, wear_theta, wear_z
@@ -87,25 +102,42 @@ class FilmData(NamedTuple):
         Factors of the rough surfaces.
     """
 
-    viscosity: float
-    clearance: float
-    radius: float
-    length: float
-    roughness: float
-    cavitation: int
-    groove: int
-    uniform: int
-    mirror: int
-    cos_node: FloatArray
-    sin_node: FloatArray
-    cos_face: FloatArray
-    sin_face: FloatArray
+    constants: Record
+    columns: NDArray[np.void]
     z_node: FloatArray
     z_face: FloatArray
     wear_node: FloatArray
     wear_theta: FloatArray
     wear_z: FloatArray
     table: FlowTable
+
+
+Row: Final = record_type(*((name, "f8") for name in ("a", "b", "v_a", "v_b", "weight", "face_a", "face_b")))
+"""The journal axis at a row: offset [m] and velocity [m/s], and its offset at the z face below the row [m].
+
+The weight is 1, ½ for the row in the middle of a symmetric film.
+"""
+
+Cell: Final = record_type(
+    *((name, "f8") for name in ("k_theta", "dk_theta", "wedge", "d_wedge", "drag", "d_drag")),
+    *((name, "f8") for name in ("contact", "d_contact", "source")),
+)
+"""A node and the θ face behind it; each name with d is the derivative by h of the one before.
+
+k_theta
+    Conductance of the face [1].
+wedge
+    (h_T + σ φ_s)/c on the face times the row weight [1].
+drag
+    h φ_fp on the face times the row weight [m].
+contact
+    φ_c times the row weight at the node [1].
+source
+    Right-hand side of the equation for the pressure [1/s].
+"""
+
+ZFace: Final = record_type(*((name, "f8") for name in ("k_z", "dk_z", "couette", "d_couette")))
+"""A z face: its conductance and c φ_f/h [1], each with its derivative by h."""
 
 
 class FilmFields(NamedTuple):
@@ -115,50 +147,20 @@ class FilmFields(NamedTuple):
 
     Attributes
     ----------
-    cos_node, sin_node, cos_face, sin_face
-        Of the grid, turned to the groove if there is one, shape (n,).
-    offset
-        a, b [m] and v_a, v_b [m/s] of the journal axis at the rows, shape (4, m).
-    face_offset
-        a, b [m] at the z faces, shape (2, m + 1).
-    weight
-        1 for a row, ½ for the one in the middle of a symmetric film, shape (m,).
-    k_theta, k_z
-        Conductance of the faces [1], shapes (n, m) and (n, m + 1).
-    wedge
-        (h_T + σ φ_s)/c on θ faces times the row weight, shape (n, m).
-    drag
-        h φ_fp [m] on θ faces times the row weight, shape (n, m).
-    couette
-        c φ_f/h on z faces, shape (n, m + 1).
-    contact
-        φ_c times the row weight at nodes, shape (n, m).
-    dk_theta, dk_z, d_wedge, d_drag, d_couette, d_contact
-        Their derivatives by h.
-    source
-        Right-hand side of the equation for the pressure [1/s], shape (n, m).
+    columns
+        Of the grid, turned to the groove if there is one, see :data:`Column`, shape (n,).
+    rows
+        See :data:`Row`, shape (m + 1,): the last holds a face alone.
+    cells
+        See :data:`Cell`, shape (n, m).
+    z_faces
+        See :data:`ZFace`, shape (n, m + 1).
     """
 
-    cos_node: FloatArray
-    sin_node: FloatArray
-    cos_face: FloatArray
-    sin_face: FloatArray
-    offset: FloatArray
-    face_offset: FloatArray
-    weight: FloatArray
-    k_theta: FloatArray
-    k_z: FloatArray
-    wedge: FloatArray
-    drag: FloatArray
-    couette: FloatArray
-    contact: FloatArray
-    dk_theta: FloatArray
-    dk_z: FloatArray
-    d_wedge: FloatArray
-    d_drag: FloatArray
-    d_couette: FloatArray
-    d_contact: FloatArray
-    source: FloatArray
+    columns: NDArray[np.void]
+    rows: NDArray[np.void]
+    cells: NDArray[np.void]
+    z_faces: NDArray[np.void]
 
 
 class BandSystem(NamedTuple):
@@ -194,6 +196,18 @@ class BandSystem(NamedTuple):
     size: IntArray
 
 
+Work: Final = record_type(("state", "f8", (8,)), ("chart", "f8", (5, 9)), ("effort", "i8", (2,)))
+"""Of the last evaluation.
+
+state
+    The state in the linear coordinates of ``kernels.film.attitude``.
+chart
+    Derivatives of the wrench in these and ω.
+effort
+    Factorisations, and the number of rows used.
+"""
+
+
 class FilmMemory(NamedTuple):
     """Cavitation of the last evaluation, as a first guess, and scratch.
 
@@ -211,17 +225,13 @@ class FilmMemory(NamedTuple):
         Derivatives of the wrench by the source, shape (5, n_theta, n_z − 1).
     gradient
         Sums over rows of nodes (4) and of faces (2), shape (5, 6, n_z).
-    state
-        The state in the linear coordinates of ``kernels.film.attitude``, shape (8,).
-    chart
-        Derivatives of the wrench in these and ω, shape (5, 9).
     fields, system
         The film at one state, and the linear system for its pressure.
     transport, amount
         Matrix and unknowns (π or f) of ``jfo``, behind the groove, shapes (N, 2 n_z − 1) and (N,), N =
         (n_theta − 1)(n_z − 1); empty for the other models.
-    effort
-        Factorisations of the last evaluation, and the number of rows it used, shape (2,).
+    work
+        See :data:`Work`.
     """
 
     active: FlagArray
@@ -229,10 +239,8 @@ class FilmMemory(NamedTuple):
     fill: FloatArray
     adjoint: FloatArray
     gradient: FloatArray
-    state: FloatArray
-    chart: FloatArray
     fields: FilmFields
     system: BandSystem
     transport: FloatArray
     amount: FloatArray
-    effort: IntArray
+    work: Record

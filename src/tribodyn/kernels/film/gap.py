@@ -33,8 +33,8 @@ def evaluate_gap(
     """
     _turn_grid(film, fields, u)
     _offsets(film, fields, u, rows, half)
-    alike = film.uniform == 1 and u[2] == 0.0 and u[3] == 0.0
-    least = LEAST_RANGE * film.roughness
+    alike = film.constants.uniform == 1 and u[2] == 0.0 and u[3] == 0.0
+    least = LEAST_RANGE * film.constants.roughness
     lowest = _theta_faces(film, fields, rows, alike)
     lowest = min(lowest, _z_faces(film, fields, rows, half, alike))
     lowest = min(lowest, _nodes(film, fields, rows, alike))
@@ -48,13 +48,13 @@ def evaluate_gap(
 def _turn_grid(film: FilmData, fields: FilmFields, u: FloatArray) -> None:
     """Cosines and sines of the grid, whose first column lies on the groove if there is one."""
     c, s = 1.0, 0.0
-    if film.groove == 1:
+    if film.constants.groove == 1:
         c, s = groove_direction(u)
-    for i in range(film.cos_node.size):
-        fields.cos_node[i] = film.cos_node[i] * c - film.sin_node[i] * s
-        fields.sin_node[i] = film.sin_node[i] * c + film.cos_node[i] * s
-        fields.cos_face[i] = film.cos_face[i] * c - film.sin_face[i] * s
-        fields.sin_face[i] = film.sin_face[i] * c + film.cos_face[i] * s
+    for i in range(film.columns.size):
+        fields.columns[i].cos_node = film.columns[i].cos_node * c - film.columns[i].sin_node * s
+        fields.columns[i].sin_node = film.columns[i].sin_node * c + film.columns[i].cos_node * s
+        fields.columns[i].cos_face = film.columns[i].cos_face * c - film.columns[i].sin_face * s
+        fields.columns[i].sin_face = film.columns[i].sin_face * c + film.columns[i].cos_face * s
 
 
 @kernel
@@ -62,23 +62,23 @@ def _offsets(film: FilmData, fields: FilmFields, u: FloatArray, rows: int, half:
     """Offsets and velocities of the journal axis at the rows and z faces, and the weights of the rows."""
     for j in range(rows):
         z = film.z_node[j + 1]
-        fields.offset[0, j] = u[0] - z * u[3]
-        fields.offset[1, j] = u[1] - z * u[2]
-        fields.offset[2, j] = u[4] - z * u[7]
-        fields.offset[3, j] = u[5] - z * u[6]
-        fields.weight[j] = 1.0
+        fields.rows[j].a = u[0] - z * u[3]
+        fields.rows[j].b = u[1] - z * u[2]
+        fields.rows[j].v_a = u[4] - z * u[7]
+        fields.rows[j].v_b = u[5] - z * u[6]
+        fields.rows[j].weight = 1.0
     if half:
-        fields.weight[rows - 1] = 0.5
+        fields.rows[rows - 1].weight = 0.5
     for j in range(rows + 1):
         z = film.z_face[j]
-        fields.face_offset[0, j] = u[0] - z * u[3]
-        fields.face_offset[1, j] = u[1] - z * u[2]
+        fields.rows[j].face_a = u[0] - z * u[3]
+        fields.rows[j].face_b = u[1] - z * u[2]
 
 
 @kernel
 def theta_face(film: FilmData, gap: float) -> tuple[float, float, float, float, float, float]:
     """Return φ_θ h³/c³ [1], (h_T + σ φ_s)/c [1] and h φ_fp [m], each followed by its derivative by h."""
-    sigma, inverse = film.roughness, 1.0 / film.clearance
+    sigma, inverse = film.constants.roughness, 1.0 / film.constants.clearance
     if sigma == 0.0:
         cube = (gap * inverse) ** 3
         return cube, 3.0 * cube / gap, gap * inverse, inverse, gap, 1.0
@@ -99,9 +99,9 @@ def theta_face(film: FilmData, gap: float) -> tuple[float, float, float, float, 
 @kernel
 def z_face(film: FilmData, gap: float) -> tuple[float, float, float, float]:
     """Return φ_z h³/c³ and c φ_f/h, each followed by its derivative by h [1/m]."""
-    sigma, inverse = film.roughness, 1.0 / film.clearance
+    sigma, inverse = film.constants.roughness, 1.0 / film.constants.clearance
     h = max(gap, LEAST_SEPARATION * sigma)
-    cube, thinness, per_gap = (h * inverse) ** 3, film.clearance / h, 1.0 / h
+    cube, thinness, per_gap = (h * inverse) ** 3, film.constants.clearance / h, 1.0 / h
     if sigma == 0.0:
         return cube, 3.0 * cube * per_gap, thinness, -thinness * per_gap
     k, x, dx = place(film.table, sigma, h)
@@ -116,33 +116,36 @@ def z_face(film: FilmData, gap: float) -> tuple[float, float, float, float]:
 @kernel
 def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
     """Fill what lives on θ faces and return the smallest gap there [m]."""
-    n = film.cos_node.size
-    d_zeta = film.length / (film.z_face.size * film.radius)
+    n = film.columns.size
+    d_zeta = film.constants.length / (film.z_face.size * film.constants.radius)
     shape = d_zeta * n / (2.0 * math.pi)
     lowest = math.inf
     for i in range(n):
-        c, s = fields.cos_face[i], fields.sin_face[i]
+        c, s = fields.columns[i].cos_face, fields.columns[i].sin_face
         for j in range(rows):
-            weight = fields.weight[j]
+            weight = fields.rows[j].weight
             if alike and j > 0:
-                fields.k_theta[i, j] = weight * fields.k_theta[i, 0]
-                fields.dk_theta[i, j] = weight * fields.dk_theta[i, 0]
-                fields.wedge[i, j] = weight * fields.wedge[i, 0]
-                fields.d_wedge[i, j] = weight * fields.d_wedge[i, 0]
-                fields.drag[i, j] = weight * fields.drag[i, 0]
-                fields.d_drag[i, j] = weight * fields.d_drag[i, 0]
+                fields.cells[i, j].k_theta = weight * fields.cells[i, 0].k_theta
+                fields.cells[i, j].dk_theta = weight * fields.cells[i, 0].dk_theta
+                fields.cells[i, j].wedge = weight * fields.cells[i, 0].wedge
+                fields.cells[i, j].d_wedge = weight * fields.cells[i, 0].d_wedge
+                fields.cells[i, j].drag = weight * fields.cells[i, 0].drag
+                fields.cells[i, j].d_drag = weight * fields.cells[i, 0].d_drag
                 continue
             gap = (
-                film.clearance + fields.offset[0, j] * c + fields.offset[1, j] * s + film.wear_theta[i, j + 1]
+                film.constants.clearance
+                + fields.rows[j].a * c
+                + fields.rows[j].b * s
+                + film.wear_theta[i, j + 1]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
             k, dk, wedge, d_wedge, drag, d_drag = theta_face(film, gap)
-            fields.k_theta[i, j] = weight * shape * k
-            fields.dk_theta[i, j] = weight * shape * dk
-            fields.wedge[i, j] = weight * wedge
-            fields.d_wedge[i, j] = weight * d_wedge
-            fields.drag[i, j] = weight * drag
-            fields.d_drag[i, j] = weight * d_drag
+            fields.cells[i, j].k_theta = weight * shape * k
+            fields.cells[i, j].dk_theta = weight * shape * dk
+            fields.cells[i, j].wedge = weight * wedge
+            fields.cells[i, j].d_wedge = weight * d_wedge
+            fields.cells[i, j].drag = weight * drag
+            fields.cells[i, j].d_drag = weight * d_drag
     return lowest
 
 
@@ -152,37 +155,37 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
 
     The face above the middle of a symmetric film carries no flow.
     """
-    n = film.cos_node.size
-    d_zeta = film.length / (film.z_face.size * film.radius)
+    n = film.columns.size
+    d_zeta = film.constants.length / (film.z_face.size * film.constants.radius)
     shape = 2.0 * math.pi / (n * d_zeta)
     faces = rows if half else rows + 1
     lowest = math.inf
     for i in range(n):
-        c, s = fields.cos_node[i], fields.sin_node[i]
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(faces):
             if alike and j > 0:
-                fields.k_z[i, j] = fields.k_z[i, 0]
-                fields.dk_z[i, j] = fields.dk_z[i, 0]
-                fields.couette[i, j] = fields.couette[i, 0]
-                fields.d_couette[i, j] = fields.d_couette[i, 0]
+                fields.z_faces[i, j].k_z = fields.z_faces[i, 0].k_z
+                fields.z_faces[i, j].dk_z = fields.z_faces[i, 0].dk_z
+                fields.z_faces[i, j].couette = fields.z_faces[i, 0].couette
+                fields.z_faces[i, j].d_couette = fields.z_faces[i, 0].d_couette
                 continue
             gap = (
-                film.clearance
-                + fields.face_offset[0, j] * c
-                + fields.face_offset[1, j] * s
+                film.constants.clearance
+                + fields.rows[j].face_a * c
+                + fields.rows[j].face_b * s
                 + film.wear_z[i, j]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
             k, dk, couette, d_couette = z_face(film, gap)
-            fields.k_z[i, j] = shape * k
-            fields.dk_z[i, j] = shape * dk
-            fields.couette[i, j] = couette
-            fields.d_couette[i, j] = d_couette
+            fields.z_faces[i, j].k_z = shape * k
+            fields.z_faces[i, j].dk_z = shape * dk
+            fields.z_faces[i, j].couette = couette
+            fields.z_faces[i, j].d_couette = d_couette
         if half:
-            fields.k_z[i, rows] = 0.0
-            fields.dk_z[i, rows] = 0.0
-            fields.couette[i, rows] = 0.0
-            fields.d_couette[i, rows] = 0.0
+            fields.z_faces[i, rows].k_z = 0.0
+            fields.z_faces[i, rows].dk_z = 0.0
+            fields.z_faces[i, rows].couette = 0.0
+            fields.z_faces[i, rows].d_couette = 0.0
     return lowest
 
 
@@ -190,33 +193,36 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
 def _nodes(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
     """Fill the contact factor at the nodes and return the smallest gap there [m]."""
     lowest = math.inf
-    for i in range(film.cos_node.size):
-        c, s = fields.cos_node[i], fields.sin_node[i]
+    for i in range(film.columns.size):
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(rows):
             if alike and j > 0:
-                fields.contact[i, j] = fields.weight[j] * fields.contact[i, 0]
-                fields.d_contact[i, j] = fields.weight[j] * fields.d_contact[i, 0]
+                fields.cells[i, j].contact = fields.rows[j].weight * fields.cells[i, 0].contact
+                fields.cells[i, j].d_contact = fields.rows[j].weight * fields.cells[i, 0].d_contact
                 continue
             gap = (
-                film.clearance + fields.offset[0, j] * c + fields.offset[1, j] * s + film.wear_node[i, j + 1]
+                film.constants.clearance
+                + fields.rows[j].a * c
+                + fields.rows[j].b * s
+                + film.wear_node[i, j + 1]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
-            _, slope, bend = mean_gap(film.table, film.roughness, gap)
-            fields.contact[i, j] = fields.weight[j] * slope
-            fields.d_contact[i, j] = fields.weight[j] * bend
+            _, slope, bend = mean_gap(film.table, film.constants.roughness, gap)
+            fields.cells[i, j].contact = fields.rows[j].weight * slope
+            fields.cells[i, j].d_contact = fields.rows[j].weight * bend
     return lowest
 
 
 @kernel
 def _sources(film: FilmData, fields: FilmFields, omega: float, rows: int) -> None:
     """Fill the source of every cell: wedge, shear and squeeze."""
-    n = film.cos_node.size
-    d_zeta = film.length / (film.z_face.size * film.radius)
-    squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.clearance
+    n = film.columns.size
+    d_zeta = film.constants.length / (film.z_face.size * film.constants.radius)
+    squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.constants.clearance
     for i in range(n):
         before = i - 1 if i > 0 else n - 1
-        c, s = fields.cos_node[i], fields.sin_node[i]
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(rows):
-            rate = fields.offset[2, j] * c + fields.offset[3, j] * s
-            flow = omega * d_zeta * (fields.wedge[i, j] - fields.wedge[before, j])
-            fields.source[i, j] = -flow - squeeze * fields.contact[i, j] * rate
+            rate = fields.rows[j].v_a * c + fields.rows[j].v_b * s
+            flow = omega * d_zeta * (fields.cells[i, j].wedge - fields.cells[before, j].wedge)
+            fields.cells[i, j].source = -flow - squeeze * fields.cells[i, j].contact * rate

@@ -20,6 +20,7 @@ from tribodyn.kernels.film.data import (
     NO_MEAN_GAP,
     NOT_STEADY,
     FilmData,
+    FilmFields,
     FilmMemory,
 )
 from tribodyn.kernels.jit import kernel
@@ -31,25 +32,25 @@ ROUNDING = 1e-12
 @kernel
 def solve_transport(film: FilmData, memory: FilmMemory, omega: float) -> int:
     """Fill ``memory.pressure`` and ``memory.fill``; return a status."""
-    u = memory.state
+    u = memory.work.state
     if omega == 0.0 or u[4] != 0.0 or u[5] != 0.0 or u[6] != 0.0 or u[7] != 0.0:
         return NOT_STEADY
     n, m = memory.pressure.shape
     for i in range(n):
         for j in range(m):
-            if not memory.fields.wedge[i, j] > 0.0:
+            if not memory.fields.cells[i, j].wedge > 0.0:
                 return NO_MEAN_GAP
-    memory.effort[0] = 0
+    memory.work.effort[0] = 0
     for j in range(m):
         memory.active[0, j] = 1
         memory.fill[0, j] = 1.0
         memory.pressure[0, j] = 0.0
-    d_zeta = film.length / (film.z_face.size * film.radius)
+    d_zeta = film.constants.length / (film.z_face.size * film.constants.radius)
     for _ in range(MOST_SOLVES):
         _assemble(memory, omega * d_zeta)
         factorise_band(memory.transport, m)
         solve_band(memory.transport, memory.amount, m)
-        memory.effort[0] += 1
+        memory.work.effort[0] += 1
         if _exchange(memory) == 0:
             return CONVERGED
     return NO_CONVERGENCE
@@ -68,22 +69,22 @@ def _assemble(memory: FilmMemory, speed: float) -> None:
         for j in range(m):
             k = (i - 1) * m + j
             if active[i, j] == 1:
-                centre = fields.k_theta[i, j] + fields.k_theta[i - 1, j]
-                band[k, m] += centre + fields.k_z[i, j] + fields.k_z[i, j + 1]
+                centre = fields.cells[i, j].k_theta + fields.cells[i - 1, j].k_theta
+                band[k, m] += centre + fields.z_faces[i, j].k_z + fields.z_faces[i, j + 1].k_z
                 if i > 1:
-                    band[k - m, 2 * m] -= fields.k_theta[i - 1, j]
+                    band[k - m, 2 * m] -= fields.cells[i - 1, j].k_theta
                 if i < n - 1:
-                    band[k + m, 0] -= fields.k_theta[i, j]
+                    band[k + m, 0] -= fields.cells[i, j].k_theta
                 if j > 0:
-                    band[k - 1, m + 1] -= fields.k_z[i, j]
+                    band[k - 1, m + 1] -= fields.z_faces[i, j].k_z
                 if j < m - 1:
-                    band[k + 1, m - 1] -= fields.k_z[i, j + 1]
+                    band[k + 1, m - 1] -= fields.z_faces[i, j + 1].k_z
     for i in range(n):
         # What crosses the face behind column i comes from the column upstream.
         after = i + 1 if i < n - 1 else 0
         source = i if speed > 0.0 else after
         for j in range(m):
-            flow = speed * fields.wedge[i, j]
+            flow = speed * fields.cells[i, j].wedge
             known = active[source, j] == 1
             column = (source - 1) * m + j
             if i > 0:
@@ -191,12 +192,13 @@ def filled_column(fill: FloatArray, i: int, face: int) -> float:
 
 
 @kernel
-def couette_by_fill(couette: FloatArray, i: int, j: int) -> float:
-    """Return the derivative of Σ ``couette`` times :func:`filled_column` by the fraction of a node."""
-    m = couette.shape[1] - 1
-    total = 0.5 * (couette[i, j] + couette[i, j + 1])
+def couette_by_fill(fields: FilmFields, i: int, j: int) -> float:
+    """Return the derivative of Σ couette times :func:`filled_column` by the fraction of a node."""
+    faces = fields.z_faces[i]
+    m = faces.size - 1
+    total = 0.5 * (faces[j].couette + faces[j + 1].couette)
     if j == 0:
-        total += 0.5 * couette[i, 0]
+        total += 0.5 * faces[0].couette
     if j == m - 1:
-        total += 0.5 * couette[i, m]
+        total += 0.5 * faces[m].couette
     return total

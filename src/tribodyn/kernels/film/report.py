@@ -10,8 +10,8 @@ from tribodyn.kernels.jit import entry, kernel
 @kernel
 def pressure_unit(film: FilmData) -> float:
     """Return the pressure of π = 1/s: 6 η r²/c² [Pa s]."""
-    slender = film.radius / film.clearance
-    return 6.0 * film.viscosity * slender * slender
+    slender = film.constants.radius / film.constants.clearance
+    return 6.0 * film.constants.viscosity * slender * slender
 
 
 @entry
@@ -27,27 +27,27 @@ def film_pressure(film: FilmData, memory: FilmMemory, pressure: FloatArray) -> N
         pressure[m + 1, i] = 0.0
         for j in range(m):
             p = unit * memory.pressure[i, j]
-            pressure[j + 1, i] = max(p, 0.0) if film.cavitation == HALF_SOMMERFELD else p
+            pressure[j + 1, i] = max(p, 0.0) if film.constants.cavitation == HALF_SOMMERFELD else p
 
 
 @entry
 def film_leakage(film: FilmData, memory: FilmMemory) -> float:
     """Return the volume that leaves both ends per second [m³/s]: −∮ φ_z h³/(12 η) ∂p/∂z r dθ, outward."""
     n, m = memory.pressure.shape
-    half = memory.effort[1] < m
+    half = memory.work.effort[1] < m
     total = 0.0
     for i in range(n):
         total += _outflow(film, memory, i, 0, 1)
         total += _outflow(film, memory, i, 0, 1) if half else _outflow(film, memory, i, m - 1, -1)
-    return 0.5 * film.radius * film.radius * film.clearance * total
+    return 0.5 * film.constants.radius * film.constants.radius * film.constants.clearance * total
 
 
 @kernel
 def _outflow(film: FilmData, memory: FilmMemory, i: int, j: int, inward: int) -> float:
     """Return what leaves the end next to row ``j``: slope of a parabola, conductance carried on to it."""
     first, second = memory.pressure[i, j], memory.pressure[i, j + inward]
-    if film.cavitation == HALF_SOMMERFELD:
+    if film.constants.cavitation == HALF_SOMMERFELD:
         first, second = max(first, 0.0), max(second, 0.0)
     face = j if inward > 0 else j + 1
-    k_z = memory.fields.k_z
-    return (1.5 * k_z[i, face] - 0.5 * k_z[i, face + inward]) * (2.0 * first - 0.5 * second)
+    faces = memory.fields.z_faces
+    return (1.5 * faces[i, face].k_z - 0.5 * faces[i, face + inward].k_z) * (2.0 * first - 0.5 * second)

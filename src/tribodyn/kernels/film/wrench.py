@@ -27,7 +27,7 @@ from tribodyn.kernels.jit import entry, kernel
 @entry
 def film_wrench(film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray) -> int:
     """Fill ``out`` (5,) with (F_x, F_y, M_x, M_y, M_z) [N, N m] and return a status."""
-    chart_of(y, memory.state)
+    chart_of(y, memory.work.state)
     return _solve(film, memory, omega, out)
 
 
@@ -36,39 +36,39 @@ def film_wrench_and_jacobian(
     film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray, jacobian: FloatArray
 ) -> int:
     """Fill ``out`` as :func:`film_wrench` and ``jacobian`` (5, 9) with its derivatives; return a status."""
-    u = memory.state
+    u = memory.work.state
     chart_of(y, u)
     status = _solve(film, memory, omega, out)
     if status != CONVERGED:
         return status
-    rows = memory.effort[1]
+    rows = memory.work.effort[1]
     half = rows < memory.pressure.shape[1]
     solve_adjoints(film, memory, omega, rows, half)
     fill_chart(film, memory, omega, rows, half)
-    if film.groove == 1:
-        turn_with_groove(u, out, memory.chart)
-    from_chart(u, y, memory.chart, jacobian)
+    if film.constants.groove == 1:
+        turn_with_groove(u, out, memory.work.chart)
+    from_chart(u, y, memory.work.chart, jacobian)
     return CONVERGED
 
 
 @kernel
 def _solve(film: FilmData, memory: FilmMemory, omega: float, out: FloatArray) -> int:
-    """Solve for the pressure at ``memory.state`` and integrate it."""
-    u = memory.state
+    """Solve for the pressure at ``memory.work.state`` and integrate it."""
+    u = memory.work.state
     n_z = film.z_face.size
     half = (
-        film.mirror == 1
-        and film.cavitation != JFO
+        film.constants.mirror == 1
+        and film.constants.cavitation != JFO
         and u[2] == 0.0
         and u[3] == 0.0
         and u[6] == 0.0
         and u[7] == 0.0
     )
     rows = n_z // 2 if half else n_z - 1
-    memory.effort[1] = rows
+    memory.work.effort[1] = rows
     status = evaluate_gap(film, memory.fields, u, omega, rows, half)
     if status == CONVERGED:
-        if film.cavitation == JFO:
+        if film.constants.cavitation == JFO:
             status = solve_transport(film, memory, omega)
         else:
             status = solve_pressure(film, memory, rows)
@@ -100,12 +100,12 @@ def _integrate(
     fields = memory.fields
     f_x = f_y = m_x = m_y = torque = 0.0
     for i in range(memory.pressure.shape[0]):
-        c, s = fields.cos_node[i], fields.sin_node[i]
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(rows):
             p = memory.pressure[i, j]
-            if film.cavitation == HALF_SOMMERFELD:
+            if film.constants.cavitation == HALF_SOMMERFELD:
                 p = max(p, 0.0)
-            load = fields.weight[j] * p
+            load = fields.rows[j].weight * p
             f_x += load * c
             f_y += load * s
             m_x -= film.z_node[j + 1] * load * s
@@ -115,7 +115,7 @@ def _integrate(
     couette = 0.0
     for i in range(memory.pressure.shape[0]):
         for j in range(faces):
-            couette += fields.couette[i, j] * filled_column(memory.fill, i, j)
+            couette += fields.z_faces[i, j].couette * filled_column(memory.fill, i, j)
     scale = force_scale(film)
     both = 2.0 if half else 1.0
     out[0] = both * scale * f_x

@@ -2,31 +2,48 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.bushing.data import BushingData
+from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.film.data import FilmData, FilmMemory
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.memory import JointMemory
+
+N_COORDINATES: Final = 5
+"""Of the ledger: e_x, e_y, φ_x, φ_y and the angle of rotation."""
+
+Constants: Final = record_type(
+    ("inertia", "f8", (4,)),
+    ("spin_inertia", "f8"),
+    ("load", "f8", (4,)),
+    ("speed", "f8"),
+    ("direction", "f8"),
+    ("deepest", "f8"),
+)
+"""Constants of a journal under stated loads, SI units.
+
+inertia
+    Mass twice and transverse inertia twice: what each of (e_x, e_y, φ_x, φ_y) moves [kg, kg m²].
+spin_inertia
+    Moment of inertia about the axis of the journal [kg m²].
+load
+    W_x, W_y and the moments about X and Y (left-handed) [N, N m].
+speed
+    Speed of rotation ω about Z [rad/s].
+direction
+    Its sign, 0 at rest.
+deepest
+    Smallest separation that the contact law reaches [m]; negative.
+"""
 
 
 class JournalData(NamedTuple):
-    """Constants of a journal under stated loads, SI units.
+    """What the kernels of a journal read.
 
     Attributes
     ----------
-    inertia
-        Mass twice and transverse inertia twice: what each of (e_x, e_y, φ_x, φ_y) moves [kg, kg m²], shape
-        (4,).
-    spin_inertia
-        Moment of inertia about the axis of the journal [kg m²].
-    load
-        W_x, W_y and the moments about X and Y (left-handed) [N, N m], shape (4,).
-    speed
-        Speed of rotation ω about Z [rad/s].
-    sign
-        s' of Eq. 45: minus the sign of ω, 0 at rest.
-    deepest
-        Smallest separation that the contact law reaches [m]; negative.
+    constants
+        See :data:`Constants`.
     joint
         The bushing.
     film
@@ -34,50 +51,46 @@ class JournalData(NamedTuple):
         wait for those of the film.
     """
 
-    inertia: FloatArray
-    spin_inertia: float
-    load: FloatArray
-    speed: float
-    sign: float
-    deepest: float
+    constants: Record
     joint: BushingData
     film: FilmData | None
 
 
-class Scratch(NamedTuple):
-    """Work arrays of one evaluation; they carry nothing from one evaluation to the next.
+Course: Final = record_type(("touching", "f8"), ("beyond", "f8"))
+"""What the motion has come to.
 
-    Attributes
-    ----------
-    state
-        The eight states of the joint, tilts included, shape (8,).
-    total
-        Generalised load on (e_x, e_y, φ_x, φ_y) [N, N m], shape (4,).
-    wrench, wrench_jacobian, gradient
-        Of the bushing kernels.
-    film, film_jacobian
-        Wrench of the film (5,), zero without oil, and its derivatives (5, 9).
-    film_status
-        Why the film last had no answer, 0 if it always had, shape (1,); for messages.
-    report
-        Of ``kernels/bushing/report.py``.
-    rates
-        Integrands of the ledger [W].
-    rest
-        A state at rest, shape (8,).
-    """
+touching
+    1 while any point is in contact.
+beyond
+    1 once an accepted step has left the range of the contact law. From then on no force is a number, which
+    stops every integrator. Trial states may lie there: the law goes on linearly.
+"""
 
-    state: FloatArray
-    total: FloatArray
-    wrench: FloatArray
-    wrench_jacobian: FloatArray
-    gradient: FloatArray
-    film: FloatArray
-    film_jacobian: FloatArray
-    film_status: FloatArray
-    report: FloatArray
-    rates: FloatArray
-    rest: FloatArray
+Scratch: Final = record_type(
+    ("state", "f8", (8,)),
+    ("total", "f8", (4,)),
+    ("wrench", "f8", (5,)),
+    ("wrench_jacobian", "f8", (5, 9)),
+    ("film", "f8", (5,)),
+    ("film_jacobian", "f8", (5, 9)),
+    ("film_status", "f8"),
+    ("rest", "f8", (8,)),
+)
+"""Work of one evaluation; nothing is carried from one evaluation to the next.
+
+state
+    The eight states of the joint, tilts included.
+total
+    Generalised load on (e_x, e_y, φ_x, φ_y) [N, N m].
+wrench, wrench_jacobian
+    Of the bushing, in the signs of the paper.
+film, film_jacobian
+    Wrench of the film, zero without oil, and its derivatives.
+film_status
+    Why the film last had no answer, 0 if it always had; for messages.
+rest
+    A state at rest.
+"""
 
 
 class JournalMemory(NamedTuple):
@@ -85,30 +98,23 @@ class JournalMemory(NamedTuple):
 
     Attributes
     ----------
-    entry_velocity
-        δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta); 0 where there is no contact.
-    last_time
-        Time of the last mark [s], shape (1,).
-    integrals
-        Path integrals of the energy ledger [J], see ``kernels/journal/ledger.py``.
-    rates
-        Their integrands at the last mark [W].
-    extremes
-        Peaks and counts over all accepted steps, see ``kernels/journal/ledger.py``.
-    beyond
-        1 once an accepted step has left the range of the contact law, shape (1,). From then on no force is
-        a number, which stops every integrator. Trial states may lie there: the law goes on linearly.
+    joint
+        What the bushing remembers.
+    books
+        What the energy ledger has added up, see ``kernels/ledger.py``.
+    peaks
+        See ``kernels/journal/quantities.py``.
+    course
+        See :data:`Course`.
     film
         Cache of the film; None without oil.
     scratch
-        Work arrays.
+        See :data:`Scratch`.
     """
 
-    entry_velocity: FloatArray
-    last_time: FloatArray
-    integrals: FloatArray
-    rates: FloatArray
-    extremes: FloatArray
-    beyond: FloatArray
+    joint: JointMemory
+    books: Record
+    peaks: Record
+    course: Record
     film: FilmMemory | None
-    scratch: Scratch
+    scratch: Record

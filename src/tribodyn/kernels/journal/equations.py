@@ -14,12 +14,14 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.journal.data import JournalData, JournalMemory, Scratch
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
+from tribodyn.kernels.journal.data import JournalData, JournalMemory
 
 
 @kernel
@@ -29,6 +31,14 @@ def spread(y: FloatArray, state: FloatArray) -> None:
     for i in range(4):
         state[i] = y[i] if i < n else 0.0
         state[4 + i] = y[n + i] if i < n else 0.0
+
+
+@kernel
+def place(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
+    """Fill the eight states and the pose of the joint from ``y``."""
+    spread(y, memory.scratch.state)
+    constants = data.constants
+    fill_pose(memory.scratch.state, constants.speed, constants.direction, memory.joint.scratch.pose)
 
 
 @kernel
@@ -42,25 +52,25 @@ def least_gap(joint: BushingData, state: FloatArray) -> float:
 
 
 @kernel
-def film_force(film: FilmData | None, cache: FilmMemory | None, speed: float, scratch: Scratch) -> None:
+def film_force(film: FilmData | None, cache: FilmMemory | None, speed: float, scratch: Record) -> None:
     """Fill ``scratch.film`` at ``scratch.state``; without oil it stays zero."""
     # The test is for compile time, which sees it only on an argument of its own.
     if film is not None:
         status = film_wrench(film, cache, scratch.state, speed, scratch.film)
         if status != CONVERGED:
-            scratch.film_status[0] = status
+            scratch.film_status = status
 
 
 @kernel
 def film_force_and_gradient(
-    film: FilmData | None, cache: FilmMemory | None, speed: float, scratch: Scratch
+    film: FilmData | None, cache: FilmMemory | None, speed: float, scratch: Record
 ) -> None:
     """Fill ``scratch.film`` and add its derivatives to ``scratch.wrench_jacobian``."""
     if film is not None:
         gradient, total = scratch.film_jacobian, scratch.wrench_jacobian
         status = film_wrench_and_jacobian(film, cache, scratch.state, speed, scratch.film, gradient)
         if status != CONVERGED:
-            scratch.film_status[0] = status
+            scratch.film_status = status
         for i in range(4):
             for k in range(8):
                 total[i, k] += gradient[i, k]
@@ -69,49 +79,44 @@ def film_force_and_gradient(
 @kernel
 def gather(data: JournalData, memory: JournalMemory) -> None:
     """Fill ``scratch.total`` (4,) with loads, gyroscopic moments and the wrenches on the journal."""
-    scratch = memory.scratch
+    scratch, constants = memory.scratch, data.constants
     state, total, force, film = scratch.state, scratch.total, scratch.wrench, scratch.film
     sec2_x = 1.0 + math.tan(state[2]) ** 2
     sec2_y = 1.0 + math.tan(state[3]) ** 2
-    spin = data.spin_inertia * data.speed
-    total[0] = data.load[0] + force[0] + film[0]
-    total[1] = data.load[1] + force[1] + film[1]
-    total[2] = data.load[2] + sec2_x * (force[2] + film[2]) + spin * state[7]
-    total[3] = data.load[3] + sec2_y * (force[3] + film[3]) - spin * state[6]
+    spin = constants.spin_inertia * constants.speed
+    total[0] = constants.load[0] + force[0] + film[0]
+    total[1] = constants.load[1] + force[1] + film[1]
+    total[2] = constants.load[2] + sec2_x * (force[2] + film[2]) + spin * state[7]
+    total[3] = constants.load[3] + sec2_y * (force[3] + film[3]) - spin * state[6]
 
 
 @kernel
 def forces(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.total``; not a number once an accepted step has left the range of the contact law."""
-    scratch = memory.scratch
-    spread(y, scratch.state)
-    if memory.beyond[0] > 0.0:
-        scratch.total[:] = math.nan
+    scratch, joint = memory.scratch, memory.joint.scratch
+    place(data, y, memory)
+    if memory.course.beyond > 0.0:
+        for i in range(4):
+            scratch.total[i] = math.nan
         return
-    wrench(data.joint, memory.entry_velocity, scratch.state, data.speed, data.sign, scratch.wrench)
-    film_force(data.film, memory.film, data.speed, scratch)
+    wrench(data.joint, memory.joint, joint.pose, joint.wrench)
+    from_wrench(joint.wrench, scratch.wrench)
+    film_force(data.film, memory.film, data.constants.speed, scratch)
     gather(data, memory)
 
 
 @kernel
 def forces_and_gradient(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.total`` and turn ``scratch.wrench_jacobian`` (4 rows) into its derivative."""
-    scratch = memory.scratch
-    spread(y, scratch.state)
+    scratch, joint = memory.scratch, memory.joint.scratch
+    place(data, y, memory)
     jacobian = scratch.wrench_jacobian
-    wrench_and_jacobian(
-        data.joint,
-        memory.entry_velocity,
-        scratch.state,
-        data.speed,
-        data.sign,
-        scratch.wrench,
-        jacobian,
-        scratch.gradient,
-    )
-    film_force_and_gradient(data.film, memory.film, data.speed, scratch)
+    wrench_and_jacobian(data.joint, memory.joint, joint.pose, joint.wrench, joint.jacobian)
+    from_wrench(joint.wrench, scratch.wrench)
+    from_jacobian(joint.jacobian, jacobian)
+    film_force_and_gradient(data.film, memory.film, data.constants.speed, scratch)
     gather(data, memory)
-    spin = data.spin_inertia * data.speed
+    spin = data.constants.spin_inertia * data.constants.speed
     for i in (2, 3):
         tangent = math.tan(scratch.state[i])
         sec2 = 1.0 + tangent * tangent

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.joint import pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
 from tribodyn.kernels.journal import ledger
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
-from tribodyn.kernels.journal.equations import forces, forces_and_gradient, least_gap, spread
+from tribodyn.kernels.journal.equations import forces, forces_and_gradient, least_gap, place
 
 
 @entry
@@ -18,7 +18,7 @@ def rhs(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, f: Fl
     n = y.size // 2
     for i in range(n):
         f[i] = y[n + i]
-        f[n + i] = memory.scratch.total[i] / data.inertia[i]
+        f[n + i] = memory.scratch.total[i] / data.constants.inertia[i]
 
 
 @entry
@@ -32,11 +32,11 @@ def jac(
     n = y.size // 2
     for i in range(n):
         f[i] = y[n + i]
-        f[n + i] = memory.scratch.total[i] / data.inertia[i]
+        f[n + i] = memory.scratch.total[i] / data.constants.inertia[i]
         jacobian[i, n + i] = 1.0
         for k in range(n):
-            jacobian[n + i, k] = gradient[i, k] / data.inertia[i]
-            jacobian[n + i, n + k] = gradient[i, 4 + k] / data.inertia[i]
+            jacobian[n + i, k] = gradient[i, k] / data.constants.inertia[i]
+            jacobian[n + i, n + k] = gradient[i, 4 + k] / data.constants.inertia[i]
 
 
 @entry
@@ -46,29 +46,27 @@ def enter(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) -> 
 
 
 @entry
-def advance(
-    t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: JournalData, memory: JournalMemory
-) -> None:
+def advance(t_a: float, t_b: float, y_b: FloatArray, data: JournalData, memory: JournalMemory) -> None:
     """Add the path integrals of the energy ledger over ``[t_a, t_b]``."""
-    ledger.add_part(data, t_a, t_b, y_middle, y_b, memory)
+    ledger.add_part(data, t_b, y_b, memory)
 
 
 @entry
 def accept(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) -> None:
     """Update entry velocities, count rebounds and watch the range of the law at the end of a step."""
-    spread(y, memory.scratch.state)
+    place(data, y, memory)
     gap = least_gap(data.joint, memory.scratch.state)
     ledger.count_rebound(data, gap, memory)
-    if gap < data.deepest:
-        memory.beyond[0] = 1.0
-    update_entry_velocity(data.joint, memory.scratch.state, memory.entry_velocity, 0.0)
+    if gap < data.constants.deepest:
+        memory.course.beyond = 1.0
+    update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 0.0)
 
 
 @entry
 def picture(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, fields: FloatArray) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
-    spread(y, memory.scratch.state)
-    pressure_field(data.joint, memory.entry_velocity, memory.scratch.state, fields[0])
+    place(data, y, memory)
+    pressure_field(data.joint, memory.joint, memory.joint.scratch.pose, fields[0])
 
 
 @kernel

@@ -1,8 +1,7 @@
-"""The energy ledger of the journal: rates at an instant, and their integrals along the motion.
+"""What the journal enters in its energy ledger: forces on its coordinates at an instant, and its energy.
 
-Works and heats are integrated with Simpson's rule over every part of an accepted step, from forces times
-velocities of the numerical solution. Energies are functions of the state. What is left over measures the
-integration. Loads and drive put work in; friction, damping and film turn it into heat.
+Loads and drive put work in; friction, damping and film turn it into heat. Coordinates are those of the
+centre, the tilts and the angle ω t of the rotation.
 """
 
 from __future__ import annotations
@@ -10,104 +9,84 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import copy
-from tribodyn.kernels.bushing import report as joint_report
-from tribodyn.kernels.bushing.joint import report
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints.cylinder.joint import report
+from tribodyn.kernels.joints.memory import note_peaks
+from tribodyn.kernels.joints.paper import from_report
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
-from tribodyn.kernels.journal.equations import film_force, spread
-
-LOADS, FRICTION, DAMPING, DRIVE, FILM = 0, 1, 2, 3, 4
-"""Work of the loads, of joint friction; damping heat; work of the drive that keeps ω; work of the film."""
-N_INTEGRALS = 5
-
-PEAK_FORCE, PEAK_FORCE_TIME, PEAK_PRESSURE, PEAK_PRESSURE_TIME = 0, 1, 2, 3
-"""Largest contact force [N] and pressure [Pa] at any mark, and when [s]."""
-LEAST_SEPARATION, CLIPPED = 4, 5
-"""Smallest gap between mean planes [m]; time integral of the share of the contact where the clip acts [s]."""
-TOUCHING, REBOUNDS = 6, 7
-"""1 while any point is in contact; how often all points have left contact again."""
-PEAK_FILM_FORCE, PEAK_FILM_FORCE_TIME = 8, 9
-"""Largest film force [N] at any mark, and when [s]."""
-N_EXTREMES = 10
+from tribodyn.kernels.journal.equations import film_force, place
+from tribodyn.kernels.journal.quantities import Forces
+from tribodyn.kernels.ledger import LAST, NOW, POSITION, SPEED
+from tribodyn.kernels.ledger import add_part as add_works
+from tribodyn.kernels.ledger import begin as begin_works
 
 
 @kernel
 def evaluate(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
-    """Fill ``scratch.state``, ``scratch.report`` and ``scratch.film`` of one instant."""
-    scratch = memory.scratch
-    spread(y, scratch.state)
-    report(data.joint, memory.entry_velocity, scratch.state, data.speed, data.sign, scratch.report)
-    film_force(data.film, memory.film, data.speed, scratch)
+    """Fill states, joint report and film of one instant."""
+    place(data, y, memory)
+    report(data.joint, memory.joint, memory.joint.scratch.pose)
+    from_report(memory.joint.scratch.report)
+    film_force(data.film, memory.film, data.constants.speed, memory.scratch)
 
 
 @kernel
-def fill_rates(data: JournalData, memory: JournalMemory) -> None:
-    """Fill ``scratch.rates`` [W] from the scratch arrays of this instant."""
-    scratch = memory.scratch
-    out, rates, state = scratch.report, scratch.rates, scratch.state
-    load_power = 0.0
+def fill_motion(t: float, speed: float, state: FloatArray, motion: FloatArray) -> None:
+    """Fill coordinates and velocities of the ledger."""
     for i in range(4):
-        load_power += data.load[i] * state[4 + i]
-    rates[LOADS] = load_power
-    rates[FRICTION] = out[joint_report.POWER_FRICTION]
-    rates[DAMPING] = out[joint_report.HEAT_DAMPING]
-    film = scratch.film
-    rates[DRIVE] = -(out[joint_report.M_JF] + film[4]) * data.speed
-    rates[FILM] = (
-        film[0] * state[4]
-        + film[1] * state[5]
-        + (1.0 + math.tan(state[2]) ** 2) * film[2] * state[6]
-        + (1.0 + math.tan(state[3]) ** 2) * film[3] * state[7]
-        + film[4] * data.speed
-    )
+        motion[POSITION, i], motion[SPEED, i] = state[i], state[4 + i]
+    motion[POSITION, 4], motion[SPEED, 4] = speed * t, speed
+
+
+@kernel
+def fill_forces(data: JournalData, memory: JournalMemory) -> None:
+    """Fill the forces on the coordinates from the scratch arrays of this instant, one coordinate a row."""
+    forces, out, film = memory.books.forces[NOW], memory.joint.scratch.report, memory.scratch.film
+    state, constants = memory.scratch.state, data.constants
+    sec2_x, sec2_y = 1.0 + math.tan(state[2]) ** 2, 1.0 + math.tan(state[3]) ** 2
+    damping = (out.F_kx - out.F_cx, out.F_ky - out.F_cy, out.M_kx - out.M_jcx, out.M_ky - out.M_jcy, 0.0)
+    friction = (out.F_fx, out.F_fy, out.M_fx, out.M_fy, out.M_jf)
+    scale = (1.0, 1.0, sec2_x, sec2_y, 1.0)
+    for i in range(5):
+        force = forces[i].view(Forces)[0]
+        force.work_loads = constants.load[i] if i < 4 else 0.0
+        force.work_friction = scale[i] * friction[i]
+        force.heat_damping = scale[i] * damping[i]
+        force.work_film = scale[i] * film[i]
+        force.work_drive = -(out.M_jf + film[4]) if i == 4 else 0.0
+
+
+@kernel
+def _evaluate_mark(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
+    """Enter the forces of an instant in the books."""
+    evaluate(data, y, memory)
+    fill_motion(t, data.constants.speed, memory.scratch.state, memory.books.motion[NOW])
+    fill_forces(data, memory)
 
 
 @kernel
 def begin(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
-    evaluate(data, y, memory)
-    fill_rates(data, memory)
-    copy(memory.scratch.rates, memory.rates)
-    memory.last_time[0] = t
+    _evaluate_mark(data, t, y, memory)
+    begin_works(memory.books, t)
 
 
 @kernel
-def note_extremes(t: float, h: float, memory: JournalMemory) -> None:
-    """Keep the peaks at the end ``t`` of a part of length ``h`` [s]; output times would miss them."""
-    extremes, out = memory.extremes, memory.scratch.report
-    force = math.hypot(out[joint_report.F_CX], out[joint_report.F_CY])
-    if force > extremes[PEAK_FORCE]:
-        extremes[PEAK_FORCE], extremes[PEAK_FORCE_TIME] = force, t
-    carried = math.hypot(memory.scratch.film[0], memory.scratch.film[1])
-    if carried > extremes[PEAK_FILM_FORCE]:
-        extremes[PEAK_FILM_FORCE], extremes[PEAK_FILM_FORCE_TIME] = carried, t
-    if out[joint_report.P_MAX] > extremes[PEAK_PRESSURE]:
-        extremes[PEAK_PRESSURE], extremes[PEAK_PRESSURE_TIME] = out[joint_report.P_MAX], t
-    extremes[LEAST_SEPARATION] = min(extremes[LEAST_SEPARATION], out[joint_report.SEPARATION_MIN])
-    extremes[CLIPPED] += h * out[joint_report.CLIPPED]
+def add_part(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
+    """Add the path integrals from the mark to ``t`` and move the mark there."""
+    _evaluate_mark(data, t, y, memory)
+    note_peaks(memory.joint, t, t - memory.books.times[LAST])
+    _note_film(memory.peaks, memory.scratch.film, t)
+    add_works(memory.books, t)
 
 
 @kernel
-def add_part(
-    data: JournalData, t_a: float, t_b: float, y_m: FloatArray, y_b: FloatArray, memory: JournalMemory
-) -> None:
-    """Add the path integrals over ``[t_a, t_b]`` by Simpson's rule and move the mark to ``t_b``."""
-    sixth = (t_b - t_a) / 6.0
-    integrals, rates = memory.integrals, memory.scratch.rates
-    for k in range(N_INTEGRALS):
-        integrals[k] += sixth * memory.rates[k]
-    evaluate(data, y_m, memory)
-    fill_rates(data, memory)
-    for k in range(N_INTEGRALS):
-        integrals[k] += 4.0 * sixth * rates[k]
-    evaluate(data, y_b, memory)
-    fill_rates(data, memory)
-    for k in range(N_INTEGRALS):
-        integrals[k] += sixth * rates[k]
-    note_extremes(t_b, t_b - t_a, memory)
-    copy(rates, memory.rates)
-    memory.last_time[0] = t_b
+def _note_film(peaks: Record, film: FloatArray, t: float) -> None:
+    """Note the largest film force and when it was."""
+    force = math.hypot(film[0], film[1])
+    if force > peaks.film_force_peak:
+        peaks.film_force_peak, peaks.film_force_peak_time = force, t
 
 
 @kernel
@@ -116,17 +95,16 @@ def count_rebound(data: JournalData, gap: float, memory: JournalMemory) -> None:
 
     ``gap`` is the smallest gap of the bushing [m].
     """
-    extremes = memory.extremes
     touching = gap < data.joint.onset * data.joint.roughness
-    if extremes[TOUCHING] > 0.0 and not touching:
-        extremes[REBOUNDS] += 1.0
-    extremes[TOUCHING] = 1.0 if touching else 0.0
+    if memory.course.touching > 0.0 and not touching:
+        memory.peaks.rebounds += 1.0
+    memory.course.touching = 1.0 if touching else 0.0
 
 
 @kernel
-def kinetic_energy(data: JournalData, state: FloatArray) -> float:
+def kinetic_energy(inertia: FloatArray, state: FloatArray) -> float:
     """Return the kinetic energy of the motion in the clearance [J]; that of the rotation does not change."""
     energy = 0.0
     for i in range(4):
-        energy += 0.5 * data.inertia[i] * state[4 + i] ** 2
+        energy += 0.5 * inertia[i] * state[4 + i] ** 2
     return energy

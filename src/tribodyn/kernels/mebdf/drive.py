@@ -54,8 +54,8 @@ class Marks(NamedTuple):
         Next mark, rows taken and pictures taken.
     reached
         Time up to which the accepted step has been walked [s], shape (1,).
-    middle, end
-        States in the middle and at the end of a part of a step, shape (n,).
+    end
+        State at the end of a part of a step, shape (n,).
     """
 
     times: FloatArray
@@ -66,7 +66,6 @@ class Marks(NamedTuple):
     pictures: FloatArray
     position: NDArray[np.int64]
     reached: FloatArray
-    middle: FloatArray
     end: FloatArray
 
 
@@ -101,7 +100,7 @@ def run(
     jacobian = matrices[JACOBIAN]
     y, f, newest = rows[Y], rows[F], rows[HISTORY]
     times, position, reached = marks.times, marks.position, marks.reached
-    middle, end, tolerance = marks.middle, marks.end, marks.tolerance[0]
+    end, tolerance = marks.end, marks.tolerance[0]
     while True:
         request = resume(real, count, rows, matrices)
         if request == NEED_F:
@@ -124,12 +123,11 @@ def run(
             inside = times[mark] < t - tolerance
             ended = not inside
             t_part = times[mark] if inside else t
-            state_at(real, count, rows, 0.5 * (reached[0] + t_part), middle)
             if inside:
                 state_at(real, count, rows, t_part, end)
             else:
                 copy(newest, end)
-            advance(reached[0], t_part, middle, end, data, memory)
+            advance(reached[0], t_part, end, data, memory)
             reached[0] = t_part
             if times[mark] <= t + tolerance:
                 if marks.is_output[mark]:

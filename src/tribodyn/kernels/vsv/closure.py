@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.vsv.data import Mechanism
 
 MAX_NEWTON = 30
 CONVERGED = 1.0e-10
@@ -13,7 +13,7 @@ CONVERGED = 1.0e-10
 
 
 @kernel
-def drive(mechanism: Mechanism, t: float) -> tuple[float, float, float]:
+def drive(mechanism: Record, t: float) -> tuple[float, float, float]:
     """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at time ``t`` [s]."""
     nu = mechanism.angular_frequency
     cos, sin = math.cos(nu * t), math.sin(nu * t)
@@ -22,7 +22,7 @@ def drive(mechanism: Mechanism, t: float) -> tuple[float, float, float]:
 
 
 @kernel
-def ideal_guess(mechanism: Mechanism, theta_a: float) -> float:
+def ideal_guess(mechanism: Record, theta_a: float) -> float:
     """Return the tabulated vane angle of the ideal mechanism [rad], a start for Newton's method."""
     n = mechanism.ideal.shape[0]
     x = (theta_a - mechanism.ideal_first) * mechanism.ideal_inverse_step
@@ -34,7 +34,7 @@ def ideal_guess(mechanism: Mechanism, theta_a: float) -> float:
 
 
 @inlined
-def crank_end(mechanism: Mechanism, theta_a: float) -> tuple[float, float]:
+def crank_end(mechanism: Record, theta_a: float) -> tuple[float, float]:
     """Return x and z of S1 [m], the end of the crank."""
     s1_x = mechanism.pivot_x - mechanism.l_1 * math.sin(theta_a)
     s1_z = mechanism.pivot_z + mechanism.l_1 * math.cos(theta_a)
@@ -42,7 +42,7 @@ def crank_end(mechanism: Mechanism, theta_a: float) -> tuple[float, float]:
 
 
 @inlined
-def ring_end(mechanism: Mechanism, x3: float, z3: float) -> tuple[float, float]:
+def ring_end(mechanism: Record, x3: float, z3: float) -> tuple[float, float]:
     """Return x and z of S2 [m], the end of the ring's arm at the angle φ − θ_b, with S3 at (x3, z3)."""
     scale = mechanism.l_3 / math.sqrt(x3 * x3 + z3 * z3)
     s2_x = scale * (mechanism.ring_sin * z3 + mechanism.ring_cos * x3)
@@ -52,7 +52,7 @@ def ring_end(mechanism: Mechanism, x3: float, z3: float) -> tuple[float, float]:
 
 @kernel
 def closure_residual(
-    mechanism: Mechanism,
+    mechanism: Record,
     s1_x: float,
     s1_z: float,
     e_x: float,
@@ -79,7 +79,7 @@ def closure_residual(
 
 @kernel
 def vane_angle(
-    mechanism: Mechanism, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float
+    mechanism: Record, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float
 ) -> float:
     """Return θ_v [rad] in the assembly of the table, to machine precision; NaN out of reach."""
     theta_v = ideal_guess(mechanism, theta_a)

@@ -12,11 +12,14 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints import collar as thrust
+from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import Mechanism, Scratch, VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -42,12 +45,9 @@ from tribodyn.kernels.vsv.layout import (
 )
 from tribodyn.kernels.vsv.motion import fill_motion
 
-TILT_FLOOR = 1.0e-6
-"""Regularisation of the unit tilt vector [rad]."""
-
 
 @kernel
-def fill_test_motions(mechanism: Mechanism, motion: FloatArray, test: FloatArray) -> None:
+def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -> None:
     """Fill the bodies' test motions (N_BODY, 5): along the crank, then four for the clearance motion."""
     if mechanism.exact > 0.0:
         for row in range(N_BODY):
@@ -95,7 +95,7 @@ def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, f
 
 
 @kernel
-def air_loads(mechanism: Mechanism, theta_v: float, direction: float) -> tuple[float, float, float]:
+def air_loads(mechanism: Record, theta_v: float, direction: float) -> tuple[float, float, float]:
     """Return F_airx, F_airy [N] and M_air [N m], Table 3."""
     f_x = mechanism.air_force_x * math.tanh((theta_v - mechanism.switch_angle) / mechanism.switch_width)
     return f_x, mechanism.air_force_y, -mechanism.air_moment * direction
@@ -110,9 +110,9 @@ def slip_speed(regime: FloatArray, motion: FloatArray) -> float:
 
 
 @kernel
-def fill_forces(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) -> None:
+def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     """Fill the force of each row and the collar's share per unit of F_cz from the joint wrench."""
-    scratch = memory.scratch
+    mechanism, scratch = data.mechanism, memory.scratch
     motion, force, collar = scratch.motion, scratch.force, scratch.collar
     direction = memory.regime[0]
     for row in range(N_BODY):
@@ -127,14 +127,11 @@ def fill_forces(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) -> None:
     force[THETA_V] = m_z + scratch.wrench[4]
     force[OV_X] = f_x
     force[OV_Y] = f_y
-    tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
-    collar[PHI_X] = -mechanism.collar_radius * y[2] / tilt
-    collar[PHI_Y] = -mechanism.collar_radius * y[3] / tilt
-    collar[THETA_V] = -direction * mechanism.collar_friction
+    collar[PHI_X], collar[PHI_Y], collar[THETA_V] = thrust.moments(data.collar, y[2], y[3], direction)
 
 
 @kernel
-def assemble(inertias: FloatArray, scratch: Scratch) -> None:
+def assemble(inertias: FloatArray, scratch: Record) -> None:
     """Fill the mass matrix (5, 4) and the load (5,); row 0 belongs to the crank and gives M_d."""
     motion, test, force = scratch.motion, scratch.test, scratch.force
     mass, load = scratch.mass, scratch.load
@@ -169,7 +166,7 @@ def lever_lift(exact: float, theta_b: float) -> float:
 
 
 @kernel
-def add_collar(mechanism: Mechanism, scratch: Scratch, factor: float) -> None:
+def add_collar(mechanism: Record, scratch: Record, factor: float) -> None:
     """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
     lift = lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE])
     at_rest = mechanism.vane_weight + lift * (
@@ -183,7 +180,7 @@ def add_collar(mechanism: Mechanism, scratch: Scratch, factor: float) -> None:
 
 
 @kernel
-def collar_force(mechanism: Mechanism, scratch: Scratch, acceleration: FloatArray) -> float:
+def collar_force(mechanism: Record, scratch: Record, acceleration: FloatArray) -> float:
     """Return m_v g + F_43z [N] for given clearance accelerations; negative means lift-off."""
     x_ov = scratch.motion[OV_X, BIAS]
     for j in range(4):
@@ -193,7 +190,7 @@ def collar_force(mechanism: Mechanism, scratch: Scratch, acceleration: FloatArra
 
 
 @kernel
-def set_up(mechanism: Mechanism, t: float, y: FloatArray, memory: VsvMemory) -> float:
+def set_up(mechanism: Record, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill motion table and test motions; return the vane speed that traction sees [rad/s]."""
     scratch = memory.scratch
     scratch.marked = 0.0
@@ -203,7 +200,7 @@ def set_up(mechanism: Mechanism, t: float, y: FloatArray, memory: VsvMemory) -> 
 
 
 @kernel
-def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) -> float:
+def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory) -> float:
     """Solve for the clearance accelerations with the joint wrench in ``memory.scratch``.
 
     Where the collar would have to pull, it lets go (F_cz = 0).
@@ -213,7 +210,8 @@ def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) 
     float
         F_cz [N].
     """
-    fill_forces(mechanism, y, memory)
+    mechanism = data.mechanism
+    fill_forces(data, y, memory)
     assemble(mechanism.inertia, memory.scratch)
     add_collar(mechanism, memory.scratch, 1.0)
     f_cz = _solve(mechanism, memory.scratch)
@@ -225,7 +223,7 @@ def solve_accelerations(mechanism: Mechanism, y: FloatArray, memory: VsvMemory) 
 
 
 @kernel
-def _solve(mechanism: Mechanism, scratch: Scratch) -> float:
+def _solve(mechanism: Record, scratch: Record) -> float:
     """Solve the four clearance equations and return the collar force that follows."""
     for i in range(4):
         scratch.solved[i, 0] = scratch.load[1 + i]
@@ -238,7 +236,7 @@ def _solve(mechanism: Mechanism, scratch: Scratch) -> float:
 
 
 @kernel
-def drive_moment(scratch: Scratch) -> float:
+def drive_moment(scratch: Record) -> float:
     """Return M_d [N m] from the crank row of the projected equations."""
     moment = -scratch.load[0]
     for j in range(4):
@@ -249,26 +247,26 @@ def drive_moment(scratch: Scratch) -> float:
 @kernel
 def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
+    joint = memory.joint.scratch
     omega = set_up(data.mechanism, t, y, memory)
-    wrench(data.joint, memory.entry_velocity, y, omega, -memory.regime[0], memory.scratch.wrench)
-    return solve_accelerations(data.mechanism, y, memory)
+    fill_pose(y, omega, memory.regime[0], joint.pose)
+    wrench(data.joint, memory.joint, joint.pose, joint.wrench)
+    from_wrench(joint.wrench, memory.scratch.wrench)
+    return solve_accelerations(data, y, memory)
 
 
 @kernel
 def fill_load_gradient(
-    mechanism: Mechanism, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
+    data: VsvData, y: FloatArray, memory: VsvMemory, f_cz: float, gradient: FloatArray
 ) -> None:
     """Fill columns 1 to 8 with ∂(generalised joint and collar forces)/∂y, the motion table held fixed."""
-    scratch = memory.scratch
+    mechanism, scratch = data.mechanism, memory.scratch
     motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
     sec2_x = 1.0 + math.tan(y[2]) ** 2
     sec2_y = 1.0 + math.tan(y[3]) ** 2
     lift = lever_lift(mechanism.exact, motion[THETA_B, VALUE]) if f_cz > 0.0 else 0.0
     free_slip = 1.0 if memory.regime[1] == 0.0 else 0.0
-    tilt = math.sqrt(y[2] * y[2] + y[3] * y[3] + TILT_FLOOR * TILT_FLOOR)
-    collar_xx = -mechanism.collar_radius * f_cz * (tilt * tilt - y[2] * y[2]) / tilt**3
-    collar_yy = -mechanism.collar_radius * f_cz * (tilt * tilt - y[3] * y[3]) / tilt**3
-    collar_xy = mechanism.collar_radius * f_cz * y[2] * y[3] / tilt**3
+    collar_xx, collar_yy, collar_xy = thrust.stiffness(data.collar, y[2], y[3], f_cz)
     for i in range(4):
         c_i = collar_share(test, scratch.collar, 1 + i)
         t_x = test[E_X, 1 + i] + c_i * lift
@@ -305,20 +303,14 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
     Exact in the joint and the collar; the slow dependence of geometry and mass matrix on the
     clearance coordinates, smaller by five orders than the contact stiffness, is left out.
     """
-    scratch = memory.scratch
+    scratch, joint = memory.scratch, memory.joint.scratch
     omega = set_up(data.mechanism, t, y, memory)
-    wrench_and_jacobian(
-        data.joint,
-        memory.entry_velocity,
-        y,
-        omega,
-        -memory.regime[0],
-        scratch.wrench,
-        scratch.wrench_jacobian,
-        scratch.gradient,
-    )
-    f_cz = solve_accelerations(data.mechanism, y, memory)
-    fill_load_gradient(data.mechanism, y, memory, f_cz, scratch.solved)
+    fill_pose(y, omega, memory.regime[0], joint.pose)
+    wrench_and_jacobian(data.joint, memory.joint, joint.pose, joint.wrench, joint.jacobian)
+    from_wrench(joint.wrench, scratch.wrench)
+    from_jacobian(joint.jacobian, scratch.wrench_jacobian)
+    f_cz = solve_accelerations(data, y, memory)
+    fill_load_gradient(data, y, memory, f_cz, scratch.solved)
     for i in range(4):
         for j in range(4):
             scratch.small[i, j] = scratch.mass[1 + i, j]

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.joint import pressure_field, update_entry_velocity
 from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.paper import fill_pose
 from tribodyn.kernels.vsv import ledger
-from tribodyn.kernels.vsv.data import Mechanism, VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
 from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
 from tribodyn.kernels.vsv.motion import fill_rods
@@ -41,7 +43,7 @@ def jac(
 
 
 @kernel
-def vane_direction(mechanism: Mechanism, t: float, memory: VsvMemory) -> float:
+def vane_direction(mechanism: Record, t: float, memory: VsvMemory) -> float:
     """Return the direction of the ideal vane motion just after ``t``, ±1: at a reversal it does not move."""
     motion = memory.scratch.motion
     clear(motion)
@@ -58,9 +60,7 @@ def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
 
 
 @entry
-def advance(
-    t_a: float, t_b: float, y_middle: FloatArray, y_b: FloatArray, data: VsvData, memory: VsvMemory
-) -> None:
+def advance(t_a: float, t_b: float, y_b: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Add the path integrals over ``[t_a, t_b]``: the energy ledgers and the sliding load."""
     ledger.add_part(data, t_b, y_b, memory)
 
@@ -68,13 +68,17 @@ def advance(
 @entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Update entry velocities at the end of an accepted step."""
-    update_entry_velocity(data.joint, y, memory.entry_velocity, 0.0)
+    pose = memory.joint.scratch.pose
+    fill_pose(y, 0.0, 0.0, pose)
+    update_entry_velocity(data.joint, memory.joint, pose, 0.0)
 
 
 @entry
 def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatArray) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
-    pressure_field(data.joint, memory.entry_velocity, y, fields[0])
+    pose = memory.joint.scratch.pose
+    fill_pose(y, 0.0, 0.0, pose)
+    pressure_field(data.joint, memory.joint, pose, fields[0])
 
 
 @kernel

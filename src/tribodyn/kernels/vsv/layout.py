@@ -54,10 +54,6 @@ N_IDEAL: Final = 512
 
 N_UNKNOWNS: Final = 24
 """Of the full Newton-Euler system: four accelerations and twenty reactions."""
-N_RATES: Final = 5
-"""Powers of the whole mechanism that its energy ledger integrates."""
-N_WORKS: Final = 4
-"""Forces on the clearance motion whose works its energy ledger integrates."""
 
 N_COORDINATES: Final = 4
 """Clearance coordinates e_x, e_y, φ_x, φ_y."""

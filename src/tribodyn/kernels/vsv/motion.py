@@ -13,10 +13,10 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.vsv.closure import drive, ring_end, vane_angle
-from tribodyn.kernels.vsv.data import Mechanism
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -51,7 +51,7 @@ SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
 
 
 @kernel
-def fill_motion(mechanism: Mechanism, t: float, y: FloatArray, motion: FloatArray) -> None:
+def fill_motion(mechanism: Record, t: float, y: FloatArray, motion: FloatArray) -> None:
     """Fill the motion table (N_ROWS, N_COLUMNS) at time ``t`` [s] and state ``y`` (8,)."""
     clear(motion)
     if mechanism.exact > 0.0:
@@ -74,7 +74,7 @@ def fill_motion(mechanism: Mechanism, t: float, y: FloatArray, motion: FloatArra
 
 
 @kernel
-def _fill_trunnion(mechanism: Mechanism, y: FloatArray, motion: FloatArray) -> None:
+def _fill_trunnion(mechanism: Record, y: FloatArray, motion: FloatArray) -> None:
     """Fill the rows of the trunnion and of the vane centre O_v."""
     for k in range(4):
         motion[E_X + k, 1 + k] = 1.0
@@ -99,7 +99,7 @@ def _fill_trunnion(mechanism: Mechanism, y: FloatArray, motion: FloatArray) -> N
 
 @kernel
 def fill_rods(
-    mechanism: Mechanism,
+    mechanism: Record,
     t: float,
     e_x: float,
     e_y: float,
@@ -216,7 +216,7 @@ def fill_rods(
 
 @kernel
 def _fill_bodies(
-    mechanism: Mechanism, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
+    mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
 ) -> None:
     """Fill S2, the mass centres O1, O2, O3 and the direction n of the drag link."""
     radius = 0.5 * mechanism.l_3 * math.cos(0.5 * mechanism.ring_angle)

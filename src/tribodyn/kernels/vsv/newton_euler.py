@@ -13,10 +13,11 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import Mechanism, VsvMemory
+from tribodyn.kernels.vsv.data import VsvMemory
 from tribodyn.kernels.vsv.equations import air_loads, ring_centre
 from tribodyn.kernels.vsv.layout import (
     BIAS,
@@ -71,9 +72,7 @@ ROWS_OF_EQUATIONS: Final = np.array(
 
 
 @kernel
-def _inertia_and_weight(
-    mechanism: Mechanism, motion: FloatArray, matrix: FloatArray, rhs: FloatArray
-) -> None:
+def _inertia_and_weight(mechanism: Record, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Enter −m a and the weight of every mass centre and rotation into its equation."""
     for k in range(ROWS_OF_EQUATIONS.shape[0]):
         row, equation = ROWS_OF_EQUATIONS[k, 0], ROWS_OF_EQUATIONS[k, 1]
@@ -83,7 +82,7 @@ def _inertia_and_weight(
 
 
 @kernel
-def _crank(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray) -> None:
+def _crank(mechanism: Record, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 20 to 25; arms from the mass centre O_1."""
     theta_a = motion[THETA_A, VALUE]
     x_a = 0.5 * mechanism.l_1 * math.sin(theta_a)
@@ -109,7 +108,7 @@ def _crank(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray) -> None
 
 
 @kernel
-def _drag_link(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
+def _drag_link(mechanism: Record, motion: FloatArray, matrix: FloatArray, rhs: FloatArray) -> None:
     """Equations 26 to 31, the moments projected on two directions across the thin rod.
 
     The inertia moment is −J n × n̈, so every term of the moment balance is n × (…), and the balance
@@ -133,7 +132,7 @@ def _drag_link(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray, rhs
 
 
 @kernel
-def _ring(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray) -> None:
+def _ring(mechanism: Record, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 32 to 37 with F_43z; arms from the mass centre O_3."""
     o3_x, o3_z = ring_centre(mechanism.l_3, mechanism.ring_angle, motion[THETA_B, VALUE])
     x_2, z_2 = motion[S2_X, VALUE] - o3_x, motion[S2_Z, VALUE] - o3_z
@@ -160,7 +159,7 @@ def _ring(mechanism: Mechanism, motion: FloatArray, matrix: FloatArray) -> None:
 
 @kernel
 def _vane(
-    mechanism: Mechanism,
+    mechanism: Record,
     y: FloatArray,
     memory: VsvMemory,
     lifted: float,
@@ -213,7 +212,7 @@ def _vane(
 
 
 @kernel
-def newton_euler(mechanism: Mechanism, y: FloatArray, memory: VsvMemory, lifted: float) -> None:
+def newton_euler(mechanism: Record, y: FloatArray, memory: VsvMemory, lifted: float) -> None:
     """Fill ``memory.scratch.reactions`` (24, 1) from the motion table and joint wrench in scratch.
 
     Parameters

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.joints import BushingJoint
-from tribodyn.kernels.journal import ledger
 from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
 
 
 def warnings(
-    extremes: FloatArray,
+    peaks: Record,
     joint: BushingJoint,
     *,
     residual: float,
@@ -23,8 +22,8 @@ def warnings(
 
     Parameters
     ----------
-    extremes
-        Peaks over all accepted steps, see ``kernels/journal/ledger.py``.
+    peaks
+        Of the joint over all accepted steps.
     joint
         The bushing.
     residual
@@ -42,8 +41,8 @@ def warnings(
         else "",
         *of_contact(
             joint,
-            separation=float(extremes[ledger.LEAST_SEPARATION]),
-            clipped=float(extremes[ledger.CLIPPED]) / t_end if t_end > 0.0 else 0.0,
+            separation=float(peaks.separation_least),
+            clipped=float(peaks.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,
         ),
         *of_steps(statistics),

@@ -119,7 +119,7 @@ def _residual(data: JournalData, memory: JournalMemory, q: FloatArray) -> tuple[
 
 def _in_range(data: JournalData, memory: JournalMemory) -> bool:
     """Tell whether the contact law reaches the attitude last looked at; Newton may end where it does not."""
-    return bool(least_gap(data.joint, memory.scratch.state) >= data.deepest)
+    return bool(least_gap(data.joint, memory.scratch.state) >= data.constants.deepest)
 
 
 def _starts(journal: Journal) -> list[FloatArray]:

@@ -9,14 +9,24 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
-from tribodyn.kernels.bushing.joint import update_entry_velocity
-from tribodyn.kernels.bushing.names import STATES
-from tribodyn.kernels.bushing.report import N_REPORT
+from tribodyn.core.quantities import names
+from tribodyn.joints.bushing import new_memory
+from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
+from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.journal import functions
-from tribodyn.kernels.journal.data import JournalData, JournalMemory, Scratch
-from tribodyn.kernels.journal.equations import spread
-from tribodyn.kernels.journal.ledger import LEAST_SEPARATION, N_EXTREMES, N_INTEGRALS
-from tribodyn.kernels.journal.observe import OBSERVED, observe
+from tribodyn.kernels.journal.data import (
+    N_COORDINATES,
+    Constants,
+    Course,
+    JournalData,
+    JournalMemory,
+    Scratch,
+)
+from tribodyn.kernels.journal.equations import place
+from tribodyn.kernels.journal.observe import observe
+from tribodyn.kernels.journal.quantities import FORCES, OBSERVED, Peaks
+from tribodyn.kernels.ledger import new_books
 from tribodyn.mechanisms.journal.parameters import Journal
 
 FUNCTIONS: Final = CompiledFunctions(
@@ -33,44 +43,24 @@ FUNCTIONS: Final = CompiledFunctions(
 def journal_data(journal: Journal) -> JournalData:
     """Return what the kernels read."""
     joint, loads = journal.joint, journal.loads
-    return JournalData(
-        inertia=np.repeat([float(journal.mass), float(journal.transverse_inertia)], 2),
-        spin_inertia=float(journal.spin_inertia),
-        load=np.array([loads.force_x, loads.force_y, loads.moment_x, loads.moment_y], dtype=np.float64),
-        speed=float(journal.speed),
-        sign=-float(np.sign(journal.speed)),
-        deepest=float(joint.table.h_first * joint.roughness),
-        joint=joint.data(),
-        film=None if journal.film is None else journal.film.data(),
-    )
+    constants = new_record(Constants)
+    constants.inertia[:] = np.repeat([journal.mass, journal.transverse_inertia], 2)
+    constants.spin_inertia = journal.spin_inertia
+    constants.load[:] = loads.force_x, loads.force_y, loads.moment_x, loads.moment_y
+    constants.speed, constants.direction = journal.speed, np.sign(journal.speed)
+    constants.deepest = joint.table.h_first * joint.roughness
+    return JournalData(constants, joint.data(), None if journal.film is None else journal.film.data())
 
 
 def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
     """Return an empty memory: no contact, no work done yet."""
-    scratch = Scratch(
-        state=np.zeros(8),
-        total=np.zeros(4),
-        wrench=np.zeros(5),
-        wrench_jacobian=np.zeros((5, 9)),
-        gradient=np.zeros((3, 5)),
-        film=np.zeros(5),
-        film_jacobian=np.zeros((5, 9)),
-        film_status=np.zeros(1),
-        report=np.zeros(N_REPORT),
-        rates=np.zeros(N_INTEGRALS),
-        rest=np.zeros(8),
-    )
-    extremes = np.zeros(N_EXTREMES)
-    extremes[LEAST_SEPARATION] = data.joint.clearance
     return JournalMemory(
-        entry_velocity=np.zeros(data.joint.wear.shape),
-        last_time=np.zeros(1),
-        integrals=np.zeros(N_INTEGRALS),
-        rates=np.zeros(N_INTEGRALS),
-        extremes=extremes,
-        beyond=np.zeros(1),
+        joint=new_memory(data.joint),
+        books=new_books(0, len(FORCES), N_COORDINATES),
+        peaks=new_record(Peaks),
+        course=new_record(Course),
         film=None if journal.film is None else journal.film.memory(),
-        scratch=scratch,
+        scratch=new_record(Scratch),
     )
 
 
@@ -106,8 +96,8 @@ def journal_problem(
     if start is not None:
         y0[:n] = start[:n]
     _check_inside(journal, y0)
-    spread(y0, memory.scratch.state)
-    update_entry_velocity(data.joint, memory.scratch.state, memory.entry_velocity, 1.0)
+    place(data, y0, memory)
+    update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 1.0)
     position, tilt, velocity, tilt_rate = atol
     tolerances = np.array([position, position, tilt, tilt, velocity, velocity, tilt_rate, tilt_rate])
     kept = [*range(n), *range(4, 4 + n)]
@@ -119,7 +109,7 @@ def journal_problem(
         t_span=(0.0, duration),
         breakpoints=(),
         atol=tolerances[kept],
-        state_names=tuple(STATES[k] for k in kept),
+        state_names=tuple(names(STATES)[k] for k in kept),
         n_observed=len(OBSERVED),
         field_shape=(1, *data.joint.wear.shape),
     )

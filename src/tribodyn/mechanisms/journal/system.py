@@ -11,9 +11,9 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
+from tribodyn.core.quantities import names
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.kernels.journal import ledger
-from tribodyn.kernels.journal.observe import FILM, OBSERVED
+from tribodyn.kernels.journal.quantities import FILM, OBSERVED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
 from tribodyn.mechanisms.base import Part, Run, Worn
 from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
@@ -116,7 +116,7 @@ class JournalSystem:
             fields=self._numbers(run, rows, balance),
             attributes={**self._facts(), "energy_residual": residual, "grid_force_error": grid_error},
             warnings=warnings(
-                run.problem.memory.extremes,
+                run.problem.memory.joint.peaks,
                 self.journal.joint,
                 residual=residual,
                 grid_error=grid_error,
@@ -129,7 +129,7 @@ class JournalSystem:
     def _columns(self, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
         """Return what is stored over time."""
         oil = self.journal.film is not None
-        kept = {name: values for name, values in force_parts(rows).items() if oil or name not in FILM}
+        kept = {name: values for name, values in force_parts(rows).items() if oil or name not in names(FILM)}
         return kept | ledger_columns(rows, lubricated=oil)
 
     def _facts(self) -> dict[str, object]:
@@ -150,20 +150,20 @@ class JournalSystem:
         self, run: Run, rows: dict[str, FloatArray], balance: Equilibrium | None
     ) -> dict[str, FloatArray]:
         """Return what a run has one of, arrays of shape ()."""
-        extremes = run.problem.memory.extremes
+        joint, journal = run.problem.memory.joint.peaks, run.problem.memory.peaks
         found = {
             "settling_time": self._settling_time(run, rows, balance),
             "contact_start": _contact_start(run, rows),
-            "rebounds": float(extremes[ledger.REBOUNDS]),
-            "contact_force_peak": float(extremes[ledger.PEAK_FORCE]),
-            "contact_force_peak_time": float(extremes[ledger.PEAK_FORCE_TIME]),
-            "pressure_peak": float(extremes[ledger.PEAK_PRESSURE]),
-            "separation_least": float(extremes[ledger.LEAST_SEPARATION]),
+            "rebounds": float(journal.rebounds),
+            "contact_force_peak": float(joint.contact_force_peak),
+            "contact_force_peak_time": float(joint.contact_force_peak_time),
+            "pressure_peak": float(joint.pressure_peak),
+            "separation_least": float(joint.separation_least),
             "e_x_balance": np.nan if balance is None else float(balance.attitude[0]),
             "e_y_balance": np.nan if balance is None else float(balance.attitude[1]),
         }
         if self.journal.film is not None:
-            found["film_force_peak"] = float(extremes[ledger.PEAK_FILM_FORCE])
+            found["film_force_peak"] = float(journal.film_force_peak)
         if self.journal.speed != 0.0:
             found["friction_coefficient_end"] = self._friction_coefficient(rows)
         return {name: np.array(value) for name, value in found.items()}
@@ -192,13 +192,13 @@ class JournalSystem:
         if run.solution.failure in (None, INTERRUPTED):
             return run.solution.failure or ""
         memory, reason = run.problem.memory, str(run.solution.failure)
-        if memory.beyond[0] > 0.0:
+        if memory.course.beyond > 0.0:
             return (
                 f"stopped at t = {run.solution.t_end:.6g} s: the surfaces came closer than the contact law "
                 f"reaches ({self.journal.joint.table.h_first:g} sigma); load or impact is too much for it"
             )
-        if memory.scratch.film_status[0] > 0.0:
-            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status[0]))}"
+        if memory.scratch.film_status > 0.0:
+            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status))}"
         return reason
 
 

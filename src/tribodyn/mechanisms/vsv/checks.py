@@ -5,23 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.vsv import books
+from tribodyn.kernels.vsv.data import VsvMemory
 from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
 from tribodyn.mechanisms.vsv.parameters import Vsv
 
 
-def peaks(extremes: FloatArray) -> dict[str, float]:
+def peaks(memory: VsvMemory) -> dict[str, float]:
     """Return the peaks over all accepted steps by name, SI units."""
-    return {
-        "contact_force_peak": float(extremes[books.PEAK_FORCE]),
-        "contact_force_peak_time": float(extremes[books.PEAK_FORCE_TIME]),
-        "pressure_peak": float(extremes[books.PEAK_PRESSURE]),
-        "pressure_peak_time": float(extremes[books.PEAK_PRESSURE_TIME]),
-        "separation_least": float(extremes[books.LEAST_SEPARATION]),
-        "collar_lift_off_time": float(extremes[books.LIFT_OFF]),
-        "tensile_clip_time": float(extremes[books.CLIPPED]),
-    }
+    records = (memory.joint.peaks, memory.collar)
+    return {name: float(record[name]) for record in records for name in record.dtype.names}
 
 
 def warnings(

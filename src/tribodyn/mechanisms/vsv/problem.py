@@ -10,13 +10,20 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
-from tribodyn.kernels.bushing.joint import update_entry_velocity
-from tribodyn.kernels.bushing.names import STATES
+from tribodyn.core.quantities import names
+from tribodyn.joints.bushing import new_memory
+from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.collar import Collar
+from tribodyn.kernels.joints.collar import Peaks as CollarPeaks
+from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
+from tribodyn.kernels.joints.paper import fill_pose
+from tribodyn.kernels.joints.quantities import STATES
+from tribodyn.kernels.ledger import new_books
 from tribodyn.kernels.vsv import functions, layout
-from tribodyn.kernels.vsv.books import new_books
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory, new_mechanism, new_scratch
+from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.functions import vane_direction
-from tribodyn.kernels.vsv.observe import OBSERVED, observe
+from tribodyn.kernels.vsv.observe import observe
+from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -80,13 +87,13 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         air_moment=vsv.air.moment,
         switch_angle=vsv.air.switch_angle,
         switch_width=vsv.air.switch_width,
-        collar_radius=vsv.collar_radius,
-        collar_friction=vsv.collar_radius * vsv.joint.friction.coefficient,
         ideal_first=ideal_first,
         ideal_inverse_step=ideal_inverse_step,
         ideal=ideal,
     )
-    return VsvData(mechanism, vsv.joint.data(wear))
+    collar = new_record(Collar)
+    collar.radius, collar.friction = vsv.collar_radius, vsv.collar_radius * vsv.joint.friction.coefficient
+    return VsvData(mechanism, vsv.joint.data(wear), collar)
 
 
 def _row_inertia(vsv: Vsv) -> FloatArray:
@@ -115,13 +122,12 @@ def _row_weight(vsv: Vsv) -> FloatArray:
 
 def vsv_memory(data: VsvData) -> VsvMemory:
     """Return an empty memory: no contact, no work done yet, direction forward."""
-    shape = data.joint.wear.shape
     return VsvMemory(
-        entry_velocity=np.zeros(shape),
-        sliding_load=np.zeros(shape),
+        joint=new_memory(data.joint),
+        collar=new_record(CollarPeaks),
         regime=np.array([1.0, 0.0]),
-        books=new_books(data.joint.clearance),
-        scratch=new_scratch(),
+        books=new_books(len(POWERS), len(FORCES), layout.N_COORDINATES),
+        scratch=new_record(Scratch),
     )
 
 
@@ -189,12 +195,13 @@ def vsv_problem(
     memory = vsv_memory(data)
     if carried is None:
         y0 = initial_state(data, memory, start)
-        update_entry_velocity(data.joint, y0, memory.entry_velocity, 1.0)
     else:
         y0 = carried.state.copy()
-        memory.entry_velocity[:] = carried.entry_velocity
-        # Points that wear has taken out of contact forget.
-        update_entry_velocity(data.joint, y0, memory.entry_velocity, 0.0)
+        memory.joint.entry_velocity[:] = carried.entry_velocity
+    pose = memory.joint.scratch.pose
+    fill_pose(y0, 0.0, 0.0, pose)
+    # Of what is carried on, points that wear has taken out of contact forget.
+    update_entry_velocity(data.joint, memory.joint, pose, 1.0 if carried is None else 0.0)
     return Problem(
         functions=FUNCTIONS,
         data=data,
@@ -203,7 +210,7 @@ def vsv_problem(
         t_span=(0.0, duration),
         breakpoints=reversals(vsv, duration),
         atol=np.repeat(np.asarray(atol, dtype=np.float64), 2),
-        state_names=STATES,
+        state_names=names(STATES),
         n_observed=len(OBSERVED),
         field_shape=(1, *data.joint.wear.shape),
     )

@@ -12,9 +12,9 @@ from scipy.optimize import bisect
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.vsv.closure import closure_residual, crank_end
 from tribodyn.kernels.vsv.closure import drive as crank
-from tribodyn.kernels.vsv.data import Mechanism
 from tribodyn.kernels.vsv.layout import N_IDEAL
 from tribodyn.mechanisms.vsv.parameters import Lengths
 
@@ -167,7 +167,7 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     return tuple(bisect(lever, float(angles[k]), float(angles[k + 1]), xtol=1e-12) for k in turns)
 
 
-def at_limit(mechanism: Mechanism, t: float, y: FloatArray) -> bool:
+def at_limit(mechanism: Record, t: float, y: FloatArray) -> bool:
     """Tell whether the assemblies meet, or nearly, with the trunnion where it is: beyond, nothing closes.
 
     Parameters

@@ -14,10 +14,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints import BushingJoint
-from tribodyn.kernels.bushing.joint import stored
-from tribodyn.kernels.vsv import books
+from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.vsv.functions import vane_direction
-from tribodyn.kernels.vsv.observe import OBSERVED
+from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.base import Carried, Part, Run, Worn
 from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
 from tribodyn.mechanisms.playback import frame_times, merged, shown
@@ -105,25 +104,25 @@ class VsvSystem:
 
     def sliding_load(self, problem: Problem) -> FloatArray:
         """Return ∫P_c |u| dt at the nodes over the run [N/m], shape (n_z + 2, n_theta)."""
-        load: FloatArray = problem.memory.sliding_load
+        load: FloatArray = problem.memory.joint.sliding_load
         return load
 
     def carried(self, run: Run) -> Carried:
         """Return what the next cycle goes on from."""
-        return Carried(run.solution.y_end, run.problem.memory.entry_velocity)
+        return Carried(run.solution.y_end, run.problem.memory.joint.entry_velocity)
 
     def contact_energy(self, worn: Worn) -> float:
         """Return the energy stored in the contact [J]."""
         assert worn.carried is not None
         data = self.bushing.data(worn.depth)
-        return float(stored(data, worn.carried.entry_velocity, worn.carried.state))
+        return contact_energy(data, worn.carried.state, worn.carried.entry_velocity)
 
     def of_cycle(self, run: Run) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""
         t, rows = run.solution.t, run.rows(OBSERVED)
         error = rows["theta_v"] - rows["theta_v_ideal"]
         return {
-            "wear_pressure_max": float(run.problem.memory.books.extremes[books.PEAK_PRESSURE]),
+            "wear_pressure_max": float(run.problem.memory.joint.peaks.pressure_peak),
             "wear_pressure_mean": _mean(t, rows["p_max"]),
             "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
             "wear_angle_error_max": float(np.abs(error).max()),
@@ -136,7 +135,7 @@ class VsvSystem:
         ledger = ledger_columns(rows)
         whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
         grid_error = grid_force_error(self.bushing, rows, run.problem.data.joint.wear)
-        found = peaks(run.problem.memory.books.extremes)
+        found = peaks(run.problem.memory)
         return Part(
             coordinates=self._coordinates(run),
             columns=force_parts(rows) | ledger,

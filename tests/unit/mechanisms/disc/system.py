@@ -43,7 +43,7 @@ def enter(t, y, data, memory):
 
 
 @entry
-def advance(t_a, t_b, y_middle, y_b, data, memory):
+def advance(t_a, t_b, y_b, data, memory):
     pass
 
 

@@ -1,10 +1,10 @@
-"""What the kernels of the bushing joint read."""
+"""What the kernels of the bushing joint read; it never changes."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 
 
@@ -47,11 +47,6 @@ class BushingData(NamedTuple):
         Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges.
     wear
         Wear depth at the nodes [m], shape (n_z + 2, n_theta).
-    listed
-        Scratch of the kernels: a list of nodes, see ``kernels/bushing/nodes.py``.
-    kept, kept_pieces
-        Pressures of the last report [Pa], and the nodes they belong to as in ``listed.pieces``, with
-        the number of nodes beside that of pieces.
     """
 
     clearance: float
@@ -71,6 +66,3 @@ class BushingData(NamedTuple):
     z: FloatArray
     area: FloatArray
     wear: FloatArray
-    listed: Any
-    kept: FloatArray
-    kept_pieces: IntArray

@@ -1,12 +1,11 @@
 """Wrench of the bushing on the trunnion, with its derivatives in the same pass, Eqs. 44-45.
 
-The wrench is (F_x, F_y, M_x, M_y, M_z): normal pressure and friction together, M_x right-handed,
-M_y left-handed, M_z about the trunnion axis. Its nine arguments are the eight states
-(e_x, e_y, φ_x, φ_y and their rates) and the vane speed ω_v, which traction depends on.
+Normal pressure and friction together, see ``kernels/joints/pose.py`` for the components. Friction as a moment
+acts about the axis alone and opposes the direction of the pose.
 
 In one row of nodes everything depends on five numbers: the offset (a, b) of the trunnion axis,
-its velocity (v_a, v_b) and ω_v. So the derivatives are summed with respect to those five and
-carried to the nine arguments once a row.
+its velocity (v_a, v_b) and the speed ω_z of its rotation. So the derivatives are summed with respect to those
+five and carried to the pose once a row.
 """
 
 from __future__ import annotations
@@ -17,9 +16,13 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.nodes import (
+from tribodyn.kernels.jit import inlined, kernel, summing
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.nodes import gather, rewind, row_motion
+from tribodyn.kernels.joints.cylinder.window import contact_window
+from tribodyn.kernels.joints.listed import (
     APPROACH,
     AREA,
     COS,
@@ -30,13 +33,10 @@ from tribodyn.kernels.bushing.nodes import (
     PART,
     SIN,
     SLIP,
-    gather,
-    rewind,
-    row_motion,
 )
-from tribodyn.kernels.bushing.pressure import node_pressure, reference_velocity, total_pressure
-from tribodyn.kernels.bushing.window import contact_window
-from tribodyn.kernels.jit import inlined, kernel, summing
+from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.joints.pose import F_X, F_Y, M_X, M_Y, M_Z, PHI, D, V, W
+from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity, total_pressure
 from tribodyn.kernels.lookup import cubic, offset
 
 LEAST_SQUARE: Final = 1.0e-300
@@ -44,13 +44,13 @@ LEAST_SQUARE: Final = 1.0e-300
 
 
 @inlined
-def friction_law(joint: BushingData, sign: float) -> tuple[float, float, float]:
+def friction_law(joint: BushingData, direction: float) -> tuple[float, float, float]:
     """Return (r, κ, u_s²) of the friction ratio τ/P_c = r − κ u/√(u² + u_s²).
 
     Traction: κ = μ_f, r = 0. Friction moment: κ = 0, r = s' μ_f r_b/r_j, so that both give their
-    moment with the arm r_j.
+    moment with the arm r_j; s' of Eq. 45 is minus the direction of rotation.
     """
-    steady = (1.0 - joint.tangential) * sign * joint.friction_coefficient
+    steady = -(1.0 - joint.tangential) * direction * joint.friction_coefficient
     steady *= joint.bore_radius / joint.journal_radius
     steepness = joint.tangential * joint.friction_coefficient
     return steady, steepness, max(joint.slip_velocity * joint.slip_velocity, LEAST_SQUARE)
@@ -66,51 +66,40 @@ def ratio_at(law: tuple[float, float, float], slip: float) -> tuple[float, float
 
 
 @inlined
-def friction_ratio(joint: BushingData, slip: float, sign: float) -> tuple[float, float]:
+def friction_ratio(joint: BushingData, slip: float, direction: float) -> tuple[float, float]:
     """Return the same for a single point."""
-    return ratio_at(friction_law(joint, sign), slip)
+    return ratio_at(friction_law(joint, direction), slip)
 
 
 @kernel
-def wrench(
-    joint: BushingData,
-    entry_velocity: FloatArray,
-    y: FloatArray,
-    omega: float,
-    sign: float,
-    out: FloatArray,
-) -> None:
+def wrench(joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray) -> None:
     """Fill ``out`` with the wrench.
 
     Parameters
     ----------
     joint
         Constants of the joint.
-    entry_velocity
-        Remembered δ̇₋ [m/s], shape (n_z + 2, n_theta), 0 where there is none.
-    y
-        The eight states, shape (8,).
-    omega
-        Vane speed ω_v [rad/s].
-    sign
-        s' of Eq. 45, −1 when the ideal vane speed is positive; used by the friction moment only.
+    memory
+        Its memory, whose scratch alone is changed.
+    pose
+        Where the trunnion is and how it moves, see ``kernels/joints/pose.py``.
     out
-        (F_x, F_y, M_x, M_y, M_z) [N, N m], shape (5,).
+        The wrench [N, N m], shape (6,).
     """
-    for k in range(5):
+    for k in range(6):
         out[k] = 0.0
-    rewind(joint)
-    n = gather(joint, entry_velocity, y, omega, 0.0)
+    rewind(memory)
+    n = gather(joint, memory, pose, 0.0)
     while n > 0:
-        _add_nodes(joint, sign, n, out)
-        n = gather(joint, entry_velocity, y, omega, 0.0)
+        _add_nodes(joint, memory, pose.direction, n, out)
+        n = gather(joint, memory, pose, 0.0)
 
 
 @summing
-def _add_nodes(joint: BushingData, sign: float, n: int, out: FloatArray) -> None:
+def _add_nodes(joint: BushingData, memory: JointMemory, direction: float, n: int, out: FloatArray) -> None:
     """Add the wrench of the ``n`` nodes in the list."""
-    work, cubics = joint.listed.work, joint.table.cubics
-    law = friction_law(joint, sign)
+    work, cubics = memory.scratch.listed.work, joint.table.cubics
+    law = friction_law(joint, direction)
     v_min, clip, tangential = joint.minimum_entry_velocity, joint.clip, joint.tangential
     f_x = f_y = m_x = m_y = torque = 0.0
     for k in range(min(n, PART)):
@@ -127,91 +116,82 @@ def _add_nodes(joint: BushingData, sign: float, n: int, out: FloatArray) -> None
         f_x += area * push_x
         f_y += area * push_y
         m_x -= moment * push_y
-        m_y -= moment * push_x
+        m_y += moment * push_x
         torque += area * tau
-    out[0] += f_x
-    out[1] += f_y
-    out[2] += m_x
-    out[3] += m_y
-    out[4] += joint.journal_radius * torque
+    out[F_X] += f_x
+    out[F_Y] += f_y
+    out[M_X] += m_x
+    out[M_Y] += m_y
+    out[M_Z] += joint.journal_radius * torque
 
 
 @kernel
-def _add_row(
-    area: float, z: float, y: FloatArray, radius: float, gradient: FloatArray, jacobian: FloatArray
+def add_row(
+    area: float, z: float, pose: Record, radius: float, gradient: FloatArray, jacobian: FloatArray
 ) -> None:
-    """Carry the gradient of (f_x, f_y, τ) in (a, b, v_a, v_b, ω) of one row to the nine arguments."""
-    tan_x = math.tan(y[2])
-    tan_y = math.tan(y[3])
-    sec2_x = 1.0 + tan_x * tan_x
-    sec2_y = 1.0 + tan_y * tan_y
+    """Carry the gradient of (f_x, f_y, τ) in (a, b, v_a, v_b, u) at one height to the derivative (6, 12).
+
+    M_x = −z F_y, M_y = z F_x and M_z = r τ.
+    """
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    sec2_x, sec2_y = 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
+    columns = (D, D + 1, PHI, PHI + 1, V, V + 1, W, W + 1, W + 2)
     for k in range(3):
-        g_a = area * gradient[k, 0]
-        g_b = area * gradient[k, 1]
-        g_va = area * gradient[k, 2]
-        g_vb = area * gradient[k, 3]
-        d_phi_x = -z * sec2_x * (g_b + 2.0 * y[6] * tan_x * g_vb)
-        d_phi_y = -z * sec2_y * (g_a + 2.0 * y[7] * tan_y * g_va)
-        row = (g_a, g_b, d_phi_x, d_phi_y, g_va, g_vb, -z * sec2_x * g_vb, -z * sec2_y * g_va)
-        for m in range(8):
+        g_a, g_b = area * gradient[k, 0], area * gradient[k, 1]
+        g_va, g_vb = area * gradient[k, 2], area * gradient[k, 3]
+        d_phi_x = -z * sec2_x * (g_b + 2.0 * pose.w_x * tan_x * g_vb)
+        d_phi_y = z * sec2_y * (g_a + 2.0 * pose.w_y * tan_y * g_va)
+        d_w_x, d_w_y, d_omega = -z * sec2_x * g_vb, z * sec2_y * g_va, area * gradient[k, 4]
+        row = (g_a, g_b, d_phi_x, d_phi_y, g_va, g_vb, d_w_x, d_w_y, d_omega)
+        for m in range(9):
             if k == 2:
-                jacobian[4, m] += radius * row[m]
+                jacobian[M_Z, columns[m]] += radius * row[m]
+            elif k == 1:
+                jacobian[F_Y, columns[m]] += row[m]
+                jacobian[M_X, columns[m]] -= z * row[m]
             else:
-                jacobian[k, m] += row[m]
-                jacobian[3 - k, m] -= z * row[m]
-        d_omega = area * gradient[k, 4]
-        if k == 2:
-            jacobian[4, 8] += radius * d_omega
-        else:
-            jacobian[k, 8] += d_omega
-            jacobian[3 - k, 8] -= z * d_omega
+                jacobian[F_X, columns[m]] += row[m]
+                jacobian[M_Y, columns[m]] += z * row[m]
 
 
 @kernel
 def wrench_and_jacobian(
-    joint: BushingData,
-    entry_velocity: FloatArray,
-    y: FloatArray,
-    omega: float,
-    sign: float,
-    out: FloatArray,
-    jacobian: FloatArray,
-    gradient: FloatArray,
+    joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray, jacobian: FloatArray
 ) -> None:
     """Fill ``out`` with the wrench and ``jacobian`` with its derivatives.
 
     Parameters
     ----------
-    joint, entry_velocity, y, omega, sign, out
+    joint, memory, pose, out
         As for :func:`wrench`.
     jacobian
-        ∂(F_x, F_y, M_x, M_y, M_z)/∂(e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y, ω_v), shape (5, 9).
-    gradient
-        Scratch, shape (3, 5).
+        Its derivatives in displacement, tilt, velocity and rates of turning, shape (6, 12).
     """
-    n_theta = joint.cos_theta.size
+    n_theta, gradient = joint.cos_theta.size, memory.scratch.gradient
     limit = joint.table.h_last * joint.roughness
-    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     clear(jacobian)
-    for k in range(5):
+    for k in range(6):
         out[k] = 0.0
     for j in range(joint.z.size):
         area, z = joint.area[j], joint.z[j]
-        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, z)
+        a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, z)
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
         if area == 0.0 or count == 0:
             continue
-        motion = (a, b, v_a, v_b, omega * joint.journal_radius)
+        motion = (a, b, v_a, v_b, pose.w_z * joint.journal_radius)
         clear(gradient)
         until = min(first + count, n_theta)
         for start, stop in ((first, until), (0, first + count - until)):
-            f_x, f_y, torque = _add_piece(joint, entry_velocity, j, start, stop, motion, sign, gradient)
-            out[0] += area * f_x
-            out[1] += area * f_y
-            out[2] -= area * z * f_y
-            out[3] -= area * z * f_x
-            out[4] += area * joint.journal_radius * torque
-        _add_row(area, z, y, joint.journal_radius, gradient, jacobian)
+            f_x, f_y, torque = _add_piece(
+                joint, memory.entry_velocity, j, start, stop, motion, pose.direction, gradient
+            )
+            out[F_X] += area * f_x
+            out[F_Y] += area * f_y
+            out[M_X] -= area * z * f_y
+            out[M_Y] += area * z * f_x
+            out[M_Z] += area * joint.journal_radius * torque
+        add_row(area, z, pose, joint.journal_radius, gradient, jacobian)
 
 
 @summing
@@ -222,16 +202,16 @@ def _add_piece(
     first: int,
     until: int,
     motion: tuple[float, float, float, float, float],
-    sign: float,
+    direction: float,
     gradient: FloatArray,
 ) -> tuple[float, float, float]:
     """Return (Σ f_x, Σ f_y, Σ τ) of nodes ``first`` to ``until`` of a row and add their gradient.
 
-    ``motion`` holds the offset and the velocity of the axis in this row and the surface speed ω_v r_j.
+    ``motion`` holds the offset and the velocity of the axis in this row and the surface speed ω_z r_j.
     """
     a, b, v_a, v_b, speed = motion
     cos, sin, wear = joint.cos_theta, joint.sin_theta, joint.wear
-    law = friction_law(joint, sign)
+    law = friction_law(joint, direction)
     tangential, r_j = joint.tangential, joint.journal_radius
     f_x = f_y = torque = 0.0
     # Stiffness k = ∂P/∂h and damping d = ∂P/∂δ̇, summed with products of cos θ and sin θ.

@@ -1,4 +1,4 @@
-"""The memory of the bushing: entry velocities, changed at accepted steps only; and the pressure field."""
+"""Entry velocities of the bushing, changed at accepted steps only; and the pressure field."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ import math
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.nodes import row_motion
-from tribodyn.kernels.bushing.pressure import node_pressure, reference_velocity
-from tribodyn.kernels.bushing.window import contact_window
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.nodes import row_motion
+from tribodyn.kernels.joints.cylinder.window import contact_window
+from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
 
 
 @kernel
-def pressure_field(
-    joint: BushingData, entry_velocity: FloatArray, y: FloatArray, pressure: FloatArray
-) -> None:
+def pressure_field(joint: BushingData, memory: JointMemory, pose: Record, pressure: FloatArray) -> None:
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa] at all nodes."""
     clear(pressure)
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
-    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     for j in range(joint.z.size):
-        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[j])
+        a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, limit, n_theta)
         for k in range(count):
             i = first + k if first + k < n_theta else first + k - n_theta
@@ -37,7 +37,7 @@ def pressure_field(
                 joint.clip,
                 joint.clearance + a * c + b * s + joint.wear[j, i],
                 -(v_a * c + v_b * s),
-                entry_velocity[j, i],
+                memory.entry_velocity[j, i],
             )
 
 
@@ -71,9 +71,7 @@ def _forget(row: int, first: int, until: int, entry_velocity: FloatArray) -> Non
 
 
 @kernel
-def update_entry_velocity(
-    joint: BushingData, y: FloatArray, entry_velocity: FloatArray, at_start: float
-) -> None:
+def update_entry_velocity(joint: BushingData, memory: JointMemory, pose: Record, at_start: float) -> None:
     """Let nodes enter and leave contact at the end of an accepted step.
 
     A node below the onset separation without a memory takes max(|δ̇|, v_min); one above the onset
@@ -81,21 +79,18 @@ def update_entry_velocity(
 
     Parameters
     ----------
-    joint
-        Constants of the joint.
-    y
-        The eight states, shape (8,).
-    entry_velocity
-        Memory [m/s], shape (n_z + 2, n_theta), changed in place.
+    joint, memory, pose
+        As for ``wrench``; the entry velocities are changed in place.
     at_start
         1 at the start of a run, 0 otherwise.
     """
+    entry_velocity = memory.entry_velocity
     onset = joint.onset * joint.roughness
-    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     n_theta = joint.cos_theta.size
     heed = 0.0 if at_start > 0.0 else 1.0
     for j in range(joint.z.size):
-        a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[j])
+        a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
         first, count = contact_window(joint.clearance, a, b, onset, n_theta)
         motion = (a, b, heed * v_a, heed * v_b)
         until = min(first + count, n_theta)

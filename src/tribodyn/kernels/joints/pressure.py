@@ -1,4 +1,4 @@
-"""Pressure at one node of the bushing, Eqs. 1 and 10 with the memory of entry velocities.
+"""Pressure at one node of a joint, Eqs. 1 and 10 with the memory of entry velocities.
 
 Without branches, as the look-up: loops over nodes are to take four at once.
 """

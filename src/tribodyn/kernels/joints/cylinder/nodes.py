@@ -2,78 +2,54 @@
 
 Sums over nodes are loops over this list: long enough for the processor to take four nodes at once, whatever
 the width of the window in a row. The list is filled and summed a part at a time, so that it stays in the
-nearest cache. It is held by ``BushingData.listed``, see :data:`LISTED`.
+nearest cache. It is held by the scratch of the joint's memory.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.bushing.data import BushingData
-from tribodyn.kernels.bushing.window import contact_window
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.lookup import cubic, interval, last_interval, offset
-
-PART: Final = 512
-"""Nodes in a part of the list."""
-PITCH: Final = PART + 8
-"""Distance between columns: columns 4096 bytes apart would compete for the same places in the cache."""
-
-INTERVAL: Final = 0 * PITCH
-FRACTION: Final = 1 * PITCH
-"""Interval of the contact table and place in it, see ``kernels/lookup.py``."""
-COS: Final = 2 * PITCH
-SIN: Final = 3 * PITCH
-APPROACH: Final = 4 * PITCH
-SLIP: Final = 5 * PITCH
-"""Approach speed δ̇ and slip u [m/s]."""
-ENTRY: Final = 6 * PITCH
-"""Remembered entry velocity [m/s]."""
-AREA: Final = 7 * PITCH
-MOMENT: Final = 8 * PITCH
-"""Area that the node stands for [m²], and that times its axial position [m³]."""
-PRESSURE: Final = 9 * PITCH
-"""P_c [Pa]; left by the report."""
-RIGID: Final = 10 * PITCH
-DAMPING: Final = 11 * PITCH
-"""P_k and C from the contact table [Pa], filled by :func:`look_up`."""
-N_WORK: Final = 12 * PITCH
-
-LISTED: Final = np.dtype(
-    [("work", "f8", (N_WORK,)), ("pieces", "i8", (PART + 1, 3)), ("cursor", "i8", (2,))], align=True
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.window import contact_window
+from tribodyn.kernels.joints.listed import (
+    APPROACH,
+    AREA,
+    COS,
+    DAMPING,
+    ENTRY,
+    FRACTION,
+    INTERVAL,
+    MOMENT,
+    PART,
+    RIGID,
+    SIN,
+    SLIP,
 )
-"""The list. Nothing is carried from one call of a kernel to the next.
-
-work
-    Its columns, which begin at the places above.
-pieces
-    Where the nodes come from: number of pieces in row 0, then (row of nodes, first node, count).
-cursor
-    How far all nodes have been listed: row of nodes, and nodes of that row.
-"""
+from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.lookup import cubic, interval, last_interval, offset
 
 
 @inlined
-def row_motion(y: FloatArray, tan_x: float, tan_y: float, z: float) -> tuple[float, float, float, float]:
+def row_motion(pose: Record, tan_x: float, tan_y: float, z: float) -> tuple[float, float, float, float]:
     """Return offset (a, b) [m] and velocity (v_a, v_b) [m/s] of the trunnion axis at height ``z`` [m].
 
     ``tan_x`` and ``tan_y`` are the tangents of the tilts, the same for every row.
     """
-    a = y[0] - z * tan_y
-    b = y[1] - z * tan_x
-    v_a = y[4] - z * y[7] * (1.0 + tan_y * tan_y)
-    v_b = y[5] - z * y[6] * (1.0 + tan_x * tan_x)
+    a = pose.d_x + z * tan_y
+    b = pose.d_y - z * tan_x
+    v_a = pose.v_x + z * pose.w_y * (1.0 + tan_y * tan_y)
+    v_b = pose.v_y - z * pose.w_x * (1.0 + tan_x * tan_x)
     return a, b, v_a, v_b
 
 
 @inlined
 def _load(
     joint: BushingData,
-    entry_velocity: FloatArray,
+    memory: JointMemory,
     row: int,
     first: int,
     size: int,
@@ -85,7 +61,8 @@ def _load(
     slip: float,
 ) -> None:
     """Write ``size`` nodes of a row with given offset and velocity into the list, from place ``at`` on."""
-    work, cos, sin, wear = joint.listed.work, joint.cos_theta, joint.sin_theta, joint.wear
+    work, cos, sin, wear = memory.scratch.listed.work, joint.cos_theta, joint.sin_theta, joint.wear
+    entry_velocity = memory.entry_velocity
     area = joint.area[row]
     moment = area * joint.z[row]
     last = last_interval(joint.table)
@@ -110,40 +87,39 @@ def _load(
 
 
 @kernel
-def rewind(joint: BushingData) -> None:
+def rewind(memory: JointMemory) -> None:
     """Begin the list anew."""
-    cursor = joint.listed.cursor
+    cursor = memory.scratch.listed.cursor
     cursor[0] = cursor[1] = 0
 
 
 @kernel
-def gather(
-    joint: BushingData, entry_velocity: FloatArray, y: FloatArray, omega: float, with_edges: float
-) -> int:
+def gather(joint: BushingData, memory: JointMemory, pose: Record, with_edges: float) -> int:
     """Fill the next part of the list and return the number of its nodes, 0 after the last one.
 
     Parameters
     ----------
-    joint, entry_velocity, y, omega
+    joint, memory, pose
         As for ``wrench``.
     with_edges
         1 if the rows on the edges, which stand for no area, are wanted too, 0 otherwise.
     """
-    cursor, pieces, n_theta = joint.listed.cursor, joint.listed.pieces, joint.cos_theta.size
+    listed, n_theta = memory.scratch.listed, joint.cos_theta.size
+    cursor, pieces = listed.cursor, listed.pieces
     limit = joint.table.h_last * joint.roughness
-    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     row, taken, n, n_pieces = cursor[0], cursor[1], 0, 0
-    slip = omega * joint.journal_radius
+    slip = pose.w_z * joint.journal_radius
     while row < joint.z.size and n < PART:
         left = 0
         if with_edges > 0.0 or joint.area[row] > 0.0:
-            a, b, v_a, v_b = row_motion(y, tan_x, tan_y, joint.z[row])
+            a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[row])
             first, count = contact_window(joint.clearance, a, b, limit, n_theta)
             left = count - taken
             while left > 0 and n < PART:
                 start = first + taken if first + taken < n_theta else first + taken - n_theta
                 size = min(left, n_theta - start, PART - n)
-                _load(joint, entry_velocity, row, start, size, n, a, b, v_a, v_b, slip)
+                _load(joint, memory, row, start, size, n, a, b, v_a, v_b, slip)
                 n_pieces += 1
                 pieces[n_pieces, 0], pieces[n_pieces, 1], pieces[n_pieces, 2] = row, start, size
                 n, left, taken = n + size, left - size, taken + size
@@ -154,12 +130,12 @@ def gather(
 
 
 @kernel
-def look_up(joint: BushingData, n: int) -> None:
+def look_up(joint: BushingData, memory: JointMemory, n: int) -> None:
     """Fill in the pressures of the contact table, for loops that write as well as read.
 
     Such a loop could not take four nodes at once if it read the table, whose places it cannot foresee.
     """
-    work, cubics = joint.listed.work, joint.table.cubics
+    work, cubics = memory.scratch.listed.work, joint.table.cubics
     for k in range(min(n, PART)):
         first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
         work[RIGID + k] = cubic(cubics, first, x)

@@ -1,0 +1,63 @@
+"""Quantities by name: the same table makes the record that kernels fill and says what its entries mean."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, NamedTuple, TypeAlias
+
+import numpy as np
+
+Record: TypeAlias = Any
+"""One record of such a type; its entries are attributes, in compiled code and out of it."""
+RecordType: TypeAlias = np.dtype[np.void]
+
+TIME: Final = ("time",)
+
+
+class Quantity(NamedTuple):
+    """One number that kernels know by its name.
+
+    Attributes
+    ----------
+    name
+        Its name, everywhere.
+    unit
+        SI unit as a UDUNITS string, ``"1"`` for a ratio.
+    meaning
+        Plain words, used as axis label and in the documentation.
+    dimensions
+        Dimensions of the array that a result holds of it.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    dimensions: tuple[str, ...] = TIME
+
+
+Table: TypeAlias = Sequence[Quantity]
+
+
+def names(table: Table) -> tuple[str, ...]:
+    """Return the names of a table in their order."""
+    return tuple(quantity.name for quantity in table)
+
+
+def record_type(*fields: Any) -> RecordType:
+    """Return the type of a record of given fields, as ``numpy.dtype`` takes them."""
+    return np.dtype((np.record, list(fields)))
+
+
+def of_table(table: Table) -> RecordType:
+    """Return the type of a record with a number for each quantity."""
+    return record_type(*((name, "f8") for name in names(table)))
+
+
+def of_tables(tables: Mapping[str, Table]) -> RecordType:
+    """Return the type of a record of such records, by their names."""
+    return record_type(*((name, of_table(table)) for name, table in tables.items()))
+
+
+def together(tables: Mapping[str, Table]) -> tuple[Quantity, ...]:
+    """Return all quantities of some tables, in the order of the record that :func:`of_tables` makes."""
+    return tuple(quantity for table in tables.values() for quantity in table)

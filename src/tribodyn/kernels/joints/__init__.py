@@ -1,0 +1,1 @@
+"""Kernels of clearance joints: all take the joint, its memory and the pose, and fill a wrench."""

@@ -1,0 +1,1 @@
+"""Kernels of a rigid journal in a cylindrical bushing."""

@@ -1,0 +1,49 @@
+"""Between the source paper's coordinates and signs of a joint and those of its pose: the only such place.
+
+The paper's states are (e_x, e_y, φ_x, φ_y) and their rates, its wrench is (F_x, F_y, M_x, M_y, M_z); φ_y and
+M_y are left-handed, all else is right-handed.
+"""
+
+from __future__ import annotations
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints.pose import F_X, F_Y, M_X, M_Y, M_Z, PHI, D, V, W
+
+
+@kernel
+def fill_pose(y: FloatArray, omega: float, direction: float, pose: Record) -> None:
+    """Fill ``pose`` from the states ``y`` (8,), the speed ω about Z [rad/s] and its direction."""
+    pose.d_x, pose.d_y, pose.d_z = y[0], y[1], 0.0
+    pose.phi_x, pose.phi_y = y[2], -y[3]
+    pose.v_x, pose.v_y, pose.v_z = y[4], y[5], 0.0
+    pose.w_x, pose.w_y, pose.w_z = y[6], -y[7], omega
+    pose.direction = direction
+
+
+@kernel
+def from_wrench(wrench: FloatArray, out: FloatArray) -> None:
+    """Fill ``out`` (5,) with the paper's wrench from the joint's ``wrench`` (6,)."""
+    out[0], out[1] = wrench[F_X], wrench[F_Y]
+    out[2], out[3], out[4] = wrench[M_X], -wrench[M_Y], wrench[M_Z]
+
+
+@kernel
+def from_jacobian(jacobian: FloatArray, out: FloatArray) -> None:
+    """Fill ``out`` (5, 9), derivatives in the eight states and ω, from the joint's ``jacobian`` (6, 12)."""
+    rows = (F_X, F_Y, M_X, M_Y, M_Z)
+    columns = (D, D + 1, PHI, PHI + 1, V, V + 1, W, W + 1, W + 2)
+    for k in range(5):
+        for m in range(9):
+            turned = (k == 3) != (m == 3 or m == 7)
+            entry = jacobian[rows[k], columns[m]]
+            out[k, m] = -entry if turned else entry
+
+
+@kernel
+def from_report(report: Record) -> None:
+    """Turn the moments about Y of a joint's report, right-handed as the joint left it, into the paper's."""
+    report.M_jcy = -report.M_jcy
+    report.M_fy = -report.M_fy
+    report.M_ky = -report.M_ky

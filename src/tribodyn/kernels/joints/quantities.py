@@ -1,0 +1,60 @@
+"""What is told about a clearance joint: its coordinates, its report of an instant, its peaks.
+
+Signs are those of the source paper: φ_x and M_x right-handed, φ_y and M_y left-handed.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.core.quantities import Quantity, of_table
+
+STATES: Final = (
+    Quantity("e_x", "m", "offset of the trunnion centre along X"),
+    Quantity("e_y", "m", "offset of the trunnion centre along Y"),
+    Quantity("phi_x", "rad", "tilt of the trunnion about X (right-handed)"),
+    Quantity("phi_y", "rad", "tilt of the trunnion about Y (left-handed)"),
+    Quantity("e_x_dot", "m s-1", "velocity of the trunnion centre along X"),
+    Quantity("e_y_dot", "m s-1", "velocity of the trunnion centre along Y"),
+    Quantity("phi_x_dot", "rad s-1", "tilt rate of the trunnion about X"),
+    Quantity("phi_y_dot", "rad s-1", "tilt rate of the trunnion about Y"),
+)
+
+REPORTED: Final = (
+    Quantity("F_cx", "N", "normal contact force on the trunnion along X"),
+    Quantity("F_cy", "N", "normal contact force on the trunnion along Y"),
+    Quantity("M_jcx", "N m", "moment of the contact pressure about X"),
+    Quantity("M_jcy", "N m", "moment of the contact pressure about Y (left-handed)"),
+    Quantity("F_kx", "N", "rigid (asperity stiffness) part of the contact force along X"),
+    Quantity("F_ky", "N", "rigid (asperity stiffness) part of the contact force along Y"),
+    Quantity("F_fx", "N", "friction force on the trunnion along X"),
+    Quantity("F_fy", "N", "friction force on the trunnion along Y"),
+    Quantity("M_fx", "N m", "moment of the bushing friction about X"),
+    Quantity("M_fy", "N m", "moment of the bushing friction about Y (left-handed)"),
+    Quantity("M_jf", "N m", "friction moment of the bushing about Z"),
+    Quantity("damping_power", "W", "power of the damping pressure, turned into heat"),
+    Quantity("friction_power", "W", "power of the bushing friction, turned into heat"),
+    Quantity("energy_contact", "J", "energy stored in the contact"),
+    Quantity("p_max", "Pa", "peak contact pressure in the bushing, edges included"),
+    Quantity("separation_min", "m", "smallest gap in the bushing, negative where mean surfaces overlap"),
+    Quantity(
+        "tensile_clip_share", "1", "share of the contact force held back by the clip of tensile pressure"
+    ),
+    Quantity("contact_fraction", "1", "share of the bushing surface in contact"),
+    Quantity("M_kx", "N m", "moment of the rigid part of the contact pressure about X"),
+    Quantity("M_ky", "N m", "moment of the rigid part of the contact pressure about Y (left-handed)"),
+)
+"""The report of an instant. Of powers it tells what friction and damping do to the motion."""
+
+PEAKS: Final = (
+    Quantity("contact_force_peak", "N", "largest contact force at any accepted step", ()),
+    Quantity("contact_force_peak_time", "s", "when the contact force was largest", ()),
+    Quantity("pressure_peak", "Pa", "largest contact pressure at any accepted step", ()),
+    Quantity("pressure_peak_time", "s", "when the contact pressure was largest", ()),
+    Quantity("separation_least", "m", "smallest gap at any accepted step", ()),
+    Quantity("tensile_clip_time", "s", "time integral of the share of the contact where the clip acts", ()),
+)
+"""Over all accepted steps; output times would miss them."""
+
+Report = of_table(REPORTED)
+Peaks = of_table(PEAKS)

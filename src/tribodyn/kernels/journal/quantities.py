@@ -1,0 +1,42 @@
+"""What is observed of a journal, in the order in which it is observed."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together
+from tribodyn.kernels.joints.quantities import REPORTED, STATES
+
+FILM: Final = (
+    Quantity("F_ox", "N", "force of the oil film on the journal along X"),
+    Quantity("F_oy", "N", "force of the oil film on the journal along Y"),
+    Quantity("M_ox", "N m", "moment of the oil film about X"),
+    Quantity("M_oy", "N m", "moment of the oil film about Y (left-handed)"),
+    Quantity("M_of", "N m", "friction moment of the oil film about Z"),
+)
+ENERGIES: Final = (Quantity("energy_kinetic", "J", "kinetic energy of the motion in the clearance"),)
+FORCES: Final = (
+    Quantity("work_loads", "J", "work of the loads"),
+    Quantity("work_friction", "J", "work of the bushing friction"),
+    Quantity("heat_damping", "J", "damping heat of the contact"),
+    Quantity("work_drive", "J", "work of the drive that keeps the speed"),
+    Quantity("work_film", "J", "work of the oil film"),
+)
+"""What is integrated from forces on the coordinates of the centre, the tilts and the angle of rotation."""
+PEAKS: Final = (
+    Quantity("film_force_peak", "N", "largest film force at any accepted step", ()),
+    Quantity("film_force_peak_time", "s", "when the film force was largest", ()),
+    Quantity("rebounds", "1", "how often the journal left contact again", ()),
+)
+"""Besides those of the joint."""
+
+TABLES: Final = {"states": STATES, "joint": REPORTED, "film": FILM, "energies": ENERGIES, "works": FORCES}
+QUANTITIES: Final = together(TABLES)
+"""Everything observed, in the order of a row."""
+OBSERVED: Final = names(QUANTITIES)
+
+Row: Final = of_tables(TABLES)
+States: Final = of_table(STATES)
+Film: Final = of_table(FILM)
+Forces: Final = of_table(FORCES)
+Peaks: Final = of_table(PEAKS)

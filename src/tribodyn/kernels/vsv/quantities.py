@@ -1,0 +1,93 @@
+"""What is observed of the variable stator vane mechanism, in the order in which it is observed."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together
+from tribodyn.kernels.joints.quantities import REPORTED, STATES
+
+MOTION: Final = (
+    Quantity("theta_a", "rad", "crank angle"),
+    Quantity("theta_b", "rad", "unison ring angle"),
+    Quantity("theta_v", "rad", "vane angle"),
+    Quantity("theta_v_ideal", "rad", "vane angle without clearance"),
+    Quantity("omega_a", "rad s-1", "crank speed"),
+    Quantity("omega_v", "rad s-1", "vane speed"),
+    Quantity("omega_v_ideal", "rad s-1", "vane speed without clearance"),
+    Quantity("h_1", "m", "axial travel of the unison ring"),
+)
+COLLAR: Final = (
+    Quantity("M_tcx", "N m", "moment of the thrust collar about X"),
+    Quantity("M_tcy", "N m", "moment of the thrust collar about Y (left-handed)"),
+    Quantity("M_tf", "N m", "friction moment of the thrust collar about Z"),
+)
+REACTIONS: Final = (
+    Quantity("F_ax", "N", "force of the casing on the crank pivot along X"),
+    Quantity("F_ay", "N", "force of the casing on the crank pivot along Y"),
+    Quantity("F_az", "N", "force of the casing on the crank pivot along Z"),
+    Quantity("M_ax", "N m", "moment of the casing on the crank pivot about X"),
+    Quantity("M_az", "N m", "moment of the casing on the crank pivot about Z"),
+    Quantity("M_d", "N m", "drive moment on the crank"),
+    Quantity("F_21x", "N", "force of the drag link on the crank along X"),
+    Quantity("F_21y", "N", "force of the drag link on the crank along Y"),
+    Quantity("F_21z", "N", "force of the drag link on the crank along Z"),
+    Quantity("F_32x", "N", "force of the unison ring on the drag link along X"),
+    Quantity("F_32y", "N", "force of the unison ring on the drag link along Y"),
+    Quantity("F_32z", "N", "force of the unison ring on the drag link along Z"),
+    Quantity("F_43x", "N", "force of the lever arm on the unison ring along X"),
+    Quantity("F_43y", "N", "force of the lever arm on the unison ring along Y"),
+    Quantity("F_43z", "N", "force of the lever arm on the unison ring along Z"),
+    Quantity("F_bx", "N", "force of the casing on the unison ring along X"),
+    Quantity("F_bz", "N", "force of the casing on the unison ring along Z"),
+    Quantity("M_bx", "N m", "moment of the casing on the unison ring about X"),
+    Quantity("M_bz", "N m", "moment of the casing on the unison ring about Z"),
+    Quantity("F_cz", "N", "force of the thrust collar on the trunnion along Z"),
+)
+"""In the order of the unknowns of the full Newton-Euler system."""
+AIR: Final = (
+    Quantity("F_airx", "N", "aerodynamic force on the vane along X"),
+    Quantity("F_airy", "N", "aerodynamic force on the vane along Y"),
+    Quantity("M_air", "N m", "aerodynamic moment on the vane about Z"),
+)
+ENERGIES: Final = (
+    Quantity("energy_kinetic", "J", "kinetic energy of all bodies"),
+    Quantity("energy_gravity", "J", "gravity energy of all bodies"),
+)
+POWERS: Final = (
+    Quantity("work_drive", "J", "work of the drive"),
+    Quantity("work_loads", "J", "work of the air loads"),
+    Quantity("work_friction", "J", "work of the bushing friction"),
+    Quantity("work_collar_friction", "J", "work of the thrust collar's friction"),
+    Quantity("work_collar_tilt", "J", "work of the thrust collar on tilting"),
+)
+"""Whole mechanism: what is integrated from powers."""
+FORCES: Final = (
+    Quantity("heat_damping", "J", "damping heat of the contact"),
+    Quantity("work_clearance_loads", "J", "clearance motion: work of everything but the joint"),
+    Quantity("work_clearance_friction", "J", "clearance motion: work of friction"),
+    Quantity("work_clearance_collar", "J", "clearance motion: work of the thrust collar"),
+)
+"""Clearance motion: what is integrated from forces on its coordinates."""
+INERTIA: Final = (Quantity("work_clearance_inertia", "J", "clearance motion: what inertia has taken in"),)
+
+TABLES: Final = {
+    "states": STATES,
+    "motion": MOTION,
+    "joint": REPORTED,
+    "collar": COLLAR,
+    "reactions": REACTIONS,
+    "air": AIR,
+    "energies": ENERGIES,
+    "works": (*POWERS, *FORCES, *INERTIA),
+}
+QUANTITIES: Final = together(TABLES)
+"""Everything observed, in the order of a row."""
+OBSERVED: Final = names(QUANTITIES)
+
+Row: Final = of_tables(TABLES)
+Powers: Final = of_table(POWERS)
+Forces: Final = of_table(FORCES)
+States: Final = of_table(STATES)
+Reactions: Final = of_table(REACTIONS)
+Works: Final = of_table(TABLES["works"])
