@@ -17,7 +17,7 @@ PROGRAM = """
 import json
 import numpy as np
 from tribodyn.core.tables import ContactTable
-from tribodyn.kernels.bushing.pressure import node_pressure
+from tribodyn.kernels.joints.pressure import node_pressure
 
 table = ContactTable(0.0, 2.0, 1.0, np.ones((3, 4)), np.ones(3), np.ones(32))
 pressure = node_pressure(table, 1e-6, 1e-3, 1.0, 0.5e-6, 1e-3, 0.0)[1]
