@@ -27,7 +27,7 @@ import pytest
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import read
 
-SOON = 60.0
+SOON = 30.0
 """Time within which a process ends after the signal [s], drawing on a busy machine included."""
 UNDER_WAY, LONGEST = 5.0, 8.0
 """Processor time after which a run is certainly under way, and until which a command is left alone [s]."""
@@ -238,9 +238,8 @@ def disturb(
     assert_kept(COMMANDS[name], folder, status, said)
 
 
-def test_a_run_of_hours_ends_at_once_and_whole(inputs: Callable[[Path], None], tmp_path: Path) -> None:
-    chance = random.Random(16)
-    disturb("endless", chance.uniform(UNDER_WAY, LONGEST), chance, inputs, tmp_path / "here")
+def test_a_run_of_hours_ends_at_once_and_whole(tmp_path: Path) -> None:
+    disturb("endless", LONGEST, random.Random(16), lambda _: None, tmp_path / "here")
     assert (tmp_path / "here" / "out" / "report.html").exists()
 
 

@@ -192,6 +192,9 @@ def _check_coordinates(dataset: xr.Dataset) -> None:
         steps = np.diff(values)
         if np.any(steps < 0.0) or (dim not in EVENTS and np.any(steps == 0.0)):
             raise ValueError(f"{dim} does not grow")
+    for pictures in ("snapshot", "frame"):
+        if dataset.sizes.get(pictures) and not dataset.sizes["time"]:
+            raise ValueError(f"it holds values of {pictures}, but none of time")
 
 
 def _check_sweep(dataset: xr.Dataset) -> None:

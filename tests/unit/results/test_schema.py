@@ -1,0 +1,21 @@
+"""What a result must be like to be worked with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+import xarray as xr
+
+from tribodyn.results.schema import check
+
+
+@pytest.mark.parametrize("pictures", ["snapshot", "frame"])
+def test_pictures_of_a_motion_without_times_are_refused(
+    pictures: str, make_result: Callable[..., xr.Dataset]
+) -> None:
+    whole = make_result(1.0)
+    check(whole)
+    with pytest.raises(ValueError, match=f"values of {pictures}, but none of time"):
+        check(whole.isel(time=slice(0, 0), **{"snapshot": slice(0, 0), "frame": slice(0, 0), pictures: [0]}))
+    check(whole.isel(time=slice(0, 0), snapshot=slice(0, 0), frame=slice(0, 0)))
