@@ -34,7 +34,7 @@ class Film(Group):
         "periodic", "film unbroken around the bushing, or p = 0 on the line of maximum gap", ASSUMED
     )
     peklenik_journal: float = number(
-        1.0, "Peklenik number gamma_1 of the journal's surface; 1 is isotropic", ASSUMED, ge=1 / 9, le=9
+        1.0, "Peklenik number gamma_1 of the shaft's surface; 1 is isotropic", ASSUMED, ge=1 / 9, le=9
     )
     peklenik_bushing: float = number(
         1.0, "Peklenik number gamma_2 of the bushing's surface", ASSUMED, ge=1 / 9, le=9

@@ -181,7 +181,7 @@ class Contact(Group):
 
 
 class PlainJoint(Group):
-    """The clearance joint: a journal in a bushing."""
+    """The clearance joint: a shaft in a bushing."""
 
     clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)

@@ -14,8 +14,8 @@ from tribodyn.core.quoting import as_given
 if TYPE_CHECKING:
     from tribodyn.mechanisms.bushing import HasBushing
 
-HELP = "drop the journal on every contact law and damping factor, and show which restitution comes out"
-_COLUMNS = ("wanted", "point", "plate", "journal")
+HELP = "drop the shaft on every contact law and damping factor, and show which restitution comes out"
+_COLUMNS = ("wanted", "point", "plate", "shaft")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -40,7 +40,7 @@ def execute(args: Namespace) -> int:
     if unknown:
         raise InputError(f"{as_given(unknown[0])}; allowed: {', '.join(LAWS)}", key="--law")
     console = Console.of(args)
-    console.note("Restitution wanted, and realised by a point, a plate and a journal on these surfaces.")
+    console.note("Restitution wanted, and realised by a point, a plate and a shaft on these surfaces.")
     console.say(f"{'law':<8}{'damping factor':<22}" + "".join(f"{name:>9}" for name in _COLUMNS))
     rows = []
     for row in bounces(cast("HasBushing", case), names):

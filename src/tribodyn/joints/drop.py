@@ -1,6 +1,6 @@
-"""The bounce test on a bushing: a journal thrown against it, and the restitution that comes out.
+"""The bounce test on a bushing: a shaft thrown against it, and the restitution that comes out.
 
-The journal flies along X, untilted, without friction and loads, from the onset of contact into the bushing
+The shaft flies along X, untilted, without friction and loads, from the onset of contact into the bushing
 and out again. Other than those of the plate of :mod:`tribodyn.contact.bounce`, its points enter contact one
 after the other, each with its own entry velocity.
 """
@@ -29,12 +29,12 @@ _LONGEST_STEP: Final = 0.05
 
 @dataclass(frozen=True)
 class Drop:
-    """What one drop of a journal gave.
+    """What one drop of a shaft gave.
 
     Attributes
     ----------
     restitution
-        Speed on leaving the onset over that on arriving [1]; 0 if the journal sticks.
+        Speed on leaving the onset over that on arriving [1]; 0 if the shaft sticks.
     peak_force
         Largest contact force [N].
     least_separation
@@ -47,14 +47,14 @@ class Drop:
 
 
 def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:
-    """Throw a journal against its bushing.
+    """Throw a shaft against its bushing.
 
     Parameters
     ----------
     joint
         The bushing.
     mass
-        Mass of the journal [kg].
+        Mass of the shaft [kg].
     speed
         Speed at the onset of contact [m/s].
     """
@@ -96,19 +96,19 @@ def onset_eccentricity(joint: BushingJoint) -> float:
     """Return the eccentricity at which contact begins [m]."""
     gap = joint.entry.onset * joint.roughness if joint.contact == SURFACE else 0.0
     if gap >= joint.geometry.clearance:
-        raise InputError("in so small a clearance the journal always touches", key="joint.clearance")
+        raise InputError("in so small a clearance the shaft always touches", key="joint.clearance")
     return joint.geometry.clearance - gap
 
 
 def design_speed(joint: BushingJoint, *, mass: float, pressure: float) -> float:
-    """Return the speed at the onset with which a journal would reach a pressure without damping [m/s].
+    """Return the speed at the onset with which a shaft would reach a pressure without damping [m/s].
 
     Parameters
     ----------
     joint
         The bushing, touching over its surface.
     mass
-        Mass of the journal [kg].
+        Mass of the shaft [kg].
     pressure
         Pressure at the deepest line [Pa].
     """
@@ -120,7 +120,7 @@ def design_speed(joint: BushingJoint, *, mass: float, pressure: float) -> float:
 
 
 def stored_energy(joint: BushingJoint, eccentricity: float) -> float:
-    """Return the energy stored in the contact of an untilted journal [J]."""
+    """Return the energy stored in the contact of an untilted shaft [J]."""
     y = np.zeros(8)
     y[0] = eccentricity
     return contact_energy(joint.data(), y)

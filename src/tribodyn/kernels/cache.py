@@ -30,7 +30,7 @@ from tribodyn.core.private_folder import NotPrivate, locked, mark_used, private_
 
 _config: Final[Any] = nb.config  # made from the environment: its names are in no stub
 _PACKAGE: Final = Path(__file__).parents[1]
-_BELOW: Final = ("core/arrays.py", "core/tables.py")
+_BELOW: Final = ("core/arrays.py", "core/quantities.py", "core/tables.py")
 """What kernels import from outside their package."""
 _SWITCHES: Final = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT")
 """Settings of numba that change what it compiles."""

@@ -1,4 +1,4 @@
-"""Where a film carries a load alone: from load and speed to the place of the journal, without contact."""
+"""Where a film carries a load alone: from load and speed to the place of the shaft, without contact."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ _SETTLED: Final = 1.0e-10
 
 @dataclass(frozen=True)
 class FilmEquilibrium:
-    """A journal that turns in its film about a resting axis, parallel to the bushing.
+    """A shaft that turns in its film about a resting axis, parallel to the bushing.
 
     Attributes
     ----------
     film
         The film.
     load
-        (W_x, W_y) on the journal [N].
+        (W_x, W_y) on the shaft [N].
     omega
-        Speed of the journal [rad/s].
+        Speed of the shaft [rad/s].
     position
-        (e_x, e_y), the centre of the journal from the axis of the bushing [m], shape (2,).
+        (e_x, e_y), the centre of the shaft from the axis of the bushing [m], shape (2,).
     state
         What the film does there: ``leakage``, ``pressure``, stiffness and damping in ``jacobian``, ....
     """
@@ -79,14 +79,14 @@ class FilmEquilibrium:
 
     @property
     def friction_coefficient(self) -> float:
-        """Friction torque over journal radius and load [1]."""
+        """Friction torque over shaft radius and load [1]."""
         return abs(self.state.torque) / (self.film.radius * math.hypot(*self.load))
 
 
 def film_equilibrium(film: Film, load: tuple[float, float], *, omega: float) -> FilmEquilibrium:
     """Return where a film carries a load without any help from contact.
 
-    Journal and bushing are round: how far the centre lies from the axis follows from the size of the load,
+    Shaft and bushing are round: how far the centre lies from the axis follows from the size of the load,
     and in which direction by turning. Newton's method then removes what the grid knows of directions.
 
     A grid shows a film as thin as leaves it two cells to either side before it is twice as thick; there the
@@ -97,9 +97,9 @@ def film_equilibrium(film: Film, load: tuple[float, float], *, omega: float) -> 
     film
         The film, unworn.
     load
-        (W_x, W_y) on the journal [N].
+        (W_x, W_y) on the shaft [N].
     omega
-        Speed of the journal [rad/s], right-handed.
+        Speed of the shaft [rad/s], right-handed.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def film_equilibrium(film: Film, load: tuple[float, float], *, omega: float) -> 
 
 @dataclass(frozen=True)
 class _Evaluations:
-    """A film at one speed, evaluated where the centre of the journal is (e_x, e_y) [m]."""
+    """A film at one speed, evaluated where the centre of the shaft is (e_x, e_y) [m]."""
 
     data: FilmData
     memory: FilmMemory

@@ -1,4 +1,4 @@
-"""An oil film between journal and bushing, made into what the kernels read."""
+"""An oil film between shaft and bushing, made into what the kernels read."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Film:
     viscosity
         η [Pa s].
     clearance, radius, length
-        Radial clearance c, journal radius r_j and length l_z [m].
+        Radial clearance c, shaft radius r_j and length l_z [m].
     roughness
         Of both surfaces; smooth by default.
     cavitation

@@ -10,7 +10,7 @@ from tribodyn.core.errors import InputError
 
 @dataclass(frozen=True)
 class Roughness:
-    """Rms roughness and lay of journal (surface 1, which moves) and bushing (surface 2).
+    """Rms roughness and lay of shaft (surface 1, which moves) and bushing (surface 2).
 
     Attributes
     ----------

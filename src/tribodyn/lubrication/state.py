@@ -23,11 +23,11 @@ class FilmState:
     Attributes
     ----------
     force
-        (F_x, F_y) on the journal [N].
+        (F_x, F_y) on the shaft [N].
     moment
-        (M_x, M_y) on the journal [N m], right- and left-handed.
+        (M_x, M_y) on the shaft [N m], right- and left-handed.
     torque
-        Fluid friction on the journal about its axis [N m].
+        Fluid friction on the shaft about its axis [N m].
     leakage
         Volume that leaves both ends [m³/s].
     attitude_angle
@@ -59,7 +59,7 @@ def film_state(
     y
         Attitude and rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), shape (8,), SI units.
     omega
-        Speed of the journal [rad/s].
+        Speed of the shaft [rad/s].
     memory
         From ``Film.memory``, to be reused; a new one by default.
 

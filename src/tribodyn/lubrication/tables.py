@@ -49,7 +49,7 @@ def _factors(roughness: Roughness, h: FloatArray) -> tuple[FloatArray, ...]:
     shares, peklenik = roughness.shares, roughness.peklenik
     along = sum(w * pressure_factor(h, g) for w, g in zip(shares, peklenik, strict=True))
     across = sum(w * pressure_factor(h, 1.0 / g) for w, g in zip(shares, peklenik, strict=True))
-    # The journal is surface 1 and moves: docs/theory/film.md derives the sign.
+    # The shaft is surface 1 and moves: docs/theory/film.md derives the sign.
     shear = shares[0] * shear_factor(h, peklenik[0]) - shares[1] * shear_factor(h, peklenik[1])
     return np.asarray(along), np.asarray(across), shear, couette_factor(h), pressure_shear_factor(h)
 

@@ -1,4 +1,4 @@
-"""Where the loads on a journal balance: Newton's method for rough contact."""
+"""Where the loads on a shaft balance: Newton's method for rough contact."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def damped_newton(
     q = start.copy()
     load, jacobian = residual(q)
     for _ in range(_MAX_ITERATIONS):
-        # A little stiffness where there is none lets the journal move to where there is some.
+        # A little stiffness where there is none lets the shaft move to where there is some.
         floor = 1.0e-6 * np.abs(jacobian[:2, :2]).max(initial=1.0)
         damped = jacobian - np.diag(floor / scale**2)
         step = np.asarray(np.linalg.solve(damped, -load), dtype=np.float64)

@@ -26,8 +26,8 @@ class Row:
         Restitution given to the factor [1].
     point
         What one impact of a point gives, F = K δⁿ (1 + a δ̇/δ̇₋), or K δ + D δ̇ of ``kelvin-voigt`` [1].
-    plate, journal
-        What a plate and a journal give on these surfaces [1].
+    plate, shaft
+        What a plate and a shaft give on these surfaces [1].
     """
 
     law: str
@@ -35,11 +35,11 @@ class Row:
     wanted: float
     point: float
     plate: float
-    journal: float
+    shaft: float
 
 
 def bounces(case: HasBushing, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
-    """Drop a plate and a journal on laws with every damping factor, on the surfaces of a case.
+    """Drop a plate and a shaft on laws with every damping factor, on the surfaces of a case.
 
     Both arrive with the energy that takes them to ``contact.design_pressure`` without damping.
 
@@ -51,7 +51,7 @@ def bounces(case: HasBushing, names: Iterable[str] = LAWS, *, mass: float = 0.25
     names
         Names of the laws, all by default.
     mass
-        Mass of the journal [kg]; it matters by its speed alone, which meets the least entry velocity.
+        Mass of the shaft [kg]; it matters by its speed alone, which meets the least entry velocity.
     """
     wanted = case.contact.restitution or _own_restitution(case)
     for name in names:
@@ -84,5 +84,5 @@ def _row(case: HasBushing, name: str, factor: str, wanted: float, mass: float) -
         wanted=wanted,
         point=float(DAMPING_FACTORS[factor].realised(np.array(wanted))),
         plate=bounce(table, onset=onset, design_pressure=pressure, clip=contact.tensile_clip).restitution,
-        journal=drop(joint, mass=mass, speed=speed).restitution,
+        shaft=drop(joint, mass=mass, speed=speed).restitution,
     )

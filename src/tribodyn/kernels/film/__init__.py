@@ -3,7 +3,7 @@
 What a mechanism calls, with ``film`` and ``memory`` from ``lubrication.Film(...).data()`` and ``.memory()``:
 
 ``film_wrench(film, memory, y, omega, out) -> int``
-    Fill ``out`` (5,) with the wrench (F_x, F_y, M_x, M_y, M_z) of the film on the journal [N, N m].
+    Fill ``out`` (5,) with the wrench (F_x, F_y, M_x, M_y, M_z) of the film on the shaft [N, N m].
 ``film_wrench_and_jacobian(film, memory, y, omega, out, jacobian) -> int``
     The same, and ``jacobian`` (5, 9): derivatives in the eight states and ω.
 ``film_pressure(film, memory, pressure) -> None``
@@ -12,7 +12,7 @@ What a mechanism calls, with ``film`` and ``memory`` from ``lubrication.Film(...
     Volume that leaves both ends per second [m³/s], of the last evaluation with this memory.
 
 Arguments and signs are those of the source paper: y = (e_x, e_y, φ_x, φ_y and their rates), ω
-right-handed about Z, M_x right-handed, M_y left-handed, M_z about the journal axis (fluid friction, which
+right-handed about Z, M_x right-handed, M_y left-handed, M_z about the shaft axis (fluid friction, which
 opposes ω).
 
 Each returns a status, listed in ``kernels.film.data``: ``CONVERGED`` (0), or why there is no answer;

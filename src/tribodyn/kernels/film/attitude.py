@@ -1,7 +1,7 @@
 """From the eight states to coordinates in which the gap is linear, and back for the derivatives.
 
 The chart is u = (e_x, e_y, t_x, t_y, v_x, v_y, w_x, w_y) with t = tan φ and w = φ̇ sec²φ. At height z the
-journal axis is displaced by a = e_x − z t_y, b = e_y − z t_x (Eq. 48), with the same for the velocities.
+shaft axis is displaced by a = e_x − z t_y, b = e_y − z t_x (Eq. 48), with the same for the velocities.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ NO_CONVERGENCE: Final = 1
 OUT_OF_RANGE: Final = 2
 """Somewhere h < −4σ (or h ≤ 0 without roughness), or the state is not a number."""
 NOT_STEADY: Final = 3
-"""``jfo`` was asked for a moving journal centre, or for one that does not turn."""
+"""``jfo`` was asked for a moving shaft centre, or for one that does not turn."""
 NO_MEAN_GAP: Final = 4
 """``jfo`` needs a positive mean gap everywhere."""
 
@@ -113,7 +113,7 @@ class FilmData(NamedTuple):
 
 
 Row: Final = record_type(*((name, "f8") for name in ("a", "b", "v_a", "v_b", "weight", "face_a", "face_b")))
-"""The journal axis at a row: offset [m] and velocity [m/s], and its offset at the z face below the row [m].
+"""The shaft axis at a row: offset [m] and velocity [m/s], and its offset at the z face below the row [m].
 
 The weight is 1, ½ for the row in the middle of a symmetric film.
 """

@@ -4,7 +4,7 @@ Finite volumes around the nodes. With ζ = z/r, h̄ = h/c and π = p/(6 η r²/c
 
     Σ_faces K (π − π_neighbour) = −ω [wedge]_θ Δζ − 2 φ_c (∂h̄/∂t) Δθ Δζ,
 
-K = φ_θ h̄³ Δζ/Δθ or φ_z h̄³ Δθ/Δζ at the faces, wedge = (h_T + σ φ_s)/c, with the journal as the moving
+K = φ_θ h̄³ Δζ/Δθ or φ_z h̄³ Δθ/Δζ at the faces, wedge = (h_T + σ φ_s)/c, with the shaft as the moving
 surface 1. φ_c ∂h/∂θ is written as ∂h_T/∂θ, which it is, so that what leaves one cell enters the next. Gaps
 are taken where they are needed, at nodes and at faces, not averaged.
 """
@@ -59,7 +59,7 @@ def _turn_grid(film: FilmData, fields: FilmFields, u: FloatArray) -> None:
 
 @kernel
 def _offsets(film: FilmData, fields: FilmFields, u: FloatArray, rows: int, half: bool) -> None:
-    """Offsets and velocities of the journal axis at the rows and z faces, and the weights of the rows."""
+    """Offsets and velocities of the shaft axis at the rows and z faces, and the weights of the rows."""
     for j in range(rows):
         z = film.z_node[j + 1]
         fields.rows[j].a = u[0] - z * u[3]

@@ -1,4 +1,4 @@
-"""Wrench of the film on the journal, with its derivatives, Eqs. 52 and 53.
+"""Wrench of the film on the shaft, with its derivatives, Eqs. 52 and 53.
 
 See ``kernels.film`` for the arguments. A film without tilt, whose wear is the same at z and −z, is
 solved on half its length.
@@ -96,7 +96,7 @@ def _mirror_fields(memory: FilmMemory, rows: int) -> None:
 def _integrate(
     film: FilmData, memory: FilmMemory, omega: float, rows: int, half: bool, out: FloatArray
 ) -> None:
-    """Integrate pressure and friction over the journal."""
+    """Integrate pressure and friction over the shaft."""
     fields = memory.fields
     f_x = f_y = m_x = m_y = torque = 0.0
     for i in range(memory.pressure.shape[0]):

@@ -1,6 +1,6 @@
-"""Where the journal of a joint is in its socket and how it moves, right-handed, in the socket's frame.
+"""Where the shaft of a joint is in its socket and how it moves, right-handed, in the socket's frame.
 
-Wrenches are (F_x, F_y, F_z, M_x, M_y, M_z) on the journal, moments about its origin; their derivatives are
+Wrenches are (F_x, F_y, F_z, M_x, M_y, M_z) on the shaft, moments about its origin; their derivatives are
 taken with respect to displacement, tilt, velocity and rates of turning, three of each.
 """
 
@@ -11,14 +11,14 @@ from typing import Final
 from tribodyn.core.quantities import Quantity, of_table
 
 POSE: Final = (
-    Quantity("d_x", "m", "displacement of the journal's origin along X"),
-    Quantity("d_y", "m", "displacement of the journal's origin along Y"),
-    Quantity("d_z", "m", "displacement of the journal's origin along Z"),
-    Quantity("phi_x", "rad", "tilt about X: the journal's axis leans by −tan φ_x along Y"),
-    Quantity("phi_y", "rad", "tilt about Y: the journal's axis leans by tan φ_y along X"),
-    Quantity("v_x", "m s-1", "velocity of the journal's origin along X"),
-    Quantity("v_y", "m s-1", "velocity of the journal's origin along Y"),
-    Quantity("v_z", "m s-1", "velocity of the journal's origin along Z"),
+    Quantity("d_x", "m", "displacement of the shaft's origin along X"),
+    Quantity("d_y", "m", "displacement of the shaft's origin along Y"),
+    Quantity("d_z", "m", "displacement of the shaft's origin along Z"),
+    Quantity("phi_x", "rad", "tilt about X: the shaft's axis leans by −tan φ_x along Y"),
+    Quantity("phi_y", "rad", "tilt about Y: the shaft's axis leans by tan φ_y along X"),
+    Quantity("v_x", "m s-1", "velocity of the shaft's origin along X"),
+    Quantity("v_y", "m s-1", "velocity of the shaft's origin along Y"),
+    Quantity("v_z", "m s-1", "velocity of the shaft's origin along Z"),
     Quantity("w_x", "rad s-1", "rate of the tilt about X"),
     Quantity("w_y", "rad s-1", "rate of the tilt about Y"),
     Quantity("w_z", "rad s-1", "angular velocity about Z"),

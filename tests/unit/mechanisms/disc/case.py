@@ -6,7 +6,8 @@ from typing import Literal
 
 from tribodyn.cases.case import Case, Group
 from tribodyn.cases.groups import Solver
-from tribodyn.cases.keys import ASSUMED, choice, quantity, text
+from tribodyn.cases.fields import choice, quantity, text
+from tribodyn.cases.keys import ASSUMED
 
 
 class Disc(Group):

@@ -1,1 +1,1 @@
-"""Kernels of a rigid journal in a cylindrical bushing."""
+"""Kernels of a rigid shaft in a cylindrical bushing."""
