@@ -143,9 +143,9 @@ def test_every_variable_of_a_run_is_mirrored(both: tuple[xr.Dataset, xr.Dataset]
         expected = seen_in_a_mirror(name, here[name].values)
         off = np.abs(there[name].values - expected)
         scale = np.abs(expected).max()
-        # Steps fall otherwise: ten times the tolerance of the run. Works and heats are sums and carry along what
-        # they differed by in the impacts. In an impact rounding decides where steps fall, and the worst row of all
-        # variables differed by 6 % of its peak over processors; a wrong sign would differ by 200 %.
+        # Steps fall otherwise: ten times the tolerance of the run. Works and heats are sums and carry along
+        # what they differed by in the impacts. There rounding decides where steps fall: over processors the
+        # worst row of all variables differed by 6 % of its peak; a wrong sign would differ by 200 %.
         assert off[quiet].max() <= (3e-3 if name.startswith("energy_") else 1e-3) * scale, name
         assert off.max() <= 0.2 * scale, name
         assert np.quantile(off, 0.99) <= 0.05 * scale, name

@@ -29,8 +29,8 @@ from tribodyn.mechanisms.results import read
 
 SOON = 30.0
 """Time within which a process ends after the signal [s], drawing on a busy machine included."""
-UNDER_WAY, LONGEST = 5.0, 8.0
-"""Processor time after which a run is certainly under way, and until which a command is left alone [s]."""
+LONGEST = 8.0
+"""Processor time until which a command is left alone; a run is certainly under way by then [s]."""
 PARTS, SIGNALS = 10, 20
 """The long campaign: parts, and signals in each."""
 ENDLESS = ["--set", "run.duration=50 s", "--set", "film.grid.theta=360", "--set", "film.grid.z=64"]

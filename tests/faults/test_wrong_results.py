@@ -22,7 +22,7 @@ from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
-FEW, MANY = 10, 2000
+FEW, MANY = 6, 2000
 Mutation = Callable[[xr.Dataset, str], xr.Dataset]
 
 

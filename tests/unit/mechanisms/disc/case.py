@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Literal
 
 from tribodyn.cases.case import Case, Group
-from tribodyn.cases.groups import Solver
 from tribodyn.cases.fields import choice, quantity, text
+from tribodyn.cases.groups import Solver
 from tribodyn.cases.keys import ASSUMED
 
 
