@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
+from tribodyn.core.quantities import Record
 from tribodyn.joints import SURFACE, BushingJoint
 
 ENERGY_LIMIT: Final = 0.01
@@ -16,6 +17,11 @@ RESTART_LIMIT: Final = 0.05
 """Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
 TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
 """What makes ledgers close: absolute tolerances alone hold small slips and long ringing."""
+
+
+def peaks(*records: Record) -> dict[str, float]:
+    """Return peaks over all accepted steps by name, SI units, from the records that kernels keep of them."""
+    return {name: float(record[name]) for record in records for name in record.dtype.names}
 
 
 def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_error: float) -> list[str]:

@@ -17,6 +17,7 @@ from tribodyn.kernels.journal.quantities import FILM, OBSERVED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
 from tribodyn.mechanisms.base import Part, Run, Worn
 from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
+from tribodyn.mechanisms.checks import peaks
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
@@ -150,20 +151,15 @@ class JournalSystem:
         self, run: Run, rows: dict[str, FloatArray], balance: Equilibrium | None
     ) -> dict[str, FloatArray]:
         """Return what a run has one of, arrays of shape ()."""
-        joint, journal = run.problem.memory.joint.peaks, run.problem.memory.peaks
         found = {
             "settling_time": self._settling_time(run, rows, balance),
             "contact_start": _contact_start(run, rows),
-            "rebounds": float(journal.rebounds),
-            "contact_force_peak": float(joint.contact_force_peak),
-            "contact_force_peak_time": float(joint.contact_force_peak_time),
-            "pressure_peak": float(joint.pressure_peak),
-            "separation_least": float(joint.separation_least),
+            **peaks(run.problem.memory.joint.peaks, run.problem.memory.peaks),
             "e_x_balance": np.nan if balance is None else float(balance.attitude[0]),
             "e_y_balance": np.nan if balance is None else float(balance.attitude[1]),
         }
-        if self.journal.film is not None:
-            found["film_force_peak"] = float(journal.film_force_peak)
+        if self.journal.film is None:
+            found = {name: value for name, value in found.items() if not name.startswith("film_")}
         if self.journal.speed != 0.0:
             found["friction_coefficient_end"] = self._friction_coefficient(rows)
         return {name: np.array(value) for name, value in found.items()}

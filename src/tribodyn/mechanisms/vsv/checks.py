@@ -5,15 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from tribodyn.kernels.vsv.data import VsvMemory
 from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
 from tribodyn.mechanisms.vsv.parameters import Vsv
-
-
-def peaks(memory: VsvMemory) -> dict[str, float]:
-    """Return the peaks over all accepted steps by name, SI units."""
-    records = (memory.joint.peaks, memory.collar)
-    return {name: float(record[name]) for record in records for name in record.dtype.names}
 
 
 def warnings(

@@ -19,9 +19,10 @@ from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.base import Carried, Part, Run, Worn
 from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
+from tribodyn.mechanisms.checks import peaks
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.checks import peaks, warnings
+from tribodyn.mechanisms.vsv.checks import warnings
 from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Inertias, Vsv
 from tribodyn.mechanisms.vsv.problem import reversals, vsv_problem
@@ -135,7 +136,7 @@ class VsvSystem:
         ledger = ledger_columns(rows)
         whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
         grid_error = grid_force_error(self.bushing, rows, run.problem.data.joint.wear)
-        found = peaks(run.problem.memory)
+        found = peaks(run.problem.memory.joint.peaks, run.problem.memory.collar)
         return Part(
             coordinates=self._coordinates(run),
             columns=force_parts(rows) | ledger,
