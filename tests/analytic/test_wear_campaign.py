@@ -13,8 +13,7 @@ import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise
-from tribodyn.simulation import simulate
-from tribodyn.simulation import wear as vsv_wear
+from tribodyn.simulation import simulate, wear
 
 COARSE = {
     "solver.grid.theta": 48,
@@ -70,13 +69,13 @@ def test_wear_is_at_the_edges_and_makes_the_clearance_grow():
 def test_volume_of_each_jump_is_the_rate_times_the_sliding_load(monkeypatch):
     loads = []
 
-    class Watched(vsv_wear._WearingVane):
-        def cycle(self, wear, carried, done):
-            found = super().cycle(wear, carried, done)
-            loads.append(float((self.vsv.joint.node_area @ found.sliding_load).sum()))
+    class Watched(wear._Cycles):
+        def cycle(self, depth, carried, done):
+            found = super().cycle(depth, carried, done)
+            loads.append(float((self.system.bushing.node_area @ found.sliding_load).sum()))
             return found
 
-    monkeypatch.setattr(vsv_wear, "_WearingVane", Watched)
+    monkeypatch.setattr(wear, "_Cycles", Watched)
     case = vane(wear__cycles=60)
     result = simulate(case)
     jumps = result["wear_jump_cycles"].values

@@ -75,6 +75,9 @@ class DiscSystem:
 
     case: DiscCase
 
+    def check(self) -> None:
+        """There is nothing to refuse."""
+
     def problem(self, duration: float, worn: Any = None) -> Problem:
         disc = self.case.disc
         return Problem(
