@@ -45,6 +45,16 @@ def begin(changes: dict[str, object], folder: Path) -> subprocess.Popen[bytes]:
     )
 
 
+def left_alone(changes: dict[str, object], folder: Path) -> xr.Dataset:
+    """Return the result of a campaign that is not disturbed, by a process of its own.
+
+    A process that has called kernels one by one, as other tests do, holds code of them that rounds otherwise.
+    """
+    folder.mkdir()
+    assert begin(changes, folder).wait(timeout=900) == 0
+    return read(folder / "out")
+
+
 def end(process: subprocess.Popen[bytes]) -> bool:
     """Kill a process as a power cut would; False if it was over already."""
     alive = process.poll() is None
@@ -101,7 +111,7 @@ def stopped_without_room(changes: dict[str, object], folder: Path) -> None:
 
 def test_killed_twice_it_ends_as_one_left_alone(tmp_path: Path) -> None:
     changes, chance = changed(), random.Random(19)
-    undisturbed = simulate(load_case("vsv").replace(changes))
+    undisturbed = left_alone(changes, tmp_path / "undisturbed")
     for _ in range(2):
         before = checkpoint_time(tmp_path)
         process = begin(changes, tmp_path)
@@ -128,7 +138,7 @@ def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         changed(wear__cycles=4000, wear__jump_limit=0.02, wear__jump_depth=0.05),
         random.Random(50),
     )
-    undisturbed = simulate(load_case("vsv").replace(changes))
+    undisturbed = left_alone(changes, tmp_path / "undisturbed")
     assert undisturbed.sizes["jump"] > 60
     kills = 0
     while kills < 50:
