@@ -53,6 +53,13 @@ def end(process: subprocess.Popen[bytes]) -> bool:
     return alive
 
 
+def pause(chance: random.Random, longest: float) -> None:
+    """Wait for a part of ``longest``; what pytest shows of a failure says how long it was."""
+    seconds = chance.uniform(0.0, longest)
+    print(f"killed {seconds:.4f} s later")
+    time.sleep(seconds)
+
+
 def checkpoint_time(folder: Path) -> float:
     path = folder / "out" / "checkpoint.npz"
     return path.stat().st_mtime if path.exists() else 0.0
@@ -99,7 +106,7 @@ def test_killed_twice_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         before = checkpoint_time(tmp_path)
         process = begin(changes, tmp_path)
         wait_for_a_jump(process, tmp_path, before)
-        time.sleep(chance.uniform(0.0, 0.4))  # a cycle takes about 0.2 s
+        pause(chance, 0.4)  # a cycle takes about 0.2 s
         assert end(process)
     checkpoint = tmp_path / "out" / "checkpoint.npz"
     kept = checkpoint.read_bytes()
@@ -129,7 +136,7 @@ def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         process = begin(changes, tmp_path)
         if kills % 5:  # else it may be killed before it has done anything
             wait_for_a_jump(process, tmp_path, before)
-        time.sleep(chance.uniform(0.0, 1.0))
+        pause(chance, 1.0)
         assert end(process), "the campaign was over before it was killed often enough"
         kills += 1
     assert begin(changes, tmp_path).wait(timeout=900) == 0

@@ -86,6 +86,13 @@ def test_of_two_runs_into_one_folder_one_is_refused(made: tuple[Path, list[tuple
     assert_one_run(folder)
 
 
+def pause(chance: random.Random, longest: float) -> None:
+    """Wait for a part of ``longest``; what pytest shows of a failure says how long it was."""
+    seconds = chance.uniform(0.0, longest)
+    print(f"killed {seconds:.4f} s later")
+    time.sleep(seconds)
+
+
 def kill(folder: Path, wait: Callable[[subprocess.Popen[str]], None]) -> None:
     process = started(folder)
     wait(process)
@@ -99,19 +106,22 @@ def until_drawing(process: subprocess.Popen[str]) -> None:
     assert process.stderr is not None
     while "drawing" not in process.stderr.readline():
         assert process.poll() is None
-    time.sleep(random.uniform(0.0, 2.0))
 
 
 def test_a_killed_run_leaves_whole_files_and_the_next_one_succeeds(tmp_path: Path) -> None:
-    folder = tmp_path / "out"
+    folder, chance = tmp_path / "out", random.Random(31)
 
     def until_saving(process: subprocess.Popen[str]) -> None:
         while not list(folder.glob(".*.part")) and process.poll() is None:
             time.sleep(1e-4)
 
-    kill(folder, lambda process: time.sleep(random.uniform(0.0, 2.0)))
+    def while_drawing(process: subprocess.Popen[str]) -> None:
+        until_drawing(process)
+        pause(chance, 2.0)
+
+    kill(folder, lambda process: pause(chance, 2.0))
     kill(folder, until_saving)
-    kill(folder, until_drawing)
+    kill(folder, while_drawing)
     assert_nothing_of_another_run(folder)
     process = started(folder)
     assert process.communicate(timeout=300)
@@ -122,13 +132,13 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_succeeds(tmp_path: Pat
 
 @pytest.mark.long
 def test_runs_killed_at_fifty_moments(made: tuple[Path, list[tuple[int, str]]], tmp_path: Path) -> None:
-    folder = tmp_path / "out"
+    folder, chance = tmp_path / "out", random.Random(53)
     began = time.perf_counter()
     process = started(folder)
     process.communicate(timeout=300)
     lasts = time.perf_counter() - began
     for _ in range(50):
-        kill(folder, lambda process: time.sleep(random.uniform(0.0, lasts)))
+        kill(folder, lambda process: pause(chance, lasts))
         # There was a result before, so there is one now, and nothing that is not of it.
         assert_nothing_of_another_run(folder)
     process = started(folder)

@@ -130,6 +130,7 @@ def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(
 
 def killed(process: subprocess.Popen[str], after: float) -> bool:
     """Kill a sweep after a while, as a power cut would, and wait for its workers; False if it was over."""
+    print(f"to be killed {after:.4f} s after its start")  # which pytest shows where a test fails
     try:
         process.communicate(timeout=after)
     except subprocess.TimeoutExpired:

@@ -26,5 +26,7 @@ def test_the_page_runs(path, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     mpl.use("agg")
     names = {"__name__": path.stem}
-    for cell in CELL.findall(path.read_text(encoding="utf-8")):
+    cells = CELL.findall(path.read_text(encoding="utf-8"))
+    assert cells
+    for cell in cells:
         exec(compile(cell, str(path), "exec", dont_inherit=True), names)

@@ -5,11 +5,13 @@ import itertools
 import struct
 import subprocess
 import sys
+from xml.etree import ElementTree
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 from tribodyn.figures import FIGURES, draw_all
 from tribodyn.results import build
@@ -78,6 +80,12 @@ def test_lines_are_told_apart_in_grey(name, runs):
         assert all(_told_apart_in_grey(*pair) for pair in itertools.combinations(named, 2))
 
 
+def test_lines_that_grey_does_not_tell_apart_are_noticed():
+    axes = Figure().add_subplot()
+    blue, twin = axes.plot([0.0, 1.0], [[0.0, 0.0], [1.0, 1.0]], color="#0072b2")
+    assert not _told_apart_in_grey(blue, twin)
+
+
 def test_draw_all_writes_png_of_sensible_size_and_pdf(make_result, tmp_path):
     paths = draw_all(make_result(0.4), tmp_path / "figures")
     assert [path.stem for path in paths] == list(FIGURES)
@@ -100,8 +108,10 @@ def test_what_a_result_does_not_hold_is_not_drawn_and_not_left_over(tmp_path):
 
 
 def test_a_hostile_title_is_printed_as_it_is(make_result):
-    figure = FIGURES["vane_error"].draw(make_result(0.1, title=r"$\frac{1}$ & <b> 100 % $x_1"))
-    figure.savefig(io.BytesIO(), format="png", dpi=30)
+    title, file = r"$\frac{1}$ & <b> 100 % $x_1$", io.BytesIO()
+    with mpl.rc_context({"svg.fonttype": "none"}):
+        FIGURES["vane_error"].draw(make_result(0.1, title=title)).savefig(file, format="svg")
+    assert title in "".join(ElementTree.fromstring(file.getvalue()).itertext())
 
 
 def test_names_captions_and_needs_are_complete():

@@ -13,7 +13,17 @@ from tribodyn.figures.wear_history import no_feedback
 def test_every_figure_of_a_campaign_is_drawn_however_far_it_came(n_jumps, make_campaign):
     result = make_campaign(n_jumps)
     for family in CAMPAIGN_FIGURES.values():
-        family.draw(result).savefig(io.BytesIO(), format="png", dpi=20)
+        figure = family.draw(result)
+        figure.savefig(io.BytesIO(), format="png", dpi=20)
+        assert family.title in [text.get_text() for text in figure.texts]
+
+
+@pytest.mark.parametrize("n_jumps", [0, 1, 60])
+def test_the_history_has_a_point_a_stop(n_jumps, make_campaign):
+    # Depth beside its straight line, and the largest pressure beside the mean.
+    for axes in CAMPAIGN_FIGURES["wear_history"].draw(make_campaign(n_jumps)).axes:
+        assert [line.get_xdata().size for line in axes.lines] == [n_jumps] * (2 if n_jumps else 0)
+        assert ("nothing computed" in [text.get_text() for text in axes.texts]) == (n_jumps == 0)
 
 
 def test_only_campaigns_have_a_history(make_result, make_campaign):

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+import tribodyn.simulation
 from tribodyn.cases import load_case
 from tribodyn.studies import work
 
@@ -35,8 +36,17 @@ def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
     assert outcome.result
 
 
-def test_warming_up_never_fails() -> None:
+def test_warming_up_prepares_the_case_and_never_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    prepared = []
+
+    def prepare(case: Any) -> None:
+        prepared.append(case.to_toml())
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(tribodyn.simulation, "prepare", prepare)
     work.warm_up("nonsense")
+    work.warm_up(TOML)
+    assert prepared == [TOML]
 
 
 def test_a_result_is_staged_where_there_is_a_place_and_returned_where_not(

@@ -22,6 +22,11 @@ def varied(lengths: Lengths, seed: int) -> Lengths:
     return replace(lengths, **changes, **turned)
 
 
+def test_most_of_these_mechanisms_can_be_assembled(make_vsv):
+    reaches = [reachable(varied(make_vsv().lengths, seed), 0.0, 0.0) for seed in SEEDS]
+    assert sum(reach is not None for reach in reaches) > len(SEEDS) / 2
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_vane_angle_follows_the_crank_without_a_jump(make_vsv, seed):
     lengths = varied(make_vsv().lengths, seed)
