@@ -7,7 +7,7 @@ powers of ten up to 10^±12 and mixes up to three of them by a rotation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -239,11 +239,11 @@ def error_of(case: Case, most: int) -> float | None:
     return float(np.linalg.norm(solution.y[:, -1] - case.end) / (case.atol + case.rtol * case.size))
 
 
-def assert_honest(seeds: range, most: int, ended: float) -> None:
+def assert_honest(seeds: Sequence[int], most: int, ended: float) -> None:
     found = [(error_of(case := random_case(seed), most), seed, case.name) for seed in seeds]
     claimed = [row for row in found if row[0] is not None]
     assert [row for row in claimed if not row[0] <= 100.0] == []
-    assert len(claimed) > ended * len(seeds)
+    assert len(claimed) >= ended * len(seeds)
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
@@ -251,10 +251,35 @@ def test_no_success_far_from_the_solution():
     assert_honest(range(40), 600, 0.3)
 
 
+BELOW_ROUNDING = (820, 1130, 1856)
+"""A Jacobian so large by mistake that its rounding of y would explain the residual."""
+MODERATE = (2110, 3638, 6713)
+"""A Jacobian differenced across a jump whose corrections are not tiny, only small beside the residual."""
+NARROW = (6129, 6849)
+"""A Jacobian that is right, on the flank of a switch narrower than the tolerance."""
+MIXED = (110, 131, 292, 373, 895, 934, 8070, 8356, 8485)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_no_success_where_the_error_hides_best():
+    assert_honest(BELOW_ROUNDING + MODERATE + NARROW + MIXED, 3000, 0.0)
+
+
+@pytest.mark.parametrize("rate", [1e6, 1e10, 1e14])
+def test_rounding_of_a_stiff_equation_is_no_failure(rate):
+    solution = solve_ivp(
+        lambda t, y: -rate * (y - np.cos(t)) - np.sin(t),
+        (0.0, 10.0), [1.0], method=MEBDF, rtol=1e-8, atol=1e-11, jac=[[-rate]],
+    )  # fmt: skip
+    assert solution.success
+    assert abs(solution.y[0, -1] - np.cos(10.0)) < 1e-8
+    assert solution.nfev < 800
+
+
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_ten_thousand_switches_and_wrong_jacobians():
-    assert_honest(range(10_000), 3000, 0.3)
+    assert_honest(range(10_000), 3000, 0.45)
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-6])

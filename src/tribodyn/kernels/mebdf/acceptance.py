@@ -2,11 +2,13 @@
 
 A correction is the residual divided by 1 − hβJ. Where J is large by mistake, because it was differenced
 across a jump, is stale or wrong, the correction is tiny whatever the residual, and so is the error
-estimate, which is made of corrections too. Only an evaluation after the correction tells.
+estimate, which is made of corrections too. Where J is right at one point only, as on the steep flank of
+a switch narrower than the tolerance, the same holds beside it. Only an evaluation after the correction tells.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -16,16 +18,20 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
+    DELTA,
     DOUBTFUL,
+    EXPLAINED,
     ITERATION,
     LAST_JACOBIAN,
-    RESIDUAL,
+    LAST_NORM,
+    OVERSHOT,
     SCALED,
     STAGE,
     TINY,
     UNSOLVED,
     UNSOLVED_BEFORE,
     WARY,
+    WEIGHT,
     Y,
 )
 
@@ -38,10 +44,18 @@ PROVED: Final = 0.5
 """What a correction must leave of the residual, at most, to prove the Jacobian."""
 REFUTED: Final = 0.9
 """What it leaves, at least, where the Jacobian is wrong."""
+TRUSTED: Final = 10.0
+"""Residual that is no reason for doubt, relative to what the Jacobian was seen to remove."""
+FADING: Final = 0.97
+"""What a step leaves of that trust."""
 NOTHING: Final = 1.0e-6
 """Residual in units of the tolerance that needs no proof."""
+HARMLESS: Final = 0.1
+"""Residual, or magnified correction, in units of the tolerance that does no harm."""
 NOISE: Final = 10.0 * float(np.finfo(np.float64).eps)
 """Rounding of the residual relative to its terms."""
+ABOVE_NOISE: Final = 10.0
+"""How far a magnified correction must change the residual beyond rounding."""
 
 
 @inlined
@@ -49,26 +63,57 @@ def judge(
     real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray, size: float
 ) -> int:
     """Return SOLVED, OPEN or FALSE for a stage whose correction, of norm ``size``, is small enough."""
-    unsolved = real[UNSOLVED]
-    left = unsolved / real[UNSOLVED_BEFORE] if count[ITERATION] > 1 and unsolved > 0.0 else 1.0
-    if left <= PROVED or (count[WARY] == 0 and (unsolved <= real[DOUBTFUL] or size > real[TINY])):
+    unsolved, before = real[UNSOLVED], real[UNSOLVED_BEFORE]
+    if real[OVERSHOT] > 0.0:
+        return SOLVED if abs(unsolved / (real[OVERSHOT] * before) - 1.0) <= PROVED else FALSE
+    left = unsolved / before if count[ITERATION] > 1 and unsolved > 0.0 else 1.0
+    if left <= PROVED:
+        real[EXPLAINED] = max(real[EXPLAINED], before)
         return SOLVED
-    if unsolved <= NOTHING or _is_noise(real, rows, matrices):
+    if unsolved <= NOTHING or (count[WARY] == 0 and not _is_doubtful(real, size)):
         return SOLVED
     # A stage that was predicted with its slope begins with a residual that was not evaluated.
     given = count[STAGE] == 3 or (count[STAGE] == 1 and count[CARRIED] == 1)
     evaluated = count[ITERATION] - (1 if given else 0)
+    noise = _noise(real, rows, matrices)
+    if unsolved <= noise:
+        factor = ABOVE_NOISE * noise / unsolved
+        if unsolved <= HARMLESS or factor * size > HARMLESS:
+            return SOLVED
+        return _overshoot(real, rows, factor) if evaluated > 0 else OPEN
     return FALSE if evaluated > 1 and left > REFUTED else OPEN
 
 
+@inlined
+def _is_doubtful(real: FloatArray, size: float) -> bool:
+    """Tell whether a correction is tiny, or small beside a residual larger than any removed lately."""
+    unsolved, enough, tiny = real[UNSOLVED], real[DOUBTFUL], real[TINY]
+    if unsolved <= enough or size <= tiny:
+        return unsolved > enough
+    return unsolved > TRUSTED * real[EXPLAINED] and size <= tiny * math.sqrt(unsolved / enough)
+
+
 @kernel
-def _is_noise(real: FloatArray, rows: FloatArray, matrices: FloatArray) -> bool:
-    """Tell whether every residual may be the rounding of y, magnified by the Jacobian."""
-    scaled = abs(real[SCALED])
-    for i in range(rows.shape[1]):
+def _noise(real: FloatArray, rows: FloatArray, matrices: FloatArray) -> float:
+    """Return the norm of the residual that the rounding of y, magnified by the Jacobian, may leave."""
+    n = rows.shape[1]
+    scaled, total = abs(real[SCALED]), 0.0
+    for i in range(n):
         noise = abs(rows[Y, i])
-        for j in range(rows.shape[1]):
+        for j in range(n):
             noise += scaled * abs(matrices[LAST_JACOBIAN, i, j] * rows[Y, j])
-        if abs(rows[RESIDUAL, i]) > NOISE * noise:
-            return False
-    return True
+        total += (NOISE * noise * rows[WEIGHT, i]) ** 2
+    return math.sqrt(total / n)
+
+
+@kernel
+def _overshoot(real: FloatArray, rows: FloatArray, factor: float) -> int:
+    """Magnify the correction, so that the next residual tells; return OPEN.
+
+    A right Jacobian makes the residual 1 − ``factor`` of itself, a wrong one leaves it.
+    """
+    real[OVERSHOT] = factor
+    real[LAST_NORM] = 0.0
+    for i in range(rows.shape[1]):
+        rows[Y, i] += (factor - 1.0) * rows[DELTA, i]
+    return OPEN

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.mebdf.acceptance import FADING
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
 from tribodyn.kernels.mebdf.history import push, rescale
@@ -47,6 +48,7 @@ from tribodyn.kernels.mebdf.state import (
     CARRIED,
     DIFFERENCED,
     EQUAL_STEPS,
+    EXPLAINED,
     FACTORED,
     FAILURES,
     FRESH,
@@ -199,6 +201,7 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> Non
     count[FRESH] = 0
     count[FAILURES] = 0
     count[WARY] = max(count[WARY] - 1, 0)
+    real[EXPLAINED] *= FADING
     count[BAD] = -1
     count[WORST] = -1
     count[CARRIED] = 1

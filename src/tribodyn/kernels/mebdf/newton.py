@@ -25,6 +25,7 @@ from tribodyn.kernels.mebdf.state import (
     DELTA,
     DISAGREEMENT,
     ERROR,
+    EXPLAINED,
     F_1,
     F_2,
     FACTORED,
@@ -43,6 +44,7 @@ from tribodyn.kernels.mebdf.state import (
     N_J,
     N_LU,
     N_SOLVES,
+    OVERSHOT,
     PHASE,
     PREDICTED,
     RATE,
@@ -111,6 +113,7 @@ def start_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     stage, h = count[STAGE], real[H]
     _set_constant(real, count, rows)
     count[ITERATION] = 0
+    real[OVERSHOT] = 0.0
     count[PHASE] = ITERATE
     real[T_EVAL] = real[T] + (2.0 * h if stage == 2 else h)
     if stage == 3:
@@ -179,6 +182,7 @@ def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matric
             return 0
         if verdict == FALSE:
             count[WARY] = max(count[WARY], CAUTION)
+            real[EXPLAINED] = 0.0
             newton_failed(real, count, rows)
             return 0
     if count[ITERATION] >= MAX_ITERATIONS[stage]:

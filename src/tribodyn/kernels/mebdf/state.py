@@ -38,7 +38,11 @@ UNSOLVED_BEFORE: Final = 16
 """The same one iteration earlier."""
 T_MARK: Final = 17
 """Time at which failures began to be counted."""
-SETTINGS: Final = 18
+EXPLAINED: Final = 18
+"""Largest residual, in units of the tolerance, that the Jacobian was seen to remove; it fades."""
+OVERSHOT: Final = 19
+"""What the last correction was magnified by to rise above rounding, 0 where it was not."""
+SETTINGS: Final = 20
 """First of the entries that hold the settings of the controllers."""
 
 # Settings, in ``real[SETTINGS + ...]``; their values stand in ``DEFAULTS``.
@@ -73,9 +77,9 @@ EARLY: Final = SETTINGS + 17
 TIGHT: Final = SETTINGS + 18
 """Share of the tolerances that the method uses: errors of steps add up."""
 DOUBTFUL: Final = SETTINGS + 19
-"""Residual of the formula, in units of the tolerance, above which a tiny correction proves nothing."""
+"""Residual of the formula, in units of the tolerance, above which a small correction may prove nothing."""
 TINY: Final = SETTINGS + 20
-"""Correction, in units of the tolerance, that is tiny."""
+"""Correction, in units of the tolerance, that proves nothing beside a residual of DOUBTFUL."""
 DEFAULTS: Final = (
     *(0.24, 0.42, 0.20),
     *(0.05, 40.0, 0.05),
