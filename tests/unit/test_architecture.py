@@ -59,6 +59,13 @@ def test_long_files_say_why() -> None:
     )
 
 
+def test_charts_are_described_without_matplotlib() -> None:
+    """A report is drawn in the browser: whoever describes a chart must not need the other way of drawing."""
+    graph = grimp.build_graph("tribodyn", include_external_packages=True, cache_dir=None)
+    views = {"tribodyn.views", *graph.find_descendants("tribodyn.views")}
+    assert not [view for view in sorted(views) if graph.chain_exists(importer=view, imported="matplotlib")]
+
+
 def _is_long(path: Path) -> bool:
     return len(path.read_text(encoding="utf-8").splitlines()) > LONG_FILE
 
