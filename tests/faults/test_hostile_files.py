@@ -69,7 +69,7 @@ def many_keys(path: Path, draw: random.Random) -> None:
 
 
 def long_name(path: Path, draw: random.Random) -> None:
-    name = draw.choice("aä\x01") * draw.choice([100, 5000, 200_000])
+    name = draw.choice("aä\x01") * draw.choice([300, 5000, 200_000])
     text = draw.choice(
         ['case = "vsv"\n"{}" = 1', 'case = "{}"', 'case = "vsv"\ntitle = "{}"', "a = {{{}={}}}"]
     )
