@@ -52,7 +52,7 @@ class Scale:
     spacing: str | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Line:
     """A line of the file: its place, its text, and what stands between its fields."""
 
