@@ -155,6 +155,8 @@ def test_settings_that_change_the_code_change_the_name(
     name: str, value: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cache, "_processor", cache._processor.__wrapped__)
+    for host in ("CPU_NAME", "CPU_FEATURES"):
+        monkeypatch.setattr(nb.config, host, None)
     before = cache.fingerprint()
     monkeypatch.setattr(nb.config, name, value)
     assert cache.fingerprint() != before
