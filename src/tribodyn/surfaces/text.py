@@ -198,12 +198,12 @@ def _settled(notes: dict[str, str], given: Scale, source: str) -> Scale:
 
 def _table(lines: list[Line], scale: Scale, length: Length, source: str) -> Scan:
     """Return the map, or the profile if there is a single line or column."""
-    heights = _numbers(lines, source)
-    heights = heights.ravel() if 1 in heights.shape else heights
     if scale.unit is None:
         raise InputError(_lacking("unit", "um"), key="unit", source=source)
     if scale.spacing is None:
         raise InputError(_lacking("spacing", "0.5 um"), key="spacing", source=source)
+    heights = _numbers(lines, source)
+    heights = heights.ravel() if 1 in heights.shape else heights
     size = unit_size(scale.unit, length)
     return Scan(heights * size, parse_spacing(scale.spacing, heights.ndim, length), source)
 
