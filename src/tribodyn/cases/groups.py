@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 TABLE_1 = "paper, Table 1"
 MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
 """Damping factors that use ``contact.design_pressure``."""
+_MOST_OUTPUT_TIMES = 2_000_000
 
 
 class Trunnion(Group):
@@ -269,3 +270,14 @@ class Solver(Group):
     rtol: float = number(1e-3, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
     atol: Tolerances = Tolerances()
     grid: Grid = Grid()
+
+
+def check_output_interval(interval: float, duration: float) -> None:
+    """Refuse a ``run.output_interval`` [s] that a run of ``duration`` [s] cannot have."""
+    key = "run.output_interval"
+    demand(interval <= duration, key, f"the run lasts only {duration:g} s")
+    demand(
+        duration <= _MOST_OUTPUT_TIMES * interval,
+        key,
+        f"at most {_MOST_OUTPUT_TIMES} output times are kept; the run lasts {duration:g} s",
+    )

@@ -9,14 +9,21 @@ from typing import TYPE_CHECKING, Literal
 from tribodyn.cases.case import Case, Group, demand
 from tribodyn.cases.fields import choice, number, quantity, switch, text
 from tribodyn.cases.film import Film
-from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Tolerances
+from tribodyn.cases.groups import (
+    Asperities,
+    Contact,
+    PlainJoint,
+    Solver,
+    Surfaces,
+    Tolerances,
+    check_output_interval,
+)
 from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair
 
 SECTION_4 = "paper, section 4"
-_MOST_OUTPUT_TIMES = 2_000_000
 _LUBRICATED: dict[str, Value] = {
     "title": "Journal bearing, rough contact in oil",
     "run.duration": 0.05,
@@ -134,13 +141,4 @@ class JournalCase(Case):
             f"the journal would start outside the bushing, {e * 1e6:.4g} um off its axis with a clearance "
             f"of {clearance * 1e6:.4g} um",
         )
-        demand(
-            run.output_interval <= run.duration,
-            "run.output_interval",
-            f"the run lasts only {run.duration:g} s",
-        )
-        demand(
-            run.duration <= _MOST_OUTPUT_TIMES * run.output_interval,
-            "run.output_interval",
-            f"at most {_MOST_OUTPUT_TIMES} output times are kept; the run lasts {run.duration:g} s",
-        )
+        check_output_interval(run.output_interval, run.duration)

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from tribodyn.cases.case import Case, Group, demand
 from tribodyn.cases.fields import choice, number, quantity, text
-from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Solver, Surfaces, Wear
+from tribodyn.cases.groups import (
+    Asperities,
+    Contact,
+    PlainJoint,
+    Solver,
+    Surfaces,
+    Wear,
+    check_output_interval,
+)
 from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
@@ -19,7 +27,6 @@ if TYPE_CHECKING:
 TABLE_2 = "paper, Table 2"
 TABLE_3 = "paper, Table 3"
 DRIVE = "paper, section 5.1"
-_MOST_OUTPUT_TIMES = 2_000_000
 
 
 class VaneJoint(PlainJoint):
@@ -198,13 +205,7 @@ class VsvCase(Case):
             "run.duration",
             "give either run.cycles or run.duration",
         )
-        interval = self.run.output_interval
-        demand(interval <= self.duration, "run.output_interval", f"the run lasts only {self.duration:g} s")
-        demand(
-            self.duration <= _MOST_OUTPUT_TIMES * interval,
-            "run.output_interval",
-            f"at most {_MOST_OUTPUT_TIMES} output times are kept; the run lasts {self.duration:g} s",
-        )
+        check_output_interval(self.run.output_interval, self.duration)
 
     def _check_campaign(self) -> None:
         """Check that a campaign can begin: after whole cycles, in a contact that has a pressure."""
