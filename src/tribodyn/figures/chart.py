@@ -16,7 +16,7 @@ from tribodyn.figures.base import Family
 from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
 from tribodyn.views.chart import Chart
 from tribodyn.views.curves import Curve, Marks, Panel
-from tribodyn.views.events import reversals_of
+from tribodyn.views.events import reversal_times
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import series
 
@@ -59,7 +59,7 @@ def draw(chart: Chart, dataset: xr.Dataset) -> Figure:
     panels = chart.panels(dataset)
     figure = style.sheet(dataset, chart.title, 1.1 + _PANEL * max(len(panels), 2))
     unit, scale = time_unit(dataset)
-    time, turns = series(dataset, "time", scale), scale * reversals_of(dataset)
+    time, turns = series(dataset, "time", scale), scale * reversal_times(dataset)
     every = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for axes, panel in zip(every, panels, strict=True):
         _draw_panel(axes, panel, time)

@@ -9,7 +9,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from tribodyn.cases import groups
-from tribodyn.contact import SurfacePair
+from tribodyn.contact import HasSurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_wrench
@@ -20,7 +20,7 @@ _NOT_STORED: Final = ("work_", "heat_")
 _SAMPLES: Final = 24
 
 
-class HasBushing(Protocol):
+class HasBushing(HasSurfacePair, Protocol):
     """A case with one clearance joint."""
 
     @property
@@ -34,10 +34,6 @@ class HasBushing(Protocol):
     @property
     def solver(self) -> groups.Solver:
         """Its table ``[solver]``."""
-
-    @property
-    def surface_pair(self) -> SurfacePair:
-        """The surfaces in contact."""
 
 
 def bushing_of(case: HasBushing) -> BushingJoint:

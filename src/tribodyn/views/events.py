@@ -15,18 +15,15 @@ SETTLING: Final = 0.35
 
 
 def reversal_times(dataset: xr.Dataset) -> FloatArray:
-    """Return the times [s] at which the ideal vane speed changes its sign, shape (n,)."""
+    """Return when the ideal vane speed changes its sign [s], shape (n,); never where nothing is driven."""
+    if "omega_v_ideal" not in dataset:
+        return np.empty(0)
     speed = series(dataset, "omega_v_ideal")
     moving = np.isfinite(speed) & (speed != 0.0)
     time, speed = series(dataset, "time")[moving], speed[moving]
     turn = np.flatnonzero(speed[1:] * speed[:-1] < 0.0)
     share = np.abs(speed[turn]) / (np.abs(speed[turn]) + np.abs(speed[turn + 1]))
     return np.asarray(time[turn] + share * (time[turn + 1] - time[turn]), dtype=np.float64)
-
-
-def reversals_of(dataset: xr.Dataset) -> FloatArray:
-    """Return the reversal times [s], shape (n,); none where nothing is driven to and fro."""
-    return reversal_times(dataset) if "omega_v_ideal" in dataset else np.empty(0)
 
 
 def direction(dataset: xr.Dataset) -> FloatArray:

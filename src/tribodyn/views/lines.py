@@ -11,7 +11,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.curves import Curve, Panel
 from tribodyn.views.encode import packed
-from tribodyn.views.events import reversals_of, smooth_limits
+from tribodyn.views.events import reversal_times, smooth_limits
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import peak, series
 from tribodyn.views.thinning import thinned
@@ -22,7 +22,7 @@ def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | 
     time = series(dataset, "time")
     if time.size < 2:
         return None
-    turns = reversals_of(dataset)
+    turns = reversal_times(dataset)
     unit, scale = time_unit(dataset)
     return {
         "x_label": f"time [{unit}]",
