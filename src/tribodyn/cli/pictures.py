@@ -35,8 +35,7 @@ def draw_points(directory: Path, note: Callable[[str], None]) -> None:
     """
     from tribodyn import report
     from tribodyn.mechanisms.results import read
-    from tribodyn.results.store import RESULT
-    from tribodyn.studies.archive import POINTS
+    from tribodyn.results.store import POINTS, RESULT
 
     found = sorted((directory / POINTS).glob(f"*/{RESULT}"))
     # A link could lead out of the folder of the sweep.

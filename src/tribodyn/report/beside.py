@@ -9,8 +9,8 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.mechanisms.results import mechanism_of, read
-from tribodyn.report.parallel import POINTS, Axis, Point
-from tribodyn.results.store import RESULT
+from tribodyn.report.parallel import Axis, Point
+from tribodyn.results.store import POINTS, RESULT
 from tribodyn.views.overlay import overlays
 from tribodyn.views.section import Chapter
 

@@ -13,11 +13,11 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.results.store import POINTS
 from tribodyn.views.encode import packed
 from tribodyn.views.numbers import in_words
 from tribodyn.views.section import Payload
 
-POINTS: Final = "points"
 _MOST_AT_FIRST: Final = 6
 
 

@@ -19,6 +19,8 @@ from tribodyn.results.netcdf import dataset_of, netcdf_content
 from tribodyn.results.schema import Kinds, check
 
 RESULT: Final = "result.nc"
+POINTS: Final = "points"
+"""Folder of a sweep that holds one folder for each point."""
 SUMMARY: Final = "summary.json"
 CASE: Final = "case.toml"
 LARGEST: Final = 4_000_000_000

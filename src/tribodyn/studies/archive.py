@@ -17,11 +17,10 @@ from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import brief
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.schema import is_summary
-from tribodyn.results.store import CASE, RESULT, SUMMARY
+from tribodyn.results.store import CASE, POINTS, RESULT, SUMMARY
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import Numbers, Outcome
 
-POINTS: Final = "points"
 _LARGEST_SUMMARY: Final = 1_000_000
 
 
