@@ -4,24 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-from tribodyn.cases.case import Case, Group, demand
+from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, number, quantity, switch, text
 from tribodyn.cases.film import Film
 from tribodyn.cases.groups import (
-    Asperities,
-    Contact,
     PlainJoint,
     Solver,
-    Surfaces,
     Tolerances,
     check_output_interval,
 )
 from tribodyn.cases.keys import ASSUMED, Value
-
-if TYPE_CHECKING:
-    from tribodyn.contact import SurfacePair
+from tribodyn.cases.rough import RoughCase
 
 SECTION_4 = "paper, section 4"
 _LUBRICATED: dict[str, Value] = {
@@ -96,14 +91,11 @@ class Run(Group):
     output_interval: float = quantity("5 us", "time between rows", "depends on film.lubricated", gt=0)
 
 
-class JournalCase(Case):
+class JournalCase(RoughCase):
     """The journal of the paper's section 4 unless keys say otherwise."""
 
     case: Literal["journal"] = choice("journal", "the kind of system", "")
     title: str = text("Journal bearing, dry rough contact", "heading of figures and report")
-    surfaces: Surfaces = Surfaces()
-    asperities: Asperities = Asperities()
-    contact: Contact = Contact()
     joint: JournalJoint = JournalJoint()
     journal: Shaft = Shaft()
     loads: Loads = Loads()
@@ -114,12 +106,7 @@ class JournalCase(Case):
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from the contact law, and from whether there is oil."""
-        return Contact.resolve(given) | (_LUBRICATED if given.get("film.lubricated") else {})
-
-    @property
-    def surface_pair(self) -> SurfacePair:
-        """The two surfaces in contact, as contact laws take them."""
-        return self.surfaces.pair(self.asperities)
+        return super().resolve(given) | (_LUBRICATED if given.get("film.lubricated") else {})
 
     @property
     def duration(self) -> float:
@@ -129,7 +116,6 @@ class JournalCase(Case):
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
         super().model_post_init(context)
-        self.contact.check(self.surface_pair)
         self._check_run()
 
     def _check_run(self) -> None:

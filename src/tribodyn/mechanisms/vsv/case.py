@@ -6,21 +6,18 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from tribodyn.cases.case import Case, Group, demand
+from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, number, quantity, text
 from tribodyn.cases.groups import (
-    Asperities,
-    Contact,
     PlainJoint,
     Solver,
-    Surfaces,
     Wear,
     check_output_interval,
 )
 from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.rough import RoughCase
 
 if TYPE_CHECKING:
-    from tribodyn.contact import SurfacePair
     from tribodyn.mechanisms.vsv.parameters import Drive as Crank
     from tribodyn.mechanisms.vsv.parameters import Lengths
 
@@ -106,7 +103,7 @@ class Run(Group):
     impact_interval: float = quantity("0.2 ms", "time between rows in that window", ASSUMED, gt=0)
 
 
-class VsvCase(Case):
+class VsvCase(RoughCase):
     """The built-in mechanism of Tables 1 to 3 unless keys say otherwise."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
@@ -115,9 +112,6 @@ class VsvCase(Case):
     title: str = text(
         "Variable stator vane mechanism, dry rough trunnion joint", "heading of figures and report"
     )
-    surfaces: Surfaces = Surfaces()
-    asperities: Asperities = Asperities()
-    contact: Contact = Contact()
     joint: VaneJoint = VaneJoint()
     mechanism: MechanismKeys = MechanismKeys()
     drive: Drive = Drive()
@@ -129,17 +123,12 @@ class VsvCase(Case):
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from the contact law and the formulation, and the length."""
-        defaults = Contact.resolve(given)
+        defaults = super().resolve(given)
         if given.get("mechanism.formulation") == "paper":
             defaults |= {"joint.friction": "moment", "run.start": "centred"}
         if "run.duration" not in given:
             defaults["run.cycles"] = 2.0
         return defaults
-
-    @property
-    def surface_pair(self) -> SurfacePair:
-        """The two surfaces in contact, as contact laws take them."""
-        return self.surfaces.pair(self.asperities)
 
     @property
     def period(self) -> float:
@@ -197,7 +186,6 @@ class VsvCase(Case):
         self._check_campaign()
         self._check_inertias()
         self._check_reach()
-        self.contact.check(self.surface_pair)
 
     def _check_run(self) -> None:
         demand(

@@ -1,0 +1,36 @@
+"""What cases with one pair of rough surfaces have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from tribodyn.cases.case import Case
+from tribodyn.cases.groups import Asperities, Contact, Surfaces
+from tribodyn.cases.keys import Value
+
+if TYPE_CHECKING:
+    from tribodyn.contact import SurfacePair
+
+
+class RoughCase(Case):
+    """A case with one joint between two rough surfaces."""
+
+    surfaces: Surfaces = Surfaces()
+    asperities: Asperities = Asperities()
+    contact: Contact = Contact()
+
+    @classmethod
+    def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the defaults that follow from the contact law."""
+        return Contact.resolve(given)
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The two surfaces in contact, as contact laws take them."""
+        return self.surfaces.pair(self.asperities)
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        super().model_post_init(context)
+        self.contact.check(self.surface_pair)
