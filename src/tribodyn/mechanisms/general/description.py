@@ -1,0 +1,241 @@
+"""What a mechanism is made of, in SI units and in one drawing with global coordinates.
+
+A case file and the builder of :mod:`tribodyn` both end here; assembly and equations begin here. Bodies are
+counted from 0, ``GROUND`` is the body that never moves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.tables import ContactTable
+
+GROUND: Final = -1
+"""Number of the body that never moves."""
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A number that follows time or a coordinate: a polynomial between knots, or a sine.
+
+    Attributes
+    ----------
+    kind
+        ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but at kinks.
+    coefficients
+        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n), highest power first, over the
+        distance from the knot on the left.
+    knots
+        Shape (n + 1,), increasing; of no length without a table. The first and last value hold beyond.
+    kinks
+        Where the slope jumps: no step crosses them if the argument is time, shape (m,).
+    """
+
+    kind: str
+    coefficients: FloatArray
+    knots: FloatArray
+    kinks: FloatArray
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body as drawn.
+
+    Attributes
+    ----------
+    name
+        Its name, unique.
+    mass
+        [kg], above zero.
+    centre
+        Mass centre in the drawing [m], shape (3,).
+    inertia
+        About the mass centre, along the global axes of the drawing [kg m²], shape (3, 3).
+    """
+
+    name: str
+    mass: float
+    centre: FloatArray
+    inertia: FloatArray
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """What makes an ideal joint a real one: the socket's and the journal's surfaces, and what acts between them.
+
+    Attributes
+    ----------
+    shape
+        A name of ``joints.SHAPES``: ``cylinder``, ``annulus``, ``sphere`` or ``mesh``; a revolute joint with end
+        faces is a ``cylinder`` and two faces.
+    sizes
+        Its dimensions by name [m], for example ``radius``, ``radial``, ``length``, ``axial``.
+    socket
+        Which of the joint's two bodies carries the socket: 0 or 1.
+    grid
+        Nodes along the two directions of the shape.
+    roughness
+        Combined rms roughness σ [m].
+    table
+        Tabulated contact law.
+    friction_coefficient, slip_velocity
+        μ and its regularisation u_s [m/s].
+    onset, minimum_velocity, tensile_clip
+        See ``joints.EntryMemory``.
+    """
+
+    shape: str
+    sizes: dict[str, float]
+    socket: int
+    grid: tuple[int, int]
+    roughness: float
+    table: ContactTable
+    friction_coefficient: float
+    slip_velocity: float
+    onset: float
+    minimum_velocity: float
+    tensile_clip: bool
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A connection of two bodies as drawn.
+
+    Attributes
+    ----------
+    name
+        Its name, unique.
+    kind
+        ``fixed``, ``revolute``, ``spherical``, ``cylindrical``, ``prismatic``, ``universal``, ``pin-slot``, ``planar``
+        or ``spring-damper``.
+    bodies
+        Numbers of the two bodies, ``GROUND`` for the ground.
+    points
+        Where the joint is, as drawn on the first and on the second body [m], shape (2, 3): the same point unless
+        the drawing has a gap that assembly is to close.
+    axes
+        Unit vectors in the drawing, shape (2, 3): the axis of a revolute, cylindrical, prismatic joint or slot, the normal of a
+        planar one; the second is the other axis of a universal joint, fixed to the second body, and a direction of angle zero elsewhere.
+    clearance
+        None for an ideal joint.
+    stiffness, damping
+        Of a ``spring-damper``, along and about (axis, second axis, their cross product): [N/m] and [N m/rad], [N s/m] and [N m s/rad],
+        shape (6,); of no length for others.
+    """
+
+    name: str
+    kind: str
+    bodies: tuple[int, int]
+    points: FloatArray
+    axes: FloatArray
+    clearance: Clearance | None
+    stiffness: FloatArray
+    damping: FloatArray
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What moves the mechanism, at the free coordinate of a joint.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    joint
+        Number of the joint: a revolute one turns, a prismatic one slides; of a cylindrical one ``coordinate`` says which.
+    coordinate
+        ``angle`` or ``position``.
+    level
+        What is given: ``0`` the coordinate itself, ``1`` its speed, ``2`` the torque or force that acts along it.
+    signal
+        Over time.
+    """
+
+    name: str
+    joint: int
+    coordinate: str
+    level: int
+    signal: Signal
+
+
+@dataclass(frozen=True)
+class Load:
+    """A force and a moment on a body.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    body
+        Its number.
+    point
+        Where the force acts, as drawn [m], shape (3,).
+    frame
+        ``ground``: the components are global. ``body``: they turn with the body. ``motion``: the first is the size of a force against
+        the velocity of the point, the fourth that of a moment against the angular velocity.
+    signals
+        Force [N] and moment [N m], six components.
+    joint
+        Number of the joint whose coordinate the signals follow; −1 for time.
+    slip_velocity
+        For ``motion``: speed [m/s], or [rad/s], below which the force grows in proportion.
+    """
+
+    name: str
+    body: int
+    point: FloatArray
+    frame: str
+    signals: tuple[Signal, ...]
+    joint: int
+    slip_velocity: float
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring and damper between two points.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    bodies
+        Numbers of the two bodies.
+    points
+        Its ends as drawn [m], shape (2, 3).
+    stiffness, damping
+        [N/m], [N s/m].
+    length
+        Length without force [m].
+    """
+
+    name: str
+    bodies: tuple[int, int]
+    points: FloatArray
+    stiffness: float
+    damping: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Description:
+    """A mechanism as drawn, with how fast it moves at the start.
+
+    Attributes
+    ----------
+    bodies, joints, drives, loads, springs
+        Its parts.
+    gravity
+        [m/s²], shape (3,).
+    speeds
+        Speeds of free coordinates at the start, as (joint, coordinate, value in [rad/s] or [m/s]); other freedoms begin at rest.
+    """
+
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    drives: tuple[Drive, ...]
+    loads: tuple[Load, ...]
+    springs: tuple[Spring, ...]
+    gravity: FloatArray
+    speeds: tuple[tuple[int, str, float], ...]
