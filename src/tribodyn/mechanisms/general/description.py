@@ -84,6 +84,10 @@ class Clearance:
         μ and its regularisation u_s [m/s].
     onset, minimum_velocity, tensile_clip
         See ``joints.EntryMemory``.
+    contact
+        ``surface``, or a point contact of ``joints.CONTACTS``.
+    facets
+        Triangles of a ``mesh`` in the socket's frame [m], shape (n, 3, 3); of no length for other shapes.
     """
 
     shape: str
@@ -97,6 +101,8 @@ class Clearance:
     onset: float
     minimum_velocity: float
     tensile_clip: bool
+    contact: str
+    facets: FloatArray
 
 
 @dataclass(frozen=True)
