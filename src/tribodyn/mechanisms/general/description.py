@@ -23,9 +23,11 @@ class Signal:
     Attributes
     ----------
     kind
-        ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but at kinks.
+        ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but
+        at kinks.
     coefficients
-        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n), highest power first, over the
+        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n), highest power first, over
+        the
         distance from the knot on the left.
     knots
         Shape (n + 1,), increasing; of no length without a table. The first and last value hold beyond.
@@ -63,12 +65,13 @@ class Body:
 
 @dataclass(frozen=True)
 class Clearance:
-    """What makes an ideal joint a real one: the socket's and the journal's surfaces, and what acts between them.
+    """What makes an ideal joint a real one: two surfaces and what acts between them.
 
     Attributes
     ----------
     shape
-        A name of ``joints.SHAPES``: ``cylinder``, ``annulus``, ``sphere`` or ``mesh``; a revolute joint with end
+        A name of ``joints.SHAPES``: ``cylinder``, ``annulus``, ``sphere`` or ``mesh``; a revolute joint with
+        end
         faces is a ``cylinder`` and two faces.
     sizes
         Its dimensions by name [m], for example ``radius``, ``radial``, ``length``, ``axial``.
@@ -114,20 +117,25 @@ class Joint:
     name
         Its name, unique.
     kind
-        ``fixed``, ``revolute``, ``spherical``, ``cylindrical``, ``prismatic``, ``universal``, ``pin-slot``, ``planar``
+        ``fixed``, ``revolute``, ``spherical``, ``cylindrical``, ``prismatic``, ``universal``, ``pin-slot``,
+        ``planar``
         or ``spring-damper``.
     bodies
         Numbers of the two bodies, ``GROUND`` for the ground.
     points
-        Where the joint is, as drawn on the first and on the second body [m], shape (2, 3): the same point unless
+        Where the joint is, as drawn on the first and on the second body [m], shape (2, 3): the same point
+        unless
         the drawing has a gap that assembly is to close.
     axes
-        Unit vectors in the drawing, shape (2, 3): the axis of a revolute, cylindrical, prismatic joint or slot, the normal of a
-        planar one; the second is the other axis of a universal joint, fixed to the second body, and a direction of angle zero elsewhere.
+        Unit vectors in the drawing, shape (2, 3): the axis of a revolute, cylindrical, prismatic joint or
+        slot, the normal of a
+        planar one; the second is the other axis of a universal joint, fixed to the second body, and a
+        direction of angle zero elsewhere.
     clearance
         None for an ideal joint.
     stiffness, damping
-        Of a ``spring-damper``, along and about (axis, second axis, their cross product): [N/m] and [N m/rad], [N s/m] and [N m s/rad],
+        Of a ``spring-damper``, along and about (axis, second axis, their cross product): [N/m] and [N m/rad],
+        [N s/m] and [N m s/rad],
         shape (6,); of no length for others.
     """
 
@@ -150,11 +158,13 @@ class Drive:
     name
         Its name.
     joint
-        Number of the joint: a revolute one turns, a prismatic one slides; of a cylindrical one ``coordinate`` says which.
+        Number of the joint: a revolute one turns, a prismatic one slides; of a cylindrical one ``coordinate``
+        says which.
     coordinate
         ``angle`` or ``position``.
     level
-        What is given: ``0`` the coordinate itself, ``1`` its speed, ``2`` the torque or force that acts along it.
+        What is given: ``0`` the coordinate itself, ``1`` its speed, ``2`` the torque or force that acts along
+        it.
     signal
         Over time.
     """
@@ -179,7 +189,8 @@ class Load:
     point
         Where the force acts, as drawn [m], shape (3,).
     frame
-        ``ground``: the components are global. ``body``: they turn with the body. ``motion``: the first is the size of a force against
+        ``ground``: the components are global. ``body``: they turn with the body. ``motion``: the first is the
+        size of a force against
         the velocity of the point, the fourth that of a moment against the angular velocity.
     signals
         Force [N] and moment [N m], six components.
@@ -235,7 +246,8 @@ class Description:
     gravity
         [m/s²], shape (3,).
     speeds
-        Speeds of free coordinates at the start, as (joint, coordinate, value in [rad/s] or [m/s]); other freedoms begin at rest.
+        Speeds of free coordinates at the start, as (joint, coordinate, value in [rad/s] or [m/s]); other
+        freedoms begin at rest.
     """
 
     bodies: tuple[Body, ...]
