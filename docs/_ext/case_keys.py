@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
-from typing import Any, get_args
+from typing import Any
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
 
 from tribodyn.cases import Case, Key, keys_of
-from tribodyn.cases.keys import ANY_NAME
+from tribodyn.cases.keys import ANY_NAME, groups_of
 from tribodyn.mechanisms.catalogue import kinds
 
 
@@ -39,9 +39,9 @@ def _markdown(model: type[Case]) -> Iterator[str]:
 
 def _purpose(model: Any, table: str) -> str:
     """Return the first line that the class of a table says about itself."""
-    for name in table.split("."):
-        # Of tables that a user names, the annotation is a mapping from names.
-        model = get_args(model)[1] if name == ANY_NAME else model.model_fields[name].annotation
+    steps = table.replace(f".{ANY_NAME}", f"/{ANY_NAME}").split(".")
+    for step in steps:
+        model = dict(groups_of(model))[step.replace("/", ".")]
     return str(model.__doc__).splitlines()[0]
 
 

@@ -19,11 +19,21 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from tribodyn.cases import scans
+from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.fields import text
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.messages import CROSS_CHECK, first_problem, located, unknown
-from tribodyn.cases.tables import Tables, expanded, keys_in, value_at
+from tribodyn.cases.tables import (
+    Tables,
+    alternatives,
+    expanded,
+    keys_in,
+    of_components,
+    plain_path,
+    value_at,
+    with_components,
+)
 from tribodyn.cases.write import to_toml
 from tribodyn.core.errors import InputError
 
@@ -33,6 +43,9 @@ AnyCase = TypeVar("AnyCase", bound="Case")
 
 class Group(BaseModel):
     """A table of a case file: frozen, and closed to keys it does not declare."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = ()
+    """Pairs of its keys of which only one may be given."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=False)
 
@@ -71,9 +84,6 @@ class Case(Group):
     Attribute paths are the paths of the case file: ``case.joint.clearance`` is ``clearance`` of
     the table ``[joint]``. Make one with :func:`tribodyn.load_case`, change it with :meth:`replace`.
     """
-
-    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = ()
-    """Pairs of keys of which only one may be given."""
 
     case: str
     title: str = text("", "heading of figures and report")
@@ -158,14 +168,17 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
     """
     declared = keys_of(model)
     keys = expanded(declared, list(entries))
+    entries = {
+        path if entry.value == {} else plain_path(path, keys): entry for path, entry in entries.items()
+    }
     given = {path: entry for path, entry in entries.items() if not _is_empty_table(path, entry, declared)}
     entries = {path: entry for path, entry in given.items() if not _is_empty_table(path, entry, keys)}
     for path, entry in entries.items():
         if path not in keys:
             raise InputError(unknown(path, keys, declared), key=path, source=entry.source)
-    _one_of_each(model, entries)
+    _one_of_each(model, entries, keys)
     scanned = scans.scan_entries(entries)
-    entries = scans.with_scans_read(entries, keys)
+    entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
     values = {path: read_entry(keys[path], entry) for path, entry in entries.items()}
     named = [path.rpartition(".")[0] if path in keys else path for path in given if path not in declared]
     try:
@@ -174,20 +187,26 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
         raise first_problem(error, keys, entries, source) from None
     except InputError as error:
         raise located(error, keys, entries, source) from None
-    case._given.update({path: entry for path, entry in given.items() if path not in scanned} | entries)
+    tables = {path: entry for path, entry in given.items() if _is_empty_table(path, entry, keys)}
+    case._given.update(tables | entries)
     case._scans.update(scanned)
     return case
 
 
 def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCase:
     """Return a copy of `case` with `changes` made; see :meth:`Case.replace`."""
-    new = {path: Entry(value, source, text=True) for path, value in changes.items()}
     keys = keys_in(case)
-    for path in new:
-        if path not in keys:
+    known = with_components(keys)
+    new: dict[str, Entry] = {}
+    for path, value in changes.items():
+        plain = plain_path(path, keys)
+        if plain not in known:
             raise InputError(unknown(path, keys, keys_of(type(case))), key=path, source=source)
+        if plain not in keys:
+            plain, value = _vector(case, plain, value, known, new, source)
+        new[plain] = Entry(value, source, text=True)
     kept = scans.entries_kept(case._given, case._scans, new)
-    for pair in _alternatives(type(case)):
+    for pair in _alternatives(type(case), keys):
         if any(path in new for path in pair):
             for path in pair:
                 kept.pop(path, None)
@@ -197,21 +216,33 @@ def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCa
     return result
 
 
+def _vector(
+    case: Case, path: str, value: object, keys: Mapping[str, Key], new: Mapping[str, Entry], source: str
+) -> tuple[str, object]:
+    """Return path and value of the vector of which one component is changed."""
+    read_entry(keys[path], Entry(value, source, text=True))
+    whole, key = path[:-2], keys[path[:-2]]
+    held = read_entry(key, new[whole]) if whole in new else case.at(whole)
+    if not isinstance(held, tuple):
+        raise InputError(f"{whole} is not given; give all three components", key=path, source=source)
+    return whole, of_components(path, str(value), key, [float(number) for number in held])
+
+
 def _is_empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:
     """Tell whether an entry is a table of the case that a file left empty."""
     return entry.value == {} and not entry.text and any(key.startswith(f"{path}.") for key in keys)
 
 
-def _one_of_each(model: type[Case], entries: Mapping[str, Entry]) -> None:
-    for first, second in _alternatives(model):
+def _one_of_each(model: type[Case], entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> None:
+    for first, second in _alternatives(model, keys):
         if first in entries and second in entries:
             raise InputError(
                 f"give either {first} or {second}, not both", key=second, source=entries[second].source
             )
 
 
-def _alternatives(model: type[Case]) -> tuple[tuple[str, str], ...]:
-    return (*model.ALTERNATIVES, *scans.ALTERNATIVES)
+def _alternatives(model: type[Case], keys: Mapping[str, Key]) -> tuple[tuple[str, str], ...]:
+    return (*alternatives(model, keys), *scans.ALTERNATIVES)
 
 
 def _nested(values: Mapping[str, Value], tables: Iterable[str]) -> dict[str, Any]:

@@ -10,9 +10,12 @@ from typing import Any, TypeAlias
 
 from pydantic import Field
 
+from tribodyn.cases.lists import elements
 from tribodyn.cases.units import to_si, unit_of
 
 Bound: TypeAlias = str | float | None
+Vector: TypeAlias = tuple[float, float, float]
+Numbers: TypeAlias = tuple[float, ...]
 
 _SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
@@ -28,6 +31,7 @@ def quantity(
     lt: Bound = None,
     le: Bound = None,
     example: str | None = None,
+    required: bool = False,
 ) -> Any:
     """Declare a key that carries a unit; default and bounds are written with it."""
     shown = example or default or ""
@@ -41,6 +45,7 @@ def quantity(
         bounds,
         numbers,
         kind="quantity",
+        required=required,
         unit=unit,
         example=shown,
     )
@@ -73,7 +78,71 @@ def switch(default: bool, description: str, source: str) -> Any:
     return _field(default, description, source, {}, {}, kind="switch")
 
 
-def choice(default: str | None, description: str, source: str, *, family: str = "", example: str = "") -> Any:
+def vector(
+    default: str | None,
+    description: str,
+    source: str,
+    *,
+    unit: str = "",
+    example: str = "",
+    required: bool = False,
+) -> Any:
+    """Declare a key that takes three numbers: with a unit each, or bare where `unit` is empty.
+
+    Parameters
+    ----------
+    default
+        Three numbers before the one unit, such as ``"0, 0, 0 m"``.
+    description, source
+        As for the other kinds.
+    unit
+        In which they are shown.
+    example
+        As it stands in a file, such as ``["0 mm", "0 mm", "170 mm"]``.
+    required
+        Whether it must be given.
+    """
+    held = None if default is None else _numbers(default, unit)
+    return _field(
+        held,
+        description,
+        source,
+        {},
+        {},
+        kind="vector",
+        required=required,
+        unit=unit,
+        example=example,
+        length=3,
+    )
+
+
+def series(description: str, source: str, *, unit: str = "", example: str) -> Any:
+    """Declare a key that takes any number of numbers, with a unit each, or bare; none by default."""
+    return _field(None, description, source, {}, {}, kind="series", unit=unit, example=example)
+
+
+def names(description: str, source: str, *, length: int, example: str) -> Any:
+    """Declare a key that takes that many names and must be given."""
+    return _field(
+        None, description, source, {}, {}, kind="names", required=True, example=example, length=length
+    )
+
+
+def _numbers(texts: str, unit: str) -> tuple[float, ...]:
+    found = elements(texts, unit) or []
+    return tuple(to_si(str(text), unit) if unit else float(str(text)) for text in found)
+
+
+def choice(
+    default: str | None,
+    description: str,
+    source: str,
+    *,
+    family: str = "",
+    example: str = "",
+    required: bool = False,
+) -> Any:
     """Declare a key that takes a name.
 
     Parameters
@@ -84,8 +153,16 @@ def choice(default: str | None, description: str, source: str, *, family: str = 
         Where the allowed names are listed, as ``module:ATTRIBUTE`` (a mapping); ``module:ATTRIBUTE+none``
         also allows the name ``none``. It is imported only when a value is checked. Empty when the
         annotation is a ``Literal``, which lists them itself.
+    required
+        Whether it must be given.
     """
-    return _field(default, description, source, {}, {}, kind="choice", family=family, example=example)
+    extra = {"family": family, "example": example}
+    return _field(default, description, source, {}, {}, kind="choice", required=required, **extra)
+
+
+def name(default: str | None, description: str, source: str, *, example: str, required: bool = False) -> Any:
+    """Declare a key that takes the name of a table that the user named."""
+    return _field(default, description, source, {}, {}, kind="name", required=required, example=example)
 
 
 def file(description: str, example: str) -> Any:
@@ -112,11 +189,12 @@ def _field(
     numbers: Mapping[str, Any],
     *,
     kind: str,
-    **extra: str,
+    required: bool = False,
+    **extra: str | int,
 ) -> Any:
     limits = " and ".join(f"{_SIGNS[k]} {b}" for k, b in bounds.items() if b is not None)
     return Field(
-        default,
+        ... if required else default,
         description=description,
         allow_inf_nan=False if kind in {"quantity", "number"} else None,
         json_schema_extra={"kind": kind, "source": source, "limits": limits, **extra},

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import importlib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from types import NoneType, UnionType
@@ -17,18 +17,20 @@ from typing import Literal, TypeAlias, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from tribodyn.cases.lists import LISTS, elements
 from tribodyn.cases.units import (
     MissingUnit,
     UnitProblem,
     dimension,
     from_si,
     likely_quantity,
+    si_unit,
     to_si,
 )
 from tribodyn.core.quoting import brief
 
-Value: TypeAlias = float | int | bool | str
-"""What a key can hold once read: numbers in SI units, switches, names."""
+Value: TypeAlias = float | int | bool | str | tuple[float, ...] | tuple[str, ...]
+"""What a key can hold once read: numbers in SI units, switches, names; one or several."""
 
 ASSUMED = "assumed"
 """Source of a value that the paper does not give."""
@@ -37,6 +39,7 @@ ANY_NAME = "*"
 """Stands in the path of a key for the name that a user gives a table."""
 
 _LONGEST_SHOWN = 60
+_MOST_ELEMENTS = 20
 _LEAST = 1.0e-60
 _LONGEST_FILE_NAME = 4096
 
@@ -54,7 +57,8 @@ class Key:
     path
         Dotted path, such as ``joint.clearance``.
     kind
-        ``quantity``, ``number``, ``count``, ``switch``, ``choice``, ``file`` or ``text``.
+        ``quantity``, ``number``, ``count``, ``switch``, ``choice``, ``name``, ``file`` or ``text``; where it
+        holds several values ``vector``, ``series`` or ``names``.
     description, source
         One line each; where the default comes from.
     default
@@ -67,6 +71,10 @@ class Key:
         Bounds as a person writes them, such as ``> 0``.
     choices
         Allowed names; empty for other kinds.
+    length
+        How many values it holds; 0 for one, or for any number.
+    required
+        Whether it must be given.
     """
 
     path: str
@@ -78,6 +86,8 @@ class Key:
     example: str
     limits: str
     choices: tuple[str, ...]
+    length: int = 0
+    required: bool = False
 
     @property
     def table(self) -> str:
@@ -92,10 +102,17 @@ class Key:
     @property
     def allowed(self) -> str:
         """What the key may hold, in words."""
+        if self.kind in ("vector", "series") and self.unit:
+            many = "three numbers" if self.length else "a list of numbers"
+            return f"{many} with units of {dimension(self.unit)}, such as {self.example}"
         if self.kind == "quantity":
             limits = f", {self.limits}" if self.limits else ""
             return f'a number with a unit of {dimension(self.unit)}{limits}, such as "{self.example}"'
         words = {
+            "vector": f"three numbers, such as {self.example}",
+            "series": f"a list of numbers, such as {self.example}",
+            "names": f"a list of {self.length} names, such as {self.example}",
+            "name": f'a name, such as "{self.example}"',
             "number": "a number",
             "count": "a whole number",
             "switch": "true or false",
@@ -115,6 +132,8 @@ class Key:
         text
             Whether numbers and switches may also be spelled as text (command line).
         """
+        if self.kind in LISTS:
+            return self._read_list(value)
         if self.kind == "quantity":
             return self._read_quantity(value)
         if text and isinstance(value, str):
@@ -130,6 +149,21 @@ class Key:
             raise ValueProblem("")
         return value
 
+    def _read_list(self, value: object) -> tuple[float, ...] | tuple[str, ...]:
+        found = elements(value, self.unit)
+        if found is None or (self.length and len(found) != self.length):
+            raise ValueProblem("" if found is None else f"these are {len(found)}")
+        if self.kind == "names":
+            if not all(isinstance(name, str) for name in found):
+                raise ValueProblem("")
+            return tuple(str(name) for name in found)
+        if self.unit:
+            return tuple(self._read_quantity(element) for element in found)
+        return tuple(
+            float(_read_number(_from_text(str(n), "number") if isinstance(n, str) else n, "number"))
+            for n in found
+        )
+
     def _read_quantity(self, value: object) -> float:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             raise ValueProblem(_without_unit(self, value) if _finite(value) else "the number must be finite")
@@ -144,6 +178,8 @@ class Key:
 
     def write(self, value: Value) -> str:
         """Write a value as TOML that reads back exactly."""
+        if isinstance(value, tuple):
+            return self._write_list(value)
         if self.kind == "quantity":
             return f'"{from_si(float(value), self.unit)}"'
         if isinstance(value, bool):
@@ -151,6 +187,16 @@ class Key:
         if isinstance(value, str):
             return toml_string(value)
         return repr(value).removesuffix(".0") if abs(value) < 1e15 else repr(value)
+
+    def _write_list(self, values: tuple[float, ...] | tuple[str, ...]) -> str:
+        """Write several values: a few as a list, many as one text in SI units."""
+        if self.kind == "series" and self.unit:
+            return f'"{", ".join(map(repr, values))} {si_unit(self.unit)}"'
+        if self.unit:
+            texts = [f'"{from_si(float(value), self.unit)}"' for value in values]
+        else:
+            texts = [toml_string(v) if isinstance(v, str) else repr(v).removesuffix(".0") for v in values]
+        return f"[{', '.join(texts)}]"
 
 
 @cache
@@ -168,17 +214,33 @@ def keys_of(model: type[BaseModel], prefix: str = "") -> dict[str, Key]:
     Keys of a table come before its sub-tables, as TOML wants them. In tables that a user names,
     :data:`ANY_NAME` stands for the name; see :mod:`tribodyn.cases.tables`.
     """
-    own: dict[str, Key] = {}
-    below: dict[str, Key] = {}
+    tables = dict(groups_of(model))
+    fields = {
+        name: info
+        for name, info in model.model_fields.items()
+        if not {name, f"{name}.{ANY_NAME}"} & {*tables}
+    }
+    own = {prefix + name: _key(prefix + name, info) for name, info in fields.items()}
+    for path, group in tables.items():
+        own |= keys_of(group, f"{prefix}{path}.")
+    return own
+
+
+def groups_of(model: type[BaseModel]) -> Iterator[tuple[str, type[BaseModel]]]:
+    """Yield the tables of a model with their models, as declared; users name those of ``springs.*``."""
     for name, info in model.model_fields.items():
-        group = info.annotation
-        if isinstance(group, type) and issubclass(group, BaseModel):
-            below |= keys_of(group, f"{prefix}{name}.")
-        elif get_origin(group) is Mapping:
-            below |= keys_of(get_args(group)[1], f"{prefix}{name}.{ANY_NAME}.")
-        else:
-            own[prefix + name] = _key(prefix + name, info)
-    return own | below
+        if get_origin(info.annotation) is Mapping:
+            yield f"{name}.{ANY_NAME}", get_args(info.annotation)[1]
+        elif (group := _group(info.annotation)) is not None:
+            yield name, group
+
+
+def _group(annotation: object) -> type[BaseModel] | None:
+    """Return the model of a table, optional or not; nothing for a value."""
+    for part in (annotation, *get_args(annotation)) if get_origin(annotation) is UnionType else (annotation,):
+        if isinstance(part, type) and issubclass(part, BaseModel):
+            return part
+    return None
 
 
 def _key(path: str, info: FieldInfo) -> Key:
@@ -191,11 +253,13 @@ def _key(path: str, info: FieldInfo) -> Key:
         kind=notes["kind"],
         description=info.description or "",
         source=notes["source"],
-        default=info.default,
+        default=None if info.is_required() else info.default,
         unit=notes.get("unit", ""),
         example=notes.get("example", ""),
         limits=notes.get("limits", ""),
         choices=family_names(family) if family else _literal_names(info.annotation),
+        length=int(notes.get("length", "0")),
+        required=info.is_required(),
     )
 
 
@@ -212,8 +276,9 @@ def shown(value: object) -> str:
         return "true" if value else "false"
     if isinstance(value, dict):
         return "a table"
-    if isinstance(value, list):
-        return "a list"
+    if isinstance(value, list | tuple):
+        inside = ("a list" if isinstance(v, list) else shown(v) for v in value[:_MOST_ELEMENTS])
+        return brief(f"[{', '.join(inside)}]", _LONGEST_SHOWN)
     if isinstance(value, int) and abs(value) > 10**_LONGEST_SHOWN:
         return "a number of too many digits"
     return brief(toml_string(value) if isinstance(value, str) else value, _LONGEST_SHOWN)

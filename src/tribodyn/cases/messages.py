@@ -69,8 +69,17 @@ def first_problem(
     if found["type"] == CROSS_CHECK:
         path, reason = f"{path}.{found['ctx']['key']}", str(found["ctx"]["reason"])
         return located(InputError(reason, key=path), keys, entries, source)
+    if found["type"] == "missing":
+        where = next(
+            (entry.source for given, entry in entries.items() if given.startswith(_table(path))), source
+        )
+        return InputError(f"this key is missing; allowed: {keys[path].allowed}", key=path, source=where)
     entry = entries.get(path) or Entry(keys[path].default, source)
     return InputError(refused(keys[path], entry), key=path, source=entry.source)
+
+
+def _table(path: str) -> str:
+    return path.rpartition(".")[0]
 
 
 def located(

@@ -7,15 +7,20 @@ Such a field is declared with :func:`tribodyn.cases.fields.tables`. Its keys are
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import groupby
 from typing import Any, Final, NoReturn
 
 from pydantic import BaseModel
 
-from tribodyn.cases.keys import ANY_NAME, Key, keys_of
+from tribodyn.cases.keys import ANY_NAME, Key, groups_of, keys_of
+from tribodyn.cases.lists import AXES
+from tribodyn.cases.units import from_si
 
+VALUE: Final = "value"
+"""Key of a table that may be given as that value alone: ``speed = "5000 rpm"`` is ``speed.value``."""
 LONGEST_NAME: Final = 40
 ALLOWED_NAME: Final = f"a name of letters without accents, digits, - and _, at most {LONGEST_NAME} of them"
 _NAME: Final = re.compile(rf"[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}")
@@ -67,11 +72,56 @@ def keys_in(case: BaseModel) -> dict[str, Key]:
 
 
 def value_at(case: BaseModel, path: str) -> Any:
-    """Return the value of a case at a dotted path."""
+    """Return the value of a case at a dotted path; None inside a table that is not there."""
     value: Any = case
     for name in path.split("."):
-        value = value[name] if isinstance(value, Mapping) else getattr(value, name)
+        if value is None:
+            return None
+        if isinstance(value, tuple):
+            value = value[AXES.index(name)]
+        else:
+            value = value[name] if isinstance(value, Mapping) else getattr(value, name)
     return value
+
+
+def with_components(keys: Mapping[str, Key]) -> dict[str, Key]:
+    """Return keys with those of the components of vectors: ``point.x``."""
+    components = {
+        f"{path}.{axis}": replace(
+            key,
+            path=f"{path}.{axis}",
+            kind="quantity" if key.unit else "number",
+            example=f"0 {key.unit}".strip(),
+            length=0,
+            required=False,
+        )
+        for path, key in keys.items()
+        if key.kind == "vector"
+        for axis in AXES
+    }
+    return {**keys, **components}
+
+
+def plain_path(path: str, keys: Mapping[str, Key]) -> str:
+    """Return the path of the key that a path means: a table that has a key ``value`` stands for it."""
+    return f"{path}.{VALUE}" if path not in keys and f"{path}.{VALUE}" in keys else path
+
+
+def of_components(path: str, text: str, key: Key, value: Sequence[float]) -> list[str]:
+    """Return a vector as a user writes it, of which one component is replaced.
+
+    Parameters
+    ----------
+    path
+        Of the component.
+    text
+        What it is to be.
+    key, value
+        The vector.
+    """
+    place = AXES.index(path[-1])
+    numbers = [from_si(number, key.unit) if key.unit else repr(number) for number in value]
+    return [text if i == place else number for i, number in enumerate(numbers)]
 
 
 def impossible_name(path: str, declared: Mapping[str, Key]) -> str | None:
@@ -85,6 +135,38 @@ def impossible_name(path: str, declared: Mapping[str, Key]) -> str | None:
             if step not in (ANY_NAME, steps[place]):
                 break
     return None
+
+
+def alternatives(model: type[BaseModel], keys: Mapping[str, Key]) -> list[tuple[str, str]]:
+    """Return the pairs of keys of which only one may be given, as the groups of a case declare them."""
+    tables = {key.table for key in keys.values()}
+    return [
+        (f"{prefix}{first}", f"{prefix}{second}")
+        for pattern, pairs in _declared_pairs(model)
+        for table in tables
+        if re.fullmatch(pattern, table)
+        for prefix in [f"{table}." if table else ""]
+        for first, second in pairs
+    ]
+
+
+@cache
+def _declared_pairs(
+    model: type[BaseModel], pattern: str = ""
+) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """Return the pairs that each table declares, by a pattern of its dotted path."""
+    own = getattr(model, "ALTERNATIVES", ())
+    below = [
+        entry
+        for path, group in groups_of(model)
+        for entry in _declared_pairs(group, f"{pattern}{re.escape('.') if pattern else ''}{_regular(path)}")
+    ]
+    return (((pattern, own), *below)) if own else tuple(below)
+
+
+def _regular(path: str) -> str:
+    """Return the regular expression of the path of a table."""
+    return re.escape(path).replace(re.escape(ANY_NAME), "[^.]+")
 
 
 def general(path: str, declared: Mapping[str, Key]) -> str:

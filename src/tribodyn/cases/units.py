@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from decimal import Context, Decimal
 from functools import lru_cache
 from typing import Final
@@ -47,6 +48,10 @@ _DIMENSIONS: Final = {
     "m/s": "speed",
     "m/s^2": "acceleration",
     "rad/s": "angular speed",
+    "N/m": "stiffness",
+    "N m/rad": "angular stiffness",
+    "N s/m": "damping",
+    "N m s/rad": "angular damping",
     "kg m^2": "moment of inertia",
     "1/m^2": "number per area",
     "m^2/N": "wear volume per work",
@@ -130,6 +135,23 @@ def from_si(value: float, unit: str) -> str:
         if float(_ARITHMETIC.multiply(Decimal(repr(number)), factor)) == value:
             return f"{_plain(number)} {unit}"
     return f"{value!r} {si_unit(unit)}"
+
+
+def with_shared_unit(texts: Sequence[str]) -> list[str]:
+    """Return quantities to whose bare numbers the unit of the last one is added: ``20, 25, 30 um``."""
+    try:
+        unit = unit_of(texts[-1]) if texts else ""
+    except UnitProblem:
+        unit = ""
+    return [f"{text} {unit}" if unit and _is_number(text) else text for text in texts]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def likely_quantity(number: str, example: str, unit: str) -> str:

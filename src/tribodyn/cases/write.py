@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from itertools import groupby
 from textwrap import wrap
 
 from pydantic import BaseModel
 
 from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of
-from tribodyn.cases.tables import keys_in, value_at
+from tribodyn.cases.tables import general, keys_in, value_at
 
 _COMMENT_COLUMN = 38
 _LONGEST_LINE = 120
@@ -18,15 +18,20 @@ _ASSUMED = "ASSUMED"
 
 def to_toml(case: BaseModel, kind: str, *, comments: bool) -> str:
     """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`."""
-    keys = keys_in(case)
+    keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
     for table, own in groupby(keys.values(), key=lambda key: key.table):
         if table:
             lines += ["", f"[{table}]"]
         lines += [line for key in own for line in _lines(case, key, comments)]
     if comments:
-        lines += _unnamed(keys_of(type(case)), keys)
+        declared = keys_of(type(case))
+        lines += _not_there(declared, {general(key.table, declared) for key in keys.values()})
     return "\n".join(lines) + "\n"
+
+
+def _is_there(case: BaseModel, table: str) -> bool:
+    return not table or value_at(case, table) is not None
 
 
 def _head(kind: str) -> Iterator[str]:
@@ -45,12 +50,10 @@ def _lines(case: BaseModel, key: Key, comments: bool) -> Iterator[str]:
         yield from _commented(line, key)
 
 
-def _unnamed(declared: Mapping[str, Key], keys: Iterable[str]) -> Iterator[str]:
-    """Yield, commented out, tables with names of their own of which the case has none."""
-    keys = list(keys)
+def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator[str]:
+    """Yield, commented out, tables that may be left out or have names of their own, where there is none."""
     for table, own in groupby(declared.values(), key=lambda key: key.table):
-        before, name, _ = table.partition(ANY_NAME)
-        if name and not any(path.startswith(before) for path in keys):
+        if table and table not in tables:
             yield from ("", f"# [{table.replace(ANY_NAME, 'NAME')}]")
             for key in own:
                 value = _example(key) if key.default is None else key.write(key.default)
@@ -75,7 +78,8 @@ def _commented(line: str, key: Key) -> Iterator[str]:
 
 def _example(key: Key) -> str:
     """Return a value for a key that is not in force, where its alternative is."""
-    return f'"{key.example}"' if key.unit or key.kind in ("file", "choice") else key.example
+    quoted = key.kind in ("quantity", "file", "choice", "name")
+    return f'"{key.example}"' if quoted else key.example
 
 
 def comment(key: Key) -> str:

@@ -11,6 +11,7 @@ from typing import Final
 
 from tribodyn.cases import Case, Key, keys_in
 from tribodyn.cases.keys import Value
+from tribodyn.cases.tables import plain_path, with_components
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import LONGEST, as_given, brief
 from tribodyn.core.versions import version
@@ -150,7 +151,8 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
 
 
 def _key(case: Case, path: str) -> Key:
-    keys = keys_in(case)
+    keys = with_components(keys_in(case))
+    path = plain_path(path, keys)
     if path not in keys:
         # Raises, and the message names the nearest valid key.
         case.replace({path: ""}, source=SOURCE)

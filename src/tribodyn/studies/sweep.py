@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.cases import Case, keys_in
+from tribodyn.cases.tables import with_components
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.catalogue import load_case
@@ -251,7 +252,7 @@ def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -
 
 def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> dict[str, Any]:
     """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
-    keys = keys_in(plan.case)
+    keys = with_components(keys_in(plan.case))
     nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
     return {
         "title": plan.case.title,

@@ -11,7 +11,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from tribodyn.cases.keys import Key, Value, ValueProblem, shown
-from tribodyn.cases.units import UnitProblem, from_si, unit_of
+from tribodyn.cases.units import from_si, with_shared_unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.studies.distributions import DISTRIBUTIONS, Distribution, DistributionProblem
@@ -119,7 +119,7 @@ def _scatter(key: Key, name: str, inside: str, asked: str) -> Scatter:
     if key.kind not in _SCALABLE:
         raise _refused(key, asked, "only quantities and plain numbers can be drawn from a distribution")
     texts = _with_shared_unit(key, inside.split(","))
-    scatter = Scatter(key, DISTRIBUTIONS[name], tuple(float(_read(key, text, asked)) for text in texts))
+    scatter = Scatter(key, DISTRIBUTIONS[name], tuple(_number(key, text, asked) for text in texts))
     try:
         scatter.values(np.array([0.5]))
     except DistributionProblem as problem:
@@ -130,21 +130,7 @@ def _scatter(key: Key, name: str, inside: str, asked: str) -> Scatter:
 def _with_shared_unit(key: Key, parts: Sequence[str]) -> list[str]:
     """Return the parts, to bare numbers of which the unit of the last one is added: ``20, 25, 30 um``."""
     texts = [part.strip() for part in parts]
-    if key.kind != "quantity" or not texts:
-        return texts
-    try:
-        unit = unit_of(texts[-1])
-    except UnitProblem:
-        return texts
-    return [f"{text} {unit}" if _is_number(text) else text for text in texts]
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return with_shared_unit(texts) if key.kind == "quantity" else texts
 
 
 def _range(key: Key, ends: Sequence[str], asked: str) -> tuple[Value, ...]:
@@ -152,8 +138,7 @@ def _range(key: Key, ends: Sequence[str], asked: str) -> tuple[Value, ...]:
 
     Decimal arithmetic in the unit of the key, so that the range holds just the values that a list would.
     """
-    first, last, step = (_read(key, text, asked) for text in _with_shared_unit(key, ends))
-    numbers, unit = _in_one_unit(key, (float(first), float(last), float(step)))
+    numbers, unit = _in_one_unit(key, [_number(key, text, asked) for text in _with_shared_unit(key, ends)])
     a, b, d = numbers
     if d == 0 or (b - a) * d < 0:
         raise _refused(key, asked, "the step must lead from the first value to the last")
@@ -189,6 +174,12 @@ def _read(key: Key, text: object, asked: Asked) -> Value:
     if key.kind == "choice" and value not in key.choices:
         raise _refused(key, asked, f"{shown(text)} is not one of {', '.join(key.choices)}")
     return value
+
+
+def _number(key: Key, text: object, asked: Asked) -> float:
+    value = _read(key, text, asked)
+    assert isinstance(value, int | float)
+    return float(value)
 
 
 def _refused(key: Key, asked: Asked, why: str) -> InputError:

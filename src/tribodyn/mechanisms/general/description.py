@@ -10,35 +10,11 @@ from dataclasses import dataclass
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal
 from tribodyn.core.tables import ContactTable
 
 GROUND: Final = -1
 """Number of the body that never moves."""
-
-
-@dataclass(frozen=True)
-class Signal:
-    """A number that follows time or a coordinate: a polynomial between knots, or a sine.
-
-    Attributes
-    ----------
-    kind
-        ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but
-        at kinks.
-    coefficients
-        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n), highest power first, over
-        the
-        distance from the knot on the left.
-    knots
-        Shape (n + 1,), increasing; of no length without a table. The first and last value hold beyond.
-    kinks
-        Where the slope jumps: no step crosses them if the argument is time, shape (m,).
-    """
-
-    kind: str
-    coefficients: FloatArray
-    knots: FloatArray
-    kinks: FloatArray
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,166 @@
+"""Tables of CSV files in a case: from the file that a key ``table`` names to the numbers that the case holds.
+
+A file is read when the case is built, and its numbers take its place: what is simulated, stored and shown
+never depends on the file again. Above the columns stand their names and units::
+
+    time [ms], gas force [N], torque [N m]
+    0, 0, 1.5
+    1, 250, 1.4
+
+Semicolons and tabs may stand for commas. A row that stands there twice is a kink: the slope may jump.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from tribodyn.cases.entry import Entry, read_entry
+from tribodyn.cases.keys import Key, ValueProblem, shown
+from tribodyn.cases.units import UnitProblem, dimension, si_unit, to_si
+from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
+from tribodyn.core.quoting import LONGEST, brief
+
+TABLE: Final = "table"
+"""Name of a key that names a file; beside it stand those of :data:`KNOTS` and ``values``."""
+COLUMN: Final = "column"
+VALUES: Final = "values"
+KNOTS: Final = {"times": "s", "angles": "rad", "positions": "m"}
+"""What the first column may hold, by the key that takes it, with its unit."""
+LARGEST: Final = 20_000_000
+MOST_ROWS: Final = 100_000
+_HEADER: Final = re.compile(r"\s*\"?([^\[\]\"]*?)\s*\[\s*([^\]]+?)\s*\]\s*\"?\s*")
+
+
+class TableProblem(ValueError):
+    """A file holds no table that can be used; the message says why."""
+
+
+def with_tables_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
+    """Return what was given with the numbers of CSV files in the place of their names.
+
+    Parameters
+    ----------
+    entries
+        What was given, by dotted path.
+    keys
+        The keys of the case.
+    """
+    read = dict(entries)
+    for path, entry in entries.items():
+        before, _, name = path.rpartition(".")
+        if name != TABLE or f"{before}.{VALUES}" not in keys:
+            continue
+        of_column = read.pop(f"{before}.{COLUMN}", None)
+        column = None if of_column is None else str(read_entry(keys[f"{before}.{COLUMN}"], of_column))
+        file = str(read_entry(keys[path], read.pop(path)))
+        try:
+            found = _numbers(_text((entry.folder or Path()) / file), column, keys[f"{before}.{VALUES}"].unit)
+        except (TableProblem, UnitProblem, ValueProblem) as problem:
+            raise InputError(f"given {shown(file)}: {problem}", key=path, source=entry.source) from None
+        read |= {f"{before}.{key}": replace(entry, value=value) for key, value in found.items()}
+    return read
+
+
+def _text(file: Path) -> str:
+    try:
+        return read_regular(file, LARGEST).decode("utf-8-sig")
+    except FileNotFoundError:
+        raise TableProblem("there is no such file; its name is relative to the case file") from None
+    except UnicodeDecodeError as error:
+        raise TableProblem(f"it is not UTF-8 text (byte {error.start})") from None
+    except OSError as error:
+        raise TableProblem(f"it cannot be read ({error.strerror})") from None
+
+
+def _numbers(text: str, column: str | None, unit: str) -> dict[str, str]:
+    """Return knots and values as a case writes them, by their keys."""
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if len(lines) < 3:
+        raise TableProblem("it needs a header, such as time [s], force [N], and two rows of numbers at least")
+    if len(lines) > MOST_ROWS:
+        raise TableProblem(f"it has more than {MOST_ROWS} rows")
+    separator = next((mark for mark in (";", "\t") if mark in lines[0]), ",")
+    header = [_described(cell) for cell in lines[0].split(separator)]
+    names = [name for name, _ in header]
+    place = 1 if column is None else names.index(column) if column in names else 0
+    if not 0 < place < len(header):
+        raise TableProblem(
+            f"it has no column {shown(column or 'of values')}; there are {', '.join(names[1:])}"
+        )
+    key = _knots(header[0][1])
+    rows = [_row(line, separator, (0, place), number) for number, line in enumerate(lines[1:], 2)]
+    knots = _in_si([row[0] for row in rows], header[0][1], KNOTS[key])
+    values = _in_si([row[1] for row in rows], header[place][1], unit)
+    check(knots, values)
+    return {key: _written(knots, KNOTS[key]), VALUES: _written(values, si_unit(unit))}
+
+
+def check(knots: Sequence[float], values: Sequence[float]) -> None:
+    """Refuse a table that no curve goes through: its knots grow, and a kink has one value.
+
+    Raises
+    ------
+    TableProblem
+        The message names the row, counted from 1 without the header.
+    """
+    if len(knots) != len(values):
+        raise TableProblem(f"there are {len(values)} values for {len(knots)} places")
+    for i in range(1, len(knots)):
+        if knots[i] < knots[i - 1]:
+            raise TableProblem(f"row {i + 1} goes back: the first column must grow")
+        if knots[i] == knots[i - 1] and values[i] != values[i - 1]:
+            raise TableProblem(f"row {i + 1} jumps: a row that stands there twice has the same value twice")
+        if i > 1 and knots[i] == knots[i - 2]:
+            raise TableProblem(f"row {i + 1} stands there three times")
+    if len(knots) < 2 or knots[0] == knots[1] or knots[-1] == knots[-2]:
+        raise TableProblem("it begins and ends with a row that stands there once, and has two at least")
+
+
+def _described(cell: str) -> tuple[str, str]:
+    """Return name and unit of a column."""
+    match = _HEADER.fullmatch(cell)
+    if match is None:
+        raise TableProblem(
+            f"the header {shown(cell.strip())} names no unit; each column has one, as in time [s], force [N]"
+        )
+    return match[1], match[2]
+
+
+def _knots(unit: str) -> str:
+    """Return the key of what the first column holds."""
+    for key, wanted in KNOTS.items():
+        try:
+            to_si(f"1 {unit}", wanted)
+        except UnitProblem:
+            continue
+        return key
+    kinds = ", ".join(dimension(si) for si in KNOTS.values())
+    raise TableProblem(f"the unit {shown(unit)} of the first column is none of {kinds}")
+
+
+def _row(line: str, separator: str, places: tuple[int, int], number: int) -> tuple[str, str]:
+    cells = [cell.strip() for cell in line.split(separator)]
+    if separator == ";":
+        cells = [cell.replace(",", ".") for cell in cells]
+    for place in places:
+        try:
+            finite = math.isfinite(float(cells[place]))
+        except (ValueError, IndexError):
+            finite = False
+        if not finite:
+            raise TableProblem(f"row {number - 1}, {shown(brief(line.strip(), LONGEST))}, lacks a number")
+    return cells[places[0]], cells[places[1]]
+
+
+def _in_si(cells: list[str], unit: str, like: str) -> list[float]:
+    return [to_si(f"{cell} {unit}", like) for cell in cells]
+
+
+def _written(numbers: list[float], unit: str) -> str:
+    return f"{', '.join(map(repr, numbers))} {unit}"
