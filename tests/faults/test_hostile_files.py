@@ -166,6 +166,15 @@ def test_hostile_files_are_refused(count: int, tmp_path: Path) -> None:
     assert not bad, bad[:5]
 
 
+def test_texts_of_tens_of_megabytes_are_refused_early(tmp_path: Path) -> None:
+    with watched() as process:
+        for content in (b"1\n", b"1,", b",", b"#"):
+            (tmp_path / "scan.csv").write_bytes(content * 20_000_000)
+            outcome = process.run(["surface", str(tmp_path / "scan.csv"), "--quiet"])
+            assert outcome.status == 2
+            assert tolerable(outcome), (content, outcome)
+
+
 @pytest.mark.parametrize(
     "text",
     [

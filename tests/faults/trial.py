@@ -1,7 +1,7 @@
-"""The command under watch: run again and again in one process, with its memory and time measured.
+"""The command under watch: each one in a process of its own, with its memory and time measured.
 
 A program that is started for each of thousands of files would mostly import. Run as a script this module
-reads command lines as JSON, one a line, and answers each with what came of it.
+imports once, reads command lines as JSON, one a line, forks for each, and answers with what came of it.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import contextlib
 import importlib
 import io
 import json
+import os
 import re
 import resource
 import signal
@@ -23,7 +24,7 @@ from pathlib import Path
 from tribodyn.cli.main import main
 
 MEGABYTES, SECONDS = 500, 10
-"""What one command may take of memory, all of its process, and of a processor's time."""
+"""What one command may take of memory, all that is imported included, and of a processor's time."""
 PATIENCE = 60
 """Seconds by the clock after which a command counts as one that hangs."""
 _SPARE = 2
@@ -80,8 +81,9 @@ def tolerable(outcome: Outcome) -> bool:
     return small and (outcome.status == 0 or (outcome.status == 2 and one_line and len(outcome.said) < 1500))
 
 
-def _attempt(arguments: Sequence[str]) -> Outcome:
+def _attempt(arguments: Sequence[str], rest: int) -> Outcome:
     Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
+    shared = rest - _from_status("VmRSS")
     out, err = io.StringIO(), io.StringIO()
     began = time.process_time()
     signal.alarm(PATIENCE)
@@ -92,7 +94,22 @@ def _attempt(arguments: Sequence[str]) -> Outcome:
             status = int(end.code or 0)
     signal.alarm(0)
     seconds = time.process_time() - began
-    return Outcome(status, err.getvalue(), seconds, _from_status("VmHWM") / 1024**2)
+    return Outcome(status, err.getvalue(), seconds, (_from_status("VmHWM") + shared) / 1024**2)
+
+
+def _answer(arguments: Sequence[str]) -> str:
+    """Return what came of a command in a process that ends with it, so that none bears what another left."""
+    rest = _from_status("VmRSS")
+    ours, theirs = os.pipe()
+    if (child := os.fork()) == 0:
+        with contextlib.suppress(BaseException):
+            os.write(theirs, json.dumps(asdict(_attempt(arguments, rest))).encode())
+        os._exit(0)
+    os.close(theirs)
+    with os.fdopen(ours, encoding="ascii") as answer:
+        text = answer.read()
+    ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    return text or json.dumps(asdict(Outcome(ended, "ended without an answer", 0.0, 0.0)))
 
 
 def _from_status(name: str) -> int:
@@ -109,7 +126,7 @@ def _serve() -> None:
     limit = _from_status("VmData") + _SPARE * MEGABYTES * 1024**2
     resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
     for line in sys.stdin:
-        print(json.dumps(asdict(_attempt(json.loads(line)))), flush=True)
+        print(_answer(json.loads(line)), flush=True)
 
 
 if __name__ == "__main__":

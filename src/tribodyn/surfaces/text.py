@@ -15,25 +15,26 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
-from typing import BinaryIO, Final
+from typing import BinaryIO, Final, TypeAlias
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief
-from tribodyn.surfaces.scan import MOST_POINTS, Length, Scan, from_columns
+from tribodyn.surfaces.blocks import SEPARATORS, Block, Line, blocks, is_comment, too_long
+from tribodyn.surfaces.scan import Length, Scan, from_columns
+from tribodyn.surfaces.table import Table
 
-_SEPARATORS: Final = (";", "\t", ",")
-_BEGINNING: Final = 65_536
-_MISSING: Final = ("", "nan")
+Numbers: TypeAlias = Callable[[int | None], FloatArray]
+"""Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known."""
+
 _COLUMN: Final = re.compile(r"\s*([xh])\s*(?:\[\s*([^\]]+?)\s*\])?\s*", re.IGNORECASE)
 _NOTE: Final = re.compile(r"#\s*(unit|spacing)\s*[:=]\s*(.+?)\s*", re.IGNORECASE)
-_NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?", re.ASCII)
-_DECIMAL_COMMA: Final = re.compile(r"[+-]?\d+,\d+", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -50,20 +51,6 @@ class Scale:
 
     unit: str | None = None
     spacing: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A line of the file: its place, its text, and what stands between its fields."""
-
-    number: int
-    text: str
-    separator: str
-
-    @property
-    def fields(self) -> list[str]:
-        """Its fields; made when asked for, since they take twenty times the room of the text."""
-        return self.text.split(self.separator)
 
 
 def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Scan:
@@ -85,11 +72,23 @@ def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Sc
     InputError
         Anything is not as the module says; the message names the line.
     """
-    notes, header, lines = _sorted_out(_lines(_decoded(stream, source)), source)
+    every = blocks(stream, source)
+    notes, header, separator, first = _head(every, source)
     scale = _settled(notes, given, source)
+
+    def late(line: Line) -> None:
+        if _note(line, source):
+            raise InputError(f"line {line.number}: unit and spacing stand above the heights", source=source)
+
+    def numbers(width: int | None) -> FloatArray:
+        table = Table(separator, width, late, source)
+        for block in chain([first], every):
+            table.add(block)
+        return table.values()
+
     if header is not None:
-        return _profile(header, lines, scale, length, source)
-    return _table(lines, scale, length, source)
+        return _profile(_columns(header, separator, source), numbers, scale, length, source)
+    return _table(numbers, scale, length, source)
 
 
 def write_text(scan: Scan, path: Path) -> None:
@@ -135,57 +134,32 @@ def _length(text: str, length: Length, key: str) -> float:
         ) from None
 
 
-def _lines(text: str) -> Iterator[Line]:
-    """Give the lines that are not empty, with the separator of the first line of data."""
-    separator = None
-    for number, line in enumerate(text.splitlines(), start=1):
-        if not line.strip():
-            continue
-        if separator is None and not _is_note(line):
-            separator = next((mark for mark in _SEPARATORS if mark in line), ",")
-        yield Line(number, line, separator or ",")
-
-
-def _is_note(line: str) -> bool:
-    return line.lstrip().startswith("#")
-
-
-def _decoded(stream: BinaryIO, source: str) -> str:
-    """Return the text of a file; what shows at its beginning that it is none is not read to the end."""
-    content = stream.read(_BEGINNING)
-    if not content:
-        raise InputError("the file is empty", source=source)
-    if b"\0" not in content:
-        content += stream.read()
-    if b"\0" in content:
-        raise InputError("this is a binary file, not text with commas", source=source)
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(f"the file is not UTF-8 text (byte {error.start})", source=source) from None
-
-
-def _sorted_out(lines: Iterator[Line], source: str) -> tuple[dict[str, str], Line | None, list[Line]]:
-    """Tell notes, header and numbers apart."""
+def _head(every: Iterator[Block], source: str) -> tuple[dict[str, str], Line | None, str, Block]:
+    """Return notes, header, separator, and the block that begins with the first numbers."""
     notes: dict[str, str] = {}
     header: Line | None = None
-    data: list[Line] = []
-    for line in lines:
-        if _is_note(line.text):
-            note = _NOTE.fullmatch(line.text.strip())
-            if note is not None:
-                notes[note[1].lower()] = note[2]
-        elif not data and header is None and _is_header(line):
+    separator = None
+    for block in every:
+        for line in block.lines():
+            if is_comment(line.text):
+                notes |= _note(line, source)
+                continue
+            separator = separator or next((mark for mark in SEPARATORS if mark in line.text), ",")
+            if header is not None or not _is_header(line.text.split(separator)):
+                return notes, header, separator, block.after(line.number)
             header = line
-        else:
-            data.append(line)
-    if not data:
-        raise InputError("there are no heights in this file", source=source)
-    return notes, header, data
+    raise InputError("there are no heights in this file", source=source)
 
 
-def _is_header(line: Line) -> bool:
-    return any(word.strip()[:1].isalpha() and word.strip().lower() != "nan" for word in line.fields)
+def _note(line: Line, source: str) -> dict[str, str]:
+    if line.goes_on:
+        raise too_long(line.number, source)
+    note = _NOTE.fullmatch(line.text.strip())
+    return {} if note is None else {note[1].lower(): note[2]}
+
+
+def _is_header(words: list[str]) -> bool:
+    return any(word.strip()[:1].isalpha() and word.strip().lower() != "nan" for word in words)
 
 
 def _settled(notes: dict[str, str], given: Scale, source: str) -> Scale:
@@ -196,38 +170,44 @@ def _settled(notes: dict[str, str], given: Scale, source: str) -> Scale:
     return Scale(notes.get("unit", given.unit), notes.get("spacing", given.spacing))
 
 
-def _table(lines: list[Line], scale: Scale, length: Length, source: str) -> Scan:
+def _table(numbers: Numbers, scale: Scale, length: Length, source: str) -> Scan:
     """Return the map, or the profile if there is a single line or column."""
     if scale.unit is None:
         raise InputError(_lacking("unit", "um"), key="unit", source=source)
     if scale.spacing is None:
         raise InputError(_lacking("spacing", "0.5 um"), key="spacing", source=source)
-    heights = _numbers(lines, source)
+    size, spacing = unit_size(scale.unit, length), parse_spacing(scale.spacing, 2, length)
+    heights = numbers(None)
     heights = heights.ravel() if 1 in heights.shape else heights
-    size = unit_size(scale.unit, length)
-    return Scan(heights * size, parse_spacing(scale.spacing, heights.ndim, length), source)
+    heights *= size
+    return Scan(heights, spacing[-heights.ndim :], source)
 
 
-def _profile(header: Line, lines: list[Line], scale: Scale, length: Length, source: str) -> Scan:
+def _profile(
+    units: dict[str, str | None], numbers: Numbers, scale: Scale, length: Length, source: str
+) -> Scan:
     """Return the profile in the columns x and h."""
-    units = _columns(header, source)
     if scale.spacing is not None:
         raise InputError("the column x gives the spacing; leave it out", key="spacing", source=source)
-    columns = {}
-    for (name, unit), values in zip(units.items(), _numbers(lines, source, len(units)).T, strict=True):
-        unit = unit or scale.unit
-        if unit is None:
-            raise InputError(f'the unit of {name} is missing; write "{name} [um]"', key=name, source=source)
-        columns[name] = values * unit_size(unit, length, name)
-    return from_columns(columns["x"], columns["h"], source)
+    sizes = {name: _size(name, unit or scale.unit, length, source) for name, unit in units.items()}
+    columns = dict(zip(sizes, numbers(len(sizes)).T, strict=True))
+    x, heights = (columns[name] * sizes[name] for name in ("x", "h"))
+    return from_columns(x, heights, source)
 
 
-def _columns(header: Line, source: str) -> dict[str, str | None]:
+def _size(name: str, unit: str | None, length: Length, source: str) -> float:
+    if unit is None:
+        raise InputError(f'the unit of {name} is missing; write "{name} [um]"', key=name, source=source)
+    return unit_size(unit, length, name)
+
+
+def _columns(header: Line, separator: str, source: str) -> dict[str, str | None]:
     """Return the unit of each column by its name."""
-    found = [_COLUMN.fullmatch(word) for word in header.fields]
+    words = header.text.split(separator)
+    found = [_COLUMN.fullmatch(word) for word in words]
     units = {match[1].lower(): match[2] for match in found if match is not None}
     if len(found) != 2 or set(units) != {"x", "h"}:
-        shown = brief(",".join(header.fields).strip())
+        shown = brief(",".join(words).strip())
         raise InputError(
             f'line {header.number}: given the header "{shown}"; allowed: "x [um],h [um]" for a profile, and '
             "none for a table of heights",
@@ -238,35 +218,6 @@ def _columns(header: Line, source: str) -> dict[str, str | None]:
 
 def _lacking(name: str, example: str) -> str:
     return f'the file does not say it; write "# {name}: {example}" in its first line, or give --{name}'
-
-
-def _numbers(lines: list[Line], source: str, width: int | None = None) -> FloatArray:
-    """Return the heights as they stand, shape (lines, fields)."""
-    width = len(lines[0].fields) if width is None else width
-    if len(lines) * width > MOST_POINTS:
-        raise InputError(f"more than {MOST_POINTS} heights; cut out a part of the scan", source=source)
-    values = np.empty((len(lines), width))
-    for row, line in zip(values, lines, strict=True):
-        fields = line.fields
-        if len(fields) != width:
-            raise InputError(
-                f"line {line.number} has {len(fields)} fields where {width} are needed; is the file cut off?",
-                source=source,
-            )
-        row[:] = [_number(word.strip(), line.number, source) for word in fields]
-    return values
-
-
-def _number(word: str, line: int, source: str) -> float:
-    if word.lower() in _MISSING:
-        return math.nan
-    if _NUMBER.fullmatch(word) is None:
-        hint = "; write a decimal point, not a comma" if _DECIMAL_COMMA.fullmatch(word) else ""
-        raise InputError(
-            f"line {line}: {as_given(word)}; allowed: a number, or nothing or nan if it is missing{hint}",
-            source=source,
-        )
-    return float(word)
 
 
 def _written(value: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tribodyn.cases.units import to_si
+from tribodyn.core.errors import InputError
 from tribodyn.surfaces import Scale, Scan, read_scan, write_text
 
 LENGTH = partial(to_si, like="m")
@@ -80,3 +81,48 @@ def test_rounded_positions_are_equal_steps(tmp_path: Path) -> None:
     x = np.round(np.arange(100) * 0.35, 2)
     rows = "\n".join(f"{place},{k}" for k, place in enumerate(x))
     assert read(tmp_path, f"x [um],h [um]\n{rows}\n").spacing[0] == pytest.approx(0.35e-6, rel=1e-3)
+
+
+TEXTS = {
+    "a map": "# unit: um\n# spacing: 2 um, 1 um\n1,,-3e1\n\n  4 , nan,6\n# a note, with commas\n7,8,9\n",
+    "a long line": "# unit: um\n# spacing: 1 um\n" + ",".join(f"{k}.5" for k in range(80)),
+    "its end missing": "# unit: um\n# spacing: 1 um\n" + "1.5;" * 80,
+    "many blank lines": "# unit: um\n# spacing: 1 um\n1,2\n" + "\n \n" * 80 + "3,4\n",
+    "tabs alone": "# unit: um\n# spacing: 1 um\n1" + "\t" * 80 + "2\n",
+    "columns": "\ufeffx [um],h [um]\r\n" + "\r\n".join(f"{k},{k}e-1" for k in range(80)) + "\r\n",
+    "old line ends": "# unit: um\r# spacing: 1 um\r" + "12\t34\r" * 80,
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_blocks_leave_no_trace(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = read(tmp_path, TEXTS[name])
+    for size in range(24, 60):
+        monkeypatch.setattr("tribodyn.surfaces.blocks.BLOCK", size)
+        again = read(tmp_path, TEXTS[name])
+        np.testing.assert_array_equal(again.heights, whole.heights)
+        assert again.spacing == whole.spacing
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ("1,2\n" * 30 + "1\n", "line 33 has 1 fields where 2 are needed"),
+        ("1,2\n" * 30 + "1,b\n", 'line 33: given "b"'),
+        ("1,2\n" * 30 + "1,+nan\n", "line 33"),
+        ("1,2\n" * 30 + "1," * 40 + "2\n", "line 33 has 41 fields"),
+        ("1,2\n" * 30 + "# unit: um\n", "line 33: unit and spacing stand above the heights"),
+        ("1,2\n" * 30 + "#" * 200, "line 33 has a comment or field of more than 64 characters"),
+        ("1," + "2" * 300, "line 3 has a comment or field of more than 64 characters"),
+        ("1,2\n" * 30 + "ü".encode("latin-1").decode("utf-8", "surrogateescape"), "UTF-8 text (byte 147)"),
+    ],
+)
+def test_errors_are_placed_whatever_the_block(
+    rows: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tribodyn.surfaces.blocks.BLOCK", 64)
+    path = tmp_path / "scan.csv"
+    path.write_bytes(f"# unit: um\n# spacing: 1 um\n{rows}".encode(errors="surrogateescape"))
+    with pytest.raises(InputError) as caught:
+        read_scan(path, LENGTH)
+    assert said in str(caught.value)

@@ -1,0 +1,133 @@
+"""A table of numbers in a text, made while it is read."""
+
+from __future__ import annotations
+
+import math
+import re
+from array import array
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
+from tribodyn.surfaces.blocks import Block, Line, is_comment
+from tribodyn.surfaces.scan import MOST_POINTS
+
+_MISSING: Final = ("", "nan")
+_NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+_DECIMAL_COMMA: Final = re.compile(r"[+-]?\d+,\d+", re.ASCII)
+_PLAIN: Final = re.compile(r"(?:[\d\s.,;eE+-]++|(?<![+-])nan)*+", re.ASCII | re.IGNORECASE)
+"""In such a text Python takes for a number what is one here."""
+
+
+class Table:
+    """Lines of equally many numbers.
+
+    Parameters
+    ----------
+    separator
+        What stands between the fields of a line.
+    width
+        Fields of a line; by default those of the first line.
+    comment
+        Is told of comments between the lines.
+    source
+        Name of the file.
+    """
+
+    def __init__(
+        self, separator: str, width: int | None, comment: Callable[[Line], None], source: str
+    ) -> None:
+        self._separator = separator
+        self._width = width
+        self._comment = comment
+        self._source = source
+        self._values = array("d")
+        self._fields = 0
+        """Of a line that goes on, so far."""
+
+    def values(self) -> FloatArray:
+        """Return the numbers as they stand, shape (lines, fields); NaN where one is missing."""
+        return np.frombuffer(self._values).reshape(-1, self._width or 1)
+
+    def add(self, block: Block) -> None:
+        """Add the lines of a block.
+
+        Raises
+        ------
+        InputError
+            A field is no number, a line has another number of fields, or there are too many of them.
+        """
+        if not self._add_at_once(block):
+            for line in block.lines():
+                self._add_line(line)
+
+    def _add_at_once(self, block: Block) -> bool:
+        """Add a block of plain numbers, as nearly all are; False if its lines must be looked at."""
+        if self._width is None or self._fields or block.goes_on:
+            return False
+        texts = [text for text in block.texts if text and not text.isspace()]
+        if not texts:
+            return True
+        if any(text.count(self._separator) != self._width - 1 for text in texts):
+            return False
+        values = self._plain(self._separator.join(texts))
+        if values is None:
+            return False
+        self._extend(values)
+        return True
+
+    def _add_line(self, line: Line) -> None:
+        if not self._fields and is_comment(line.text):
+            self._comment(line)
+            return
+        text = line.text.removesuffix(self._separator) if line.goes_on else line.text
+        self._fields += text.count(self._separator) + 1
+        if not line.goes_on:
+            self._end_line(line.number)
+        values = self._plain(text)
+        self._extend(self._looked_at(text, line.number) if values is None else values)
+
+    def _end_line(self, number: int) -> None:
+        if self._width is None:
+            self._width = self._fields
+        if self._fields != self._width:
+            raise InputError(
+                f"line {number} has {self._fields} fields where {self._width} are needed; "
+                "is the file cut off?",
+                source=self._source,
+            )
+        self._fields = 0
+
+    def _plain(self, text: str) -> array[float] | None:
+        """Return the numbers in a text, None where one may be wrong."""
+        if _PLAIN.fullmatch(text) is None:
+            return None
+        try:
+            return array("d", [float(word or "nan") for word in text.split(self._separator)])
+        except ValueError:
+            return None
+
+    def _looked_at(self, text: str, number: int) -> array[float]:
+        return array("d", [self._number(word.strip(), number) for word in text.split(self._separator)])
+
+    def _number(self, word: str, line: int) -> float:
+        if word.lower() in _MISSING:
+            return math.nan
+        if _NUMBER.fullmatch(word) is None:
+            hint = "; write a decimal point, not a comma" if _DECIMAL_COMMA.fullmatch(word) else ""
+            raise InputError(
+                f"line {line}: {as_given(word)}; allowed: a number, or nothing or nan if it is missing{hint}",
+                source=self._source,
+            )
+        return float(word)
+
+    def _extend(self, values: Sequence[float]) -> None:
+        if len(self._values) + len(values) > MOST_POINTS:
+            raise InputError(
+                f"more than {MOST_POINTS} heights; cut out a part of the scan", source=self._source
+            )
+        self._values.extend(values)
