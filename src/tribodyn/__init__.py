@@ -15,12 +15,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
     from tribodyn.mechanisms.catalogue import load_case
+    from tribodyn.mechanisms.general.builder import Mechanism
     from tribodyn.mechanisms.results import read
     from tribodyn.simulation import simulate
 
-__all__ = ["__version__", "contact", "integrate", "load_case", "read", "simulate", "studies"]
+__all__ = ["Mechanism", "__version__", "contact", "integrate", "load_case", "read", "simulate", "studies"]
 
 _HOME = {
+    "Mechanism": "tribodyn.mechanisms.general.builder",
     "load_case": "tribodyn.mechanisms.catalogue",
     "read": "tribodyn.mechanisms.results",
     "simulate": "tribodyn.simulation",

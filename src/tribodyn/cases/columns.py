@@ -33,7 +33,7 @@ VALUES: Final = "values"
 KNOTS: Final = {"times": "s", "angles": "rad", "positions": "m"}
 """What the first column may hold, by the key that takes it, with its unit."""
 LARGEST: Final = 20_000_000
-MOST_ROWS: Final = 100_000
+MOST_ROWS: Final = 10_000
 _HEADER: Final = re.compile(r"\s*\"?([^\[\]\"]*?)\s*\[\s*([^\]]+?)\s*\]\s*\"?\s*")
 
 

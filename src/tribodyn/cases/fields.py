@@ -67,10 +67,10 @@ def number(
     return _field(default, description, source, bounds, bounds, kind="number", example=example)
 
 
-def count(default: int, description: str, source: str, *, ge: int, le: int) -> Any:
+def count(default: int | None, description: str, source: str, *, ge: int, le: int, example: str = "") -> Any:
     """Declare a key that takes a whole number."""
     bounds: dict[str, Bound] = {"ge": ge, "le": le}
-    return _field(default, description, source, bounds, bounds, kind="count")
+    return _field(default, description, source, bounds, bounds, kind="count", example=example)
 
 
 def switch(default: bool, description: str, source: str) -> Any:

@@ -81,7 +81,7 @@ def parse(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> C
     folder
         Where the names of files in it begin; None is the current directory.
     """
-    entries = {path: Entry(value, source, folder=folder) for path, value in _flat(_tables(text, source))}
+    entries = {path: Entry(value, source, folder=folder) for path, value in flat(_tables(text, source))}
     if not entries:
         raise InputError(
             f"the file is empty; `tribodyn show {next(iter(kinds))}` prints a complete one", source=source
@@ -143,12 +143,12 @@ def _tables(text: str, source: str) -> dict[str, Any]:
         raise InputError(f"not valid TOML: {brief(error, 2 * LONGEST)}", source=source) from None
 
 
-def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, object]]:
+def flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, object]]:
     """Walk nested tables as (dotted path, value)."""
     for name, value in tables.items():
         path = prefix + _key_text(name)
         if isinstance(value, dict) and value:
-            yield from _flat(value, f"{path}.")
+            yield from flat(value, f"{path}.")
         else:
             yield path, value
 

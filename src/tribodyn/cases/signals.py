@@ -71,7 +71,7 @@ class _Course(NamedGroup):
     angular_frequency: float | None = quantity(
         None, "of amplitude or swing", "", unit="rad/s", gt=0, example="1 rad/s"
     )
-    phase: float = quantity("0 deg", "of a sinusoid at the start", "")
+    phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
     table: str | None = file("CSV file: time, angle or position, then values", "table.csv")
     column: str | None = name(
         None, "which of its columns, by name; the second without it", "", example="force"
@@ -79,7 +79,9 @@ class _Course(NamedGroup):
     times: Numbers | None = series("of values", "", unit="s", example='"0, 0.5, 1 s"')
     angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 360 deg"')
     positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
-    interpolation: Literal["cubic", "linear"] = choice("cubic", "between the rows of a table", "")
+    interpolation: Literal["cubic", "linear"] | None = choice(
+        None, "between the rows of a table; cubic without", "", example="linear"
+    )
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
         value: float | None
@@ -121,7 +123,7 @@ class _Course(NamedGroup):
         # Imported here: reading a case needs no NumPy.
         from tribodyn.core.signals import constant, sinusoid, spline
 
-        mean, phase, frequency = self.value or 0.0, self.phase, self.angular_frequency or 0.0
+        mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.angular_frequency or 0.0
         if self.values:
             return spline(*self._rows())
         if self.swing is not None:
@@ -134,7 +136,7 @@ class _Course(NamedGroup):
     def _rows(self) -> tuple[Numbers, Numbers]:
         """Return knots and values; of straight lines each stands there twice but for the ends."""
         values = self.values or ()
-        if self.interpolation == "cubic":
+        if self.interpolation != "linear":
             return self.knots, values
         rows = sorted(set(zip(self.knots, values, strict=True)))
         doubled = [rows[0], *(row for row in rows[1:-1] for _ in range(2)), rows[-1]]

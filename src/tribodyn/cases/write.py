@@ -9,7 +9,7 @@ from textwrap import wrap
 from pydantic import BaseModel
 
 from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of
-from tribodyn.cases.tables import general, keys_in, value_at
+from tribodyn.cases.tables import VALUE, general, keys_in, value_at
 
 _COMMENT_COLUMN = 38
 _LONGEST_LINE = 120
@@ -20,14 +20,28 @@ def to_toml(case: BaseModel, kind: str, *, comments: bool) -> str:
     """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`."""
     keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
-    for table, own in groupby(keys.values(), key=lambda key: key.table):
-        if table:
-            lines += ["", f"[{table}]"]
-        lines += [line for key in own for line in _lines(case, key, comments)]
+    tables = {
+        table: [line for key in own for line in _lines(case, key, comments)]
+        for table, own in groupby(keys.values(), key=lambda key: key.table)
+    }
+    for table, own in (tables if comments else _shortened(tables)).items():
+        lines += ["", f"[{table}]", *own] if table else own
     if comments:
         declared = keys_of(type(case))
         lines += _not_there(declared, {general(key.table, declared) for key in keys.values()})
     return "\n".join(lines) + "\n"
+
+
+def _shortened(tables: Mapping[str, list[str]]) -> dict[str, list[str]]:
+    """Return the lines of tables; one that holds only its ``value`` is a line of the table above it."""
+    short: dict[str, list[str]] = {}
+    for table, lines in tables.items():
+        above, _, name = table.rpartition(".")
+        if above in short and len(lines) == 1 and lines[0].startswith(f"{VALUE} = "):
+            short[above].append(lines[0].replace(VALUE, name, 1))
+        else:
+            short[table] = lines
+    return short
 
 
 def _is_there(case: BaseModel, table: str) -> bool:

@@ -1,0 +1,219 @@
+"""A mechanism that a user describes: bodies, joints, drives, loads and springs by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, ClassVar, Final, Literal
+
+from tribodyn.cases.case import Group, NamedGroup, demand
+from tribodyn.cases.entry import closest
+from tribodyn.cases.fields import Vector, choice, number, quantity, tables, text, vector
+from tribodyn.cases.groups import Asperities, Contact, Solver, Surfaces, Wear, check_output_interval
+from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.rough import RoughCase
+from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
+
+if TYPE_CHECKING:
+    from tribodyn.contact import SurfacePair
+
+ROWS: Final = 500
+"""Rows of a result for which no interval was given."""
+_PAIRS: Final = "pairs"
+
+
+class PairKeys(NamedGroup):
+    """Surfaces and contact law of joints that name them."""
+
+    surfaces: Surfaces = Surfaces()
+    asperities: Asperities = Asperities()
+    contact: Contact = Contact()
+
+    @property
+    def surface_pair(self) -> SurfacePair:
+        """The two surfaces in contact, as contact laws take them."""
+        return self.surfaces.pair(self.asperities)
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        self.contact.check(self.surface_pair)
+
+
+class Run(Group):
+    """How long, and what is kept."""
+
+    cycles: float | None = number(
+        None, "cycles to simulate; give this or duration", ASSUMED, gt=0, le=1e6, example="2"
+    )
+    duration: float | None = quantity(
+        None, "simulated time; give this or cycles", ASSUMED, gt=0, example="0.5 s"
+    )
+    period: float | None = quantity(
+        None, "time of one cycle; that of the first drive that has one without it", "", gt=0, example="12 ms"
+    )
+    output_interval: float | None = quantity(
+        None,
+        f"time between rows of the result; a {ROWS}th of the run or cycle without it",
+        "",
+        gt=0,
+        example="0.1 ms",
+    )
+
+
+class MechanismCase(RoughCase):
+    """Bodies, joints and what moves them, in one drawing."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
+
+    case: Literal["mechanism"] = choice("mechanism", "the kind of system", "")
+    title: str = text("Mechanism", "heading of figures and report")
+    gravity: Vector = vector(
+        "0, 0, 0 m/s^2",
+        "acceleration of gravity",
+        "",
+        unit="m/s^2",
+        example='["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]',
+    )
+    bodies: Mapping[str, BodyKeys] = tables("the bodies")
+    joints: Mapping[str, JointKeys] = tables("their joints")
+    drives: Mapping[str, DriveKeys] = tables("what moves them")
+    loads: Mapping[str, LoadKeys] = tables("what acts on them")
+    springs: Mapping[str, SpringKeys] = tables("springs between them")
+    pairs: Mapping[str, PairKeys] = tables("surfaces of joints that name them")
+    wear: Wear = Wear()
+    solver: Solver = Solver(rtol=1e-6)
+    run: Run = Run()
+
+    @classmethod
+    def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the defaults that follow from contact laws, those of named pairs among them."""
+        found = super().resolve(given)
+        for name in {path.split(".")[1] for path in given if path.startswith(f"{_PAIRS}.")}:
+            prefix = f"{_PAIRS}.{name}."
+            own = {
+                path.removeprefix(prefix): value for path, value in given.items() if path.startswith(prefix)
+            }
+            found |= {prefix + path: value for path, value in Contact.resolve(own).items()}
+        return found
+
+    @property
+    def period(self) -> float | None:
+        """Time of one cycle [s]; None where nothing says it."""
+        if self.run.period is not None:
+            return self.run.period
+        return next(filter(None, (drive.period for drive in self.drives.values())), None)
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of the whole run [s]."""
+        if self.run.duration is not None:
+            return self.run.duration
+        assert self.run.cycles is not None
+        assert self.period is not None
+        return self.run.cycles * self.period
+
+    @property
+    def output_interval(self) -> float:
+        """Time between rows [s]."""
+        return self.run.output_interval or min(self.duration, self.period or self.duration) / ROWS
+
+    @property
+    def campaign_cycles(self) -> int:
+        """Cycles of a wear campaign; 0 where the case asks for none."""
+        return self.wear.cycles
+
+    @property
+    def settling_cycles(self) -> int:
+        """Cycles simulated before the first one whose wear counts."""
+        assert self.run.cycles is not None
+        return int(self.run.cycles) - 1
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several tables."""
+        super().model_post_init(context)
+        demand(bool(self.bodies), "bodies", "a mechanism needs a body: write a table [bodies.NAME]")
+        demand(
+            GROUND not in self.bodies,
+            f"bodies.{GROUND}",
+            f"{GROUND} is what never moves; choose another name",
+        )
+        self._check_names()
+        self._check_drives()
+        self._check_loads()
+        self._check_run()
+        self._check_campaign()
+
+    def _check_names(self) -> None:
+        bodies = (GROUND, *self.bodies)
+        for table in ("joints", "springs"):
+            for name, part in getattr(self, table).items():
+                for body in part.between:
+                    _known(body, bodies, f"{table}.{name}.between", "body")
+        for name, joint in self.joints.items():
+            if joint.clearance is not None and joint.clearance.pair is not None:
+                _known(joint.clearance.pair, self.pairs, f"joints.{name}.clearance.pair", "pair")
+
+    def _check_drives(self) -> None:
+        driven: dict[tuple[str, str], str] = {}
+        for name, drive in self.drives.items():
+            _known(drive.joint, self.joints, f"drives.{name}.joint", "joint")
+            joint, (coordinate, level) = self.joints[drive.joint], GIVEN[drive.gives]
+            free = KINDS[joint.type].coordinates
+            can = f"it has the {' and the '.join(free)}" if free else "it has nothing to drive"
+            words = f"{drive.joint} is a {joint.type} joint: {can}, a drive gives the {coordinate}"
+            demand(coordinate in free, f"drives.{name}.joint", words)
+            words = "only its contact moves a joint with clearance: drive an ideal one, or by torque or force"
+            demand(joint.clearance is None or level == 2, f"drives.{name}.joint", words)
+            if level < 2:
+                other = driven.setdefault((drive.joint, coordinate), name)
+                words = f"{other} drives the {coordinate} of {drive.joint} already"
+                demand(other == name, f"drives.{name}.joint", words)
+
+    def _check_loads(self) -> None:
+        for name, load in self.loads.items():
+            _known(load.body, tuple(self.bodies), f"loads.{name}.body", "body")
+            if load.along is None:
+                continue
+            key = f"loads.{name}.along"
+            _known(load.along, self.joints, key, "joint")
+            free = KINDS[self.joints[load.along].type].coordinates
+            for signal in load.given.values():
+                coordinate = signal.over.removesuffix("s")
+                demand(coordinate in free, key, f"this joint has no {coordinate} that a table could follow")
+
+    def _check_run(self) -> None:
+        run = self.run
+        words = "say how long: give run.duration, or run.cycles"
+        demand(run.duration is not None or run.cycles is not None, "run.duration", words)
+        words = "nothing says how long a cycle is; give run.period, or run.duration instead"
+        demand(run.cycles is None or self.period is not None, "run.cycles", words)
+        if run.output_interval is not None:
+            check_output_interval(run.output_interval, self.duration)
+        for name, drive in self.drives.items():
+            knots = drive.signal.knots
+            if knots and GIVEN[drive.gives][1] == 0:
+                words = (
+                    f"the table holds {knots[0]:g} s to {knots[-1]:g} s, the run takes {self.duration:g} s"
+                )
+                inside = knots[0] <= 0.0 and knots[-1] >= self.duration
+                demand(inside, f"drives.{name}.{drive.gives}.times", words)
+
+    def _check_campaign(self) -> None:
+        if self.wear.cycles == 0:
+            return
+        real = [joint.clearance for joint in self.joints.values() if joint.clearance is not None]
+        words = 'a wear campaign needs a joint with clearance whose contact is "surface"'
+        demand(any(clearance.contact == "surface" for clearance in real), "wear.cycles", words)
+        cycles = self.run.cycles or 0.5
+        words = "a wear campaign needs whole cycles here: the last of them is the first whose wear counts"
+        demand(cycles == int(cycles), "run.cycles", words)
+
+
+def _known(given: str, names: Iterable[str], key: str, what: str) -> None:
+    """Refuse a name that no table has."""
+    names = tuple(names)
+    near = closest(given, names)
+    hint = f'; did you mean "{near}"?' if near else ""
+    there = f"there are {', '.join(names)}" if names else "there is none"
+    demand(given in names, key, f'"{given}" is no {what}; {there}{hint}')

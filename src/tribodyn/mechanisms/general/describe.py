@@ -1,0 +1,185 @@
+"""From a case to the description that assembly and equations begin with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from tribodyn.cases import groups
+from tribodyn.cases.fields import Vector
+from tribodyn.contact import SurfacePair
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal, constant, scaled
+from tribodyn.core.tables import ContactTable
+from tribodyn.joints import BushingGeometry, contact_table
+from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.description import (
+    GROUND,
+    Body,
+    Clearance,
+    Description,
+    Drive,
+    Joint,
+    Load,
+    Spring,
+)
+from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys, unit
+
+SIZES: Mapping[str, tuple[str, ...]] = {
+    "cylinder": ("radius", "radial", "length", "axial", "axial_upper", "axial_lower", "flange"),
+    "sphere": ("radius", "radial", "band"),
+}
+"""Which keys of a clearance are dimensions of its shape."""
+
+
+def describe(case: MechanismCase) -> Description:
+    """Return the mechanism of a case, with its contact laws tabulated."""
+    bodies = {name: number for number, name in enumerate(case.bodies)}
+    joints = {name: number for number, name in enumerate(case.joints)}
+    return Description(
+        bodies=tuple(_body(name, body) for name, body in case.bodies.items()),
+        joints=tuple(_joint(case, name, joint, bodies) for name, joint in case.joints.items()),
+        drives=tuple(_drive(name, drive, joints) for name, drive in case.drives.items()),
+        loads=tuple(_load(case, name, load, bodies, joints) for name, load in case.loads.items()),
+        springs=tuple(_spring(name, spring, bodies) for name, spring in case.springs.items()),
+        gravity=np.array(case.gravity),
+        speeds=tuple(_speeds(case)),
+    )
+
+
+def _body(name: str, body: BodyKeys) -> Body:
+    first, second = (
+        np.array(unit(body.first_axis, "first_axis")),
+        np.array(unit(body.second_axis, "second_axis")),
+    )
+    axes = np.column_stack([first, second, np.cross(first, second)])
+    inertia = axes @ np.diag(body.inertia) @ axes.T
+    return Body(name, body.mass, np.array(body.centre), 0.5 * (inertia + inertia.T))
+
+
+def _joint(case: MechanismCase, name: str, joint: JointKeys, bodies: Mapping[str, int]) -> Joint:
+    clearance = joint.clearance
+    return Joint(
+        name=name,
+        kind=joint.type,
+        bodies=_two(joint.between, bodies),
+        points=np.array([joint.point, joint.other_point or joint.point]),
+        axes=_axes(joint),
+        clearance=None if clearance is None else _clearance(case, joint, clearance),
+        stiffness=_six(joint, joint.stiffness, joint.angular_stiffness),
+        damping=_six(joint, joint.damping, joint.angular_damping),
+    )
+
+
+def _two(names: tuple[str, str], bodies: Mapping[str, int]) -> tuple[int, int]:
+    return bodies.get(names[0], GROUND), bodies.get(names[1], GROUND)
+
+
+def _axes(joint: JointKeys) -> FloatArray:
+    """Return the two unit vectors of a joint, shape (2, 3); the second is across the first if not given."""
+    first = np.array(unit(joint.axis or (0.0, 0.0, 1.0), "axis"))
+    if joint.second_axis is not None:
+        return np.array([first, unit(joint.second_axis, "second_axis")])
+    across = np.eye(3)[int(np.argmin(np.abs(first)))]
+    second = across - first * (first @ across)
+    return np.array([first, second / np.linalg.norm(second)])
+
+
+def _six(joint: JointKeys, along: Vector | None, about: Vector | None) -> FloatArray:
+    if joint.type != "spring-damper":
+        return np.empty(0)
+    return np.array([*(along or (0.0,) * 3), *(about or (0.0,) * 3)])
+
+
+def _clearance(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) -> Clearance:
+    contact, surfaces = _pair(case, clearance)
+    sizes = {key: getattr(clearance, key) for key in SIZES[joint.shape]}
+    grid = case.solver.grid
+    return Clearance(
+        shape=joint.shape,
+        sizes={key: float(size) for key, size in sizes.items() if size is not None},
+        socket=int(clearance.socket == joint.between[1]),
+        grid=(clearance.nodes_around or grid.theta, clearance.nodes_along or grid.z),
+        roughness=surfaces.roughness_rms,
+        table=_table(clearance, contact, surfaces),
+        friction_coefficient=clearance.friction_coefficient,
+        slip_velocity=clearance.slip_velocity,
+        onset=contact.onset_separation,
+        minimum_velocity=contact.minimum_entry_velocity,
+        tensile_clip=contact.tensile_clip,
+        contact=clearance.contact,
+        facets=np.empty((0, 3, 3)),
+    )
+
+
+def _pair(case: MechanismCase, clearance: ClearanceKeys) -> tuple[groups.Contact, SurfacePair]:
+    """Return contact law and surfaces of a joint: those that it names, or those of the case."""
+    if clearance.pair is None:
+        return case.contact, case.surface_pair
+    pair = case.pairs[clearance.pair]
+    return pair.contact, pair.surface_pair
+
+
+def _table(clearance: ClearanceKeys, contact: groups.Contact, surfaces: SurfacePair) -> ContactTable:
+    # A ball has no length; one end of a bushing carries half of its force there.
+    length = clearance.length or 2.0 * clearance.radius
+    return contact_table(
+        clearance.contact,
+        contact.law_of(surfaces),
+        BushingGeometry(clearance.radial, clearance.radius, length),
+        onset=contact.onset_separation,
+        smoothing_width=contact.smoothing_width,
+    )
+
+
+def _drive(name: str, drive: DriveKeys, joints: Mapping[str, int]) -> Drive:
+    coordinate, level = GIVEN[drive.gives]
+    return Drive(name, joints[drive.joint], coordinate, level, drive.signal.signal())
+
+
+def _load(
+    case: MechanismCase, name: str, load: LoadKeys, bodies: Mapping[str, int], joints: Mapping[str, int]
+) -> Load:
+    return Load(
+        name=name,
+        body=bodies[load.body],
+        point=np.array(load.point or case.bodies[load.body].centre),
+        frame=load.frame,
+        signals=_components(load),
+        joint=-1 if load.along is None else joints[load.along],
+        slip_velocity=load.slip_rate
+        if load.moment is not None and load.frame == "motion"
+        else load.slip_velocity,
+    )
+
+
+def _components(load: LoadKeys) -> tuple[Signal, ...]:
+    """Return the six components of a load, which all follow its one force and its one moment."""
+    direction = (1.0, 0.0, 0.0) if load.direction is None else unit(load.direction, "direction")
+    found: list[Signal] = []
+    for keys in (load.force, load.moment):
+        signal = constant(0.0) if keys is None else keys.signal()
+        found += [scaled(signal, share) if share else constant(0.0) for share in direction]
+    return tuple(found)
+
+
+def _spring(name: str, spring: SpringKeys, bodies: Mapping[str, int]) -> Spring:
+    return Spring(
+        name=name,
+        bodies=_two(spring.between, bodies),
+        points=np.array([spring.first_point, spring.second_point]),
+        stiffness=spring.stiffness,
+        damping=spring.damping,
+        length=spring.drawn_length if spring.length is None else spring.length,
+    )
+
+
+def _speeds(case: MechanismCase) -> list[tuple[int, str, float]]:
+    return [
+        (number, coordinate, speed)
+        for number, joint in enumerate(case.joints.values())
+        for coordinate, speed in (("angle", joint.start_speed), ("position", joint.start_velocity))
+        if speed is not None
+    ]

@@ -1,0 +1,287 @@
+"""Bodies, joints and springs of a mechanism: their keys and their cross-checks."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+from typing import TYPE_CHECKING, ClassVar, Final, Literal
+
+from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.fields import Vector, choice, count, name, names, number, quantity, vector
+from tribodyn.mechanisms.general.kinds import KINDS
+
+if TYPE_CHECKING:
+    from tribodyn.cases.fields import Numbers
+
+POINT: Final = '["0 mm", "0 mm", "170 mm"]'
+_ROUNDING: Final = 1e-6
+"""Share of an inertia by which rounded numbers of a drawing may break the triangle rule."""
+_LEAST_ANGLE: Final = 1e-3
+"""Sine of the least angle between two axes that must not be parallel."""
+
+
+class BodyKeys(NamedGroup):
+    """A rigid body as drawn."""
+
+    mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
+    centre: Vector = vector(None, "mass centre in the drawing", "", unit="mm", example=POINT, required=True)
+    inertia: Vector = vector(
+        None,
+        "principal moments of inertia about the mass centre",
+        "",
+        unit="kg m^2",
+        example='["1e-4 kg m^2", "1e-4 kg m^2", "2e-4 kg m^2"]',
+        required=True,
+    )
+    first_axis: Vector = vector("1, 0, 0", "first principal axis in the drawing", "", example="[1, 0, 0]")
+    second_axis: Vector = vector("0, 1, 0", "second principal axis in the drawing", "", example="[0, 1, 0]")
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that a body of this inertia can exist."""
+        largest, others = max(self.inertia), sum(self.inertia) - max(self.inertia)
+        demand(min(self.inertia) >= 0.0 < largest, "inertia", "moments of inertia are above zero")
+        demand(
+            largest <= others * (1.0 + _ROUNDING),
+            "inertia",
+            f"no body has these: the largest, {largest:.6g} kg m^2, exceeds the sum of the other two, "
+            f"{others:.6g} kg m^2",
+        )
+        demand(
+            abs(_dot(unit(self.first_axis, "first_axis"), unit(self.second_axis, "second_axis"))) < _ROUNDING,
+            "second_axis",
+            "principal axes stand at right angles",
+        )
+
+
+class ClearanceKeys(NamedGroup):
+    """What makes an ideal joint a real one; without this table it is ideal."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
+        ("axial", "axial_upper"),
+        ("axial", "axial_lower"),
+    )
+
+    radius: float = quantity(None, "of pin or ball", "", unit="mm", gt=0, example="9.5 mm", required=True)
+    radial: float = quantity(
+        None, "radial clearance: bore radius less radius", "", unit="um", gt=0, example="20 um", required=True
+    )
+    length: float | None = quantity(None, "of the bore, of a cylinder", "", gt=0, example="20 mm")
+    axial: float | None = quantity(
+        None, "gap at each end face when centred; free along the axis without", "", gt=0, example="50 um"
+    )
+    axial_upper: float | None = quantity(
+        None, "gap at the end face that the axis points to, alone", "", gt=0, example="50 um"
+    )
+    axial_lower: float | None = quantity(None, "gap at the other end face, alone", "", gt=0, example="50 um")
+    flange: float | None = quantity(None, "outer radius of the end faces", "", gt=0, example="12 mm")
+    band: float = quantity(
+        "40 deg", "half the width of the race of a ball, as latitude", "assumed", gt=0, le="90 deg"
+    )
+    shape: Literal["cylinder", "sphere"] | None = choice(
+        None, "of a pin-slot: a ball or a pin in the bore", "", example="sphere"
+    )
+    socket: str | None = name(
+        None, "which of the two bodies holds the bore; the first without it", "", example="rod"
+    )
+    friction_coefficient: float = number(0.1, "coefficient of friction mu_f", "assumed", ge=0, le=2)
+    slip_velocity: float = quantity(
+        "1 mm/s", "slip at which traction is fully developed u_s", "assumed", gt=0
+    )
+    contact: str = choice("surface", "over the surface, or at a point", "", family="tribodyn.joints:CONTACTS")
+    pair: str | None = name(
+        None,
+        "its surfaces and contact law, of [pairs]; those of the case without it",
+        "",
+        example="steel-ptfe",
+    )
+    nodes_around: int | None = count(
+        None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
+    )
+    nodes_along: int | None = count(
+        None, "points along; solver.grid.z without", "", ge=2, le=256, example="16"
+    )
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several sizes."""
+        demand(
+            self.radial <= 0.1 * self.radius, "radial", "the clearance must not exceed a tenth of the radius"
+        )
+        faces = self.axial or self.axial_upper or self.axial_lower
+        demand(
+            faces is None or self.flange is not None,
+            "flange",
+            'end faces need their outer radius, such as flange = "12 mm"',
+        )
+        demand(
+            self.flange is None or self.flange > self.radius + self.radial,
+            "flange",
+            f"the end faces must reach beyond the bore, {(self.radius + self.radial) * 1e3:.6g} mm",
+        )
+
+
+class JointKeys(NamedGroup):
+    """A connection of two bodies as drawn."""
+
+    type: str = choice(
+        None,
+        "what it lets move",
+        "",
+        family="tribodyn.mechanisms.general.kinds:KINDS",
+        example="revolute",
+        required=True,
+    )
+    between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "crank"]')
+    point: Vector = vector(None, "where it is in the drawing", "", unit="mm", example=POINT, required=True)
+    other_point: Vector | None = vector(
+        None,
+        "where it is on the second body, if the drawing has a gap to be closed",
+        "",
+        unit="mm",
+        example=POINT,
+    )
+    axis: Vector | None = vector(None, "its direction in the drawing, of any length", "", example="[0, 0, 1]")
+    second_axis: Vector | None = vector(
+        None,
+        "the other one of a universal joint; the direction of angle zero of others",
+        "",
+        example="[1, 0, 0]",
+    )
+    start_speed: float | None = quantity(
+        None, "angular speed at the start, where nothing drives it", "", unit="rpm", example="100 rpm"
+    )
+    start_velocity: float | None = quantity(
+        None, "speed along the axis at the start, where nothing drives it", "", unit="m/s", example="1 m/s"
+    )
+    stiffness: Vector | None = vector(
+        None,
+        "of a spring-damper along axis, second axis and across both",
+        "",
+        unit="N/um",
+        example='["10 N/um", "10 N/um", "10 N/um"]',
+    )
+    damping: Vector | None = vector(
+        None, "likewise", "", unit="N s/m", example='["10 N s/m", "10 N s/m", "10 N s/m"]'
+    )
+    angular_stiffness: Vector | None = vector(
+        None,
+        "of a spring-damper about these directions",
+        "",
+        unit="N m/rad",
+        example='["0 N m/rad", "10 N m/rad", "10 N m/rad"]',
+    )
+    angular_damping: Vector | None = vector(
+        None,
+        "likewise",
+        "",
+        unit="N m s/rad",
+        example='["0 N m s/rad", "1 N m s/rad", "1 N m s/rad"]',
+    )
+    clearance: ClearanceKeys | None = None
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        # A type that is none is refused as such, by the check of its family.
+        if self.type not in KINDS:
+            return
+        kind = KINDS[self.type]
+        demand(self.between[0] != self.between[1], "between", "a joint connects two different bodies")
+        if kind.axis:
+            words = f"a {self.type} joint needs the {kind.axis} in the drawing, such as axis = [0, 0, 1]"
+            demand(self.axis is not None, "axis", words)
+        words = "a universal joint needs the axis that the second body holds, such as second_axis = [1, 0, 0]"
+        demand(not kind.second_axis or self.second_axis is not None, "second_axis", words)
+        for first, second in combinations(("axis", "second_axis"), 2):
+            _check_directions(getattr(self, first), getattr(self, second))
+        for key, coordinate in (("start_speed", "angle"), ("start_velocity", "position")):
+            words = f"a {self.type} joint has no {coordinate} of its own"
+            demand(getattr(self, key) is None or coordinate in kind.coordinates, key, words)
+        self._check_spring()
+        self._check_clearance()
+
+    def _check_spring(self) -> None:
+        keys = ("stiffness", "damping", "angular_stiffness", "angular_damping")
+        given: dict[str, Numbers] = {
+            key: getattr(self, key) for key in keys if getattr(self, key) is not None
+        }
+        for key, values in given.items():
+            demand(
+                self.type == "spring-damper", key, f"this belongs to a spring-damper, not a {self.type} joint"
+            )
+            demand(min(values) >= 0.0, key, "none of them may be below zero")
+        stiff = {"stiffness", "angular_stiffness"} & set(given)
+        demand(self.type != "spring-damper" or bool(stiff), "stiffness", "a spring-damper needs a stiffness")
+
+    def _check_clearance(self) -> None:
+        clearance = self.clearance
+        if clearance is None:
+            return
+        shapes = KINDS[self.type].shapes
+        real = ", ".join(kind for kind, about in KINDS.items() if about.shapes)
+        demand(
+            bool(shapes), "clearance.radial", f"a {self.type} joint is always ideal; clearance is for: {real}"
+        )
+        shape = self.shape
+        words = f"a {self.type} joint has the shape {' or '.join(shapes)}"
+        demand(shape in shapes, "clearance.shape", words)
+        words = "a pin in a bore needs the length of the bore"
+        demand(shape != "cylinder" or clearance.length is not None, "clearance.length", words)
+        faces = ("axial", "axial_upper", "axial_lower", "flange")
+        for key in faces:
+            words = f"end faces are for revolute joints, not for a {self.type} one"
+            demand(self.type == "revolute" or getattr(clearance, key) is None, f"clearance.{key}", words)
+        words = f"this is neither {self.between[0]} nor {self.between[1]}"
+        demand(clearance.socket in (None, *self.between), "clearance.socket", words)
+
+    @property
+    def shape(self) -> str:
+        """Shape of its clearance."""
+        chosen = None if self.clearance is None else self.clearance.shape
+        return chosen or KINDS[self.type].shapes[0]
+
+
+class SpringKeys(NamedGroup):
+    """A spring and damper between two points."""
+
+    between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "rod"]')
+    first_point: Vector = vector(
+        None, "its end on the first body, as drawn", "", unit="mm", example=POINT, required=True
+    )
+    second_point: Vector = vector(
+        None, "its end on the second body, as drawn", "", unit="mm", example=POINT, required=True
+    )
+    stiffness: float = quantity("0 N/mm", "force over elongation", "", ge=0, example="2 N/mm")
+    damping: float = quantity("0 N s/m", "force over speed", "", ge=0, example="5 N s/m")
+    length: float | None = quantity(
+        None, "length without force; as drawn without it", "", gt=0, example="80 mm"
+    )
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves two keys."""
+        demand(self.between[0] != self.between[1], "between", "a spring connects two different bodies")
+        demand(self.drawn_length > 0.0, "second_point", "the two ends of a spring stand apart")
+
+    @property
+    def drawn_length(self) -> float:
+        """Length in the drawing [m]."""
+        return math.dist(self.first_point, self.second_point)
+
+
+def unit(direction: Vector, key: str) -> Vector:
+    """Return a direction as a unit vector; one of no length is refused."""
+    length = math.hypot(*direction)
+    demand(length > 0.0, key, "a direction has a length above zero")
+    x, y, z = direction
+    return x / length, y / length, z / length
+
+
+def _check_directions(axis: Vector | None, second: Vector | None) -> None:
+    if axis is not None:
+        unit(axis, "axis")
+    if axis is None or second is None:
+        return
+    parallel = abs(_dot(unit(axis, "axis"), unit(second, "second_axis")))
+    demand(parallel < math.sqrt(1.0 - _LEAST_ANGLE**2), "second_axis", "it must not be parallel to axis")
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))

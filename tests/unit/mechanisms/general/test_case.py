@@ -1,0 +1,105 @@
+"""A mechanism as a file, as calls in Python, and as what equations begin with."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.unit.mechanisms.general.slider_crank import FILE, built, parsed
+
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanisms.general.describe import describe
+from tribodyn.mechanisms.general.description import GROUND
+from tribodyn.studies.plan import make_plan
+
+CASE = parsed()
+
+
+def test_calls_in_python_make_the_case_that_a_file_makes() -> None:
+    assert built() == CASE
+    assert parsed(built().to_toml()) == CASE
+
+
+@pytest.mark.parametrize("comments", [False, True])
+def test_what_is_written_reads_back(comments: bool) -> None:
+    assert parsed(CASE.to_toml(comments=comments)) == CASE
+    assert 'speed = "5000 rpm"' in CASE.to_toml()
+
+
+def test_a_run_is_as_long_as_its_cycles() -> None:
+    assert CASE.period == pytest.approx(0.012)
+    assert CASE.duration == pytest.approx(0.024)
+    assert CASE.output_interval == pytest.approx(0.012 / 500)
+    assert CASE.replace({"run.duration": "1 s"}).duration == 1.0
+
+
+def test_every_key_of_every_joint_can_be_changed_and_varied() -> None:
+    changed = CASE.replace({"joints.wrist.clearance.radial": "40 um", "drives.motor.speed": "3000 rpm"})
+    assert changed.at("joints.wrist.clearance.radial") == 40e-6
+    assert changed.period == pytest.approx(0.02)
+    real = CASE.replace(
+        {
+            "joints.pin.clearance.radius": "9 mm",
+            "joints.pin.clearance.radial": "10 um",
+            "joints.pin.clearance.length": "9 mm",
+        }
+    )
+    assert real.joints["pin"].clearance is not None
+    plan = make_plan(
+        CASE, {"joints.wrist.clearance.radial": "20:60:20 um", "joints.pin.point.x": "49, 50 mm"}
+    )
+    assert len(plan.points) == 6
+
+
+def test_the_description_is_in_si_with_numbers_for_names() -> None:
+    found = describe(CASE)
+    assert [body.name for body in found.bodies] == ["crank", "rod", "slider"]
+    assert [joint.bodies for joint in found.joints] == [(GROUND, 0), (0, 1), (1, 2), (GROUND, 2)]
+    wrist = found.joints[2].clearance
+    assert wrist is not None
+    assert wrist.sizes == {
+        "radius": 9.5e-3,
+        "radial": 20e-6,
+        "length": 20e-3,
+        "axial": 50e-6,
+        "flange": 14e-3,
+    }
+    assert (wrist.shape, wrist.socket, wrist.grid) == ("cylinder", 0, (96, 16))
+    assert found.drives[0].level == 1
+    assert found.springs[0].length == pytest.approx(0.1)
+    force = found.loads[0].signals
+    assert list(force[0].coefficients) == [-100.0, -50.0, 10.0, 0.0]
+    assert all(signal.coefficients.any() == False for signal in force[1:])  # noqa: E712
+    assert list(found.loads[0].point) == [0.17, 0.0, 0.0]
+
+
+def test_principal_axes_turn_the_inertia() -> None:
+    turned = CASE.replace({"bodies.rod.first_axis": "[0, 2, 0]", "bodies.rod.second_axis": "[-1, 0, 0]"})
+    # Rounding of products of unit vectors.
+    np.testing.assert_allclose(
+        describe(turned).bodies[1].inertia, np.diag([2.5e-4, 2e-5, 2.5e-4]), atol=1e-19
+    )
+
+
+def test_a_pair_has_surfaces_and_law_of_its_own() -> None:
+    assert CASE.pairs["steel-polyimide"].contact.law == "gw"
+    assert CASE.contact.law == "rsdc"
+    plain = CASE.replace(
+        {"joints.wrist.clearance.pair": "steel-polyimide", "pairs.steel-polyimide.contact.law": "ke"}
+    )
+    assert plain.pairs["steel-polyimide"].contact.law == "ke"
+
+
+def test_an_undamped_law_of_a_pair_has_no_damping_factor() -> None:
+    text = FILE.replace("restitution = 0.8\n", "")
+    assert parsed(text).pairs["steel-polyimide"].contact.damping_factor == "none"
+
+
+def test_a_builder_names_what_is_written_twice_or_too_early() -> None:
+    twice = Mechanism().body("rod", mass="1 kg")
+    with pytest.raises(InputError, match=r"bodies\.rod: this name is given twice"):
+        twice.body("rod", mass="2 kg")
+    with pytest.raises(InputError, match="write the joint first"):
+        twice.clearance("pin", radius="1 mm", radial="1 um")
+    with pytest.raises(InputError, match=r"Mechanism: bodies\.rod\.centre: this key is missing"):
+        twice.case()
