@@ -294,7 +294,8 @@ def toml_string(value: str) -> str:
 def _without_unit(key: Key, value: object) -> str:
     """Show how a number given without a unit would be spelled with one."""
     likely = likely_quantity(str(value).strip(), key.example, key.unit)
-    return f'the unit is missing, as in {key.name} = "{likely}"'
+    where = "" if key.kind in LISTS else f"{key.name} = "
+    return f'the unit is missing, as in {where}"{likely}"'
 
 
 def _not_tiny(value: float) -> float:

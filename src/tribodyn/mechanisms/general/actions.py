@@ -46,9 +46,8 @@ class DriveKeys(NamedGroup):
     def model_post_init(self, context: object, /) -> None:
         """Check that it gives one thing, over time."""
         given = [key for key in GIVEN if getattr(self, key) is not None]
-        demand(
-            len(given) == 1, "joint", f'a drive gives one of {", ".join(GIVEN)}, such as speed = "100 rpm"'
-        )
+        words = f'a drive gives one of {", ".join(GIVEN)}, such as speed = "100 rpm"'
+        demand(len(given) == 1, given[1] if given[1:] else "speed", words)
         demand(self.signal.over in ("", "times"), f"{given[0]}.{self.signal.over}", "a drive follows time")
 
     @property

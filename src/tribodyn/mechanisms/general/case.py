@@ -215,5 +215,5 @@ def _known(given: str, names: Iterable[str], key: str, what: str) -> None:
     names = tuple(names)
     near = closest(given, names)
     hint = f'; did you mean "{near}"?' if near else ""
-    there = f"there are {', '.join(names)}" if names else "there is none"
+    there = f"known: {', '.join(names)}" if names else "there is none"
     demand(given in names, key, f'"{given}" is no {what}; {there}{hint}')
