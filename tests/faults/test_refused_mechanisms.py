@@ -6,8 +6,8 @@ import tomllib
 from pathlib import Path
 
 import pytest
-
 from tests.unit.mechanisms.general.slider_crank import FILE, parsed
+
 from tribodyn.core.errors import InputError
 
 REFUSED = tomllib.loads(Path(__file__).with_name("refused_mechanisms.toml").read_text(encoding="utf-8"))

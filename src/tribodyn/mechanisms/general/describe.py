@@ -25,7 +25,7 @@ from tribodyn.mechanisms.general.description import (
     Load,
     Spring,
 )
-from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys, unit
+from tribodyn.mechanisms.general.parts import FLANGE, BodyKeys, ClearanceKeys, JointKeys, SpringKeys, unit
 
 SIZES: Mapping[str, tuple[str, ...]] = {
     "cylinder": ("radius", "radial", "length", "axial", "axial_upper", "axial_lower", "flange"),
@@ -96,6 +96,8 @@ def _six(joint: JointKeys, along: Vector | None, about: Vector | None) -> FloatA
 def _clearance(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) -> Clearance:
     contact, surfaces = _pair(case, clearance)
     sizes = {key: getattr(clearance, key) for key in SIZES[joint.shape]}
+    if clearance.has_faces and clearance.flange is None:
+        sizes["flange"] = FLANGE * clearance.radius
     grid = case.solver.grid
     return Clearance(
         shape=joint.shape,

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from tribodyn.cases.fields import Numbers
 
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
+FLANGE: Final = 1.5
+"""Outer radius of end faces over the radius of the pin, where the case does not say it."""
 _ROUNDING: Final = 1e-6
 """Share of an inertia by which rounded numbers of a drawing may break the triangle rule."""
 _LEAST_ANGLE: Final = 1e-3
@@ -73,7 +75,9 @@ class ClearanceKeys(NamedGroup):
         None, "gap at the end face that the axis points to, alone", "", gt=0, example="50 um"
     )
     axial_lower: float | None = quantity(None, "gap at the other end face, alone", "", gt=0, example="50 um")
-    flange: float | None = quantity(None, "outer radius of the end faces", "", gt=0, example="12 mm")
+    flange: float | None = quantity(
+        None, f"outer radius of the end faces; {FLANGE} times the radius without", "", gt=0, example="12 mm"
+    )
     band: float = quantity(
         "40 deg", "half the width of the race of a ball, as latitude", "assumed", gt=0, le="90 deg"
     )
@@ -106,17 +110,16 @@ class ClearanceKeys(NamedGroup):
         demand(
             self.radial <= 0.1 * self.radius, "radial", "the clearance must not exceed a tenth of the radius"
         )
-        faces = self.axial or self.axial_upper or self.axial_lower
-        demand(
-            faces is None or self.flange is not None,
-            "flange",
-            'end faces need their outer radius, such as flange = "12 mm"',
-        )
         demand(
             self.flange is None or self.flange > self.radius + self.radial,
             "flange",
             f"the end faces must reach beyond the bore, {(self.radius + self.radial) * 1e3:.6g} mm",
         )
+
+    @property
+    def has_faces(self) -> bool:
+        """Whether it has an end face."""
+        return any(gap is not None for gap in (self.axial, self.axial_upper, self.axial_lower))
 
 
 class JointKeys(NamedGroup):
