@@ -10,7 +10,7 @@ from tribodyn.cases.fields import choice, count, file, number, quantity, switch,
 from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
-    from tribodyn.contact import ContactLaw, SurfacePair
+    from tribodyn.contact import ContactLaw, Liner, SurfacePair
 
 TABLE_1 = "paper, Table 1"
 MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
@@ -181,6 +181,33 @@ class Contact(Group):
                 chosen.design_separation()
 
 
+class LinerKeys(Group):
+    """An elastic sleeve in a rigid bore; without a thickness the bushing is rigid below its asperities."""
+
+    thickness: float | None = quantity(None, "thickness t", ASSUMED, gt=0, example="1.5 mm")
+    young_modulus: float | None = quantity(
+        None, "Young's modulus; by default that of the bushing", ASSUMED, gt=0, example="7.17 GPa"
+    )
+    poisson_ratio: float | None = number(
+        None, "Poisson's ratio; by default that of the bushing", ASSUMED, gt=0, lt=0.5, example="0.34"
+    )
+
+    def layer(self, bushing: Bushing) -> Liner | None:
+        """Return the layer, or None where the bushing is rigid below its asperities."""
+        from tribodyn.contact import Liner
+
+        if self.thickness is None:
+            return None
+        modulus = bushing.young_modulus if self.young_modulus is None else self.young_modulus
+        ratio = bushing.poisson_ratio if self.poisson_ratio is None else self.poisson_ratio
+        demand(
+            ratio < 0.5,
+            "joint.liner.poisson_ratio",
+            "a thin layer that cannot change its volume does not yield: below 0.5 is needed",
+        )
+        return Liner(self.thickness, modulus, ratio)
+
+
 class PlainJoint(Group):
     """The clearance joint: a shaft in a bushing."""
 
@@ -200,6 +227,7 @@ class PlainJoint(Group):
         "depends on mechanism.formulation",
     )
     slip_velocity: float = quantity("10 um/s", "slip at which traction is fully developed u_s", ASSUMED, gt=0)
+    liner: LinerKeys = LinerKeys()
 
     def model_post_init(self, context: object, /) -> None:
         """Check that the clearance is small against the radius."""
@@ -207,6 +235,11 @@ class PlainJoint(Group):
             self.clearance <= 0.1 * self.radius,
             "joint.clearance",
             "the clearance must not exceed a tenth of joint.radius",
+        )
+        demand(
+            self.contact == "surface" or self.liner.thickness is None,
+            "joint.liner.thickness",
+            'a contact at points stands on no liner: joint.contact = "surface" is needed',
         )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.groups import Asperities, Contact, Surfaces
+from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Surfaces
 from tribodyn.cases.keys import Value
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ class RoughCase(Case):
     surfaces: Surfaces = Surfaces()
     asperities: Asperities = Asperities()
     contact: Contact = Contact()
+    joint: PlainJoint = PlainJoint()
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -34,3 +35,4 @@ class RoughCase(Case):
         """Check what involves several keys."""
         super().model_post_init(context)
         self.contact.check(self.surface_pair)
+        self.joint.liner.layer(self.surfaces.bushing)

@@ -10,6 +10,7 @@ from tribodyn.contact.asperities import SEPARATIONS
 from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
+from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.contact.table import tabulate
@@ -71,7 +72,9 @@ __all__ = [
     "SEPARATIONS",
     "ContactLaw",
     "KogutEtsion",
+    "Liner",
     "SurfacePair",
     "law",
+    "lined",
     "tabulate",
 ]

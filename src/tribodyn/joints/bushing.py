@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
+from tribodyn.contact.liner import Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record, names
@@ -20,6 +22,7 @@ from tribodyn.kernels.joints.memory import new_memory as memory_of_nodes
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_report, from_wrench
 from tribodyn.kernels.joints.pose import Pose
 from tribodyn.kernels.joints.quantities import REPORTED
+from tribodyn.kernels.lookup import pressure_and_damping
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -116,6 +119,8 @@ class BushingJoint:
         Tabulated contact law, or the force of a point contact.
     contact
         One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
+    liner
+        What the asperities stand on, which the table allows for; None where that is rigid.
     """
 
     geometry: BushingGeometry
@@ -125,6 +130,7 @@ class BushingJoint:
     roughness: float
     table: ContactTable
     contact: str = SURFACE
+    liner: Liner | None = None
 
     @property
     def theta(self) -> FloatArray:
@@ -149,6 +155,27 @@ class BushingJoint:
     def field_shape(self) -> tuple[int, int]:
         """Shape (n_z + 2, n_theta) of a field over the nodes."""
         return self.grid.z + 2, self.grid.theta
+
+    def asperity_separation(self, gap: float) -> float:
+        """Return the mean planes' distance s over σ where they would be ``gap`` [m] apart unloaded [1]."""
+        h_star = gap / self.roughness
+        if self.liner is None:
+            return h_star
+        pressure = float(pressure_and_damping(self.table, h_star)[0])
+        return h_star + pressure / (self.liner.stiffness * self.roughness)
+
+    def contact_half_width(self, gap: float) -> float:
+        """Return half the arc on which an untilted trunnion presses, where its least gap is ``gap`` [m].
+
+        It ends where the pressure is a hundredth of the largest.
+        """
+        table, clearance = self.table, self.geometry.clearance
+        peak = float(pressure_and_damping(table, gap / self.roughness)[0])
+        pressing = int(np.count_nonzero(table.nodes[:, 0] > 0.01 * peak))
+        edge = self.roughness * (table.h_first + (pressing - 1) / table.inverse_step)
+        return self.geometry.bore_radius * math.acos(
+            min(max((clearance - edge) / (clearance - gap), -1.0), 1.0)
+        )
 
     def data(self, wear: FloatArray | None = None) -> BushingData:
         """Return what the kernels read.

@@ -20,6 +20,7 @@ import numpy as np
 from scipy.special import lambertw
 
 from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
@@ -85,7 +86,13 @@ CONTACTS: Final = (SURFACE, *POINT_CONTACTS)
 
 
 def contact_table(
-    contact: str, law: ContactLaw, cylinders: Cylinders, *, onset: float, smoothing_width: float
+    contact: str,
+    law: ContactLaw,
+    cylinders: Cylinders,
+    *,
+    onset: float,
+    smoothing_width: float,
+    liner: Liner | None = None,
 ) -> ContactTable:
     """Return what the kernels of a joint read of a contact law.
 
@@ -97,9 +104,12 @@ def contact_table(
         As for :func:`point_table`.
     onset, smoothing_width
         As for :func:`tribodyn.contact.tabulate`; a point contact has neither.
+    liner
+        What the asperities stand on, if it is not rigid; below a point contact it is.
     """
     if contact == SURFACE:
-        return tabulate(law, onset=onset, smoothing_width=smoothing_width)
+        table = tabulate(law, onset=onset, smoothing_width=smoothing_width)
+        return table if liner is None else lined(table, liner.stiffness * law.pair.roughness_rms)
     return point_table(contact, law, cylinders)
 
 

@@ -24,6 +24,10 @@ class HasBushing(HasSurfacePair, Protocol):
     """A case with one clearance joint."""
 
     @property
+    def surfaces(self) -> groups.Surfaces:
+        """Its table ``[surfaces]``."""
+
+    @property
     def contact(self) -> groups.Contact:
         """Its table ``[contact]``."""
 
@@ -38,7 +42,7 @@ class HasBushing(HasSurfacePair, Protocol):
 
 def bushing_of(case: HasBushing) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
-    contact = case.contact
+    contact, liner = case.contact, case.joint.liner.layer(case.surfaces.bushing)
     geometry = BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length)
     return BushingJoint(
         geometry=geometry,
@@ -52,8 +56,10 @@ def bushing_of(case: HasBushing) -> BushingJoint:
             geometry,
             onset=contact.onset_separation,
             smoothing_width=contact.smoothing_width,
+            liner=liner,
         ),
         contact=case.joint.contact,
+        liner=liner,
     )
 
 

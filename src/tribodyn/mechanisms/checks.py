@@ -11,6 +11,7 @@ from tribodyn.joints import SURFACE, BushingJoint
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
 CLIP_LIMIT: Final = 0.02
+LINER_LIMIT: Final = 0.05
 REJECTED_LIMIT: Final = 0.2
 """Share of rejected steps among those tried; built-in cases and rough variations of them have 1 to 6 %."""
 RESTART_LIMIT: Final = 0.05
@@ -38,7 +39,7 @@ def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_e
     grid_error
         From :func:`tribodyn.mechanisms.bushing.grid_force_error`.
     """
-    depth = separation / joint.roughness
+    depth = joint.asperity_separation(separation)
     surface = joint.contact == SURFACE
     return [
         f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
@@ -48,6 +49,7 @@ def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_e
         "statistical contact law is outside its range."
         if depth < 0.0 and surface
         else "",
+        *_of_liner(joint, separation),
         f"The clip of tensile pressure acted on {100 * clipped:.2g} % of the contact area on average: "
         "damping is strong against stiffness there."
         if clipped > CLIP_LIMIT
@@ -55,6 +57,19 @@ def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_e
         ""
         if surface
         else "The contact is at a point of each end of the bushing: there is no pressure field and no wear.",
+    ]
+
+
+def _of_liner(joint: BushingJoint, separation: float) -> list[str]:
+    """Return what is to be said of the layer that the asperities stand on."""
+    if joint.liner is None:
+        return []
+    half_width = joint.contact_half_width(separation)
+    return [
+        f"Half the contact is {half_width / joint.liner.thickness:.2g} times as wide as its liner is thick: "
+        "with this Poisson's ratio that is too little for a thin layer, and pressures are only roughly right."
+        if joint.liner.error(half_width) > LINER_LIMIT
+        else ""
     ]
 
 
