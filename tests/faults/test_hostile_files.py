@@ -162,7 +162,9 @@ def test_hostile_files_are_refused(count: int, tmp_path: Path) -> None:
             outcome = process.run(texts)
             found.append((maker.__name__, texts[0], outcome))
             shutil.rmtree(place)
-    print("worst:", max(one.seconds for *_, one in found), "s,", max(one.megabytes for *_, one in found), "MB")
+    print(
+        "worst:", max(one.seconds for *_, one in found), "s,", max(one.megabytes for *_, one in found), "MB"
+    )
     bad = [entry for entry in found if entry[2].status != 2 or not tolerable(entry[2])]
     assert not bad, bad[:5]
 

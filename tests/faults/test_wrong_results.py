@@ -22,7 +22,9 @@ from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
-FEW, MANY = 6, 2000
+FEW, MANY = 12, 2000
+DRAWN = 0.2
+"""Share of the runs whose figures are drawn too, which takes thirty times as long as all else."""
 Mutation = Callable[[xr.Dataset, str], xr.Dataset]
 
 
@@ -153,16 +155,21 @@ def written(dataset: xr.Dataset, kind: str, folder: Path) -> bool:
     return True
 
 
-def commands(kind: str, folder: Path) -> list[list[str]]:
+def commands(kind: str, folder: Path, drawn: bool) -> list[list[str]]:
     report = ["report", str(folder), "--quiet", "--json"]
     compare = ["compare", str(folder), str(folder.parent / "good"), "-o", str(folder.parent / "c.html")]
-    return [report] if kind == "sweep" else [report, compare]
+    if kind == "sweep":
+        return [report]
+    return [compare, report] if drawn else [compare]
 
 
 def try_mutants(
-    chosen: list[tuple[str, str, Callable[[], xr.Dataset]]], folder: Path, process: Watched
+    chosen: list[tuple[str, str, Callable[[], xr.Dataset]]],
+    chance: random.Random,
+    folder: Path,
+    process: Watched,
 ) -> dict:
-    statuses: dict[int, int] = {}
+    statuses: dict[tuple[str, int], int] = {}
     worst = {"seconds": 0.0, "megabytes": 0.0}
     failed = []
     for kind, name, make in chosen:
@@ -174,9 +181,10 @@ def try_mutants(
         inner.mkdir(exist_ok=True)
         if not written(mutant, kind, inner):
             continue
-        for command in commands(kind, inner):
+        for command in commands(kind, inner, chance.random() < DRAWN):
             outcome = process.run(command)
-            statuses[outcome.status] = statuses.get(outcome.status, 0) + 1
+            what = (command[0], outcome.status)
+            statuses[what] = statuses.get(what, 0) + 1
             worst = {key: max(value, getattr(outcome, key)) for key, value in worst.items()}
             if not tolerable(outcome):
                 failed.append((kind, name, command[0], outcome))
@@ -190,9 +198,12 @@ def test_wrong_results_are_refused_or_harmless(
     count: int, originals: dict[str, xr.Dataset], tmp_path: Path
 ) -> None:
     every = [(kind, name, make) for kind, whole in originals.items() for name, make in mutants(whole)]
-    chosen = random.Random(count).sample(every, min(count, len(every)))
+    chance = random.Random(count)
+    chosen = chance.sample(every, min(count, len(every)))
     write_run(originals["vsv"], tmp_path / "good")
     with watched() as process:
-        found = try_mutants(chosen, tmp_path, process)
+        found = try_mutants(chosen, chance, tmp_path, process)
+    print(found)
     assert not found["failed"], found
-    assert found["statuses"].get(2, 0) > count // 4, found
+    refused = sum(number for (_, status), number in found["statuses"].items() if status == 2)
+    assert refused > count // 4, found

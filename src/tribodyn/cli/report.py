@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, OutputDirectory
@@ -31,8 +31,6 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Draw figures and report beside the stored result."""
-    from tribodyn.mechanisms.results import summarise
-
     if not os.path.isdir(args.directory):
         raise InputError(
             f"{as_given(args.directory)}, not a directory; allowed: a directory that `tribodyn run` wrote to",
@@ -50,8 +48,22 @@ def execute(args: Namespace) -> int:
         _mend(dataset, directory.path)
     console.say(f"look at {directory.path / REPORT}")
     if console.json:
-        show_json(summarise(dataset))
+        show_json(_outcome(dataset))
     return 0
+
+
+def _outcome(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the headline numbers of a run, or of each point of a sweep with the values varied (SI)."""
+    from tribodyn.mechanisms.results import summarise
+    from tribodyn.results.attributes import SWEEP
+
+    if dataset.attrs.get("kind") != SWEEP:
+        return summarise(dataset)
+    points = dataset.to_dataframe().reset_index().astype(object)
+    return {
+        "title": dataset.attrs.get("title", ""),
+        "points": points.where(points.notna(), None).to_dict("records"),
+    }
 
 
 def _mend(dataset: xr.Dataset, directory: Path) -> None:

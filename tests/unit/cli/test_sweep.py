@@ -61,6 +61,22 @@ def test_json_is_one_document(capsys: pytest.CaptureFixture[str]) -> None:
     assert err == ""
 
 
+@pytest.mark.parametrize("samples", [[], ["--vary", "joint.radius=uniform(5 mm, 6 mm)", "--samples", "3"]])
+def test_a_report_made_again_gives_the_points_as_json(
+    samples: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,35 um", *samples]
+    assert main([*command, "--quiet", "-o", "out"]) == 1
+    capsys.readouterr()
+    assert main(["report", "out", "--json"]) == 0
+    points = json.loads(capsys.readouterr().out)["points"]
+    record = json.loads(Path("out/sweep.json").read_text(encoding="utf-8"))["points"]
+    assert [point["points"] for point in points] == [point["point"] for point in record]
+    assert {point["joint.clearance"] for point in points} == {20e-6, 35e-6}
+    for ours, theirs in zip(points, record, strict=True):
+        assert ours["contact_force_max_N"] == theirs.get("contact_force_max_N")
+
+
 def test_quiet_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*SWEEP, "--quiet"]) == 0
     assert capsys.readouterr() == ("", "")
