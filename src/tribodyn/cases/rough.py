@@ -14,12 +14,11 @@ if TYPE_CHECKING:
 
 
 class RoughCase(Case):
-    """A case with one joint between two rough surfaces."""
+    """A case with one pair of rough surfaces."""
 
     surfaces: Surfaces = Surfaces()
     asperities: Asperities = Asperities()
     contact: Contact = Contact()
-    joint: PlainJoint = PlainJoint()
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -35,4 +34,14 @@ class RoughCase(Case):
         """Check what involves several keys."""
         super().model_post_init(context)
         self.contact.check(self.surface_pair)
+
+
+class BushingCase(RoughCase):
+    """A case with one clearance joint, between these surfaces."""
+
+    joint: PlainJoint = PlainJoint()
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        super().model_post_init(context)
         self.joint.liner.layer(self.surfaces.bushing)

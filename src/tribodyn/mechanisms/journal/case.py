@@ -16,7 +16,7 @@ from tribodyn.cases.groups import (
     check_output_interval,
 )
 from tribodyn.cases.keys import ASSUMED, Value
-from tribodyn.cases.rough import RoughCase
+from tribodyn.cases.rough import BushingCase
 
 SECTION_4 = "paper, section 4"
 _LUBRICATED: dict[str, Value] = {
@@ -91,7 +91,7 @@ class Run(Group):
     output_interval: float = quantity("5 us", "time between rows", "depends on film.lubricated", gt=0)
 
 
-class JournalCase(RoughCase):
+class JournalCase(BushingCase):
     """The journal of the paper's section 4 unless keys say otherwise."""
 
     case: Literal["journal"] = choice("journal", "the kind of system", "")

@@ -15,7 +15,7 @@ from tribodyn.cases.groups import (
     check_output_interval,
 )
 from tribodyn.cases.keys import ASSUMED, Value
-from tribodyn.cases.rough import RoughCase
+from tribodyn.cases.rough import BushingCase
 
 if TYPE_CHECKING:
     from tribodyn.mechanisms.vsv.parameters import Drive as Crank
@@ -103,7 +103,7 @@ class Run(Group):
     impact_interval: float = quantity("0.2 ms", "time between rows in that window", ASSUMED, gt=0)
 
 
-class VsvCase(RoughCase):
+class VsvCase(BushingCase):
     """The built-in mechanism of Tables 1 to 3 unless keys say otherwise."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
