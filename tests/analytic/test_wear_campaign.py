@@ -72,7 +72,7 @@ def test_volume_of_each_jump_is_the_rate_times_the_sliding_load(monkeypatch):
     class Watched(wear._Cycles):
         def cycle(self, depth, carried, done):
             found = super().cycle(depth, carried, done)
-            loads.append(float((self.system.bushing.node_area @ found.sliding_load).sum()))
+            loads.append(float((self.system.nodes.area * found.sliding_load).sum()))
             return found
 
     monkeypatch.setattr(wear, "_Cycles", Watched)

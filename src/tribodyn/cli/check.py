@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
@@ -32,18 +33,20 @@ def execute(args: Namespace) -> int:
     console = Console.of(args)
     case = chosen_case(args)
     SOLVERS[str(case.at("solver.name"))].prepare()
-    _try(case, args.deep, console)
+    remarks = _try(case, args.deep, console)
     cycles = case.campaign_cycles
     length = f"{cycles} cycles of wear" if cycles else f"{case.duration:.6g} s"
     tried = "; its start was found and the first step taken" if args.deep else ""
     console.say(f'{args.case}: valid, a "{case.kind()}" case of {length}{tried}')
+    for remark in remarks:
+        console.say(remark)
     if args.json:
-        show_json({"case": args.case, "valid": True})
+        show_json({"case": args.case, "valid": True, "remarks": list(remarks)})
     return 0
 
 
-def _try(case: Case, deep: bool, console: Console) -> None:
+def _try(case: Case, deep: bool, console: Console) -> Sequence[str]:
     with announced_compilation(console.note):
         from tribodyn.simulation import check
 
-        check(case, deep=deep)
+        return check(case, deep=deep)

@@ -7,9 +7,9 @@ above reads the descriptor and knows no mechanism by name.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,6 @@ from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:
     from tribodyn.figures.base import Family
-    from tribodyn.joints import BushingJoint
     from tribodyn.views.overlay import Overlay
     from tribodyn.views.section import Chapter
 
@@ -38,7 +37,7 @@ class Carried:
     state
         The states, shape (n,).
     entry_velocity
-        Memory of contact: δ̇₋ at the nodes [m/s], shape (n_z + 2, n_theta).
+        Memory of contact: δ̇₋ at the nodes [m/s], in the shape of the nodes.
     """
 
     state: FloatArray
@@ -47,18 +46,37 @@ class Carried:
 
 @dataclass(frozen=True)
 class Worn:
-    """The bushing that a run is made with.
+    """The joints that a run is made with.
 
     Attributes
     ----------
     depth
-        Wear depth at the nodes [m], shape (n_z + 2, n_theta).
+        Wear depth at the nodes [m], in their shape.
     carried
         Where the run goes on from; None for the start of the case.
     """
 
     depth: FloatArray
     carried: Carried | None = None
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """The nodes of all that wears.
+
+    Attributes
+    ----------
+    area
+        Area that each node stands for [m²], in the shape of the nodes.
+    roughness
+        The least combined rms roughness σ among them [m].
+    n_states
+        Length of the state that :class:`Carried` hands on.
+    """
+
+    area: FloatArray
+    roughness: float
+    n_states: int
 
 
 @dataclass(frozen=True)
@@ -151,8 +169,14 @@ class WearingCase(SystemCase, Protocol):
 class System(Protocol):
     """What one case describes, ready to be integrated."""
 
-    def check(self) -> None:
-        """Put the mechanism together, joints and contact laws with it; raise what a run would refuse."""
+    def check(self) -> Sequence[str]:
+        """Put the mechanism together, joints and contact laws with it; raise what a run would refuse.
+
+        Returns
+        -------
+        sequence of str
+            What a user should know of the mechanism before it runs, one sentence each.
+        """
         ...
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
@@ -173,11 +197,11 @@ class System(Protocol):
 
 
 class WearingSystem(System, Protocol):
-    """A system whose bushing wears, in cycles of its drive."""
+    """A system whose joints wear, in cycles of its drive."""
 
     @property
-    def bushing(self) -> BushingJoint:
-        """The joint that wears."""
+    def nodes(self) -> Nodes:
+        """Where they wear; no nodes where all joints are ideal."""
         ...
 
     @property
@@ -186,7 +210,11 @@ class WearingSystem(System, Protocol):
         ...
 
     def sliding_load(self, problem: Problem) -> FloatArray:
-        """Return ∫P_c |u| dt at the nodes over the run [N/m], shape (n_z + 2, n_theta)."""
+        """Return ∫P_c |u| dt at the nodes over the run [N/m], in their shape."""
+        ...
+
+    def as_field(self, depth: FloatArray) -> FloatArray:
+        """Return wear depths [m], the nodes being the last dimensions, as results hold ``wear_depth``."""
         ...
 
     def carried(self, run: Run) -> Carried:
@@ -200,6 +228,15 @@ class WearingSystem(System, Protocol):
     def contact_energy(self, worn: Worn) -> float:
         """Return the energy stored in the contact [J]."""
         ...
+
+
+ByJoint: TypeAlias = Callable[[str], Headline]
+"""Returns a headline number of the joint with a name; the name of the number ends in that of the joint."""
+
+
+def plain(name: str) -> str:
+    """Return the name that a user gave a part as it stands in the name of a number."""
+    return name.replace("-", "_")
 
 
 @dataclass(frozen=True)
@@ -225,6 +262,8 @@ class Mechanism:
         Names of those that a reader wants first.
     of_cycle
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
+    by_joint
+        Headline numbers that each joint has, for mechanisms whose joints a user names; see :class:`ByJoint`.
     """
 
     folder: str
@@ -234,6 +273,14 @@ class Mechanism:
     headlines: Mapping[str, Headline]
     key_numbers: tuple[str, ...]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
+    by_joint: Mapping[str, ByJoint] = field(default_factory=dict)
+
+    def headlines_of(self, joints: Iterable[str]) -> dict[str, Headline]:
+        """Return all headline numbers, those of joints with these names among them, in reading order."""
+        named = {
+            f"{name}_{plain(joint)}": made(joint) for joint in joints for name, made in self.by_joint.items()
+        }
+        return {**self.headlines, **named}
 
     @property
     def kind(self) -> str:

@@ -56,7 +56,8 @@ def mechanism_of(dataset: xr.Dataset) -> Mechanism:
 
 def summarise(dataset: xr.Dataset) -> dict[str, float | int | str]:
     """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
-    return summary.summarise(dataset, mechanism_of(dataset).headlines)
+    joints = dataset["joint"].values.tolist() if "joint" in dataset.coords else []
+    return summary.summarise(dataset, mechanism_of(dataset).headlines_of(joints))
 
 
 def headlines_of(kind: str) -> dict[str, Headline]:
@@ -73,5 +74,17 @@ def key_numbers_of(kind: str) -> tuple[str, ...]:
 
 def known(names: Iterable[str], kind: str) -> dict[str, Headline]:
     """Return what is known of those of the names that are headline numbers of a kind, in reading order."""
-    given = set(names)
-    return {name: headline for name, headline in headlines_of(kind).items() if name in given}
+    given = list(names)
+    of_all = {name: headline for name, headline in headlines_of(kind).items() if name in given}
+    return of_all | _of_joints([name for name in given if name not in of_all], kind)
+
+
+def _of_joints(names: Iterable[str], kind: str) -> dict[str, Headline]:
+    """Return those of the names that are numbers of one joint."""
+    by_joint = MECHANISMS[kind].by_joint if kind in MECHANISMS else {}
+    return {
+        name: made(name.removeprefix(f"{base}_"))
+        for name in names
+        for base, made in by_joint.items()
+        if name.startswith(f"{base}_")
+    }

@@ -6,13 +6,14 @@ The variable and attribute tables say it; what reads a result afterwards need no
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
 from tribodyn.core import toml
+from tribodyn.core.quantities import TIME
 from tribodyn.core.quoting import brief
 from tribodyn.results.attributes import (
     ATTRIBUTES,
@@ -153,13 +154,13 @@ def _check_run(dataset: xr.Dataset, known: Mapping[str, Variable]) -> None:
             raise ValueError(f"{name} runs over {brief(variable.dims)}, not over {about.dims}")
         if variable.attrs.get("units") != about.units:
             raise ValueError(f"the unit of {name} is not {about.units}")
-        _check_values(str(name), variable, text=False, form=_form_of(str(name), about))
-    _check_coordinates(dataset)
+        _check_values(str(name), variable, text=about.named, form=_form_of(str(name), about))
+    _check_coordinates(dataset, {name for name, about in known.items() if about.named})
 
 
 def _form_of(name: str, about: Variable) -> str:
     """Return which numbers a variable may hold: only what a run has one of may be beyond all bounds."""
-    if name in COORDINATES or len(about.dims) > 1:
+    if name in COORDINATES or (len(about.dims) > 1 and about.dims[:1] != TIME):
         return NUMBER
     return GAPS if about.dims else OUTCOME
 
@@ -181,12 +182,16 @@ def _texts(values: Any) -> bool:
     )
 
 
-def _check_coordinates(dataset: xr.Dataset) -> None:
-    """Each dimension has its coordinate, and numbers along one grow."""
+def _check_coordinates(dataset: xr.Dataset, named: Container[str]) -> None:
+    """Each dimension has its coordinate; numbers along one grow, names are not given twice."""
     for dim in dataset.dims:
         if dim not in dataset.variables:
             raise ValueError(f"it lacks the coordinate {brief(dim)}")
         values = dataset.variables[dim].values
+        if dim in named:
+            if len(set(values.tolist())) < values.size:
+                raise ValueError(f"a name of {dim} is given twice")
+            continue
         if dim not in EVENTS and values.size < 2:
             raise ValueError(f"it holds too few values of {dim}")
         steps = np.diff(values)

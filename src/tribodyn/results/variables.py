@@ -34,11 +34,14 @@ class Variable:
         Plain words, used as axis label and in the documentation.
     dims
         Dimensions of the array.
+    named
+        Whether it holds names instead of numbers: what a dimension counts, such as bodies.
     """
 
     units: str
     long_name: str
     dims: tuple[str, ...] = TIME
+    named: bool = False
 
 
 COORDINATES: Final[dict[str, Variable]] = {

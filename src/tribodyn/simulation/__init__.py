@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -92,7 +92,7 @@ def prepare(case: Case, stop: Stop = None) -> None:
         loaded(case, _first_steps)
 
 
-def check(case: Case, *, deep: bool = False) -> None:
+def check(case: Case, *, deep: bool = False) -> Sequence[str]:
     """Find out without running it what a run of a case would refuse.
 
     Parameters
@@ -103,6 +103,11 @@ def check(case: Case, *, deep: bool = False) -> None:
         Whether its equations are compiled too, if they are not yet, its start is found and the first step
         taken.
 
+    Returns
+    -------
+    sequence of str
+        What a user should know of the mechanism before it runs, one sentence each.
+
     Raises
     ------
     InputError
@@ -110,13 +115,14 @@ def check(case: Case, *, deep: bool = False) -> None:
     TribodynError
         If the run would fail at its first step.
     """
-    _session(case).system.check()
+    remarks = _session(case).system.check()
     if not deep:
-        return
+        return remarks
     prepare(case)
     failure = _first_steps(case)
     if failure not in ("", INTERRUPTED):
         raise TribodynError(f"a run fails at its first step: {failure}")
+    return remarks
 
 
 def load_equations(case: Case) -> None:

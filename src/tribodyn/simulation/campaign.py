@@ -39,9 +39,7 @@ class Plan:
     law, control
         Wear law, and what chooses the length of jumps.
     node_area
-        Area that a node of each row stands for [m²], shape (n_z + 2,).
-    field_shape
-        Shape (n_z + 2, n_theta) of a field over the nodes.
+        Area that each node stands for [m²], in the shape of the nodes; all fields below have it.
     of_cycle
         What is written down about the motion of each cycle, by name.
     """
@@ -53,7 +51,6 @@ class Plan:
     law: Archard
     control: JumpControl
     node_area: FloatArray
-    field_shape: tuple[int, int]
     of_cycle: tuple[str, ...]
 
 
@@ -66,7 +63,7 @@ class Cycle:
     carried
         State and memory of contact at its end.
     sliding_load
-        ∫P_c |u| dt over the cycle at the nodes [N/m], shape (n_z + 2, n_theta).
+        ∫P_c |u| dt over the cycle at the nodes [N/m].
     motion
         Entries of the history that describe its motion; empty if it was not completed.
     statistics
@@ -91,7 +88,7 @@ class Cycles(Protocol):
         Parameters
         ----------
         wear
-            Depth at the nodes [m], shape (n_z + 2, n_theta).
+            Depth at the nodes [m].
         carried
             Where to go on from.
         done
@@ -113,11 +110,11 @@ class Campaign:
     cycles
         Cycles of wear behind.
     depth
-        Wear depth at the nodes [m], shape (n_z + 2, n_theta).
+        Wear depth at the nodes [m].
     carried
         Where the last simulated cycle ended; none before the first.
     load
-        Its sliding load [N/m], shape (n_z + 2, n_theta); zero before the first stop.
+        Its sliding load [N/m]; zero before the first stop.
     gain
         Depth that the last jump gained at its deepest, over the roughness.
     life
@@ -125,7 +122,7 @@ class Campaign:
     history
         What was written down at the stops so far.
     stage_cycles, stage_depth
-        Selected worn profiles [m] and their cycles, shapes (n,) and (n, n_z + 2, n_theta).
+        Selected worn profiles [m] and their cycles, shapes (n,) and (n, ...).
     statistics
         Cost so far.
     """
@@ -177,7 +174,7 @@ def run_campaign(
 
 def _settled(system: Cycles, plan: Plan) -> tuple[Campaign, Cycle | None]:
     """Simulate the cycles that let the start die away; return also the last of them, if there is any."""
-    nothing = np.zeros(plan.field_shape)
+    nothing = np.zeros(plan.node_area.shape)
     worn = Campaign(
         cycles=0,
         depth=nothing,
@@ -187,7 +184,7 @@ def _settled(system: Cycles, plan: Plan) -> tuple[Campaign, Cycle | None]:
         life=math.inf,
         history=empty_history(plan.of_cycle),
         stage_cycles=np.empty(0),
-        stage_depth=np.empty((0, *plan.field_shape)),
+        stage_depth=np.empty((0, *plan.node_area.shape)),
         statistics=vars(Statistics()),
     )
     cycle: Cycle | None = None
@@ -202,7 +199,7 @@ def _settled(system: Cycles, plan: Plan) -> tuple[Campaign, Cycle | None]:
 
 def _gap(worn: Campaign, plan: Plan) -> FloatArray:
     """Return the wear depth that the contact feels [m]."""
-    return worn.depth if plan.feedback else np.zeros(plan.field_shape)
+    return worn.depth if plan.feedback else np.zeros(plan.node_area.shape)
 
 
 def _jumped(system: Cycles, worn: Campaign, cycle: Cycle, plan: Plan) -> Campaign:

@@ -58,7 +58,7 @@ def write(path: Path, worn: Campaign, case: str) -> None:
 
 
 def read(
-    path: Path, case: str, field_shape: tuple[int, int], of_cycle: Iterable[str]
+    path: Path, case: str, field_shape: tuple[int, ...], n_states: int, of_cycle: Iterable[str]
 ) -> tuple[Campaign, list[str]] | None:
     """Read a checkpoint, if there is one.
 
@@ -68,9 +68,9 @@ def read(
         The file.
     case
         Text of the case that is to be gone on with.
-    field_shape
-        Shape (n_z + 2, n_theta) of a field over the nodes of that case. Compiled code looks at no shape: what
-        reaches it must have the right one, whoever made the file.
+    field_shape, n_states
+        Shape of a field over the nodes of that case, and length of its state. Compiled code looks at no
+        shape: what reaches it must have the right one, whoever made the file.
     of_cycle
         What the mechanism writes down about each cycle, by name.
 
@@ -88,7 +88,9 @@ def read(
         arrays, facts = _opened(path)
         known = facts["format"] == FORMAT
         worn = (
-            _worn(arrays, facts, field_shape, columns(of_cycle)) if known and facts["case"] == case else None
+            _worn(arrays, facts, (field_shape, (n_states,)), columns(of_cycle))
+            if known and facts["case"] == case
+            else None
         )
         told = _changed(facts["versions"]) if known else []
     except FileNotFoundError:
@@ -118,11 +120,12 @@ def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 def _worn(
     arrays: Mapping[str, Any],
     facts: Mapping[str, Any],
-    field_shape: tuple[int, int],
+    of_case: tuple[tuple[int, ...], tuple[int, ...]],
     names: tuple[str, ...],
 ) -> Campaign:
+    field_shape, state_shape = of_case
     jumps, stages = arrays[f"history_{names[0]}"].size, arrays["stage_cycles"].size
-    shapes = {"depth": field_shape, "load": field_shape, "entry_velocity": field_shape, "state": (8,)}
+    shapes = {"depth": field_shape, "load": field_shape, "entry_velocity": field_shape, "state": state_shape}
     shapes |= {"stage_cycles": (stages,), "stage_depth": (stages, *field_shape)}
     shapes |= {f"history_{name}": (jumps,) for name in names}
     for name, shape in shapes.items():

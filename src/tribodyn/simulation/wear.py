@@ -34,7 +34,11 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
     text, cycles = session.case.to_toml(), _Cycles(session)
     columns = tuple(session.mechanism.of_cycle)
     found = (
-        None if checkpoint is None else checkpoints.read(checkpoint, text, cycles.plan.field_shape, columns)
+        None
+        if checkpoint is None
+        else checkpoints.read(
+            checkpoint, text, cycles.plan.node_area.shape, cycles.system.nodes.n_states, columns
+        )
     )
     resumed, told = (None, []) if found is None else found
 
@@ -53,7 +57,11 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
             "jump": np.arange(campaign.history["wear_cycles"].size, dtype=np.float64),
             "stage_cycles": campaign.stage_cycles,
         },
-        fields={**part.fields, **campaign.history, "stage_depth": campaign.stage_depth.transpose(0, 2, 1)},
+        fields={
+            **part.fields,
+            **campaign.history,
+            "stage_depth": cycles.system.as_field(campaign.stage_depth),
+        },
         warnings=[*told, *_limit_not_reached(cycles.case.wear, campaign)],
     )
     return session.dataset(replace(cycles.last, cost=campaign.statistics), more)
@@ -66,8 +74,12 @@ def _archard(wear: groups.Wear) -> Archard:
 
 def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> Part:
     """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
-    volume = worn_volume(depth, system.bushing.node_area)
-    return Part(fields={"wear_depth": depth.T}, attributes={"worn_volume": volume, **attributes})
+    if not depth.size:
+        return Part()
+    volume = worn_volume(depth, system.nodes.area)
+    return Part(
+        fields={"wear_depth": system.as_field(depth)}, attributes={"worn_volume": volume, **attributes}
+    )
 
 
 def _linear_life(wear: groups.Wear, cycles: float, depth: FloatArray) -> dict[str, object]:
@@ -91,16 +103,15 @@ class _Cycles:
     @property
     def plan(self) -> Plan:
         """What the case asks for."""
-        wear, bushing = self.case.wear, self.system.bushing
+        wear, nodes = self.case.wear, self.system.nodes
         return Plan(
             cycles=wear.cycles,
             settling=self.case.settling_cycles,
             feedback=wear.feedback,
             depth_limit=math.inf if wear.depth_limit is None else wear.depth_limit,
             law=_archard(wear),
-            control=JumpControl(wear.jump_limit, wear.jump_depth, bushing.roughness),
-            node_area=bushing.node_area,
-            field_shape=bushing.field_shape,
+            control=JumpControl(wear.jump_limit, wear.jump_depth, nodes.roughness),
+            node_area=nodes.area,
             of_cycle=tuple(self.session.mechanism.of_cycle),
         )
 

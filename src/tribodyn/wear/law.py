@@ -51,8 +51,8 @@ def worn_volume(depth: FloatArray, node_area: FloatArray) -> float:
     Parameters
     ----------
     depth
-        Depth at the nodes [m], shape (n_z + 2, n_theta).
+        Depth at the nodes [m], any shape.
     node_area
-        Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges.
+        Area that each node stands for [m²], of the same shape; zero on edges.
     """
-    return float(np.sum(node_area * np.sum(depth, axis=1)))
+    return float(np.sum(node_area * depth))

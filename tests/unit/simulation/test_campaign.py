@@ -60,8 +60,7 @@ def plan(
         of_cycle=("wear_force_mean",),
         law=Archard(rate),
         control=JumpControl(limit, depth, ROUGHNESS),
-        node_area=np.array([0.0, 1e-6, 2e-6, 0.0]),
-        field_shape=SHAPE,
+        node_area=np.broadcast_to(np.array([[0.0], [1e-6], [2e-6], [0.0]]), SHAPE),
     )
 
 
@@ -114,7 +113,7 @@ def test_volume_of_each_jump_is_the_rate_times_the_sliding_load():
     jumps = worn.history["wear_jump_cycles"]
     assert jumps[-1] == 0.0
     assert jumps.sum() == worn.cycles == 10_000
-    loads = [float((asked.node_area @ found.sliding_load).sum()) for _, _, found in punch.cycles[1:-1]]
+    loads = [float((asked.node_area * found.sliding_load).sum()) for _, _, found in punch.cycles[1:-1]]
     worn_off = RATE * jumps[:-1] * np.array(loads)
     # To rounding; asked for are 1e-10.
     np.testing.assert_allclose(np.diff(worn.history["wear_volume"]), worn_off, rtol=1e-11)

@@ -40,7 +40,7 @@ def worn():
 def test_what_is_written_reads_back_to_the_bit(worn, tmp_path):
     path = tmp_path / "checkpoint.npz"
     checkpoint.write(path, worn, CASE)
-    found, told = checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+    found, told = checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
     assert told == []
     assert (found.cycles, found.gain, found.life) == (worn.cycles, worn.gain, worn.life)
     assert found.statistics == worn.statistics
@@ -56,14 +56,14 @@ def test_what_is_written_reads_back_to_the_bit(worn, tmp_path):
 
 
 def test_no_file_is_a_beginning(tmp_path):
-    assert checkpoint.read(tmp_path / "checkpoint.npz", CASE, SHAPE, OF_CYCLE) is None
+    assert checkpoint.read(tmp_path / "checkpoint.npz", CASE, SHAPE, 8, OF_CYCLE) is None
 
 
 def test_another_case_is_refused_and_kept(worn, tmp_path):
     path = tmp_path / "checkpoint.npz"
     checkpoint.write(path, worn, CASE)
     with pytest.raises(InputError, match="another case; choose another directory, or remove the file"):
-        checkpoint.read(path, CASE + "# changed\n", SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE + "# changed\n", SHAPE, 8, OF_CYCLE)
     assert path.exists()
 
 
@@ -73,7 +73,7 @@ def test_a_torn_file_is_refused(kept, worn, tmp_path):
     checkpoint.write(path, worn, CASE)
     path.write_bytes(path.read_bytes()[:kept])
     with pytest.raises(InputError, match="cannot be read"):
-        checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 
 def parts(found):
@@ -85,7 +85,7 @@ def parts(found):
 
 def attempt(path):
     try:
-        return checkpoint.read(path, CASE, SHAPE, OF_CYCLE)[0]
+        return checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)[0]
     except InputError as error:
         return error
 
@@ -119,7 +119,7 @@ def test_arrays_of_another_shape_or_kind_never_reach_compiled_code(name, wrong, 
         arrays = dict(archive)
     np.savez(path, **{**arrays, name: wrong})
     with pytest.raises(InputError, match="cannot be read"):
-        checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 
 @pytest.mark.parametrize("facts", ["3", "[]", '{"format": 2}', '{"format": 2, "case": 2, "versions": []}'])
@@ -130,7 +130,7 @@ def test_facts_of_another_kind_are_refused(facts, worn, tmp_path):
         arrays = dict(archive)
     np.savez(path, **{**arrays, "facts": facts})
     with pytest.raises(InputError, match="a wear campaign cannot go on from"):
-        checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 
 def test_an_array_instead_of_an_archive_is_refused(tmp_path):
@@ -138,14 +138,14 @@ def test_an_array_instead_of_an_archive_is_refused(tmp_path):
     with path.open("wb") as stream:
         np.save(stream, np.zeros(3))
     with pytest.raises(InputError, match="cannot be read"):
-        checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 
 def test_pickled_objects_are_not_loaded(tmp_path):
     path = tmp_path / "checkpoint.npz"
     np.savez(path, facts=np.array([{"format": 2}], dtype=object))
     with pytest.raises(InputError, match="cannot be read"):
-        checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 
 def test_other_versions_are_told(worn, tmp_path, monkeypatch):
@@ -154,7 +154,7 @@ def test_other_versions_are_told(worn, tmp_path, monkeypatch):
     monkeypatch.setattr(checkpoint, "provenance", lambda: versions | {"numba_version": "0.1"})
     checkpoint.write(path, worn, CASE)
     monkeypatch.undo()
-    _, told = checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+    _, told = checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
     assert told == ["The campaign was begun with numba 0.1: its later cycles were computed with others."]
 
 
@@ -164,7 +164,7 @@ def test_another_format_is_refused(worn, tmp_path, monkeypatch):
     checkpoint.write(path, worn, CASE)
     monkeypatch.undo()
     with pytest.raises(InputError, match="another version of tribodyn"):
-        checkpoint.read(path, CASE, SHAPE, OF_CYCLE)
+        checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 
 def test_the_file_says_what_it_is(worn, tmp_path):

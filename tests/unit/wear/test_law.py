@@ -21,7 +21,7 @@ def test_the_papers_convention_divides_by_its_bare_number():
 def test_an_even_depth_takes_the_bore_times_the_depth(make_joint):
     joint = make_joint()
     area = 2.0 * np.pi * joint.geometry.bore_radius * joint.geometry.length
-    volume = worn_volume(np.full(joint.field_shape, 1e-6), joint.node_area)
+    volume = worn_volume(np.full(joint.field_shape, 1e-6), joint.node_area[:, None])
     assert volume == pytest.approx(area * 1e-6, rel=1e-13)  # rounding
 
 
@@ -29,4 +29,4 @@ def test_the_edges_have_a_depth_but_no_volume(make_joint):
     joint = make_joint()
     depth = np.zeros(joint.field_shape)
     depth[[0, -1]] = 1e-6
-    assert worn_volume(depth, joint.node_area) == 0.0
+    assert worn_volume(depth, joint.node_area[:, None]) == 0.0

@@ -43,11 +43,11 @@ def test_volume_is_kept_as_well_as_the_rows_resolve_the_profile(joints):
     finer = resampled(edge_worn(coarse), coarse.z, fine.z, fine.grid.theta)
     # Gauss rows lie 0.1, 0.5, 1.3 mm from the edge, where the depth falls by e in 1 mm: between them the
     # interpolant is off by some percent, the quadrature of the rows themselves is not.
-    assert worn_volume(finer, fine.node_area) == pytest.approx(
-        worn_volume(edge_worn(coarse), coarse.node_area), rel=0.05
+    assert worn_volume(finer, fine.node_area[:, None]) == pytest.approx(
+        worn_volume(edge_worn(coarse), coarse.node_area[:, None]), rel=0.05
     )
-    assert worn_volume(edge_worn(coarse), coarse.node_area) == pytest.approx(
-        worn_volume(edge_worn(fine), fine.node_area), rel=1e-6
+    assert worn_volume(edge_worn(coarse), coarse.node_area[:, None]) == pytest.approx(
+        worn_volume(edge_worn(fine), fine.node_area[:, None]), rel=1e-6
     )
 
 

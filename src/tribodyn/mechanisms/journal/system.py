@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -81,9 +82,10 @@ class JournalSystem:
         except InputError:
             return None
 
-    def check(self) -> None:
+    def check(self) -> Sequence[str]:
         """Put the journal together, its joint, contact law and film with it."""
         assert self.journal
+        return ()
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; a journal does not wear."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -15,9 +16,10 @@ from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import contact_energy
+from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.base import Carried, Part, Run, Worn
+from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
 from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
 from tribodyn.mechanisms.checks import peaks
 from tribodyn.mechanisms.playback import frame_times, merged, shown
@@ -74,13 +76,20 @@ class VsvSystem:
         return self.vsv.joint
 
     @property
+    def nodes(self) -> Nodes:
+        """The nodes of the bushing, shape (n_z + 2, n_theta)."""
+        area = np.broadcast_to(self.bushing.node_area[:, None], self.bushing.field_shape)
+        return Nodes(area, self.bushing.roughness, len(STATES))
+
+    @property
     def period(self) -> float:
         """Time of one drive cycle [s]."""
         return self.case.period
 
-    def check(self) -> None:
+    def check(self) -> Sequence[str]:
         """Put the mechanism together, its joint and contact law with it."""
         assert self.vsv
+        return ()
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
@@ -107,6 +116,10 @@ class VsvSystem:
         """Return ∫P_c |u| dt at the nodes over the run [N/m], shape (n_z + 2, n_theta)."""
         load: FloatArray = problem.memory.joint.sliding_load
         return load
+
+    def as_field(self, depth: FloatArray) -> FloatArray:
+        """Return wear depths [m] with the angle before the height."""
+        return np.swapaxes(depth, -1, -2)
 
     def carried(self, run: Run) -> Carried:
         """Return what the next cycle goes on from."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -75,8 +76,9 @@ class DiscSystem:
 
     case: DiscCase
 
-    def check(self) -> None:
+    def check(self) -> Sequence[str]:
         """There is nothing to refuse."""
+        return ()
 
     def problem(self, duration: float, worn: Any = None) -> Problem:
         disc = self.case.disc
