@@ -163,8 +163,6 @@ class MechanismCase(RoughCase):
             can = f"it has the {' and the '.join(free)}" if free else "it has nothing to drive"
             words = f"{drive.joint} is a {joint.type} joint: {can}, a drive gives the {coordinate}"
             demand(coordinate in free, f"drives.{name}.joint", words)
-            words = "only its contact moves a joint with clearance: drive an ideal one, or by torque or force"
-            demand(joint.clearance is None or level == 2, f"drives.{name}.joint", words)
             if level < 2:
                 other = driven.setdefault((drive.joint, coordinate), name)
                 words = f"{other} drives the {coordinate} of {drive.joint} already"

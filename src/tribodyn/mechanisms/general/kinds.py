@@ -34,16 +34,18 @@ class JointKind:
 
 KINDS: Final[dict[str, JointKind]] = {
     "fixed": JointKind("nothing moves"),
-    "revolute": JointKind("turns about its axis", "axis", False, ("angle",), ("cylinder", "mesh")),
-    "spherical": JointKind("turns about its point", shapes=("sphere", "mesh")),
+    "revolute": JointKind("turns about its axis", "axis", False, ("angle",), ("cylinder",)),
+    "spherical": JointKind("turns about its point", shapes=("sphere",)),
     "cylindrical": JointKind(
-        "turns about its axis and slides along it", "axis", False, ("angle", "position"), ("cylinder", "mesh")
+        "turns about its axis and slides along it", "axis", False, ("angle", "position"), ("cylinder",)
     ),
     "prismatic": JointKind("slides along its axis", "axis", False, ("position",)),
     "universal": JointKind("turns about an axis of each body", "axis", True),
-    "pin-slot": JointKind("a ball that slides along a pin", "axis of the pin", shapes=("sphere", "cylinder")),
-    "planar": JointKind("slides and turns in a plane", "normal of the plane"),
-    "spring-damper": JointKind("moves against six stiffnesses"),
+    "pin-slot": JointKind(
+        "a ball that slides along a pin", "axis of the pin", False, ("position",), ("sphere", "cylinder")
+    ),
+    "planar": JointKind("slides and turns in a plane", "normal of the plane", False, ("angle",)),
+    "spring-damper": JointKind("moves against six stiffnesses", coordinates=("angle", "position")),
 }
 """Every kind of joint by its name."""
 

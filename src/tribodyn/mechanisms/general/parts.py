@@ -41,7 +41,7 @@ class BodyKeys(NamedGroup):
     def model_post_init(self, context: object, /) -> None:
         """Check that a body of this inertia can exist."""
         largest, others = max(self.inertia), sum(self.inertia) - max(self.inertia)
-        demand(min(self.inertia) >= 0.0 < largest, "inertia", "moments of inertia are above zero")
+        demand(min(self.inertia) > 0.0, "inertia", "moments of inertia are above zero")
         demand(
             largest <= others * (1.0 + _ROUNDING),
             "inertia",
