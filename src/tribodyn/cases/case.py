@@ -187,8 +187,8 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
         raise first_problem(error, keys, entries, source) from None
     except InputError as error:
         raise located(error, keys, entries, source) from None
-    tables = {path: entry for path, entry in given.items() if _is_empty_table(path, entry, keys)}
-    case._given.update(tables | entries)
+    in_order = {p: e for p, e in given.items() if p in entries or _is_empty_table(p, e, keys)}
+    case._given.update(in_order | entries)
     case._scans.update(scanned)
     return case
 

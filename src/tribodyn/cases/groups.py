@@ -24,6 +24,9 @@ class Trunnion(Group):
     young_modulus: float = quantity("203 GPa", "Young's modulus E_1", TABLE_1, gt=0)
     poisson_ratio: float = number(0.27, "Poisson's ratio nu_1", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity("0.392 um", "root mean square roughness sigma_1", TABLE_1, ge=0)
+    thermal_expansion: float | None = quantity(
+        None, "linear; needed with temperature.trunnion", "", ge=0, example="11e-6 1/K"
+    )
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
 
@@ -34,6 +37,9 @@ class Bushing(Group):
     poisson_ratio: float = number(0.34, "Poisson's ratio nu_2", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity("1.586 um", "root mean square roughness sigma_2", TABLE_1, ge=0)
     hardness: float = quantity("492 MPa", "hardness H", TABLE_1, gt=0)
+    thermal_expansion: float | None = quantity(
+        None, "linear; needed with temperature.bushing", "", ge=0, example="50e-6 1/K"
+    )
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
 
 

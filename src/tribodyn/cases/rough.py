@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from tribodyn.cases.case import Case
+from tribodyn.cases.case import Case, demand
 from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Surfaces
-from tribodyn.cases.keys import Value
+from tribodyn.cases.keys import Value, keys_of
+from tribodyn.cases.temperature import Temperature
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair
@@ -40,6 +41,16 @@ class BushingCase(RoughCase):
     """A case with one clearance joint, between these surfaces."""
 
     joint: PlainJoint = PlainJoint()
+    temperature: Temperature = Temperature()
+
+    @classmethod
+    def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
+        """Return the defaults that follow from the contact law and from temperatures."""
+        at_temperature = Temperature.resolve(given)
+        for path in at_temperature.keys() - keys_of(cls).keys():
+            key = f"temperature.properties.{path.rpartition('.')[2]}"
+            demand(False, key, f"a case of this kind has no {path}")
+        return super().resolve(given) | at_temperature
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""

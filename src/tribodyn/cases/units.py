@@ -13,7 +13,7 @@ import re
 from collections.abc import Sequence
 from decimal import Context, Decimal
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import pint
 
@@ -57,6 +57,8 @@ _DIMENSIONS: Final = {
     "m^2/N": "wear volume per work",
     "Pa s": "viscosity",
     "Pa/m": "pressure per length",
+    "K": "temperature",
+    "1/K": "thermal expansion",
 }
 """The SI units that tribodyn works in, and what each of them measures."""
 
@@ -77,8 +79,8 @@ def si_unit(unit: str) -> str:
     >>> si_unit("GPa")
     'Pa'
     """
-    base = _factor_and_base(unit)[1]
-    return next(si for si in _DIMENSIONS if _factor_and_base(si)[1] == base)
+    base = _scale(unit).base
+    return next(si for si in _DIMENSIONS if _scale(si).base == base)
 
 
 def dimension(unit: str) -> str:
@@ -107,10 +109,10 @@ def to_si(text: str, like: str) -> float:
         The text is no quantity, has no unit, or has one of another dimension.
     """
     number, unit = _split(text)
-    factor, base = _known(unit)
-    if base != _factor_and_base(like)[1]:
+    scale = _known(unit)
+    if scale.base != _scale(like).base:
         raise UnitProblem(f"{brief(unit)!r} is not a unit of {dimension(like)}")
-    value = float(_ARITHMETIC.multiply(number, factor))
+    value = scale.si(number)
     if not math.isfinite(value):
         raise UnitProblem("the number is too large")
     return value
@@ -127,12 +129,12 @@ def from_si(value: float, unit: str) -> str:
         Preferred unit. It is used when some number of at most 17 digits in it reads back exactly,
         otherwise the value stands in SI units.
     """
-    factor = _factor_and_base(unit)[0]
-    in_unit = _ARITHMETIC.divide(Decimal(value), factor)
+    scale = _scale(unit)
+    in_unit = _ARITHMETIC.divide(Decimal(value) - scale.zero, scale.factor)
     for digits in range(1, 18):
         number = float(f"{in_unit:.{digits - 1}e}")
         # As to_si does it, but a rounded number may be too large here, which is no error.
-        if float(_ARITHMETIC.multiply(Decimal(repr(number)), factor)) == value:
+        if scale.si(Decimal(repr(number))) == value:
             return f"{_plain(number)} {unit}"
     return f"{value!r} {si_unit(unit)}"
 
@@ -204,14 +206,26 @@ def _split(text: str) -> tuple[Decimal, str]:
     return Decimal(number), f"1{unit}" if unit.startswith("/") else unit
 
 
-def _known(unit: str) -> tuple[Decimal, str]:
-    """Return factor and base units of a unit that a user wrote."""
+class _Scale(NamedTuple):
+    """What a unit is in SI base units: zero + factor times the number, in ``base``."""
+
+    factor: Decimal
+    zero: Decimal
+    base: str
+
+    def si(self, number: Decimal) -> float:
+        """Return the SI value of a number of this unit."""
+        return float(_ARITHMETIC.add(_ARITHMETIC.multiply(number, self.factor), self.zero))
+
+
+def _known(unit: str) -> _Scale:
+    """Return what a unit is that a user wrote."""
     if not _UNIT_PATTERN.fullmatch(unit):
         raise UnitProblem(
             f"{brief(unit)!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)"
         )
     try:
-        return _factor_and_base(unit)
+        return _scale(unit)
     except UnitProblem:
         raise
     except pint.UndefinedUnitError:
@@ -221,14 +235,15 @@ def _known(unit: str) -> tuple[Decimal, str]:
 
 
 @lru_cache(maxsize=1024)
-def _factor_and_base(unit: str) -> tuple[Decimal, str]:
-    """Return the exact factor to SI base units and a text that names them.
+def _scale(unit: str) -> _Scale:
+    """Return the exact way from a unit to SI base units.
 
     Plain numbers, angles and frequencies have the same dimension but different base units (none,
     radian, 1/s against rad/s), which is why base units are compared and not dimensions.
     """
     one = _REGISTRY.Quantity(Decimal(1), unit).to_base_units()
     nothing = _REGISTRY.Quantity(Decimal(0), unit).to_base_units()
-    if nothing.magnitude != 0:
-        raise UnitProblem(f"{brief(unit)!r} has an offset; use kelvin")
-    return Decimal(one.magnitude), str(one.units)
+    zero = Decimal(nothing.magnitude)
+    if zero and not unit.isidentifier():
+        raise UnitProblem(f"{brief(unit)!r} counts from a zero of its own; use kelvin")
+    return _Scale(Decimal(one.magnitude) - zero, zero, str(one.units))

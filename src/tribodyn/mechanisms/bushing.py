@@ -9,9 +9,10 @@ from typing import Final, Protocol
 import numpy as np
 
 from tribodyn.cases import groups
+from tribodyn.cases.temperature import Temperature
 from tribodyn.contact import HasSurfacePair
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
+from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.wear import resampled
 
@@ -36,6 +37,10 @@ class HasBushing(HasSurfacePair, Protocol):
         """Its table ``[joint]``."""
 
     @property
+    def temperature(self) -> Temperature:
+        """Its table ``[temperature]``."""
+
+    @property
     def solver(self) -> groups.Solver:
         """Its table ``[solver]``."""
 
@@ -43,7 +48,7 @@ class HasBushing(HasSurfacePair, Protocol):
 def bushing_of(case: HasBushing) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
     contact, liner = case.contact, case.joint.liner.layer(case.surfaces.bushing)
-    geometry = BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length)
+    geometry = case.temperature.dimensions(case.joint, case.surfaces)
     return BushingJoint(
         geometry=geometry,
         friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
@@ -65,12 +70,22 @@ def bushing_of(case: HasBushing) -> BushingJoint:
 
 def bushing_facts(case: HasBushing) -> dict[str, object]:
     """Return what the attributes of a result say of the joint, SI units."""
+    geometry = case.temperature.dimensions(case.joint, case.surfaces)
     return {
         "contact_law": case.contact.law,
-        "clearance": case.joint.clearance,
+        "clearance": geometry.clearance,
+        "assembly_clearance": case.joint.clearance,
         "roughness": case.surface_pair.roughness_rms,
-        "joint_length": case.joint.length,
+        "joint_length": geometry.length,
     }
+
+
+def of_temperature(case: HasBushing) -> list[str]:
+    """Return what the temperatures of a case change, one sentence; nothing where they change nothing."""
+    hot, cold = case.temperature.dimensions(case.joint, case.surfaces).clearance, case.joint.clearance
+    if hot == cold:
+        return []
+    return [f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."]
 
 
 def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

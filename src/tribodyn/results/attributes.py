@@ -22,7 +22,7 @@ SWEEP: Final = "sweep"
 
 ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law"), TEXT),
-    **dict.fromkeys(("clearance", "joint_length", "cycle_period", "viscosity"), SIZE),
+    **dict.fromkeys(("clearance", "assembly_clearance", "joint_length", "cycle_period", "viscosity"), SIZE),
     **dict.fromkeys(("roughness", "friction_coefficient", "load_x", "load_y", "speed"), NUMBER),
     **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),
     **dict.fromkeys(("contact_force_peak", "contact_force_peak_time"), OUTCOME),

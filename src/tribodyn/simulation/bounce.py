@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, tabulate
+from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC
 from tribodyn.contact.bounce import bounce
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.drop import design_speed, drop
 from tribodyn.mechanisms.bushing import HasBushing
 
@@ -68,9 +68,12 @@ def _row(case: HasBushing, name: str, factor: str, wanted: float, mass: float) -
     contact = case.contact.model_copy(update={"law": name, "damping_factor": factor, "restitution": wanted})
     onset, pressure = contact.onset_separation, contact.design_pressure
     chosen = contact.law_of(case.surface_pair)
-    table = tabulate(chosen, onset=onset, smoothing_width=contact.smoothing_width)
+    geometry = case.temperature.dimensions(case.joint, case.surfaces)
+    liner = case.joint.liner.layer(case.surfaces.bushing)
+    width = contact.smoothing_width
+    table = contact_table(SURFACE, chosen, geometry, onset=onset, smoothing_width=width, liner=liner)
     joint = BushingJoint(
-        geometry=BushingGeometry(case.joint.clearance, case.joint.radius, case.joint.length),
+        geometry=geometry,
         friction=Friction(0.0, case.joint.friction, case.joint.slip_velocity),
         entry=EntryMemory(onset, contact.minimum_entry_velocity, contact.tensile_clip),
         grid=Grid(4 * case.solver.grid.theta, 2),

@@ -17,7 +17,13 @@ from tribodyn.integrate import INTERRUPTED
 from tribodyn.kernels.journal.quantities import FILM, OBSERVED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
 from tribodyn.mechanisms.base import Part, Run, Worn
-from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
+from tribodyn.mechanisms.bushing import (
+    bushing_facts,
+    bushing_of,
+    force_parts,
+    grid_force_error,
+    of_temperature,
+)
 from tribodyn.mechanisms.checks import peaks
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
@@ -118,14 +124,17 @@ class JournalSystem:
             columns=columns,
             fields=self._numbers(run, rows, balance),
             attributes={**self._facts(), "energy_residual": residual, "grid_force_error": grid_error},
-            warnings=warnings(
-                run.problem.memory.joint.peaks,
-                self.journal.joint,
-                residual=residual,
-                grid_error=grid_error,
-                t_end=float(run.solution.t_end),
-                statistics=run.cost,
-            ),
+            warnings=[
+                *of_temperature(self.case),
+                *warnings(
+                    run.problem.memory.joint.peaks,
+                    self.journal.joint,
+                    residual=residual,
+                    grid_error=grid_error,
+                    t_end=float(run.solution.t_end),
+                    statistics=run.cost,
+                ),
+            ],
             failure=self._failure(run),
         )
 

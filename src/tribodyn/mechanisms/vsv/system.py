@@ -20,7 +20,13 @@ from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
-from tribodyn.mechanisms.bushing import bushing_facts, bushing_of, force_parts, grid_force_error
+from tribodyn.mechanisms.bushing import (
+    bushing_facts,
+    bushing_of,
+    force_parts,
+    grid_force_error,
+    of_temperature,
+)
 from tribodyn.mechanisms.checks import peaks
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
@@ -164,9 +170,10 @@ class VsvSystem:
                 "grid_force_error": grid_error,
                 **found,
             },
-            warnings=warnings(
-                self.vsv, found, whole, clearance, grid_error, float(run.solution.t_end), run.cost
-            ),
+            warnings=[
+                *of_temperature(self.case),
+                *warnings(self.vsv, found, whole, clearance, grid_error, float(run.solution.t_end), run.cost),
+            ],
             failure=self._failure(run),
         )
 

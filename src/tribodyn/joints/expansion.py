@@ -1,0 +1,72 @@
+"""The clearance at the temperatures of a run: trunnion, bushing and casing expand by different amounts.
+
+A *free* bushing widens with its own material, r_b → r_b(1 + ε_b). A sleeve *bonded* into a casing follows it
+at its outer radius and along its surface, R → R(1 + ε_c); the strain ε_b − ε_c that it lacks there in both
+directions thickens it by Hooke's law: t → t[1 + ε_b + 2ν/(1 − ν)(ε_b − ε_c)]. The bore is what is left.
+All strains are free ones, αΔT.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tribodyn.core.errors import InputError
+from tribodyn.joints.bushing import BushingGeometry
+
+
+@dataclass(frozen=True)
+class Casing:
+    """What a sleeve is bonded into.
+
+    Attributes
+    ----------
+    strain
+        Free thermal strain ε_c of the casing [1].
+    thickness
+        Of the sleeve, t [m].
+    poisson_ratio
+        Of the sleeve, ν [1].
+    """
+
+    strain: float
+    thickness: float
+    poisson_ratio: float
+
+
+def expanded(
+    geometry: BushingGeometry, *, trunnion: float, bushing: float, casing: Casing | None = None
+) -> BushingGeometry:
+    """Return the dimensions at the temperatures of a run.
+
+    Parameters
+    ----------
+    geometry
+        Dimensions at assembly.
+    trunnion, bushing
+        Free thermal strains αΔT [1].
+    casing
+        What the bushing is bonded into; None for a free one.
+
+    Raises
+    ------
+    InputError
+        There is no clearance left.
+    """
+    radius = geometry.radius * (1.0 + trunnion)
+    bore = geometry.bore_radius * (1.0 + bushing) if casing is None else _bonded(geometry, bushing, casing)
+    if not bore > radius:
+        excess, needed = (1e6 * gap for gap in (radius - bore, geometry.clearance + radius - bore))
+        raise InputError(
+            f"the joint would seize: hot, the trunnion is {excess:.3g} um larger in radius than its bushing; "
+            f"more than {needed:.3g} um are needed at assembly",
+            key="joint.clearance",
+        )
+    length = geometry.length * (1.0 + (bushing if casing is None else casing.strain))
+    return replace(geometry, clearance=bore - radius, radius=radius, length=length)
+
+
+def _bonded(geometry: BushingGeometry, strain: float, casing: Casing) -> float:
+    """Return the bore of a bonded sleeve [m]."""
+    outer = (geometry.bore_radius + casing.thickness) * (1.0 + casing.strain)
+    squeezed = 2.0 * casing.poisson_ratio / (1.0 - casing.poisson_ratio) * (strain - casing.strain)
+    return outer - casing.thickness * (1.0 + strain + squeezed)

@@ -1,0 +1,86 @@
+"""The clearance at temperature, against closed forms and elasticity."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.core.errors import InputError
+from tribodyn.joints import BushingGeometry
+from tribodyn.joints.expansion import Casing, expanded
+
+COLD = BushingGeometry(clearance=60e-6, radius=6e-3, length=20e-3)
+ALPHA_T, ALPHA_B, ALPHA_C, NU, THICKNESS, RISE = 12e-6, 50e-6, 11e-6, 0.34, 1e-3, 380.0
+CASING = Casing(ALPHA_C * RISE, THICKNESS, NU)
+
+
+def test_a_free_bushing_widens() -> None:
+    hot = expanded(COLD, trunnion=ALPHA_T * RISE, bushing=ALPHA_B * RISE)
+    # c + ΔT (α_b r_b − α_t r_j), to rounding.
+    assert hot.clearance == pytest.approx(60e-6 + RISE * (ALPHA_B * 6.06e-3 - ALPHA_T * 6e-3), rel=1e-9)
+    assert hot.bore_radius == pytest.approx(6.06e-3 * (1.0 + ALPHA_B * RISE), rel=1e-14)
+
+
+def test_a_bonded_sleeve_closes_the_clearance() -> None:
+    hot = expanded(COLD, trunnion=ALPHA_T * RISE, bushing=ALPHA_B * RISE, casing=CASING)
+    thicker = ALPHA_B * RISE + 2.0 * NU / (1.0 - NU) * (ALPHA_B - ALPHA_C) * RISE
+    closing = RISE * (ALPHA_T * 6e-3 - ALPHA_C * 7.06e-3) + THICKNESS * thicker
+    assert hot.clearance == pytest.approx(60e-6 - closing, rel=1e-9)
+    # What 380 K on a sleeve of polyimide take from a clearance: the range that the paper studies.
+    assert 15e-6 < closing < 40e-6
+
+
+def test_the_thickening_is_that_of_a_sheet_held_in_its_plane() -> None:
+    """Hooke's law: ε_x = ε_y = ε_c, σ_z = 0, each strain αΔT plus an elastic part."""
+    free, held = ALPHA_B * RISE, ALPHA_C * RISE
+    compliance = np.array([[1.0, -NU, -NU], [-NU, 1.0, -NU], [-NU, -NU, 1.0]])
+    stress = np.linalg.solve(compliance[:2, :2], np.full(2, held - free))
+    strain = free + compliance[2, :2] @ stress
+    assert strain == pytest.approx(free + 2.0 * NU / (1.0 - NU) * (free - held), rel=1e-12)
+
+
+def test_a_sleeve_of_the_casings_material_is_part_of_it() -> None:
+    alone = expanded(COLD, trunnion=0.0, bushing=2e-3)
+    bonded = expanded(COLD, trunnion=0.0, bushing=2e-3, casing=Casing(2e-3, THICKNESS, NU))
+    assert bonded.bore_radius == pytest.approx(alone.bore_radius, rel=1e-14)
+
+
+def test_a_seizure_is_refused_in_words() -> None:
+    tight = BushingGeometry(clearance=20e-6, radius=6e-3, length=20e-3)
+    with pytest.raises(InputError, match="would seize") as caught:
+        expanded(tight, trunnion=ALPHA_T * RISE, bushing=ALPHA_B * RISE, casing=CASING)
+    assert caught.value.key == "joint.clearance"
+    needed = float(str(caught.value).split("more than ")[1].split(" um")[0]) * 1e-6
+    expanded(
+        BushingGeometry(1.01 * needed, 6e-3, 20e-3),
+        trunnion=ALPHA_T * RISE,
+        bushing=ALPHA_B * RISE,
+        casing=CASING,
+    )
+
+
+def test_a_hot_run_is_the_cold_run_of_its_clearance() -> None:
+    hot = td.load_case("vsv").replace(
+        {
+            "run.cycles": 0.1,
+            "joint.clearance": "50 um",
+            "surfaces.trunnion.thermal_expansion": "12e-6 1/K",
+            "temperature.trunnion": "400 degC",
+        }
+    )
+    run = td.simulate(hot)
+    assert "not 50 um" in run.attrs["warnings"]
+    assert run.attrs["assembly_clearance"] == 50e-6
+    same = td.simulate(
+        hot.replace(
+            {
+                "joint.clearance": f"{run.attrs['clearance']} m",
+                "joint.radius": f"{6e-3 * (1.0 + 12e-6 * 380.0)} m",
+                "temperature.trunnion": "20 degC",
+            }
+        )
+    )
+    assert run.attrs["clearance"] == pytest.approx(50e-6 - 6e-3 * 12e-6 * 380.0, rel=1e-9)
+    # The same numbers but for the rounding of the radius.
+    assert run.attrs["contact_force_peak"] == pytest.approx(same.attrs["contact_force_peak"], rel=1e-6)

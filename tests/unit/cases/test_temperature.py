@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+import pytest
+
+import tribodyn as td
+from tribodyn.core.errors import InputError
+
+EXPANSIONS = {
+    "surfaces.trunnion.thermal_expansion": "12e-6 1/K",
+    "surfaces.bushing.thermal_expansion": "50e-6 1/K",
+}
+HOT = {"temperature.trunnion": "300 degC", "temperature.bushing": "300 degC"}
+TABLE = {
+    "temperature.properties.temperatures": "20, 200, 400 degC",
+    "temperature.properties.young_modulus": "7, 5, 3 GPa",
+    "temperature.properties.specific_wear_rate": "1e-15, 2e-15, 6e-15 m^2/N",
+}
+
+
+def refusal(changes: dict[str, object], kind: str = "vsv") -> InputError:
+    with pytest.raises(InputError) as caught:
+        td.simulate(td.load_case(kind).replace(changes))
+    return caught.value
+
+
+def test_temperatures_are_read_in_degrees_and_kelvin() -> None:
+    case = td.load_case("vsv").replace(EXPANSIONS | {"temperature.bushing": "300 degC"})
+    assert case.temperature.bushing == 573.15
+    assert case.temperature.assembly == 293.15
+    assert case.replace({"temperature.bushing": "573.15 K"}).temperature.bushing == 573.15
+    assert 'bushing = "300 degC"' in case.to_toml()
+
+
+def test_a_cold_case_is_as_it_was() -> None:
+    case = td.load_case("vsv")
+    assert case.temperature.dimensions(case.joint, case.surfaces).clearance == case.joint.clearance
+
+
+def test_a_material_follows_its_table() -> None:
+    case = td.load_case("vsv").replace(EXPANSIONS | HOT | TABLE)
+    assert case.surfaces.bushing.young_modulus == pytest.approx(4e9, rel=1e-12)
+    assert case.wear.specific_wear_rate == pytest.approx(4e-15, rel=1e-12)
+    cooler = case.replace({"temperature.bushing": "200 degC"})
+    assert cooler.surfaces.bushing.young_modulus == pytest.approx(5e9, rel=1e-12)
+
+
+def test_a_key_that_is_given_goes_before_the_table() -> None:
+    case = td.load_case("vsv").replace(TABLE | {"surfaces.bushing.young_modulus": "6 GPa"})
+    assert case.surfaces.bushing.young_modulus == 6e9
+
+
+@pytest.mark.parametrize(
+    ("changes", "kind", "key", "words"),
+    [
+        (HOT, "vsv", "surfaces.trunnion.thermal_expansion", "not as warm"),
+        (EXPANSIONS | HOT | {"temperature.fit": "bonded"}, "vsv", "joint.liner.thickness", "thickness"),
+        (TABLE | {"temperature.bushing": "500 degC"}, "vsv", "temperature.properties.young_modulus", "ends"),
+        (TABLE, "journal-dry", "temperature.properties.specific_wear_rate", "no wear"),
+        (
+            TABLE | {"temperature.properties.young_modulus": "7, 5 GPa"},
+            "vsv",
+            "temperature.properties.young_modulus",
+            "2 values for 3",
+        ),
+        (
+            {"temperature.properties.hardness": "7, 5 GPa"},
+            "vsv",
+            "temperature.properties.temperatures",
+            "one for each",
+        ),
+        (
+            TABLE | {"temperature.properties.temperatures": "20, 400, 200 degC"},
+            "vsv",
+            "temperature.properties.temperatures",
+            "above the one before",
+        ),
+        ({"temperature.bushing": "-300 degC"}, "vsv", "temperature.bushing", "> 0"),
+    ],
+)
+def test_what_cannot_be(changes: dict[str, object], kind: str, key: str, words: str) -> None:
+    error = refusal(changes, kind)
+    assert error.key == key
+    assert words in str(error)
