@@ -21,6 +21,9 @@ The rules
    It is the only place where the state of contact (such as entry velocities) changes.
 6. An integrator never steps across a breakpoint. Stage evaluations may lie beyond it;
    the regime set by ``enter`` then still holds.
+7. A problem with an ``algebra`` of its own never meets a matrix of n² numbers: ``jac`` is handed the entries
+   of the Jacobian, cleared, and ``factorise`` and ``solve`` read and change their arguments alone. After
+   ``factorise`` any number of calls of ``solve`` may follow.
 """
 
 from __future__ import annotations
@@ -28,6 +31,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 
@@ -41,7 +47,8 @@ class CompiledFunctions:
     rhs
         ``rhs(t, y, data, memory, f)`` fills ``f`` (n,) with dy/dt.
     jac
-        ``jac(t, y, data, memory, f, jacobian)`` fills ``f`` and ``jacobian`` (n, n).
+        ``jac(t, y, data, memory, f, jacobian)`` fills ``f`` and ``jacobian`` (n, n), or (n_entries,)
+        where the problem has an :class:`Algebra`.
     enter
         ``enter(t, y, data, memory)`` begins a segment at ``t``.
     advance
@@ -62,6 +69,32 @@ class CompiledFunctions:
     accept: Callable[..., None]
     observe: Callable[..., None]
     picture: Callable[..., None]
+
+
+@dataclass(frozen=True)
+class Algebra:
+    """How a problem of many states solves with its Newton matrix 1 − γJ itself, in less than n² numbers.
+
+    Attributes
+    ----------
+    places
+        Row and column of each entry of the Jacobian that may differ from zero, shape (2, n_entries);
+        entries of one place add up.
+    factorise
+        ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with 1 − γJ from the entries
+        ``jacobian`` (n_entries,); returns whether the matrix is regular. Compiled, as are those of
+        :class:`CompiledFunctions`; ``gamma`` may be negative.
+    solve
+        ``solve(data, factors, pivots, x)`` replaces the right-hand side ``x`` (n,) by the solution.
+    n_factors, n_pivots
+        Sizes of ``factors`` (float64) and ``pivots`` (int64): what ``factorise`` leaves to ``solve``.
+    """
+
+    places: NDArray[np.int64]
+    factorise: Callable[..., bool]
+    solve: Callable[..., None]
+    n_factors: int
+    n_pivots: int = 0
 
 
 @dataclass(frozen=True)
@@ -90,6 +123,8 @@ class Problem:
         Length of a row of ``observe``.
     field_shape
         Shape of the array of ``picture``.
+    algebra
+        ``None`` for dense matrices, which are fastest up to some dozens of states.
     """
 
     functions: CompiledFunctions
@@ -102,6 +137,7 @@ class Problem:
     state_names: tuple[str, ...]
     n_observed: int
     field_shape: tuple[int, ...]
+    algebra: Algebra | None = None
 
 
 @dataclass

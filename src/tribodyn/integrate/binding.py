@@ -44,10 +44,11 @@ def argument_types(problem: Problem, types: tuple[Any, Any]) -> dict[str, tuple[
     from numba import float64
     from numba.core.types import Array
 
-    vector, square = float64[::1], float64[:, ::1]
+    vector = float64[::1]
+    matrix = float64[:, ::1] if problem.algebra is None else vector
     return {
         "rhs": (float64, vector, *types, vector),
-        "jac": (float64, vector, *types, vector, square),
+        "jac": (float64, vector, *types, vector, matrix),
         "enter": (float64, vector, *types),
         "advance": (float64, float64, vector, *types),
         "accept": (float64, vector, *types),
@@ -111,6 +112,7 @@ class Binding:
         self._memory = problem.memory
         self._names = problem.state_names
         self._n = problem.y0.size
+        self._places = None if problem.algebra is None else problem.algebra.places
         self._last_jacobian: FloatArray | None = None
         self._statistics = statistics
         self.note = ""
@@ -129,7 +131,12 @@ class Binding:
         self._statistics.jacobian_evaluations += 1
         f = np.empty(self._n)
         jacobian = np.zeros((self._n, self._n))
-        self._jac(t, y, self._data, self._memory, f, jacobian)
+        if self._places is None:
+            self._jac(t, y, self._data, self._memory, f, jacobian)
+        else:
+            entries = np.zeros(self._places.shape[1])
+            self._jac(t, y, self._data, self._memory, f, entries)
+            np.add.at(jacobian, tuple(self._places), entries)
         if np.isfinite(jacobian).all():
             self._last_jacobian = jacobian
         elif self._last_jacobian is None:

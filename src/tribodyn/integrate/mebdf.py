@@ -16,14 +16,16 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
-from tribodyn.core.problem import Problem, Solution
+from tribodyn.core.problem import Algebra, Problem, Solution
 from tribodyn.integrate.binding import argument_types, is_compiled
 from tribodyn.integrate.driver import INTERRUPTED, Walk
 from tribodyn.integrate.schedule import Schedule
 
 if TYPE_CHECKING:
     from tribodyn.kernels.mebdf.drive import Marks
+    from tribodyn.kernels.mebdf.own import OwnMatrix
     from tribodyn.kernels.mebdf.state import MebdfState
 
 HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
@@ -64,7 +66,8 @@ class _CompiledWalk(Walk):
     """One integration under way."""
 
     _loop: Callable[..., int]
-    _functions: tuple[Callable[..., None], ...]
+    _functions: tuple[Callable[..., Any] | None, ...]
+    _own: OwnMatrix | None
     _marks: Marks
     _in_machine_code: bool
     _pause: NDArray[np.int64]
@@ -77,11 +80,15 @@ class _CompiledWalk(Walk):
         self._rtol = rtol
         self._pause = np.array([AFTER_STEP])
         self._marks = self._new_marks()
-        self._functions = tuple(getattr(self.problem.functions, name) for name in HANDED)
-        self._in_machine_code = all(map(is_compiled, self._functions))
+        algebra = self.problem.algebra
+        self._own = None if algebra is None else self._new_matrix(algebra)
+        solvers = (None, None) if algebra is None else (algebra.factorise, algebra.solve)
+        self._functions = (*(getattr(self.problem.functions, name) for name in HANDED), *solvers)
+        self._in_machine_code = all(f is None or is_compiled(f) for f in self._functions)
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
-            self._loop = _compiled(run, self.problem, state, self.types, self._marks, self._pause)
+            arrays = (self._jacobian(state), self._own, self._marks, self._pause)
+            self._loop = _compiled(run, self.problem, self.types, state, *arrays)
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
 
@@ -100,7 +107,8 @@ class _CompiledWalk(Walk):
         before = vars(self.statistics).copy()
         outcome = PAUSED
         while outcome == PAUSED:
-            outcome = self._loop(*self._functions, state, problem.data, problem.memory, marks, self._pause)
+            arrays = (problem.data, problem.memory, self._jacobian(state), self._own, marks, self._pause)
+            outcome = self._loop(*self._functions, state, *arrays)
             if self._in_machine_code:
                 self._pause[0] = 0
             self._take_over(state, before)
@@ -114,7 +122,22 @@ class _CompiledWalk(Walk):
     def _new_state(self, t: float, t_end: float) -> MebdfState:
         from tribodyn.kernels.mebdf.state import new_state
 
-        return new_state(t, self.y, t_end, self._rtol, self.problem.atol)
+        outside = self.problem.algebra is not None
+        return new_state(t, self.y, t_end, self._rtol, self.problem.atol, outside=outside)
+
+    def _jacobian(self, state: MebdfState) -> FloatArray:
+        """Return what ``jac`` fills."""
+        from tribodyn.kernels.mebdf.state import JACOBIAN
+
+        jacobian: FloatArray = state.matrices[JACOBIAN] if self._own is None else self._own.jacobian
+        return jacobian
+
+    def _new_matrix(self, algebra: Algebra) -> OwnMatrix:
+        from tribodyn.kernels.mebdf.own import OwnMatrix
+
+        entry, last = np.zeros((2, algebra.places.shape[1]))
+        pivots = np.zeros(algebra.n_pivots, dtype=np.int64)
+        return OwnMatrix(algebra.places, entry, last, np.zeros(algebra.n_factors), pivots)
 
     def _new_marks(self) -> Marks:
         from tribodyn.kernels.mebdf.drive import Marks
@@ -153,7 +176,13 @@ class _CompiledWalk(Walk):
         """Return why the core gave up, in words."""
         from tribodyn.integrate.mebdf_reasons import reason
 
-        return reason(state, self.problem.state_names)
+        return reason(state, self.problem.state_names, self._entry_not_finite)
+
+    def _entry_not_finite(self, state: MebdfState) -> tuple[int, int]:
+        """Return row and column of the first entry of the Jacobian that is not finite."""
+        bad = ~np.isfinite(self._jacobian(state))
+        row, column = np.argwhere(bad)[0] if self._own is None else self._own.places[:, bad][:, 0]
+        return int(row), int(column)
 
 
 @contextmanager
@@ -176,7 +205,9 @@ def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
         thread.join()
 
 
-def _compiled(run: Any, problem: Problem, state: Any, types: tuple[Any, Any], marks: Any, pause: Any) -> Any:
+def _compiled(
+    run: Any, problem: Problem, types: tuple[Any, Any], state: Any, jacobian: Any, own: Any, *others: Any
+) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
     With the functions of a problem as ordinary arguments the loop would be compiled for each of them
@@ -189,7 +220,14 @@ def _compiled(run: Any, problem: Problem, state: Any, types: tuple[Any, Any], ma
     typeof: Callable[[Any], Any] = numba.typeof
     arguments = argument_types(problem, types)
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
-    return run.compile((*handed, typeof(state), *types, typeof(marks), typeof(pause)))
+    solvers: tuple[Any, Any] = (numba.none, numba.none)
+    if own is not None:
+        entries, pivots = typeof(own.jacobian), typeof(own.pivots)
+        factorise = numba.boolean(numba.float64, types[0], entries, entries, pivots)
+        solve = void(types[0], entries, pivots, entries)
+        solvers = FunctionType(factorise), FunctionType(solve)
+    work = map(typeof, (jacobian, own, *others))
+    return run.compile((*handed, *solvers, typeof(state), *types, *work))
 
 
 MEBDF = CompiledMebdf()

@@ -40,6 +40,17 @@ def order(max_order: int, largest: int) -> int:
     return int(max_order)
 
 
+def bands(lower: int | None, upper: int | None, n: int) -> tuple[int, int] | None:
+    """Return how many diagonals lie below and above the main one; ``None`` if neither number is given."""
+    if lower is None and upper is None:
+        return None
+    numbers = lower or 0, upper or 0
+    for name, number in zip(("lband", "uband"), numbers, strict=True):
+        if number != int(number) or not 0 <= number < max(n, 1):
+            raise ValueError(f"`{name}` must be a whole number from 0 to {n - 1}, not {number}.")
+    return int(numbers[0]), int(numbers[1])
+
+
 def resolved(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> None:
     """Refuse what is too small for its relative tolerance to be a number of full precision."""
     lost = (atol == 0.0) & (y0 != 0.0) & (rtol * np.abs(y0) < SMALLEST_TOLERANCE)

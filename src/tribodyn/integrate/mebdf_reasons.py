@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -11,7 +11,9 @@ from tribodyn.kernels.mebdf import state as entry
 from tribodyn.kernels.mebdf.state import MebdfState
 
 
-def reason(state: MebdfState, names: Sequence[str]) -> str:
+def reason(
+    state: MebdfState, names: Sequence[str], entry_not_finite: Callable[[MebdfState], tuple[int, int]]
+) -> str:
     """Return the reason of a failure: what went wrong, and in which state.
 
     Parameters
@@ -20,9 +22,11 @@ def reason(state: MebdfState, names: Sequence[str]) -> str:
         After ``resume`` has returned FAILED.
     names
         Names of the states.
+    entry_not_finite
+        Tells row and column of the first entry of the Jacobian that is not finite.
     """
     if state.counts[entry.REASON] == phases.JACOBIAN_NOT_FINITE:
-        row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
+        row, column = entry_not_finite(state)
         return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
     if state.counts[entry.REASON] == phases.NO_PROGRESS:
         name = names[int(state.counts[entry.WORST])]

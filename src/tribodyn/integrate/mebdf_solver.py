@@ -11,7 +11,9 @@ from numpy.typing import ArrayLike
 from scipy.integrate import DenseOutput, OdeSolver
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.integrate.mebdf_algebra import Algebra
 from tribodyn.integrate.mebdf_checks import (
+    bands,
     largest_step,
     order,
     resolved,
@@ -25,7 +27,15 @@ from tribodyn.integrate.mebdf_reasons import reason
 from tribodyn.kernels.mebdf import state as entry
 from tribodyn.kernels.mebdf.coefficients import MAX_K
 from tribodyn.kernels.mebdf.core import resume
-from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, STEP_ACCEPTED
+from tribodyn.kernels.mebdf.phases import (
+    FAILED,
+    NEED_F,
+    NEED_FACTORS,
+    NEED_JACOBIAN,
+    NEED_MAGNITUDE,
+    NEED_SOLUTION,
+    STEP_ACCEPTED,
+)
 from tribodyn.kernels.mebdf.state import new_state
 
 
@@ -51,11 +61,15 @@ class MEBDF(OdeSolver):
         numbers or shape (n,).
     jac
         Jacobian ``jac(t, y)`` of shape (n, n), a constant matrix, or ``None`` for finite differences; dense
-        or sparse. The algebra is dense.
+        or sparse.
     jac_sparsity
-        Where entries of the Jacobian may differ from zero, to group finite differences; shape (n, n).
+        Where entries of the Jacobian may differ from zero, to group finite differences; shape (n, n). From
+        65 equations on a sparse Jacobian leads to sparse or banded decompositions.
     vectorized
         Whether ``fun`` takes several states at once.
+    lband, uband
+        Numbers of diagonals of the Jacobian below and above the main one. ``jac`` then gives the diagonals,
+        ``jac(t, y)[i - j + uband, j]`` = ∂f_i/∂y_j, shape (lband + uband + 1, n); one not given is 0.
     max_order
         Largest order, 2 to 8.
 
@@ -78,6 +92,8 @@ class MEBDF(OdeSolver):
         jac_sparsity: Any = None,
         vectorized: bool = False,
         first_step: float | None = None,
+        lband: int | None = None,
+        uband: int | None = None,
         max_order: int = MAX_K + 1,
         **extraneous: Any,
     ) -> None:
@@ -87,6 +103,9 @@ class MEBDF(OdeSolver):
         self.max_step = largest_step(max_step)
         self.rtol, self.atol = tolerances(rtol, atol, self.n)
         resolved(self.y, self.rtol, self.atol)
+        self._jacobian, self._algebra = make_jacobian(
+            self, jac, jac_sparsity, bands(lband, uband, self.n), self.atol
+        )
         self._state = new_state(
             float(self.t),
             self.y,
@@ -98,8 +117,8 @@ class MEBDF(OdeSolver):
             largest_k=order(max_order, MAX_K + 1) - 1,
             inside=True,
             differenced=jac is None,
+            outside=self._algebra is not None,
         )
-        self._jacobian = make_jacobian(self, jac, jac_sparsity, self.atol)
         self._resume = _machine_code()
 
     def _step_impl(self) -> tuple[bool, str | None]:
@@ -113,14 +132,23 @@ class MEBDF(OdeSolver):
             t, y = float(state.real[entry.T_EVAL]), state.rows[entry.Y].copy()
             if request == NEED_F:
                 state.rows[entry.F] = self.fun(t, y)
-            else:
+            elif self._algebra is None:
                 state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
+            else:
+                _answer(request, state, self._algebra, t, y)
         self.njev, self.nlu = int(state.counts[entry.N_J]), int(state.counts[entry.N_LU])
         if request == FAILED:
-            return False, reason(state, [f"component {i}" for i in range(self.n)])
+            return False, reason(state, [f"component {i}" for i in range(self.n)], self._entry_not_finite)
         self.t = float(state.real[entry.T])
         self.y = state.rows[entry.HISTORY].copy()
         return True, None
+
+    def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
+        """Return row and column of the first entry of the Jacobian that is not finite."""
+        if self._algebra is not None:
+            return self._algebra.entry_not_finite()
+        row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
+        return int(row), int(column)
 
     def _dense_output_impl(self) -> DenseOutput:
         """Return the polynomial of the last step."""
@@ -154,6 +182,19 @@ class MebdfDenseOutput(DenseOutput):
             weights.append(weight)
         y: FloatArray = np.tensordot(self._differences, np.array(weights), axes=(0, 0))
         return y
+
+
+def _answer(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
+    """Do what the core asks of who solves for it."""
+    scaled, rows = float(state.real[entry.SCALED]), state.rows
+    if request == NEED_JACOBIAN:
+        state.counts[entry.FINITE] = algebra.linearise(t, y)
+    elif request == NEED_FACTORS:
+        state.counts[entry.REGULAR] = algebra.factorise(scaled)
+    elif request == NEED_SOLUTION:
+        rows[entry.DELTA] = algebra.solve(rows[entry.RESIDUAL])
+    elif request == NEED_MAGNITUDE:
+        rows[entry.MAGNITUDE] = algebra.magnitude(scaled, y)
 
 
 def _machine_code() -> Callable[..., int]:

@@ -22,10 +22,9 @@ from tribodyn.kernels.mebdf.state import (
     DOUBTFUL,
     EXPLAINED,
     ITERATION,
-    LAST_JACOBIAN,
     LAST_NORM,
+    MAGNITUDE,
     OVERSHOT,
-    SCALED,
     STAGE,
     TINY,
     UNSOLVED,
@@ -39,6 +38,9 @@ SOLVED: Final = 1
 OPEN: Final = 0
 """An evaluation must tell."""
 FALSE: Final = -1
+DIVERGED: Final = -2
+IN_DOUBT: Final = 2
+"""The rounding of the residual must tell."""
 
 PROVED: Final = 0.5
 """What a correction must leave of the residual, at most, to prove the Jacobian."""
@@ -59,29 +61,40 @@ ABOVE_NOISE: Final = 10.0
 
 
 @inlined
-def judge(
-    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray, size: float
-) -> int:
-    """Return SOLVED, OPEN or FALSE for a stage whose correction, of norm ``size``, is small enough."""
+def judge(real: FloatArray, count: NDArray[np.int64], size: float) -> int:
+    """Return SOLVED, FALSE or IN_DOUBT for a stage whose correction, of norm ``size``, is small enough."""
     unsolved, before = real[UNSOLVED], real[UNSOLVED_BEFORE]
     if real[OVERSHOT] > 0.0:
         return SOLVED if abs(unsolved / (real[OVERSHOT] * before) - 1.0) <= PROVED else FALSE
-    left = unsolved / before if count[ITERATION] > 1 and unsolved > 0.0 else 1.0
-    if left <= PROVED:
+    if _left(real, count) <= PROVED:
         real[EXPLAINED] = max(real[EXPLAINED], before)
         return SOLVED
     if unsolved <= NOTHING or (count[WARY] == 0 and not _is_doubtful(real, size)):
         return SOLVED
+    return IN_DOUBT
+
+
+@inlined
+def _left(real: FloatArray, count: NDArray[np.int64]) -> float:
+    """Return what the last but one correction has left of the residual; 1 where that is not known."""
+    unsolved = real[UNSOLVED]
+    return unsolved / real[UNSOLVED_BEFORE] if count[ITERATION] > 1 and unsolved > 0.0 else 1.0
+
+
+@kernel
+def judge_beside_rounding(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+    """Return SOLVED, OPEN or FALSE for a stage in doubt, with its row MAGNITUDE filled."""
+    unsolved, size = real[UNSOLVED], real[LAST_NORM]
     # A stage that was predicted with its slope begins with a residual that was not evaluated.
     given = count[STAGE] == 3 or (count[STAGE] == 1 and count[CARRIED] == 1)
     evaluated = count[ITERATION] - (1 if given else 0)
-    noise = _noise(real, rows, matrices)
+    noise = _noise(rows)
     if unsolved <= noise:
         factor = ABOVE_NOISE * noise / unsolved
         if unsolved <= HARMLESS or factor * size > HARMLESS:
             return SOLVED
         return _overshoot(real, rows, factor) if evaluated > 0 else OPEN
-    return FALSE if evaluated > 1 and left > REFUTED else OPEN
+    return FALSE if evaluated > 1 and _left(real, count) > REFUTED else OPEN
 
 
 @inlined
@@ -94,16 +107,12 @@ def _is_doubtful(real: FloatArray, size: float) -> bool:
 
 
 @kernel
-def _noise(real: FloatArray, rows: FloatArray, matrices: FloatArray) -> float:
+def _noise(rows: FloatArray) -> float:
     """Return the norm of the residual that the rounding of y, magnified by the Jacobian, may leave."""
-    n = rows.shape[1]
-    scaled, total = abs(real[SCALED]), 0.0
-    for i in range(n):
-        noise = abs(rows[Y, i])
-        for j in range(n):
-            noise += scaled * abs(matrices[LAST_JACOBIAN, i, j] * rows[Y, j])
-        total += (NOISE * noise * rows[WEIGHT, i]) ** 2
-    return math.sqrt(total / n)
+    total = 0.0
+    for i in range(rows.shape[1]):
+        total += (NOISE * rows[MAGNITUDE, i] * rows[WEIGHT, i]) ** 2
+    return math.sqrt(total / rows.shape[1])
 
 
 @kernel

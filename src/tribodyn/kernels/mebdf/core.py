@@ -5,6 +5,13 @@ returns which. The caller evaluates at ``real[T_EVAL]`` and ``rows[Y]``, fills `
 ``matrices[JACOBIAN]`` and calls again. So one source serves compiled problems, where the loop around it
 never leaves compiled code, and Python callables.
 
+The iteration matrix is dense, or the caller's: with ``count[OUTSIDE]`` the machine holds no matrix and asks
+
+- NEED_JACOBIAN: evaluate the Jacobian; ``count[FINITE]`` = 0 where it is not and the last one stays;
+- NEED_FACTORS: prepare solutions with I − ``real[SCALED]`` J; ``count[REGULAR]`` = 0 where that is singular;
+- NEED_SOLUTION: fill ``rows[DELTA]`` with the solution for ``rows[RESIDUAL]``;
+- NEED_MAGNITUDE: fill ``rows[MAGNITUDE]``. Few steps need it.
+
 One step, Cash's three stages on one iteration matrix I − hβJ:
 
 1. BDF with k back values at t_{n+1} gives ȳ1;
@@ -28,11 +35,14 @@ from tribodyn.kernels.mebdf.acceptance import FADING
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
 from tribodyn.kernels.mebdf.history import push, rescale
-from tribodyn.kernels.mebdf.newton import iterate, renew_matrix, start_stage
+from tribodyn.kernels.mebdf.newton import begin_stages, iterate, renew_matrix, start_stage
 from tribodyn.kernels.mebdf.phases import (
     ACCEPT,
     AFTER,
+    CONCLUDE,
+    CORRECT,
     FACTORISE,
+    FACTORISED,
     FAILED,
     ITERATE,
     NEED_JACOBIAN,
@@ -97,7 +107,7 @@ ROUNDING: Final = 1.0e-10
 
 @kernel
 def resume(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
-    """Go on until something is needed; return NEED_F, NEED_JACOBIAN, STEP_ACCEPTED or FAILED.
+    """Go on until something is needed; return what: NEED_F …, STEP_ACCEPTED or FAILED.
 
     After STEP_ACCEPTED the solution at ``real[T]`` is ``rows[HISTORY]``, and the polynomial of degree
     ``count[K_LAST]`` + 1 through the history is the dense output between ``real[T_OLD]`` and ``real[T]``,
@@ -106,14 +116,16 @@ def resume(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrice
     request = 0
     while request == 0:
         phase = count[PHASE]
-        if phase == ITERATE:
-            request = iterate(real, count, rows, matrices)
+        if phase in (ITERATE, CORRECT, CONCLUDE):
+            request = iterate(real, count, rows, matrices, phase)
         elif phase == START_STAGE:
             request = start_stage(real, count, rows)
         elif phase == STEP:
             request = _begin_step(real, count, rows)
         elif phase == FACTORISE:
             request = renew_matrix(real, count, rows, matrices)
+        elif phase == FACTORISED:
+            begin_stages(real, count, rows)
         elif phase == ACCEPT:
             _accept(real, count, rows)
             request = STEP_ACCEPTED

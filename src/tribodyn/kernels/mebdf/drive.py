@@ -15,12 +15,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import clear, copy
+from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel, unlocked
 from tribodyn.kernels.mebdf.core import resume
 from tribodyn.kernels.mebdf.history import value_at
-from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, NEED_JACOBIAN
-from tribodyn.kernels.mebdf.state import H_LAST, HISTORY, JACOBIAN, K_LAST, T_END, T_EVAL, F, MebdfState, T, Y
+from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, take_over
+from tribodyn.kernels.mebdf.phases import (
+    FAILED,
+    NEED_F,
+    NEED_FACTORS,
+    NEED_JACOBIAN,
+    NEED_MAGNITUDE,
+    NEED_SOLUTION,
+)
+from tribodyn.kernels.mebdf.state import (
+    DELTA,
+    FINITE,
+    H_LAST,
+    HISTORY,
+    K_LAST,
+    REGULAR,
+    RESIDUAL,
+    SCALED,
+    T_END,
+    T_EVAL,
+    F,
+    MebdfState,
+    T,
+    Y,
+)
 
 ENDED: Final = 0
 PAUSED: Final = 1
@@ -85,9 +108,13 @@ def run(
     accept: Callable[..., None],
     observe: Callable[..., None],
     picture: Callable[..., None],
+    factorise: Callable[..., bool] | None,
+    solve: Callable[..., None] | None,
     state: MebdfState,
     data: Any,
     memory: Any,
+    jacobian: FloatArray,
+    own: OwnMatrix | None,
     marks: Marks,
     pause: NDArray[np.int64],
 ) -> int:
@@ -97,7 +124,6 @@ def run(
     needs stands in its arguments.
     """
     real, count, rows, matrices = state
-    jacobian = matrices[JACOBIAN]
     y, f, newest = rows[Y], rows[F], rows[HISTORY]
     times, position, reached = marks.times, marks.position, marks.reached
     end, tolerance = marks.end, marks.tolerance[0]
@@ -109,13 +135,26 @@ def run(
                 return PAUSED
             continue
         if request == NEED_JACOBIAN:
-            clear(jacobian)
+            jacobian.fill(0.0)
             jac(real[T_EVAL], y, data, memory, f, jacobian)
+            if own is not None:
+                count[FINITE] = take_over(own)
             if pause[0] == AFTER_EVALUATION:
                 return PAUSED
             continue
         if request == FAILED:
             return FAILED
+        if own is not None and factorise is not None and solve is not None:
+            if request == NEED_FACTORS:
+                count[REGULAR] = factorise(real[SCALED], data, own.last, own.factors, own.pivots)
+                continue
+            if request == NEED_SOLUTION:
+                copy(rows[RESIDUAL], rows[DELTA])
+                solve(data, own.factors, own.pivots, rows[DELTA])
+                continue
+            if request == NEED_MAGNITUDE:
+                magnify(own, rows, real[SCALED])
+                continue
         t = real[T]
         ended = False
         while not ended:

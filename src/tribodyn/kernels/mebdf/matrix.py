@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.state import DELTA, FACTORS, LAST_JACOBIAN, PIVOTS, RESIDUAL
+from tribodyn.kernels.mebdf.state import DELTA, FACTORS, LAST_JACOBIAN, MAGNITUDE, PIVOTS, RESIDUAL, Y
 
 LARGEST_INVERSE: Final = 24
 """Number of equations up to which the inverse is used: a product has no chain of divisions."""
@@ -97,6 +97,17 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
                 for j in range(k + 1, n):
                     matrices[FACTORS, i, j] -= factor * matrices[FACTORS, k, j]
     return True
+
+
+@kernel
+def magnify(rows: FloatArray, matrices: FloatArray, scaled: float) -> None:
+    """Fill the row MAGNITUDE."""
+    n = rows.shape[1]
+    for i in range(n):
+        magnitude = abs(rows[Y, i])
+        for j in range(n):
+            magnitude += abs(scaled) * abs(matrices[LAST_JACOBIAN, i, j] * rows[Y, j])
+        rows[MAGNITUDE, i] = magnitude
 
 
 @kernel

@@ -11,12 +11,33 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.mebdf.acceptance import FALSE, SOLVED, judge
+from tribodyn.kernels.mebdf.acceptance import (
+    DIVERGED,
+    FALSE,
+    IN_DOUBT,
+    OPEN,
+    SOLVED,
+    judge,
+    judge_beside_rounding,
+)
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from tribodyn.kernels.mebdf.control import CAUTION, newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
-from tribodyn.kernels.mebdf.matrix import factorise, solve
-from tribodyn.kernels.mebdf.phases import ACCEPT, FAILED, ITERATE, JACOBIAN_NOT_FINITE, NEED_F, START_STAGE
+from tribodyn.kernels.mebdf.matrix import factorise, magnify, solve
+from tribodyn.kernels.mebdf.phases import (
+    ACCEPT,
+    CONCLUDE,
+    CORRECT,
+    FACTORISED,
+    FAILED,
+    ITERATE,
+    JACOBIAN_NOT_FINITE,
+    NEED_F,
+    NEED_FACTORS,
+    NEED_MAGNITUDE,
+    NEED_SOLUTION,
+    START_STAGE,
+)
 from tribodyn.kernels.mebdf.start import remember_not_finite
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
@@ -29,6 +50,7 @@ from tribodyn.kernels.mebdf.state import (
     F_1,
     F_2,
     FACTORED,
+    FINITE,
     FIXED,
     FORGET,
     FRESH,
@@ -44,12 +66,14 @@ from tribodyn.kernels.mebdf.state import (
     N_J,
     N_LU,
     N_SOLVES,
+    OUTSIDE,
     OVERSHOT,
     PHASE,
     PREDICTED,
     RATE,
     RATE_AGE,
     REASON,
+    REGULAR,
     RELAXATION,
     RESIDUAL,
     SCALED,
@@ -60,6 +84,7 @@ from tribodyn.kernels.mebdf.state import (
     T_EVAL,
     UNSOLVED,
     UNSOLVED_BEFORE,
+    VERDICT,
     WARY,
     WEIGHT,
     Y_1,
@@ -76,23 +101,26 @@ DIVERGING: Final = 2.0
 
 
 @inlined
-def _all_finite(matrix: FloatArray) -> bool:
-    """Tell whether no entry is infinite or NaN."""
-    total = 0.0
-    for i in range(matrix.shape[0]):
-        for j in range(matrix.shape[1]):
-            total += matrix[i, j]
-    return math.isfinite(total)
+def _take_over(matrices: FloatArray) -> bool:
+    """Keep a new Jacobian if it is finite; return whether it is."""
+    n, total = matrices.shape[1], 0.0
+    for i in range(n):
+        for j in range(n):
+            total += matrices[JACOBIAN, i, j]
+    if not math.isfinite(total):
+        return False
+    for i in range(n):
+        copy(matrices[JACOBIAN, i], matrices[LAST_JACOBIAN, i])
+    return True
 
 
 @kernel
 def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
     """Take over a new Jacobian, if it is finite, and factorise."""
     if count[FRESH] == 1:
-        if _all_finite(matrices[JACOBIAN]):
-            for i in range(matrices.shape[1]):
-                copy(matrices[JACOBIAN, i], matrices[LAST_JACOBIAN, i])
-        elif count[N_J] == 1:
+        if count[OUTSIDE] == 0:
+            count[FINITE] = _take_over(matrices)
+        if count[FINITE] == 0 and count[N_J] == 1:
             count[REASON] = JACOBIAN_NOT_FINITE
             return FAILED
     real[FACTORED] = real[SCALED]
@@ -100,11 +128,20 @@ def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, m
     real[RATE] = 1.0
     count[MATRIX_AGE] = 0
     count[N_LU] += 1
+    count[PHASE] = FACTORISED
+    if count[OUTSIDE] == 1:
+        return NEED_FACTORS
+    count[REGULAR] = factorise(count, matrices, real[SCALED])
+    return 0
+
+
+@inlined
+def begin_stages(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Begin with stage 1 if the matrix was regular."""
     count[STAGE] = 1
     count[PHASE] = START_STAGE
-    if not factorise(count, matrices, real[SCALED]):
+    if count[REGULAR] == 0:
         newton_failed(real, count, rows)
-    return 0
 
 
 @inlined
@@ -163,59 +200,82 @@ def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
 
 
 @inlined
-def iterate(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
-    """One Newton correction with f known at Y; then accept the stage, go on, or give up."""
-    stage = count[STAGE]
-    size = _correct(real, count, rows, matrices)
-    if not _converging(real, count, size):
-        if not math.isfinite(size):
-            remember_not_finite(real, count, rows)
-        newton_failed(real, count, rows)
+def iterate(
+    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray, phase: int
+) -> int:
+    """One Newton correction with f known at Y; then accept the stage, go on, or give up.
+
+    Where the caller solves it begins in ``phase`` ITERATE, CORRECT or CONCLUDE.
+    """
+    verdict = count[VERDICT]
+    if phase == ITERATE:
+        _set_residual(real, rows)
+        count[N_SOLVES] += 1
+        if count[OUTSIDE] == 1:
+            count[PHASE] = CORRECT
+            return NEED_SOLUTION
+        solve(count, rows, matrices)
+    if phase != CONCLUDE:
+        verdict = _correct(real, count, rows)
+    if verdict == IN_DOUBT:
+        if phase != CONCLUDE and count[OUTSIDE] == 1:
+            count[VERDICT] = IN_DOUBT
+            count[PHASE] = CONCLUDE
+            return NEED_MAGNITUDE
+        if count[OUTSIDE] == 0:
+            magnify(rows, matrices, real[SCALED])
+        verdict = judge_beside_rounding(real, count, rows)
+    if verdict == SOLVED:
+        finish_stage(real, count, rows)
         return 0
-    count[ITERATION] += 1
-    rate = real[RATE]
-    left = size if rate >= 0.5 else size * rate / (1.0 - rate)
-    if left <= real[KAPPA + stage]:
-        verdict = judge(real, count, rows, matrices, size)
-        if verdict == SOLVED:
-            finish_stage(real, count, rows)
-            return 0
+    if verdict in (DIVERGED, FALSE) or count[ITERATION] >= MAX_ITERATIONS[count[STAGE]]:
         if verdict == FALSE:
             count[WARY] = max(count[WARY], CAUTION)
             real[EXPLAINED] = 0.0
-            newton_failed(real, count, rows)
-            return 0
-    if count[ITERATION] >= MAX_ITERATIONS[stage]:
         newton_failed(real, count, rows)
         return 0
     count[N_F] += 1
+    count[PHASE] = ITERATE
     return NEED_F
 
 
 @inlined
-def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> float:
-    """Add the Newton correction to Y and keep it in DELTA; return its norm.
+def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+    """Add the correction; return whether the stage solves its formula, as far as is known."""
+    size = _add_correction(real, rows)
+    if not _converging(real, count, size):
+        if not math.isfinite(size):
+            remember_not_finite(real, count, rows)
+        return DIVERGED
+    count[ITERATION] += 1
+    rate = real[RATE]
+    left = size if rate >= 0.5 else size * rate / (1.0 - rate)
+    return judge(real, count, size) if left <= real[KAPPA + count[STAGE]] else OPEN
 
-    The norm of the residual it answers is noted.
-    """
+
+@inlined
+def _set_residual(real: FloatArray, rows: FloatArray) -> None:
+    """Fill the row RESIDUAL and note its norm."""
     n = rows.shape[1]
-    scaled, relaxation = real[SCALED], real[RELAXATION]
-    total = 0.0
+    scaled, total = real[SCALED], 0.0
     for i in range(n):
         residual = scaled * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
         rows[RESIDUAL, i] = residual
         total += (residual * rows[WEIGHT, i]) ** 2
     real[UNSOLVED_BEFORE] = real[UNSOLVED]
     real[UNSOLVED] = math.sqrt(total / n)
-    solve(count, rows, matrices)
-    count[N_SOLVES] += 1
-    squares = 0.0
-    for i in range(n):
+
+
+@inlined
+def _add_correction(real: FloatArray, rows: FloatArray) -> float:
+    """Add the row DELTA, adapted to the present step, to Y; return its norm."""
+    relaxation, squares = real[RELAXATION], 0.0
+    for i in range(rows.shape[1]):
         change = rows[DELTA, i] * relaxation
         rows[DELTA, i] = change
         rows[Y, i] += change
         squares += (change * rows[WEIGHT, i]) ** 2
-    return math.sqrt(squares / n)
+    return math.sqrt(squares / rows.shape[1])
 
 
 @inlined

@@ -8,6 +8,9 @@ NEED_F: Final = 1
 NEED_JACOBIAN: Final = 2
 STEP_ACCEPTED: Final = 3
 FAILED: Final = 4
+NEED_FACTORS: Final = 5
+NEED_SOLUTION: Final = 6
+NEED_MAGNITUDE: Final = 7
 
 STEP_TOO_SMALL: Final = 1
 NOT_FINITE: Final = 2
@@ -26,3 +29,6 @@ START_STAGE: Final = 5
 ITERATE: Final = 6
 ACCEPT: Final = 7
 AFTER: Final = 8
+FACTORISED: Final = 9
+CORRECT: Final = 10
+CONCLUDE: Final = 11

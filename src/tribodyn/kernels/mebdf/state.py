@@ -134,7 +134,15 @@ WARY: Final = 27
 """Steps to come in which every stage must show by an evaluation that it solves its formula."""
 VAIN: Final = 28
 """Failures of Newton's iteration with a new Jacobian since ``real[T_MARK]``."""
-PIVOTS: Final = 29
+OUTSIDE: Final = 29
+"""Whether the caller keeps the Jacobian and solves with the iteration matrix."""
+FINITE: Final = 30
+"""Whether the newest Jacobian is finite."""
+REGULAR: Final = 31
+"""Whether the iteration matrix is regular."""
+VERDICT: Final = 32
+"""Whether the stage solves its formula, as far as is known."""
+PIVOTS: Final = 33
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -159,7 +167,9 @@ PREDICTED: Final = 12
 """Extrapolation to the point of the stage."""
 CONSTANT_3: Final = 13
 """What stage 3 takes from the history."""
-HISTORY: Final = 14
+MAGNITUDE: Final = 14
+"""|y_i| + |hβ| Σ_j |J_ij y_j|: the rounding of the residual is a share of it."""
+HISTORY: Final = 15
 """First of the backward differences ∇^i y_n."""
 N_DIFFERENCES: Final = MAX_K + 3
 STAGE_HISTORY: Final = HISTORY + N_DIFFERENCES
@@ -182,11 +192,11 @@ class MebdfState(NamedTuple):
     Attributes
     ----------
     real, counts
-        Numbers named above; ``counts`` ends with n row exchanges.
+        Numbers named above; ``counts`` ends with the row exchanges.
     rows
         Vectors named above, shape (N_ROWS, n).
     matrices
-        Matrices named above, shape (3, n, n).
+        Matrices named above, shape (3, n, n); of no size where the caller solves.
     """
 
     real: FloatArray
@@ -207,6 +217,7 @@ def new_state(
     largest_k: int = MAX_K,
     inside: bool = False,
     differenced: bool = False,
+    outside: bool = False,
 ) -> MebdfState:
     """Return the state before the first step.
 
@@ -228,8 +239,11 @@ def new_state(
         Whether the right-hand side may not be evaluated beyond ``t_end``.
     differenced
         Whether the Jacobian comes from differences of the right-hand side.
+    outside
+        Whether the caller solves with the iteration matrix, see :mod:`tribodyn.kernels.mebdf.core`.
     """
     n = y.size
+    size = 0 if outside else n
     real = np.zeros(N_REAL)
     real[[T, T_OLD, T_MARK]] = t
     real[T_END] = t_end
@@ -238,14 +252,15 @@ def new_state(
     real[H_MAX] = max_step
     real[[RATE, RELAXATION]] = 1.0
     real[SETTINGS:] = DEFAULTS
-    count = np.zeros(PIVOTS + n, dtype=np.int64)
+    count = np.zeros(PIVOTS + size, dtype=np.int64)
     count[[K, K_LAST]] = 1
     count[LARGEST_K] = largest_k
     count[INSIDE] = inside
     count[DIFFERENCED] = differenced
+    count[OUTSIDE] = outside
     count[[BAD, WORST]] = -1
     rows = np.zeros((N_ROWS, n))
     rows[ATOL] = atol
     rows[RTOL] = rtol
     rows[[Y, HISTORY]] = y
-    return MebdfState(real, count, rows, np.zeros((3, n, n)))
+    return MebdfState(real, count, rows, np.zeros((3, size, size)))

@@ -1,0 +1,57 @@
+"""The Jacobian of a problem that solves with the iteration matrix itself: entries in the problem's order."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import copy
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mebdf.state import MAGNITUDE, Y
+
+
+class OwnMatrix(NamedTuple):
+    """What a problem's own algebra works on.
+
+    Attributes
+    ----------
+    places
+        Row and column of each entry of the Jacobian, shape (2, n_entries).
+    jacobian
+        Entries as filled in, shape (n_entries,).
+    last
+        The last ones that were finite, shape (n_entries,).
+    factors, pivots
+        What the problem's ``factorise`` leaves for its ``solve``.
+    """
+
+    places: NDArray[np.int64]
+    jacobian: FloatArray
+    last: FloatArray
+    factors: FloatArray
+    pivots: NDArray[np.int64]
+
+
+@kernel
+def take_over(own: OwnMatrix) -> bool:
+    """Keep a new Jacobian if it is finite; return whether it is."""
+    total = 0.0
+    for i in range(own.jacobian.size):
+        total += own.jacobian[i]
+    if not math.isfinite(total):
+        return False
+    copy(own.jacobian, own.last)
+    return True
+
+
+@kernel
+def magnify(own: OwnMatrix, rows: FloatArray, scaled: float) -> None:
+    """Fill the row MAGNITUDE."""
+    for i in range(rows.shape[1]):
+        rows[MAGNITUDE, i] = abs(rows[Y, i])
+    for k in range(own.last.size):
+        rows[MAGNITUDE, own.places[0, k]] += abs(scaled * own.last[k] * rows[Y, own.places[1, k]])
