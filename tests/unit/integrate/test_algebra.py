@@ -146,6 +146,5 @@ def test_a_matrix_that_is_always_singular_ends_the_run():
     problem = chain(5, own=True, compiled=False)
     assert problem.algebra is not None
     singular = replace(problem.algebra, factorise=lambda *arguments: False)
-    assert "Newton's iteration did not converge" in (
-        integrate(replace(problem, algebra=singular)).failure or ""
-    )
+    failure = integrate(replace(problem, algebra=singular)).failure or ""
+    assert "Newton's iteration fails" in failure

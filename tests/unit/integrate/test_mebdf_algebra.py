@@ -1,0 +1,133 @@
+"""Sparse, banded and large dense Newton matrices of the solver class: all solve one chain alike."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.sparse import csc_array, csr_matrix, diags_array
+
+from tribodyn.integrate import MEBDF
+
+N = 80
+"""More equations than the compiled core solves for."""
+RATE = 400.0
+LAPLACIAN = csr_matrix(
+    RATE * diags_array([np.ones(N - 1), np.full(N, -2.0), np.ones(N - 1)], offsets=[-1, 0, 1])
+)
+START = np.sin(np.pi * np.arange(1, N + 1) / (N + 1))
+
+
+def chain(t, y):
+    """Diffusion with a cubic sink; the first value feeds the last one, which no narrow band holds."""
+    return LAPLACIAN @ y - y**3
+
+
+def slope(t, y):
+    return csc_array(LAPLACIAN - diags_array(3.0 * y**2))
+
+
+def diagonals(t, y):
+    packed = np.full((3, N), RATE)
+    packed[1] = -2.0 * RATE - 3.0 * y**2
+    return packed
+
+
+def shortcut(t, y):
+    """Far from a band."""
+    return chain(t, y) - np.append(0.0, np.full(N - 1, y[0]))
+
+
+SHORTCUT = csc_array(LAPLACIAN != 0) + csc_array(([1.0] * N, (range(N), [0] * N)), shape=(N, N))
+
+
+def solve(fun, **options):
+    return solve_ivp(fun, (0.0, 0.3), START, method=MEBDF, rtol=1e-6, atol=1e-8, **options)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"jac": slope},
+        {"jac": lambda t, y: slope(t, y).toarray()},
+        {"jac": diagonals, "lband": 1, "uband": 1},
+        {"jac_sparsity": LAPLACIAN},
+        {"lband": 1, "uband": 1},
+        {"lband": 3, "uband": 2},
+        {},
+    ],
+)
+def test_every_kind_of_matrix_gives_one_solution(options):
+    reference = solve_ivp(chain, (0.0, 0.3), START, method="Radau", rtol=1e-9, atol=1e-11, jac=slope)
+    solution = solve(chain, **options)
+    assert solution.success
+    # Some fifty steps, each within 1e-6 of it.
+    np.testing.assert_allclose(solution.y[:, -1], reference.y[:, -1], rtol=3e-5)
+
+
+def test_a_pattern_that_is_no_band():
+    solution = solve(shortcut, jac_sparsity=SHORTCUT)
+    dense = solve(shortcut)
+    assert solution.success
+    np.testing.assert_allclose(solution.y[:, -1], dense.y[:, -1], rtol=3e-5, atol=1e-7)
+
+
+def test_differences_by_groups_cost_a_call_a_group():
+    calls = []
+
+    def counted(t, y):
+        calls.append(t)
+        return chain(t, y)
+
+    solve(counted, jac_sparsity=LAPLACIAN)
+    grouped = len(calls)
+    calls.clear()
+    solve(counted)
+    assert grouped < len(calls) - N  # three columns instead of eighty, at least once
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"jac_sparsity": np.eye(3)}, r"`jac_sparsity` is expected to have shape \(80, 80\), but"),
+        ({"lband": -1}, "`lband` must be a whole number from 0 to 79, not -1"),
+        ({"uband": 80}, "`uband` must be a whole number from 0 to 79, not 80"),
+        ({"lband": 1, "jac_sparsity": LAPLACIAN}, "Give either `jac_sparsity` or `lband` and `uband`"),
+        ({"jac": slope, "lband": 1, "uband": 1}, r"`jac` is expected to have shape \(3, 80\)"),
+        ({"jac": lambda t, y: slope(t, y)[:3]}, r"`jac` is expected to have shape \(80, 80\)"),
+    ],
+)
+def test_wrong_shapes_are_refused(options, message):
+    with pytest.raises(ValueError, match=message):
+        solve(chain, **options)
+
+
+@pytest.mark.parametrize("n", [3, N])
+def test_bands_of_few_and_of_many_equations(n):
+    solution = solve_ivp(
+        lambda t, y: -np.arange(1.0, n + 1) * y,
+        (0.0, 1.0),
+        np.ones(n),
+        method=MEBDF,
+        rtol=1e-7,
+        atol=1e-9,
+        jac=lambda t, y: -np.arange(1.0, n + 1)[None, :],
+        lband=0,
+    )
+    np.testing.assert_allclose(solution.y[:, -1], np.exp(-np.arange(1.0, n + 1)), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"jac": slope}, {"jac": lambda t, y: slope(t, y).toarray()}, {"jac": diagonals, "lband": 1, "uband": 1}],
+)
+def test_a_jacobian_that_is_not_finite_is_told_by_its_entry(options):
+    given = options["jac"]
+
+    def broken(t, y):
+        value = given(t, y)
+        value[1, 1] = np.nan  # of the diagonals: the second on the main one
+        return value
+
+    solution = solve(chain, **{**options, "jac": broken})
+    assert "d(rate of component 1)/d(component 1) is not finite" in solution.message
