@@ -110,6 +110,13 @@ class Contact(Group):
         le=1,
         example="0.7",
     )
+    loss_coefficient: float | None = quantity(
+        None,
+        "alpha of a damping in proportion to the speed, without entry velocities: e = 1 - alpha v",
+        "Hunt and Crossley 1975",
+        gt=0,
+        example="0.1 s/m",
+    )
     design_pressure: float = quantity(
         "50 MPa",
         "peak pressure of the undamped impact that the factors calibrated and kelvin-voigt are made for",
@@ -146,7 +153,9 @@ class Contact(Group):
 
     @staticmethod
     def resolve(given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the damping factor of a law that has no restitution of its own and is given none."""
+        """Return the damping factor of a law that has no restitution of its own, or that needs none."""
+        if given.get("contact.loss_coefficient") is not None:
+            return {"contact.damping_factor": "none"}
         name = given.get("contact.law")
         if name is None or given.get("contact.restitution") is not None:
             return {}
@@ -174,13 +183,23 @@ class Contact(Group):
             surfaces,
             damping_factor=self.damping_factor if damped else "none",
             restitution=self.restitution,
+            loss_coefficient=self.loss_coefficient,
             design_pressure=self.design_pressure,
             separation_from=self.separation_from,
             penalty_stiffness=self.penalty_stiffness,
         )
 
+    @property
+    def least_entry_velocity(self) -> float:
+        """Least δ̇₋ [m/s]; where damping is in proportion to the speed it is that of all points."""
+        from tribodyn.contact.base import MEMORYLESS
+
+        return self.minimum_entry_velocity if self.loss_coefficient is None else MEMORYLESS
+
     def check(self, surfaces: SurfacePair) -> None:
         """Refuse options that these surfaces cannot have; the plain law has none to refuse."""
+        one = self.loss_coefficient is None or (self.damping_factor == "none" and self.restitution is None)
+        demand(one, "contact.loss_coefficient", "give either this or a damping factor with its restitution")
         if self.damping_factor in MADE_FOR_AN_IMPACT or self.separation_from != "asperities":
             chosen = self.law_of(surfaces)
             if chosen.damping_factor in MADE_FOR_AN_IMPACT:

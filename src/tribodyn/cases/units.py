@@ -57,6 +57,7 @@ _DIMENSIONS: Final = {
     "m^2/N": "wear volume per work",
     "Pa s": "viscosity",
     "Pa/m": "pressure per length",
+    "s/m": "loss per speed",
     "K": "temperature",
     "1/K": "thermal expansion",
 }

@@ -19,7 +19,7 @@ from typing import Final, Protocol
 import numpy as np
 from scipy.special import lambertw
 
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.base import MEMORYLESS, ContactLaw
 from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.arrays import FloatArray
@@ -142,6 +142,8 @@ def point_table(name: str, law: ContactLaw, cylinders: Cylinders) -> ContactTabl
 
 def point_damping(law: ContactLaw) -> float:
     """Return the ratio a of damping to stiffness of a point contact with the restitution of a law [1]."""
+    if law.loss_coefficient is not None:
+        return 1.5 * law.loss_coefficient * MEMORYLESS
     if law.damping_factor == "none":
         return 0.0
     where = np.array([0.0 if law.restitution is not None else law.design_separation()])

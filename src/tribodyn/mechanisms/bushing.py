@@ -52,7 +52,7 @@ def bushing_of(case: HasBushing) -> BushingJoint:
     return BushingJoint(
         geometry=geometry,
         friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
-        entry=EntryMemory(contact.onset_separation, contact.minimum_entry_velocity, contact.tensile_clip),
+        entry=EntryMemory(contact.onset_separation, contact.least_entry_velocity, contact.tensile_clip),
         grid=Grid(case.solver.grid.theta, case.solver.grid.z),
         roughness=case.surface_pair.roughness_rms,
         table=contact_table(

@@ -65,7 +65,8 @@ def _own_restitution(case: HasBushing) -> float:
 
 
 def _row(case: HasBushing, name: str, factor: str, wanted: float, mass: float) -> Row:
-    contact = case.contact.model_copy(update={"law": name, "damping_factor": factor, "restitution": wanted})
+    changes = {"law": name, "damping_factor": factor, "restitution": wanted, "loss_coefficient": None}
+    contact = case.contact.model_copy(update=changes)
     onset, pressure = contact.onset_separation, contact.design_pressure
     chosen = contact.law_of(case.surface_pair)
     geometry = case.temperature.dimensions(case.joint, case.surfaces)

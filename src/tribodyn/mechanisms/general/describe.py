@@ -109,7 +109,7 @@ def _clearance(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) 
         friction_coefficient=clearance.friction_coefficient,
         slip_velocity=clearance.slip_velocity,
         onset=contact.onset_separation,
-        minimum_velocity=contact.minimum_entry_velocity,
+        minimum_velocity=contact.least_entry_velocity,
         tensile_clip=contact.tensile_clip,
         contact=clearance.contact,
         facets=np.empty((0, 3, 3)),
