@@ -1,4 +1,4 @@
-"""The two energy ledgers, summed here from what is observed, section 10 of the model.
+"""The two energy ledgers, summed here from what is observed, see the manual, energy.
 
 Whole mechanism: energies gained and heats against works put in. Clearance motion alone: the same for the
 part of every velocity that the clearance coordinates make.

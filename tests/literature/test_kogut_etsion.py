@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.contact import KogutEtsion, SurfacePair
 
-# Surfaces of Table 1 of the source paper, values of section 2 of the model as specified.
+# Surfaces of Table 1 of the source paper, computed independently.
 TABLE_1_PROPERTIES = [
     ("composite_modulus", 7.818e9, 0.0005e9),
     ("hardness_coefficient", 0.5934, 0.00005),

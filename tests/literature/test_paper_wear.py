@@ -1,4 +1,4 @@
-"""What the source paper says of wear, section 5.4 and Fig. 19, in the formulation of its figures.
+"""What the source paper says of wear, sections 2.4 and 5.3 and Fig. 19, in the formulation of its figures.
 
 The paper divides the wear rate by the bare number 65 (Eq. 47); without that the depths are 65 times larger.
 """

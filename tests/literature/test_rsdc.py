@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.contact import RSDC, SurfacePair
 
-# Surfaces of Table 1 of the source paper, values of section 3 of the model as specified: h*, μ, e, C [Pa],
+# Surfaces of Table 1 of the source paper, computed independently: h*, μ, e, C [Pa],
 # and half a unit of the last printed digit of C.
 TABLE_1 = [
     (0.0, 1.1465, 0.6825, 407.3e6, 0.05e6),

@@ -272,7 +272,7 @@ class Wear(Group):
     """Wear of the bushing."""
 
     specific_wear_rate: float = quantity(
-        "1.1e-15 m^2/N", "specific wear rate C_w", "paper, section 5.4", ge=0
+        "1.1e-15 m^2/N", "specific wear rate C_w", "paper, section 2.4", ge=0
     )
     paper_hardness_divisor: float = number(
         0.0, "the paper's figures come out when the rate is divided by 65; 0 is off", "paper, Eq. 47", ge=0
@@ -280,7 +280,7 @@ class Wear(Group):
     cycles: int = count(
         0, "drive cycles of a wear campaign; 0: none, a linear estimate of wear", ASSUMED, ge=0, le=10**12
     )
-    feedback: bool = switch(True, "whether the worn shape changes the gap in a campaign", "model, section 7")
+    feedback: bool = switch(True, "whether the worn shape changes the gap in a campaign", "manual, wear")
     jump_limit: float = number(
         0.05,
         "change of the sliding load, relative to its peak, that one jump of a campaign may cause",

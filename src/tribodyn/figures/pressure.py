@@ -20,12 +20,12 @@ from tribodyn.views.unrolled import best_cut, unloaded_middle, z_label
 TITLE: Final = "Contact pressure on the unrolled bushing"
 Panels: TypeAlias = NDArray[np.object_]
 CONTACT_ZONE: Final = 0.05
-"""The contact zone is where the pressure exceeds this share of its peak (section 5.2 of the paper)."""
+"""The contact zone is where the pressure exceeds this share of its peak; the share is ours."""
 
 
-def draw(dataset: xr.Dataset) -> Figure:
+def draw(dataset: xr.Dataset, title: str = TITLE) -> Figure:
     """Draw the pressure [MPa] of each snapshot: forward motion at the left, reverse at the right."""
-    figure = sheet(dataset, TITLE, 6.2)
+    figure = sheet(dataset, title, 6.2)
     places = _places(dataset)
     rows = max(3, 1 + max((row for row, _ in places), default=0))
     panels = figure.subplots(rows, 2, sharex=True, sharey=True, squeeze=False)

@@ -36,7 +36,7 @@ class MechanismKeys(Group):
     """Crank, drag link, unison ring, lever with vane."""
 
     formulation: Literal["exact", "paper"] = choice(
-        "exact", "one consistent set of equations, or the paper's own", "model, section 6"
+        "exact", "one consistent set of equations, or the paper's own", "manual, the mechanism"
     )
     crank_length: float = quantity("47.7 mm", "crank l_1", TABLE_2, gt=0)
     drag_link_length: float = quantity("142.4 mm", "drag link l_2", TABLE_2, gt=0)

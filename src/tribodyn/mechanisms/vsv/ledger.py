@@ -1,4 +1,4 @@
-"""The two energy ledgers of the vane mechanism, section 10 of the model.
+"""The two energy ledgers of the vane mechanism, see the manual, energy.
 
 Whole mechanism: kinetic, gravity and stored contact energy against the work of the drive and of the
 air loads and the heat of friction, collar and damping. Clearance motion alone: its inertia and stored

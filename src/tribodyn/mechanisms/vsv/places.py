@@ -1,4 +1,4 @@
-"""Where the bodies of the mechanism are, sections 1 and 5 of the model, in the millimetres of pictures."""
+"""Where the bodies of the mechanism are, in the millimetres of pictures."""
 
 from __future__ import annotations
 

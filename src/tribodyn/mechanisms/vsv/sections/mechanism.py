@@ -1,4 +1,4 @@
-"""The mechanism in space: where every body is at the frames, sections 1 and 5 of the model."""
+"""The mechanism in space: where every body is at the frames."""
 
 from __future__ import annotations
 
