@@ -16,7 +16,7 @@ help:
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make test-long   those too"
-	@echo "make golden      store the headline numbers of the built-in cases anew"
+	@echo "make golden      store headline numbers and messages anew"
 	@echo "make lint        style, types and layers"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
@@ -39,6 +39,7 @@ test-long: $(VENV)/.dev
 
 golden: $(VENV)/.dev
 	$(BIN)/python tests/golden/test_headlines.py
+	$(BIN)/python tests/golden/test_messages.py
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

@@ -257,9 +257,16 @@ def test_a_micro_sign_is_read_where_the_terminal_has_no_encoding() -> None:
 def test_a_summary_that_is_none_is_computed_again(tmp_path: Path) -> None:
     from tribodyn.results.schema import is_summary
 
-    good = {"title": "", "status": "complete", "failure": "", "warnings": "", "steps": 3}
+    good = {"title": "", "status": "complete", "failure": "", "warnings": ["odd"], "steps": 3}
     assert is_summary(good)
-    for wrong in ([], {}, {"status": 1}, good | {"steps": None}, good | {"steps": [1]}, good | {"a": 1e308}):
+    for wrong in (
+        [],
+        {},
+        {"status": 1},
+        good | {"steps": None},
+        good | {"steps": [1]},
+        good | {"warnings": "odd"},
+    ):
         assert not is_summary(json.loads(json.dumps(wrong)))
 
 

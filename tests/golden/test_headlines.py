@@ -33,7 +33,7 @@ def numbers(name: str) -> dict[str, float]:
     return {
         key: float(f"{value:.6g}")
         for key, value in summarise(result).items()
-        if not isinstance(value, str) and groups[key] not in OF_THE_MACHINE
+        if not isinstance(value, str | list) and groups[key] not in OF_THE_MACHINE
     }
 
 

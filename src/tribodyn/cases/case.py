@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar, Self, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -23,8 +23,9 @@ from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.fields import text
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
-from tribodyn.cases.messages import CROSS_CHECK, first_problem, located, unknown
+from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, located, problems, unknown
 from tribodyn.cases.tables import (
+    FROZEN,
     Tables,
     alternatives,
     expanded,
@@ -35,7 +36,7 @@ from tribodyn.cases.tables import (
     with_components,
 )
 from tribodyn.cases.write import to_toml
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import Faults, InputError, together
 
 _T = TypeVar("_T")
 AnyCase = TypeVar("AnyCase", bound="Case")
@@ -48,6 +49,9 @@ class Group(BaseModel):
     """Pairs of its keys of which only one may be given."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=False)
+
+    KEYS_BEGIN_HERE: ClassVar[bool] = False
+    """Whether the keys in its :func:`demand` are those of the table, and not of the whole case."""
 
     @field_validator("*", mode="after")
     @classmethod
@@ -63,19 +67,34 @@ class Group(BaseModel):
     def _freeze(cls, value: Any) -> Any:
         return Tables(value) if isinstance(value, dict) else value
 
+    @model_validator(mode="wrap")
+    @classmethod
+    def _locate(cls, values: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
+        """Let pydantic gather the cross-checks that fail in several tables, whose names it knows."""
+        try:
+            return handler(values)
+        except InputError as error:
+            if info.context is None and not cls.KEYS_BEGIN_HERE:
+                raise
+            context = {"faults": error.faults, "here": cls.KEYS_BEGIN_HERE}
+            raise PydanticCustomError(CROSS_CHECK, "cross-check", context) from None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            self._refuse_change()
+        super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        self._refuse_change()
+
+    def _refuse_change(self) -> NoReturn:
+        raise TypeError(FROZEN)
+
 
 class NamedGroup(Group):
     """A table that a user names; keys in its :func:`demand` begin at the table itself."""
 
-    @model_validator(mode="wrap")
-    @classmethod
-    def _locate(cls, values: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Let pydantic, which knows the name, say where a cross-check failed."""
-        try:
-            return handler(values)
-        except InputError as error:
-            context = {"reason": error.reason, "key": error.key or ""}
-            raise PydanticCustomError(CROSS_CHECK, "{reason}", context) from None
+    KEYS_BEGIN_HERE: ClassVar[bool] = True
 
 
 class Case(Group):
@@ -91,6 +110,17 @@ class Case(Group):
     _given: dict[str, Any] = PrivateAttr(default_factory=dict)
     _scans: dict[str, Any] = PrivateAttr(default_factory=dict)
 
+    @model_validator(mode="wrap")
+    @classmethod
+    def _in_words(cls, values: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
+        """Say what is wrong as a user sees it, also where Python calls the class."""
+        asked = info.context or Asked(keys_of(cls), {}, cls.__name__)
+        try:
+            return handler(values)
+        except ValidationError as error:
+            faults = problems(error, asked)
+        raise together(faults)
+
     @classmethod
     def kind(cls) -> str:
         """Return the name that stands under ``case =`` in a file."""
@@ -100,6 +130,15 @@ class Case(Group):
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that depend on what was given; by default there are none."""
         return {}
+
+    def checks(self) -> tuple[Callable[[], object], ...]:
+        """Return what checks keys against each other; each raises an :class:`InputError`."""
+        return ()
+
+    def model_post_init(self, context: object, /) -> None:
+        """Make the checks that involve several keys."""
+        super().model_post_init(context)
+        check_all(*self.checks())
 
     @property
     def duration(self) -> float:
@@ -137,7 +176,8 @@ class Case(Group):
         comments
             Whether each key is followed by what it means, where it comes from and what it may hold.
         """
-        return to_toml(self, self.kind(), comments=comments)
+        own = {path for path, entry in self._given.items() if not entry.built_in}
+        return to_toml(self, self.kind(), own, comments=comments)
 
     def __eq__(self, other: object) -> bool:
         """Cases are equal when all their values are, however they were spelled."""
@@ -154,7 +194,18 @@ def demand(condition: bool, key: str, message: str) -> None:
         raise InputError(message, key=key)
 
 
-def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> AnyCase:
+def check_all(*checks: Callable[[], object]) -> None:
+    """Make checks that do not depend on each other, and raise at the end what they found."""
+    faults = Faults()
+    for check in checks:
+        with faults.noted():
+            check()
+    faults.raise_any()
+
+
+def build(
+    model: type[AnyCase], entries: Mapping[str, Entry], source: str, found: Iterable[InputError] = ()
+) -> AnyCase:
     """Return the validated case that `entries` describe.
 
     Parameters
@@ -165,6 +216,8 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
         What was given, by dotted path.
     source
         Named in messages about values that were not given.
+    found
+        What is known to be wrong; raised with the rest.
     """
     declared = keys_of(model)
     keys = expanded(declared, list(entries))
@@ -173,24 +226,66 @@ def build(model: type[AnyCase], entries: Mapping[str, Entry], source: str) -> An
     }
     given = {path: entry for path, entry in entries.items() if not _is_empty_table(path, entry, declared)}
     entries = {path: entry for path, entry in given.items() if not _is_empty_table(path, entry, keys)}
-    for path, entry in entries.items():
-        if path not in keys:
-            raise InputError(unknown(path, keys, declared), key=path, source=entry.source)
-    _one_of_each(model, entries, keys)
+    faults = Faults(found)
+    entries = _known(entries, keys, declared, faults)
+    with faults.noted():
+        _one_of_each(model, entries, keys)
     scanned = scans.scan_entries(entries)
-    entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
-    values = {path: read_entry(keys[path], entry) for path, entry in entries.items()}
-    named = [path.rpartition(".")[0] if path in keys else path for path in given if path not in declared]
-    try:
-        case = model.model_validate(_nested(model.resolve(values) | values, named))
-    except ValidationError as error:
-        raise first_problem(error, keys, entries, source) from None
-    except InputError as error:
-        raise located(error, keys, entries, source) from None
-    in_order = {p: e for p, e in given.items() if p in entries or _is_empty_table(p, e, keys)}
+    with faults.noted():
+        entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
+    values = _values(entries, keys, faults)
+    tables = {path: entry for path, entry in given.items() if _is_empty_table(path, entry, keys)}
+    there = [path for path in given if path not in declared and (path in keys or path in tables)]
+    named = [path.rpartition(".")[0] if path in keys else path for path in there]
+    case = _validated(model, values, named, Asked(keys, entries, source), faults)
+    in_order = {path: entry for path, entry in given.items() if path in tables or path in entries}
     case._given.update(in_order | entries)
     case._scans.update(scanned)
     return case
+
+
+def _known(
+    entries: Mapping[str, Entry], keys: Mapping[str, Key], declared: Mapping[str, Key], faults: Faults
+) -> dict[str, Entry]:
+    """Return the entries whose keys exist, and note the others."""
+    for path, entry in entries.items():
+        if path not in keys:
+            with faults.noted():
+                raise InputError(unknown(path, keys, declared), key=path, source=entry.source)
+    return {path: entry for path, entry in entries.items() if path in keys}
+
+
+def _values(entries: Mapping[str, Entry], keys: Mapping[str, Key], faults: Faults) -> dict[str, Value]:
+    """Return the values that can be read, and note the others."""
+    values: dict[str, Value] = {}
+    for path, entry in entries.items():
+        with faults.noted():
+            values[path] = read_entry(keys[path], entry)
+    return values
+
+
+def _validated(
+    model: type[AnyCase], values: Mapping[str, Value], named: Iterable[str], asked: Asked, faults: Faults
+) -> AnyCase:
+    """Return the case, or raise all that is wrong."""
+    sound = not faults.found
+    try:
+        tree = _nested({**_defaults(model, values, asked), **values}, named)
+        case = model.model_validate(tree, context=asked)
+    except InputError as error:
+        # What does not go together may only follow from what is wrong by itself.
+        found = [fault for fault in error.faults if sound or not isinstance(fault, Disagreement)]
+        raise together([*faults.found, *found]) from None
+    faults.raise_any()
+    return case
+
+
+def _defaults(model: type[Case], values: Mapping[str, Value], asked: Asked) -> dict[str, Value]:
+    """Return the defaults that depend on what was given."""
+    try:
+        return model.resolve(values)
+    except InputError as error:
+        raise located(error, asked) from None
 
 
 def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCase:
@@ -198,19 +293,17 @@ def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCa
     keys = keys_in(case)
     known = with_components(keys)
     new: dict[str, Entry] = {}
+    faults = Faults()
     for path, value in changes.items():
         plain = plain_path(path, keys)
-        if plain not in known:
-            raise InputError(unknown(path, keys, keys_of(type(case))), key=path, source=source)
-        if plain not in keys:
-            plain, value = _vector(case, plain, value, known, new, source)
-        new[plain] = Entry(value, source, text=True)
+        with faults.noted():
+            if plain not in known:
+                raise InputError(unknown(path, keys, keys_of(type(case))), key=path, source=source)
+            if plain not in keys:
+                plain, value = _vector(case, plain, value, known, new, source)
+            new[plain] = Entry(value, source, text=True)
     kept = scans.entries_kept(case._given, case._scans, new)
-    for pair in _alternatives(type(case), keys):
-        if any(path in new for path in pair):
-            for path in pair:
-                kept.pop(path, None)
-    result = build(type(case), kept | new, source)
+    result = build(type(case), beside(type(case), kept, new), source, faults.found)
     if not result._scans and not any(path in new for path in scans.FOLLOWING):
         result._scans.update(case._scans)
     return result
@@ -226,6 +319,13 @@ def _vector(
     if not isinstance(held, tuple):
         raise InputError(f"{whole} is not given; give all three components", key=path, source=source)
     return whole, of_components(path, str(value), key, [float(number) for number in held])
+
+
+def beside(model: type[Case], kept: Mapping[str, Entry], new: Mapping[str, Entry]) -> dict[str, Entry]:
+    """Return entries with new ones, which take the place of their alternatives too."""
+    pairs = _alternatives(model, expanded(keys_of(model), [*kept, *new]))
+    taken = {path for pair in pairs if any(path in new for path in pair) for path in pair}
+    return {path: entry for path, entry in kept.items() if path not in taken} | dict(new)
 
 
 def _is_empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:

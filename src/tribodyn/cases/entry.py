@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from tribodyn.cases.keys import Key, Value, ValueProblem, shown
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import meant
 
 
 @dataclass(frozen=True)
@@ -25,18 +24,15 @@ class Entry:
         Whether numbers and switches may be spelled as text.
     folder
         Where the names of files begin; None is the current directory.
+    built_in
+        Whether a built-in case gives it, and no user.
     """
 
     value: object
     source: str
     text: bool = False
     folder: Path | None = None
-
-
-def closest(word: str, words: Iterable[str]) -> str | None:
-    """Return the one of `words` that is spelled most like `word`, if any is near."""
-    found = difflib.get_close_matches(word[:80], list(words), n=1, cutoff=0.5)
-    return found[0] if found else None
+    built_in: bool = False
 
 
 def read_entry(key: Key, entry: Entry) -> Value:
@@ -49,7 +45,6 @@ def read_entry(key: Key, entry: Entry) -> Value:
 
 def refused(key: Key, entry: Entry, why: str = "") -> str:
     """Say what was given, why it cannot be, and what can."""
-    near = closest(entry.value, key.choices) if isinstance(entry.value, str) and key.choices else None
     reason = f": {why}" if why else ""
-    hint = f'; did you mean "{near}"?' if near else ""
+    hint = meant(entry.value, key.choices) if isinstance(entry.value, str) else ""
     return f"given {shown(entry.value)}{reason}; allowed: {key.allowed}{hint}"

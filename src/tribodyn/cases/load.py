@@ -6,16 +6,18 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
-from typing import Any
+from types import MappingProxyType
+from typing import Any, Final
 
-from tribodyn.cases.case import Case, build
-from tribodyn.cases.entry import Entry, closest
+from tribodyn.cases.case import Case, beside, build
+from tribodyn.cases.entry import Entry
 from tribodyn.cases.keys import shown
 from tribodyn.core import toml
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import MOST_FAULTS, InputError, together
 from tribodyn.core.files import read_regular
-from tribodyn.core.quoting import LONGEST, brief
+from tribodyn.core.quoting import LONGEST, brief, closest, meant
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,17 @@ class BuiltIn:
     summary: str
     given: Mapping[str, object] = field(default_factory=dict)
 
+
+_LONGEST_LINE: Final = 200
+_BARE: Final = re.compile(
+    r"\s*([A-Za-z0-9_.-]+)\s*=\s*"
+    r"([+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?\s*[A-Za-zµμ°%][^\s\"'#=]*(?: [^\s\"'#=]+)*"
+    r"|[+-]?[0-9]+,[0-9]+"
+    r"|(?!(?:true|false|inf|nan)\b)[A-Za-z][A-Za-z0-9_./-]*)\s*(?:#.*)?",
+    re.ASCII,
+)
+"""A line whose value is a quantity without quotes, a number with a decimal comma, or a word."""
+_OPEN: Final = re.compile(r"\s*[A-Za-z0-9_.-]+\s*=\s*\"[^\"]+")
 
 Kinds = Mapping[str, type[Case]]
 """Case models by what stands under ``case =`` in a file."""
@@ -59,15 +72,18 @@ def read_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str,
         There is no such case or file, or something in the file is wrong.
     """
     if isinstance(case, str) and case in built_in:
-        entry = built_in[case]
-        source = f"built-in case {case}"
-        given = {path: Entry(value, source) for path, value in entry.given.items()}
-        return build(entry.model, given, source)
+        return build(built_in[case].model, _given(case, built_in[case]), f"built-in case {case}")
     name = os.fspath(case)
-    return parse(_text(name, built_in), name, kinds, Path(name).parent)
+    return parse(_text(name, built_in), name, kinds, Path(name).parent, built_in)
 
 
-def parse(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> Case:
+def parse(
+    text: str,
+    source: str,
+    kinds: Kinds,
+    folder: Path | None = None,
+    built_in: Mapping[str, BuiltIn] = MappingProxyType({}),
+) -> Case:
     """Return the case that a TOML text describes.
 
     Parameters
@@ -80,18 +96,25 @@ def parse(text: str, source: str, kinds: Kinds, folder: Path | None = None) -> C
         What the text may hold.
     folder
         Where the names of files in it begin; None is the current directory.
+    built_in
+        Cases that it may begin with, by name.
     """
     entries = {path: Entry(value, source, folder=folder) for path, value in flat(_tables(text, source))}
     if not entries:
         raise InputError(
             f"the file is empty; `tribodyn show {next(iter(kinds))}` prints a complete one", source=source
         )
-    return build(_kind(entries, kinds, source), entries, source)
+    model, given = _begun(entries, kinds, built_in, source)
+    del entries["case"]
+    return build(model, beside(model, given, entries), source)
 
 
-def _kind(entries: Mapping[str, Entry], kinds: Kinds, source: str) -> type[Case]:
-    """Return the kind of case that the key ``case`` names."""
-    allowed = ", ".join(kinds)
+def _begun(
+    entries: Mapping[str, Entry], kinds: Kinds, built_in: Mapping[str, BuiltIn], source: str
+) -> tuple[type[Case], dict[str, Entry]]:
+    """Return the kind of case that the key ``case`` names, and what a built-in one of this name gives."""
+    known = dict.fromkeys([*kinds, *built_in])
+    allowed = ", ".join(known)
     if "case" not in entries:
         raise InputError(
             f'this key is missing; write case = "{next(iter(kinds))}" at the top; known: {allowed}',
@@ -99,11 +122,18 @@ def _kind(entries: Mapping[str, Entry], kinds: Kinds, source: str) -> type[Case]
             source=source,
         )
     name = entries["case"].value
-    if not isinstance(name, str) or name not in kinds:
-        near = closest(str(name), kinds)
-        hint = f'; did you mean "{near}"?' if near else ""
+    if not isinstance(name, str) or name not in known:
+        hint = meant(str(name), known)
         raise InputError(f"given {shown(name)}; allowed: {allowed}{hint}", key="case", source=source)
-    return kinds[name]
+    if name in kinds:
+        return kinds[name], {"case": entries["case"]}
+    return built_in[name].model, _given(name, built_in[name])
+
+
+def _given(name: str, case: BuiltIn) -> dict[str, Entry]:
+    """Return what a built-in case gives."""
+    values = {"case": case.model.kind(), **case.given}
+    return {path: Entry(value, f"built-in case {name}", built_in=True) for path, value in values.items()}
 
 
 def _text(name: str, built_in: Mapping[str, BuiltIn]) -> str:
@@ -140,7 +170,26 @@ def _tables(text: str, source: str) -> dict[str, Any]:
     try:
         return toml.parse(text)
     except ValueError as error:
-        raise InputError(f"not valid TOML: {brief(error, 2 * LONGEST)}", source=source) from None
+        reasons = list(islice(_hints(text), MOST_FAULTS)) or [brief(error, 2 * LONGEST)]
+        raise together([InputError(f"not valid TOML: {why}", source=source) for why in reasons]) from None
+
+
+def _hints(text: str) -> Iterator[str]:
+    """Say of a text that is no TOML which of its lines lack quotes or a decimal point."""
+    for number, line in enumerate(text.splitlines(), 1):
+        match = _BARE.fullmatch(line[:_LONGEST_LINE])
+        if match is not None:
+            yield f"line {number}: {_with_quotes(*match.groups())}"
+        elif _OPEN.fullmatch(line[:_LONGEST_LINE]):
+            yield f'line {number}: this text does not end; a second " is missing'
+
+
+def _with_quotes(key: str, value: str) -> str:
+    """Say how a value would be right that lacks its quotes or its decimal point."""
+    if re.fullmatch(r"[+-]?\d+,\d+", value):
+        return f"decimals stand behind a point: {key} = {value.replace(',', '.')}"
+    kind = "a quantity" if value[0] in "+-.0123456789" else "a name"
+    return f'{kind} is text: {key} = "{value}"'
 
 
 def flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, object]]:

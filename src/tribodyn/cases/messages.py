@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Final
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
-from tribodyn.cases.entry import Entry, closest, refused
+from tribodyn.cases.entry import Entry, refused
 from tribodyn.cases.keys import ANY_NAME, Key, shown
 from tribodyn.cases.tables import ALLOWED_NAME, general, impossible_name
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import closest
 
 CROSS_CHECK: Final = "cross_check"
 """Type of what pydantic is told by a table whose own path nobody knew."""
@@ -60,36 +63,63 @@ def _nearest_key(path: str, keys: Mapping[str, Key]) -> str | None:
     return closest(path, elsewhere or keys) or (elsewhere[0] if elsewhere else None)
 
 
-def first_problem(
-    error: ValidationError, keys: Mapping[str, Key], entries: Mapping[str, Entry], source: str
-) -> InputError:
-    """Turn pydantic's first finding into the message a user sees."""
-    found = error.errors()[0]
+class Disagreement(InputError):
+    """Values that are right by themselves do not go together."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a case is built from.
+
+    Attributes
+    ----------
+    keys
+        All keys that there are.
+    entries
+        What was given, by dotted path.
+    source
+        Where the rest comes from.
+    """
+
+    keys: Mapping[str, Key]
+    entries: Mapping[str, Entry]
+    source: str
+
+
+def problems(error: ValidationError, asked: Asked) -> list[InputError]:
+    """Turn what pydantic found into what a user is told, one error each."""
+    return [told for found in error.errors() for told in _problem(found, asked)]
+
+
+def _problem(found: ErrorDetails, asked: Asked) -> Iterator[InputError]:
     path = ".".join(str(part) for part in found["loc"])
     if found["type"] == CROSS_CHECK:
-        path, reason = f"{path}.{found['ctx']['key']}", str(found["ctx"]["reason"])
-        return located(InputError(reason, key=path), keys, entries, source)
-    if found["type"] == "missing":
-        where = next(
-            (entry.source for given, entry in entries.items() if given.startswith(_table(path))), source
-        )
-        return InputError(f"this key is missing; allowed: {keys[path].allowed}", key=path, source=where)
-    entry = entries.get(path) or Entry(keys[path].default, source)
-    return InputError(refused(keys[path], entry), key=path, source=entry.source)
+        context = found["ctx"]
+        table = f"{path}." if context["here"] else ""
+        for fault in context["faults"]:
+            yield located(InputError(fault.reason, key=f"{table}{fault.key or ''}"), asked)
+    elif found["type"] == "missing":
+        inside = (entry.source for given, entry in asked.entries.items() if given.startswith(_table(path)))
+        where = next(inside, asked.source)
+        reason = f"this key is missing; allowed: {asked.keys[path].allowed}"
+        yield InputError(reason, key=path, source=where)
+    else:
+        key = asked.keys.get(path)
+        entry = asked.entries.get(path)
+        given = entry or Entry(found["input"], asked.source)
+        yield InputError(refused(key, given) if key else found["msg"], key=path, source=given.source)
 
 
 def _table(path: str) -> str:
     return path.rpartition(".")[0]
 
 
-def located(
-    error: InputError, keys: Mapping[str, Key], entries: Mapping[str, Entry], source: str
-) -> InputError:
+def located(error: InputError, asked: Asked) -> Disagreement:
     """Add to the message of a cross-check what was given, and where."""
     path = error.key or ""
-    entry = entries.get(path)
-    default = keys[path].default if path in keys else None
+    entry = asked.entries.get(path)
+    default = asked.keys[path].default if path in asked.keys else None
     if entry is not None:
-        return InputError(f"given {shown(entry.value)}; {error.reason}", key=path, source=entry.source)
-    held = "" if default is None else f"by default {keys[path].write(default)}; "
-    return InputError(held + error.reason, key=error.key, source=source)
+        return Disagreement(f"given {shown(entry.value)}; {error.reason}", key=path, source=entry.source)
+    held = "" if default is None else f"by default {asked.keys[path].write(default)}; "
+    return Disagreement(held + error.reason, key=error.key, source=asked.source)

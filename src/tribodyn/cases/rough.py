@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from tribodyn.cases.case import Case, demand
@@ -31,10 +31,9 @@ class RoughCase(Case):
         """The two surfaces in contact, as contact laws take them."""
         return self.surfaces.pair(self.asperities)
 
-    def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
-        super().model_post_init(context)
-        self.contact.check(self.surface_pair)
+    def checks(self) -> tuple[Callable[[], object], ...]:
+        """Return the checks of the contact law."""
+        return (lambda: self.contact.check(self.surface_pair),)
 
 
 class BushingCase(RoughCase):
@@ -52,7 +51,6 @@ class BushingCase(RoughCase):
             demand(False, key, f"a case of this kind has no {path}")
         return super().resolve(given) | at_temperature
 
-    def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
-        super().model_post_init(context)
-        self.joint.liner.layer(self.surfaces.bushing)
+    def checks(self) -> tuple[Callable[[], object], ...]:
+        """Return the checks of contact law and liner."""
+        return (*super().checks(), lambda: self.joint.liner.layer(self.surfaces.bushing))

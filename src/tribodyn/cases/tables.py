@@ -21,6 +21,8 @@ from tribodyn.cases.units import from_si
 
 VALUE: Final = "value"
 """Key of a table that may be given as that value alone: ``speed = "5000 rpm"`` is ``speed.value``."""
+FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns a changed copy'
+"""What is told whoever tries to change a case."""
 LONGEST_NAME: Final = 40
 ALLOWED_NAME: Final = f"a name of letters without accents, digits, - and _, at most {LONGEST_NAME} of them"
 _NAME: Final = re.compile(rf"[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}")
@@ -30,7 +32,7 @@ class Tables(dict[str, Any]):
     """Tables by their names; frozen, as all of a case is."""
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
-        raise TypeError("a case is frozen; replace() returns a changed copy")
+        raise TypeError(FROZEN)
 
     __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
 

@@ -16,16 +16,19 @@ _LONGEST_LINE = 120
 _ASSUMED = "ASSUMED"
 
 
-def to_toml(case: BaseModel, kind: str, *, comments: bool) -> str:
-    """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`."""
+def to_toml(case: BaseModel, kind: str, own: Collection[str], *, comments: bool) -> str:
+    """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`.
+
+    Of the keys that are a user's ``own``, comments say what they would be without.
+    """
     keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
     tables = {
-        table: [line for key in own for line in _lines(case, key, comments)]
-        for table, own in groupby(keys.values(), key=lambda key: key.table)
+        table: [line for key in inside for line in _lines(case, key, own, comments)]
+        for table, inside in groupby(keys.values(), key=lambda key: key.table)
     }
-    for table, own in (tables if comments else _shortened(tables)).items():
-        lines += ["", f"[{table}]", *own] if table else own
+    for table, inside in (tables if comments else _shortened(tables)).items():
+        lines += ["", f"[{table}]", *inside] if table else inside
     if comments:
         declared = keys_of(type(case))
         lines += _not_there(declared, {general(key.table, declared) for key in keys.values()})
@@ -55,13 +58,13 @@ def _head(kind: str) -> Iterator[str]:
     yield ""
 
 
-def _lines(case: BaseModel, key: Key, comments: bool) -> Iterator[str]:
+def _lines(case: BaseModel, key: Key, own: Collection[str], comments: bool) -> Iterator[str]:
     value = value_at(case, key.path)
     line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
     if not comments:
         yield from [] if value is None else [line]
     else:
-        yield from _commented(line, key)
+        yield from _commented(line, key, own=key.path in own)
 
 
 def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator[str]:
@@ -74,14 +77,14 @@ def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator
                 yield from _commented(f"# {key.name} = {value}", key)
 
 
-def _commented(line: str, key: Key) -> Iterator[str]:
+def _commented(line: str, key: Key, *, own: bool = False) -> Iterator[str]:
     """Yield a line with what its key means after it, or before it where that is too long."""
-    together = f"{line:<{_COMMENT_COLUMN}}  # {comment(key)}"
+    together = f"{line:<{_COMMENT_COLUMN}}  # {comment(key, own=own)}"
     if len(together) <= _LONGEST_LINE:
         yield together
     else:
         yield from wrap(
-            f"{comment(key)}:",
+            f"{comment(key, own=own)}:",
             _LONGEST_LINE,
             initial_indent="# ",
             subsequent_indent="#   ",
@@ -96,8 +99,15 @@ def _example(key: Key) -> str:
     return f'"{key.example}"' if quoted else key.example
 
 
-def comment(key: Key) -> str:
-    """Return what a key means, where its default comes from and what it may hold, on one line."""
+def comment(key: Key, *, own: bool = False) -> str:
+    """Return what a key means, what it may hold and where its default comes from, on one line.
+
+    A value of a user's ``own`` does not come from there.
+    """
     source = _ASSUMED if key.source == ASSUMED else key.source
+    if own:
+        source = (
+            "" if key.default in (None, "") else f"default {key.write(key.default)}, {source}".rstrip(", ")
+        )
     bounds = " | ".join(key.choices) if len(key.choices) > 1 else key.limits
     return "; ".join(part for part in (key.description, bounds, source) if part)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
 from tribodyn.core.errors import InputError
-from tribodyn.core.quoting import as_given
+from tribodyn.core.quoting import as_given, meant
 
 if TYPE_CHECKING:
     from tribodyn.mechanisms.bushing import HasBushing
@@ -38,7 +38,8 @@ def execute(args: Namespace) -> int:
     names = args.law or list(LAWS)
     unknown = [name for name in names if name not in LAWS]
     if unknown:
-        raise InputError(f"{as_given(unknown[0])}; allowed: {', '.join(LAWS)}", key="--law")
+        hint = meant(unknown[0], LAWS)
+        raise InputError(f"{as_given(unknown[0])}; allowed: {', '.join(LAWS)}{hint}", key="--law")
     console = Console.of(args)
     console.note("Restitution wanted, and realised by a point, a plate and a shaft on these surfaces.")
     console.say(f"{'law':<8}{'damping factor':<22}" + "".join(f"{name:>9}" for name in _COLUMNS))

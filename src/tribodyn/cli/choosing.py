@@ -59,10 +59,17 @@ def typed(text: str) -> str:
         return text
 
 
+def without_quotes(value: str) -> str:
+    """Return a value without a pair of quotes that was left around it."""
+    value = value.strip()
+    quoted = len(value) > 1 and value[0] == value[-1] and value[0] in "\"'"
+    return value[1:-1].strip() if quoted else value
+
+
 def _change(text: str) -> tuple[str, str]:
     path, equals, value = typed(text).partition("=")
     if not (equals and path.strip()):
         raise InputError(
             f'{as_given(text)}; allowed: PATH=VALUE, such as joint.clearance="25 um"', key="--set"
         )
-    return path.strip(), value.strip()
+    return path.strip(), without_quotes(value)

@@ -14,7 +14,8 @@ from tribodyn.core.quoting import as_given
 
 CHECKPOINT: Final = "checkpoint.npz"
 """Where a wear campaign is kept until its result is written."""
-FILES: Final = ("result.nc", "summary.json", "case.toml", "report.html", CHECKPOINT)
+RESULT: Final = "result.nc"
+FILES: Final = (RESULT, "summary.json", "case.toml", "report.html", CHECKPOINT)
 FIGURES: Final = "figures"
 POINTS: Final = "points"
 REPORT: Final = "report.html"

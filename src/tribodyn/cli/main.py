@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 import traceback
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
 from tribodyn.cli import bounce, cases, check, compare, report, reproduce, run, show, surface, sweep
-from tribodyn.cli.console import complain, forgive_encodings, silence_matplotlib
+from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.quoting import LONGEST, brief
+from tribodyn.core.quoting import LONGEST, as_given, brief, closest
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -56,11 +57,28 @@ exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, 
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose complaints are one line, like all others."""
+    """A parser whose complaints are errors like all others."""
 
     def error(self, message: str) -> NoReturn:
-        complain(f"{brief(message, 2 * LONGEST)}; see `{self.prog} --help`")
-        raise SystemExit(BAD_INPUT)
+        raise InputError(f"{brief(message, 2 * LONGEST)}; see `{self.prog} --help`")
+
+    def understood(self, arguments: Sequence[str]) -> argparse.Namespace:
+        """Return what the arguments say, or raise what is wrong with them, with what was probably meant."""
+        name = next((argument for argument in arguments if not argument.startswith("-")), None)
+        if name is not None and name not in COMMANDS:
+            near = closest(name, COMMANDS)
+            hint = f"; did you mean `tribodyn {near}`?" if near else ""
+            raise InputError(f"{as_given(name)}; allowed: {', '.join(COMMANDS)}{hint}", key="COMMAND")
+        args, unknown = self.parse_known_args(arguments)
+        if unknown:
+            self._refuse(unknown, args.parser)
+        return args
+
+    def _refuse(self, unknown: Sequence[str], below: argparse.ArgumentParser) -> NoReturn:
+        """Complain about arguments that a command does not have."""
+        near = closest(unknown[0].partition("=")[0], re.findall(r"--[a-z][a-z-]*", below.format_help()))
+        hint = f"; did you mean {near}?" if near and unknown[0].startswith("-") else ""
+        below.error(f"unrecognized arguments: {brief(' '.join(unknown))}{hint}")
 
 
 class _Version(argparse.Action):
@@ -73,7 +91,7 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> _Parser:
     parser = _Parser(
         prog="tribodyn",
         description="Tribo-dynamics of mechanisms with dry, rough, worn clearance joints.",
@@ -85,6 +103,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
         below = commands.add_parser(name, help=command.HELP, description=command.HELP, allow_abbrev=False)
+        below.set_defaults(parser=below)
         command.add_arguments(below)
         below.add_argument("--quiet", action="store_true", help="print errors and warnings only")
         below.add_argument("--json", action="store_true", help="print the outcome as JSON on stdout")
@@ -108,24 +127,41 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with signals_heard():
         forgive_encodings()
         silence_matplotlib()
-        status = _executed(_parser().parse_args(arguments))
+        status = _executed(sys.argv[1:] if arguments is None else list(arguments))
         end(status)
     return status
 
 
-def _executed(args: argparse.Namespace) -> int:
+def _executed(arguments: Sequence[str]) -> int:
     """Execute a command; say what went wrong."""
+    parser = _parser()
     try:
+        if not arguments:
+            parser.print_help()
+            return DONE
+        args = parser.understood(arguments)
         return COMMANDS[args.command].execute(args)
     except BrokenPipeError:
         # Whoever read our output has gone; there is nobody left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return FAILED
     except (Exception, KeyboardInterrupt) as error:
-        if args.debug:
+        if "--debug" in arguments:
             traceback.print_exc()
-        complain(_in_words(error))
-        return BAD_INPUT if isinstance(error, InputError) else FAILED
+        status = BAD_INPUT if isinstance(error, InputError) else FAILED
+        _complain(error, as_json="--json" in arguments)
+        return status
+
+
+def _complain(error: BaseException, *, as_json: bool) -> None:
+    """Say what went wrong on stderr, a line for each fault, and with ``--json`` on stdout, too."""
+    faults = error.faults if isinstance(error, InputError) else (error,)
+    for fault in faults:
+        complain(_in_words(fault))
+    if as_json:
+        about = [{name: getattr(fault, name, None) for name in ("source", "key")} for fault in faults]
+        told = [{**where, "message": _in_words(fault)} for where, fault in zip(about, faults, strict=True)]
+        show_json({"status": "refused" if isinstance(error, InputError) else "failed", "faults": told})
 
 
 def _in_words(error: BaseException) -> str:

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
-from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.directory import RESULT, OutputDirectory
 from tribodyn.cli.headlines import in_words
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import draw
 from tribodyn.cli.progress import CYCLES, Progress, progress
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,13 +31,17 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``run``."""
     add_case_arguments(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: results-CASE)")
+    parser.add_argument("--force", action="store_true", help="overwrite the finished result of another case")
 
 
 def execute(args: Namespace) -> int:
     """Run the case; 0 when it came to its end and everything is written, else 1."""
     console = Console.of(args)
     case = chosen_case(args)
-    directory = OutputDirectory(_name(args) if args.output is None else args.output)
+    folder = _name(args) if args.output is None else args.output
+    if not args.force:
+        _spare(folder, case)
+    directory = OutputDirectory(folder)
     with directory.reserved():
         with Interruption() as stop:
             dataset = _simulate(case, directory, console, stop)
@@ -54,6 +60,20 @@ def execute(args: Namespace) -> int:
 def _name(args: Namespace) -> str:
     """Return the default directory: named after the case, in the current directory."""
     return f"results-{Path(args.case).stem}"
+
+
+def _spare(folder: str, case: Case) -> None:
+    """Refuse a folder that holds the finished result of another case; the same one can be made again."""
+    if not os.path.exists(os.path.join(folder, RESULT)):
+        return
+    from tribodyn.results.store import finished_case
+
+    if finished_case(folder) not in (None, case.to_toml()):
+        raise InputError(
+            f"{as_given(folder)}: the finished result of another case is there; allowed: another directory, "
+            "or --force to overwrite it",
+            key="--output",
+        )
 
 
 def _simulate(case: Case, directory: OutputDirectory, console: Console, stop: Interruption) -> xr.Dataset:
@@ -103,8 +123,8 @@ def _tell(summary: dict[str, Any], path: Path, console: Console) -> None:
     """Print the headline numbers, the warnings, and where to look."""
     for line in ("", str(summary.get("title", "")), *in_words(summary), ""):
         console.say(line)
-    if summary.get("warnings"):
-        complain(f"warning: {summary['warnings']}")
+    for warning in summary["warnings"]:
+        complain(f"warning: {warning}")
     report = path / "report.html"
     console.say(
         f"look at {report if report.exists() else path / 'result.nc'}; everything is in {path}{os.sep}"

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed
+from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed, without_quotes
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import POINTS as POINTS_FOLDER
@@ -116,7 +116,7 @@ def _variations(texts: list[str]) -> dict[str, str]:
     """Return what varies, by path."""
     variations: dict[str, str] = {}
     for text in texts:
-        path, equals, values = (part.strip() for part in typed(text).partition("="))
+        path, equals, values = (without_quotes(part) for part in typed(text).partition("="))
         if not (equals and path and values):
             raise InputError(
                 f'{as_given(text)}; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"',

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Final
+
 from tribodyn.core.quoting import brief
+
+MOST_FAULTS: Final = 20
+"""How many things that are wrong a user is told of at once."""
 
 
 class TribodynError(Exception):
@@ -29,6 +36,67 @@ class InputError(TribodynError):
         self.reason = message
         where = ": ".join(brief(part) for part in (source, key) if part)
         super().__init__(f"{where}: {message}" if where else message)
+
+    @property
+    def faults(self) -> tuple[InputError, ...]:
+        """Everything that is wrong, one error each."""
+        return (self,)
+
+
+class InputErrors(InputError):
+    """Several things that the user wrote are wrong; the text has a line for each.
+
+    Parameters
+    ----------
+    faults
+        Two errors or more, of which each has one reason.
+    """
+
+    def __init__(self, faults: Sequence[InputError]) -> None:
+        super().__init__(faults[0].reason, key=faults[0].key, source=faults[0].source)
+        self._faults = tuple(faults)
+        self.args = ("\n".join(map(str, faults)),)
+
+    @property
+    def faults(self) -> tuple[InputError, ...]:
+        """Everything that is wrong, one error each."""
+        return self._faults
+
+    def __reduce__(self) -> tuple[type[InputErrors], tuple[tuple[InputError, ...]]]:
+        return type(self), (self._faults,)
+
+
+def together(faults: Sequence[InputError]) -> InputError:
+    """Return one error for all that is wrong, which is at least one thing; of many the first are told."""
+    return faults[0] if len(faults) == 1 else InputErrors(faults[:MOST_FAULTS])
+
+
+class Faults:
+    """Gathers what is wrong with several entries, so that a user hears of all of it at once.
+
+    Attributes
+    ----------
+    found
+        What was gathered so far.
+    """
+
+    def __init__(self, found: Iterable[InputError] = ()) -> None:
+        self.found = list(found)
+
+    @contextmanager
+    def noted(self) -> Iterator[None]:
+        """Note an :class:`InputError` of the block instead of raising it; when there are many, raise all."""
+        try:
+            yield
+        except InputError as error:
+            self.found += error.faults
+            if len(self.found) >= MOST_FAULTS:
+                self.raise_any()
+
+    def raise_any(self) -> None:
+        """Raise what was gathered, if anything was."""
+        if self.found:
+            raise together(self.found)
 
 
 class IntegrationFailure(TribodynError):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Iterable
 from typing import Final
 
 LONGEST: Final = 80
@@ -33,3 +35,16 @@ def brief(text: object, most: int = LONGEST) -> str:
 def as_given(text: str) -> str:
     """Return how a message about a wrong text begins."""
     return f'given "{brief(text)}"'
+
+
+def meant(word: str, words: Iterable[str]) -> str:
+    """Return the end of a message that says which of `words` was probably meant, empty where none is near."""
+    near = closest(word, words)
+    return f'; did you mean "{near}"?' if near else ""
+
+
+def closest(word: str, words: Iterable[str]) -> str | None:
+    """Return the one of `words` that is spelled most like `word` in capital or small letters, if any is."""
+    by_letters = {other.casefold(): other for other in words}
+    found = difflib.get_close_matches(word[:80].casefold(), by_letters, n=1, cutoff=0.5)
+    return by_letters[found[0]] if found else None

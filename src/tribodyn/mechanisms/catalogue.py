@@ -67,4 +67,4 @@ def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
     folder
         Where the names of files in it begin; None is the current directory.
     """
-    return load.parse(text, source, kinds(), folder)
+    return load.parse(text, source, kinds(), folder, built_in())

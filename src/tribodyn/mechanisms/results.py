@@ -54,7 +54,7 @@ def mechanism_of(dataset: xr.Dataset) -> Mechanism:
     return MECHANISMS[kind]
 
 
-def summarise(dataset: xr.Dataset) -> dict[str, float | int | str]:
+def summarise(dataset: xr.Dataset) -> summary.Summary:
     """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
     joints = dataset["joint"].values.tolist() if "joint" in dataset.coords else []
     return summary.summarise(dataset, mechanism_of(dataset).headlines_of(joints))

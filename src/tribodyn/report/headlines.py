@@ -8,7 +8,9 @@ from typing import Any
 
 import xarray as xr
 
-from tribodyn.mechanisms.results import known
+from tribodyn.cases import keys_of
+from tribodyn.cases.keys import ASSUMED
+from tribodyn.mechanisms.results import known, mechanism_of
 from tribodyn.results import Headline
 from tribodyn.views.numbers import in_words
 
@@ -51,9 +53,15 @@ def facts(dataset: xr.Dataset) -> dict[str, str]:
     if "formulation" in attributes:
         shown["formulation"] = str(attributes["formulation"])
     if "friction_coefficient" in attributes:
-        # The source paper gives no value; a reader must not take the number for a measured one.
-        shown["friction coefficient"] = f"{in_words(attributes['friction_coefficient'])} (assumed)"
+        shown["friction coefficient"] = in_words(attributes["friction_coefficient"]) + _ours(dataset)
     return shown
+
+
+def _ours(dataset: xr.Dataset) -> str:
+    """Say of a friction coefficient that it is our default; a reader must not take it for a measured one."""
+    key = keys_of(mechanism_of(dataset).case)["joint.friction_coefficient"]
+    assumed = key.source == ASSUMED and dataset.attrs["friction_coefficient"] == key.default
+    return " (the default, assumed)" if assumed else ""
 
 
 def versions(dataset: xr.Dataset) -> dict[str, str]:

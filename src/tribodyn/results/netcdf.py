@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import zlib
+from os import PathLike
 from typing import Any, Final
 
 import netCDF4
@@ -61,6 +62,12 @@ def dataset_of(content: bytes) -> xr.Dataset:
     with _ONE_AT_A_TIME:
         _refuse_bombs(content)
         return xr.load_dataset(content, engine="netcdf4", decode_times=False, decode_timedelta=False)
+
+
+def attributes_of(path: str | PathLike[str]) -> dict[str, Any]:
+    """Return what a NetCDF-4 file says of the whole; as :func:`dataset_of` where it is damaged."""
+    with _ONE_AT_A_TIME, netCDF4.Dataset(path) as file:
+        return dict(file.__dict__)
 
 
 def _refuse_bombs(content: bytes) -> None:

@@ -67,13 +67,25 @@ def check(dataset: xr.Dataset, kinds: Kinds) -> None:
 
 
 def is_summary(content: object) -> bool:
-    """Tell whether something read as JSON is the summary of a run: texts and finite numbers by name."""
+    """Tell whether something read as JSON is the summary of a run: texts and finite numbers by name.
+
+    Its ``warnings`` are a list of texts.
+    """
     return (
         isinstance(content, dict)
         and "status" in content
-        and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure", "warnings"))
-        and all(_of_form(value, TEXT) or _is_number(value, NUMBER) for value in content.values())
+        and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure"))
+        and _are_texts(content.get("warnings", []))
+        and all(
+            _of_form(value, TEXT) or _is_number(value, NUMBER)
+            for name, value in content.items()
+            if name != "warnings"
+        )
     )
+
+
+def _are_texts(content: object) -> bool:
+    return isinstance(content, list) and all(_of_form(value, TEXT) for value in content)
 
 
 def _check_attributes(owner: str, attributes: Mapping[Any, Any], table: Mapping[str, str]) -> None:

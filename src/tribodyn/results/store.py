@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
@@ -15,8 +16,9 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import LONGEST, brief
 from tribodyn.results.atomic import write_together
-from tribodyn.results.netcdf import dataset_of, netcdf_content
+from tribodyn.results.netcdf import attributes_of, dataset_of, netcdf_content
 from tribodyn.results.schema import Kinds, check
+from tribodyn.results.summary import Summary
 
 RESULT: Final = "result.nc"
 POINTS: Final = "points"
@@ -60,7 +62,7 @@ def prepare_directory(directory: str | Path) -> Path:
 def write_run(
     dataset: xr.Dataset,
     directory: str | Path,
-    summary: Mapping[str, float | int | str],
+    summary: Summary,
     stale: Iterable[Path] = (),
 ) -> list[Path]:
     """Write a run; summary and case of an earlier one never stand beside its result.
@@ -103,9 +105,21 @@ def case_text(dataset: xr.Dataset) -> str:
     return str(dataset.attrs.get("case", ""))
 
 
-def summary_text(summary: Mapping[str, float | int | str]) -> str:
+def summary_text(summary: Summary) -> str:
     """Return the content of ``summary.json``."""
     return json.dumps(summary, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def finished_case(directory: str | Path) -> str | None:
+    """Return the text of the case whose finished run a folder holds, None where there is none."""
+    file = Path(directory) / RESULT
+    if not os.path.isfile(file):
+        return None
+    try:
+        attributes = attributes_of(file)
+    except Exception:  # a damaged file makes its readers raise what they like, and is no result
+        return None
+    return None if attributes.get("failure") else str(attributes.get("case", ""))
 
 
 def read(path: str | Path, kinds: Kinds) -> xr.Dataset:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -12,6 +12,9 @@ import xarray as xr
 from tribodyn.results.dataset import json_attribute
 from tribodyn.results.headline import Headline
 from tribodyn.results.reading import column, statistic
+
+Summary: TypeAlias = dict[str, float | int | str | list[str]]
+"""Headline numbers and texts of a run, as in ``summary.json``."""
 
 
 def _real_time_factor(dataset: xr.Dataset) -> float:
@@ -55,7 +58,7 @@ EFFORT: Final[dict[str, Headline]] = {
 """What every run has, by its name in ``summary.json``."""
 
 
-def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> dict[str, float | int | str]:
+def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary:
     """Return the headline numbers of a result.
 
     A number that the result cannot give (a partial run) is left out.
@@ -70,16 +73,16 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> dict[st
     Returns
     -------
     dict
-        Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` and ``warnings`` (texts, empty
-        when there is none), then numbers by name.
+        Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none), the
+        list of ``warnings``, then numbers by name.
     """
     failure = str(dataset.attrs.get("failure", ""))
-    summary: dict[str, float | int | str] = {
+    summary: Summary = {
         "kind": str(dataset.attrs.get("kind", "")),
         "title": str(dataset.attrs.get("title", "")),
         "status": "failed" if failure else "complete",
         "failure": failure,
-        "warnings": "; ".join(json_attribute(dataset, "warnings", [])),
+        "warnings": json_attribute(dataset, "warnings", []),
     }
     for name, headline in {**headlines, **EFFORT}.items():
         value = _number(headline, dataset)

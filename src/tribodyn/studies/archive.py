@@ -18,8 +18,9 @@ from tribodyn.core.quoting import brief
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.schema import is_summary
 from tribodyn.results.store import CASE, POINTS, RESULT, SUMMARY
+from tribodyn.results.summary import Summary
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import Numbers, Outcome
+from tribodyn.studies.work import Outcome
 
 _LARGEST_SUMMARY: Final = 1_000_000
 
@@ -45,7 +46,7 @@ class Archive:
         if self.folder.exists() and not self.folder.is_dir():
             raise InputError(f"{brief(self.folder)} is a file; choose another directory", key="--output")
 
-    def find(self, point: Point) -> Numbers | None:
+    def find(self, point: Point) -> Summary | None:
         """Return the summary of a point that is done, None where there is none that can be read."""
         try:
             content = json.loads(read_regular(self.folder / point.name / SUMMARY, _LARGEST_SUMMARY))

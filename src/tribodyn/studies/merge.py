@@ -15,14 +15,14 @@ from tribodyn.cases.units import si_unit, to_si
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.results import known
 from tribodyn.results.attributes import SWEEP
+from tribodyn.results.summary import Summary
 from tribodyn.results.variables import POINT_TEXTS
 from tribodyn.studies.plan import POINT, Plan
-from tribodyn.studies.work import Numbers
 
 NOT_COMPUTED: Final = "not computed: the sweep was stopped before"
 
 
-def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
+def merge(plan: Plan, summaries: Mapping[str, Summary]) -> xr.Dataset:
     """Return the dataset of a sweep.
 
     Parameters
@@ -48,7 +48,7 @@ def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
         return xr.Variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
 
     kind = plan.case.kind()
-    texts = {name: [str(row.get(name, "")) for row in rows] for name in ("failure", "warnings")}
+    texts = {name: [_text(row.get(name, "")) for row in rows] for name in ("failure", "warnings")}
     texts["points"] = [point.name for point in plan.points]
     return xr.Dataset(
         data_vars={name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
@@ -60,19 +60,27 @@ def merge(plan: Plan, summaries: Mapping[str, Numbers]) -> xr.Dataset:
     )
 
 
-def _numbers(rows: Sequence[Numbers], kind: str) -> list[str]:
+def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
     """Return the names of all numbers that any point gave, the known ones first and in their order."""
-    given = {name: None for row in rows for name, value in row.items() if not isinstance(value, str)}
+    given = {name: None for row in rows for name, value in row.items() if isinstance(value, int | float)}
     first = known(given, kind)
     return [*first, *(name for name in given if name not in first)]
 
 
-def _column(name: str, rows: Sequence[Numbers], kind: str) -> tuple[list[float], type, dict[str, str]]:
+def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float], type, dict[str, str]]:
     """Return the values of a headline number over all points; a point that failed has none."""
     told = known([name], kind).get(name)
     about = {"units": told.unit or "1", "long_name": told.label} if told else {"long_name": name}
-    values = [math.nan if row.get("failure") else float(row.get(name, math.nan)) for row in rows]
+    values = [math.nan if row.get("failure") else _number(row.get(name)) for row in rows]
     return values, float, about | ({"group": told.group, "comment": told.meaning} if told else {})
+
+
+def _text(told: object) -> str:
+    return "; ".join(told) if isinstance(told, list) else str(told)
+
+
+def _number(value: object) -> float:
+    return float(value) if isinstance(value, int | float) else math.nan
 
 
 def _coordinates(plan: Plan) -> dict[str, xr.Variable]:
@@ -96,7 +104,7 @@ def _about(key: Key) -> dict[str, Any]:
     return about
 
 
-def _attributes(plan: Plan, rows: Sequence[Numbers]) -> dict[str, Any]:
+def _attributes(plan: Plan, rows: Sequence[Summary]) -> dict[str, Any]:
     sampling: dict[str, Any] = {}
     if plan.sampled:
         s = plan.sampling

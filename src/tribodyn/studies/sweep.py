@@ -18,6 +18,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
 from tribodyn.results.store import prepare_directory
+from tribodyn.results.summary import Summary
 from tribodyn.studies.archive import Archive
 from tribodyn.studies.cluster import Tls, cluster
 from tribodyn.studies.job import Finished, Job
@@ -26,7 +27,7 @@ from tribodyn.studies.merge import NOT_COMPUTED, merge
 from tribodyn.studies.plan import Plan, Point, Sampling, make_plan
 from tribodyn.studies.statistics import statistics
 from tribodyn.studies.variation import Asked, written
-from tribodyn.studies.work import Numbers, compute
+from tribodyn.studies.work import compute
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -188,7 +189,7 @@ def run(
     return _merged(plan, summaries, directory)
 
 
-def _kept(plan: Plan, archive: Archive | None, means: Means) -> dict[str, Numbers]:
+def _kept(plan: Plan, archive: Archive | None, means: Means) -> dict[str, Summary]:
     """Return the summaries of the points that need not be computed again."""
     if archive is None or means.fresh:
         return {}
@@ -204,7 +205,7 @@ def _compute(
     plan: Plan,
     archive: Archive | None,
     means: Means,
-    summaries: dict[str, Numbers],
+    summaries: dict[str, Summary],
     watcher: Watcher,
 ) -> None:
     """Compute the missing points, keep each when it arrives, and add their summaries."""
@@ -241,7 +242,7 @@ def _here(job: Job) -> Finished:
         yield point, outcome
 
 
-def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -> xr.Dataset:
+def _merged(plan: Plan, summaries: dict[str, Summary], directory: Path | None) -> xr.Dataset:
     dataset = merge(plan, summaries)
     if directory is not None:
         write_bytes(directory / DATASET, netcdf_content(dataset))
@@ -250,10 +251,10 @@ def _merged(plan: Plan, summaries: dict[str, Numbers], directory: Path | None) -
     return dataset
 
 
-def _record(plan: Plan, summaries: dict[str, Numbers], dataset: xr.Dataset) -> dict[str, Any]:
+def _record(plan: Plan, summaries: dict[str, Summary], dataset: xr.Dataset) -> dict[str, Any]:
     """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
     keys = with_components(keys_in(plan.case))
-    nothing: Numbers = {"status": "missing", "failure": NOT_COMPUTED}
+    nothing: Summary = {"status": "missing", "failure": NOT_COMPUTED}
     return {
         "title": plan.case.title,
         "kind": plan.case.kind(),

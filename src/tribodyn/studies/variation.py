@@ -14,6 +14,7 @@ from tribodyn.cases.keys import Key, Value, ValueProblem, shown
 from tribodyn.cases.units import from_si, with_shared_unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import meant
 from tribodyn.studies.distributions import DISTRIBUTIONS, Distribution, DistributionProblem
 
 SOURCE: Final = "--vary"
@@ -94,6 +95,8 @@ def variation(key: Key, asked: Asked) -> Variation:
     if call is not None:
         return _scatter(key, call[1], call[2], asked)
     ends = asked.split(":")
+    if len(ends) == 2:
+        raise _refused(key, asked, "a range needs its step, too")
     if len(ends) == 3 and key.kind in (*_SCALABLE, "count"):
         return Levels(key, _range(key, ends, asked))
     return _levels(key, _with_shared_unit(key, asked.split(",")), asked)
@@ -172,7 +175,8 @@ def _read(key: Key, text: object, asked: Asked) -> Value:
     except ValueProblem as problem:
         raise _refused(key, asked, str(problem) or f"{shown(text)} does not fit") from None
     if key.kind == "choice" and value not in key.choices:
-        raise _refused(key, asked, f"{shown(text)} is not one of {', '.join(key.choices)}")
+        hint = meant(str(value), key.choices)
+        raise _refused(key, asked, f"{shown(text)} is not one of {', '.join(key.choices)}{hint}")
     return value
 
 

@@ -10,13 +10,10 @@ import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.core.versions import version
-
-Numbers: TypeAlias = dict[str, float | int | str]
-"""Headline numbers and texts of a point, as in ``summary.json``."""
+from tribodyn.results.summary import Summary
 
 
 @dataclass(frozen=True)
@@ -35,7 +32,7 @@ class Outcome:
         Whether computing it again would give the same. Not so where a worker died.
     """
 
-    summary: Numbers
+    summary: Summary
     result: bytes = b""
     staged: str = ""
     final: bool = True
@@ -48,7 +45,7 @@ class Outcome:
 
 def failed(reason: str, *, final: bool) -> Outcome:
     """Return what is known of a point that gave no result."""
-    return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": ""}, final=final)
+    return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": []}, final=final)
 
 
 def compute(

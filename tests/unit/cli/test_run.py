@@ -250,7 +250,7 @@ def test_results_are_replaced(in_empty_directory: Path, simulation: Callable[...
     simulation()
     assert main(["run", "vsv", "-o", "out"]) == 0
     Path("out/notes.txt").write_text("mine", encoding="utf-8")
-    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]) == 0
+    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um", "--force"]) == 0
     assert 'clearance = "40 um"' in Path("out/case.toml").read_text(encoding="utf-8")
     assert Path("out/notes.txt").read_text(encoding="utf-8") == "mine"
 
@@ -303,3 +303,36 @@ def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(
     assert main(CAMPAIGN) == 0
     assert "going on with the wear campaign kept in" in capsys.readouterr().err
     assert not Path("out/checkpoint.npz").exists()
+
+
+def test_a_finished_result_of_another_case_is_spared(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "-o", "out"]) == 0
+    assert main(["run", "vsv", "-o", "out"]) == 0
+    before = (in_empty_directory / "out" / "result.nc").read_bytes()
+    wider = ["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]
+    assert main(wider) == 2
+    assert "another case" in capsys.readouterr().err
+    assert (in_empty_directory / "out" / "result.nc").read_bytes() == before
+    assert main([*wider, "--force"]) == 0
+    assert 'clearance = "40 um"' in (in_empty_directory / "out" / "case.toml").read_text(encoding="utf-8")
+
+
+def test_what_is_left_of_a_failed_run_is_overwritten(
+    in_empty_directory: Path, simulation: Callable[..., None]
+) -> None:
+    simulation(lambda stop: "it stopped")
+    assert main(["run", "vsv", "-o", "out"]) == 1
+    simulation()
+    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]) == 0
+
+
+@pytest.mark.parametrize("value", ["'40 um'", '"40 um"', "40 um", " '40um' "])
+def test_quotes_left_around_a_value_are_taken_off(
+    value: str, in_empty_directory: Path, simulation: Callable[..., None]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "-o", "out", "--set", f"joint.clearance={value}"]) == 0
+    assert 'clearance = "40 um"' in (in_empty_directory / "out" / "case.toml").read_text(encoding="utf-8")

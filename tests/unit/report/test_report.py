@@ -67,7 +67,7 @@ def test_it_shows_every_headline_with_its_meaning(report):
     for headline in HEADLINES.values():
         assert headline.label in words
         assert headline.meaning in words
-    assert "0.1 (assumed)" in words
+    assert "0.1 (the default, assumed)" in words
 
 
 def test_stills_are_embedded_whole(report):

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.entry import closest
 from tribodyn.cases.fields import Vector, choice, number, quantity, tables, text, vector
 from tribodyn.cases.groups import Asperities, Contact, Solver, Surfaces, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import RoughCase
+from tribodyn.core.quoting import meant
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
@@ -211,7 +211,5 @@ class MechanismCase(RoughCase):
 def _known(given: str, names: Iterable[str], key: str, what: str) -> None:
     """Refuse a name that no table has."""
     names = tuple(names)
-    near = closest(given, names)
-    hint = f'; did you mean "{near}"?' if near else ""
     there = f"known: {', '.join(names)}" if names else "there is none"
-    demand(given in names, key, f'"{given}" is no {what}; {there}{hint}')
+    demand(given in names, key, f'"{given}" is no {what}; {there}{meant(given, names)}')

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Literal
 
 from tribodyn.cases.case import Group, demand
@@ -113,10 +113,9 @@ class JournalCase(BushingCase):
         """Simulated time of the whole run [s]."""
         return self.run.duration
 
-    def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
-        super().model_post_init(context)
-        self._check_run()
+    def checks(self) -> tuple[Callable[[], object], ...]:
+        """Return what checks keys against each other."""
+        return (*super().checks(), self._check_run)
 
     def _check_run(self) -> None:
         run, clearance = self.run, self.joint.clearance
