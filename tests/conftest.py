@@ -15,6 +15,7 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.kernels.vsv.quantities import OBSERVED
+from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Drive, Inertias, Lengths, Vsv
 from tribodyn.mechanisms.vsv.problem import vsv_problem
 
@@ -69,6 +70,58 @@ def make_joint(contact_table: ContactTable, table_1_pair: SurfacePair) -> Callab
             Grid(*grid),
             table_1_pair.roughness_rms,
             table,
+        )
+
+    return make
+
+
+SIZES = {
+    "cylinder": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3},
+    "flanged": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3, "axial": 15e-6, "flange": 9e-3},
+    "annulus": {"inner": 6e-3, "outer": 9e-3, "axial": 20e-6, "height": 10e-3},
+    "sphere": {"radius": 8e-3, "radial": 20e-6, "band": 0.8},
+    "mesh": {"gap": 20e-6, "edge": 4e-3},
+}
+"""Sizes of a clearance joint of each shape [m]; ``flanged`` is a cylinder with end faces."""
+
+
+def square_tube(half: float) -> FloatArray:
+    """Return the inner walls of a tube along z as triangles that face the axis [m], shape (8, 3, 3)."""
+    corners = np.array([[half, -half, -half], [half, half, -half], [half, half, half], [half, -half, half]])
+    wall = corners[[[0, 2, 1], [0, 3, 2]]]
+    turns = [np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    return np.concatenate([wall @ turn.T for turn in turns])
+
+
+@pytest.fixture(scope="session")
+def make_clearance(contact_table: ContactTable, table_1_pair: SurfacePair) -> Callable[..., Clearance]:
+    """Return a maker of clearances by shape; what is not said is as in :data:`SIZES`, or the default."""
+
+    def make(
+        shape: str,
+        *,
+        grid: tuple[int, int] = (48, 8),
+        coefficient: float = 0.1,
+        slip_velocity: float = 1e-5,
+        contact: str = "surface",
+        table: ContactTable = contact_table,
+        clip: bool = True,
+        **sizes: float,
+    ) -> Clearance:
+        return Clearance(
+            shape="cylinder" if shape == "flanged" else shape,
+            sizes=SIZES[shape] | sizes,
+            socket=0,
+            grid=grid,
+            roughness=table_1_pair.roughness_rms,
+            table=table,
+            friction_coefficient=coefficient,
+            slip_velocity=slip_velocity,
+            onset=4.0,
+            minimum_velocity=1e-3,
+            tensile_clip=clip,
+            contact=contact,
+            facets=square_tube(8e-3) if shape == "mesh" else np.zeros((0, 3, 3)),
         )
 
     return make

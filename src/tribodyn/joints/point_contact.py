@@ -113,8 +113,8 @@ def contact_table(
     return point_table(contact, law, cylinders)
 
 
-def point_table(name: str, law: ContactLaw, cylinders: Cylinders) -> ContactTable:
-    """Tabulate the force of one end over (c − ρ)/σ, from a penetration by the whole clearance to none.
+def point_table(name: str, law: ContactLaw, cylinders: Cylinders, points: int = 2) -> ContactTable:
+    """Tabulate the force of one point over (c − ρ)/σ, from a penetration by the whole clearance to none.
 
     Parameters
     ----------
@@ -124,6 +124,8 @@ def point_table(name: str, law: ContactLaw, cylinders: Cylinders) -> ContactTabl
         Gives the materials, the damping factor and, at its design pressure, the restitution.
     cylinders
         Dimensions of the joint.
+    points
+        Number of points that share its force, the ends of a bushing.
     """
     if law.factor.dashpot:
         raise InputError(
@@ -134,7 +136,7 @@ def point_table(name: str, law: ContactLaw, cylinders: Cylinders) -> ContactTabl
     depth = np.linspace(cylinders.clearance, 0.0, INTERVALS + 1)
     force, slope = POINT_CONTACTS[name](depth, law.pair.composite_modulus, cylinders)
     step = cylinders.clearance / (sigma * INTERVALS)
-    force, rise = 0.5 * force, -0.5 * slope * sigma * step
+    force, rise = force / points, -slope * sigma * step / points
     ratio = point_damping(law)
     nodes = np.column_stack([force, rise, ratio * force, ratio * rise])
     return table_of_nodes(-cylinders.clearance / sigma, step, nodes)

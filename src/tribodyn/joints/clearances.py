@@ -1,0 +1,245 @@
+"""All clearance joints of a mechanism, put into the arrays that kernels read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tribodyn.contact import tabulate
+from tribodyn.contact.base import ContactLaw
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.quantities import Record
+from tribodyn.core.tables import ContactTable
+from tribodyn.joints.point_contact import SURFACE, point_table
+from tribodyn.joints.shapes import SHAPES, Shape, Surface
+from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.surface import data as kernel
+from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.pose import Pose
+
+SPHERE: Final = "point-lankarani-nikravesh"
+"""The point contact that a ball in a race can have."""
+
+
+class Clearance(Protocol):
+    """What makes an ideal joint a real one; meanings as in ``mechanisms/general/description.py``."""
+
+    @property
+    def shape(self) -> str:
+        """A name of ``SHAPES``."""
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """Its dimensions by name."""
+
+    @property
+    def grid(self) -> tuple[int, int]:
+        """Nodes along the two directions of the shape."""
+
+    @property
+    def roughness(self) -> float:
+        """Combined rms roughness σ [m]."""
+
+    @property
+    def contact(self) -> str:
+        """One of ``CONTACTS``."""
+
+    @property
+    def table(self) -> ContactTable:
+        """Tabulated contact law."""
+
+    @property
+    def facets(self) -> FloatArray:
+        """Triangles of a mesh [m], shape (n, 3, 3)."""
+
+    @property
+    def friction_coefficient(self) -> float:
+        """μ [1]."""
+
+    @property
+    def slip_velocity(self) -> float:
+        """Regularisation velocity u_s [m/s]."""
+
+    @property
+    def onset(self) -> float:
+        """Separation over σ below which a point is in contact [1]."""
+
+    @property
+    def minimum_velocity(self) -> float:
+        """Least entry velocity v_min [m/s]."""
+
+    @property
+    def tensile_clip(self) -> bool:
+        """Whether the total pressure is kept from becoming tensile."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a surface lies in the arrays of a mechanism.
+
+    Attributes
+    ----------
+    joint
+        Number of the clearance joint.
+    surface
+        The surface itself.
+    nodes
+        Its part of every array over nodes.
+    """
+
+    joint: int
+    surface: Surface
+    nodes: slice
+
+
+def shape_of(clearance: Clearance) -> Shape:
+    """Return the shape of a clearance."""
+    if clearance.shape not in SHAPES:
+        raise InputError(f"given {clearance.shape!r}; allowed: {', '.join(SHAPES)}", key="shape")
+    facets = {"facets": clearance.facets} if clearance.shape == "mesh" else {}
+    return SHAPES[clearance.shape](**clearance.sizes, **facets)
+
+
+def table_of(
+    contact: str, law: ContactLaw, shape: Shape, *, onset: float, smoothing_width: float
+) -> ContactTable:
+    """Return the contact table of a shape; arguments as for ``joints.contact_table``."""
+    if contact == SURFACE:
+        return tabulate(law, onset=onset, smoothing_width=smoothing_width)
+    points = shape.points()
+    if not points.length and contact != SPHERE:
+        raise InputError(f"{contact} is for cylinders; a ball has {SPHERE}", key="contact")
+    return point_table(contact, law, points, len(points.heights))
+
+
+def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
+    """Return where the surfaces of clearance joints lie, joint by joint."""
+    found: list[Place] = []
+    for joint, clearance in enumerate(clearances):
+        for surface in shape_of(clearance).surfaces(clearance.grid):
+            first = found[-1].nodes.stop if found else 0
+            found.append(Place(joint, surface, slice(first, first + surface.area.size)))
+    return tuple(found)
+
+
+def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) -> SurfaceData:
+    """Return what the kernels of ``kernels/joints/surface`` read.
+
+    Parameters
+    ----------
+    clearances
+        One for each clearance joint, in their order.
+    wear
+        Wear depth at all nodes [m], shape (n_nodes,); none by default.
+    """
+    where, tables = places(clearances), _Tables()
+    surfaces = np.zeros(len(where), dtype=kernel.Surface)
+    first_row = 0
+    for record, place in zip(surfaces, where, strict=True):
+        clearance = clearances[place.joint]
+        record["first_row"], record["last_row"] = first_row, first_row + place.surface.rows.size
+        first_row = record["last_row"]
+        record["first_node"], record["last_node"] = place.nodes.start, place.nodes.stop
+        record["tilt"], record["area"] = place.surface.tilt, place.surface.area.sum()
+        tables.fill(record, clearance.table)
+        _fill_law(record, clearance)
+    nodes = _nodes(where, wear)
+    return SurfaceData(
+        joints=np.searchsorted([place.joint for place in where], np.arange(len(clearances) + 1)),
+        surfaces=surfaces,
+        rows=_rows(where, nodes[kernel.GAP]),
+        nodes=nodes,
+        table_nodes=tables.joined("nodes", 1, (0, 4)),
+        energy=tables.joined("energy", 1, (0,)),
+        cubics=tables.joined("cubics", 0, (0,)),
+    )
+
+
+class _Tables:
+    """Contact tables, one after the other, each once."""
+
+    def __init__(self) -> None:
+        self.tables: list[ContactTable] = []
+
+    def fill(self, record: Record, table: ContactTable) -> None:
+        """Tell a surface where its table lies."""
+        if not any(known is table for known in self.tables):
+            self.tables.append(table)
+        at = next(k for k, known in enumerate(self.tables) if known is table)
+        record["first_interval"] = sum(_intervals(known) for known in self.tables[:at])
+        record["last_interval"] = record["first_interval"] + _intervals(table)
+        for name in ("h_first", "h_last", "inverse_step"):
+            record[name] = getattr(table, name)
+
+    def joined(self, name: str, padding: int, empty: tuple[int, ...]) -> FloatArray:
+        """Return an array of all tables, each followed by ``padding`` zeros: all count in intervals."""
+        blank = np.zeros((padding, *empty[1:]))
+        parts = [part for table in self.tables for part in (getattr(table, name), blank)]
+        return np.concatenate([np.zeros(empty), *parts])
+
+
+def _intervals(table: ContactTable) -> int:
+    """Return the number of intervals of a table, with those below and above it."""
+    return int(table.nodes.shape[0]) + 1
+
+
+def _fill_law(record: Record, clearance: Clearance) -> None:
+    """Tell a surface how it touches."""
+    for name in ("roughness", "friction_coefficient", "slip_velocity", "onset"):
+        record[name] = getattr(clearance, name)
+    record["minimum_entry_velocity"] = clearance.minimum_velocity
+    record["tensile_clip"] = 1.0 if clearance.tensile_clip else 0.0
+    if clearance.contact != SURFACE:
+        points = shape_of(clearance).points()
+        record["points"], record["radius"] = len(points.heights), points.radius
+        record["clearance"] = points.clearance
+        record["heights"][: len(points.heights)] = points.heights
+
+
+def _nodes(where: Sequence[Place], wear: FloatArray | None) -> FloatArray:
+    """Return the array of all nodes, see ``kernels/joints/surface/data.py``."""
+    n = where[-1].nodes.stop if where else 0
+    depth = np.zeros(n) if wear is None else np.asarray(wear, dtype=np.float64)
+    if depth.shape != (n,):
+        raise InputError(f"wear depth has shape {depth.shape}, the joints have {n} nodes")
+    nodes = np.zeros((kernel.N_NODE, n))
+    for place in where:
+        surface, here = place.surface, nodes[:, place.nodes]
+        here[kernel.POSITION : kernel.NORMAL] = surface.position.T
+        here[kernel.NORMAL : kernel.AREA] = surface.normal.T
+        here[kernel.AREA] = surface.area
+        here[kernel.GAP] = surface.gap
+    nodes[kernel.GAP] += depth
+    return nodes
+
+
+def _rows(where: Sequence[Place], gap: FloatArray) -> NDArray[np.void]:
+    """Return the rows of all surfaces, their nodes counted from the first of all."""
+    rows = np.zeros(sum(place.surface.rows.size for place in where), dtype=kernel.Row)
+    at = 0
+    for place in where:
+        own = rows[at : at + place.surface.rows.size]
+        own[:] = place.surface.rows
+        own["first"] += place.nodes.start
+        at += own.size
+    for row in rows:
+        row["least"] = gap[row["first"] : row["first"] + row["count"]].min()
+    return rows
+
+
+def pose_at(
+    d: ArrayLike = (0.0, 0.0, 0.0),
+    rotation: ArrayLike | None = None,
+    v: ArrayLike = (0.0, 0.0, 0.0),
+    w: ArrayLike = (0.0, 0.0, 0.0),
+) -> Record:
+    """Return the pose of a shaft as drawn or elsewhere, see ``kernels/joints/surface/pose.py``."""
+    pose = new_record(Pose)
+    pose.rotation[:] = np.eye(3) if rotation is None else rotation
+    pose.d[:], pose.v[:], pose.w[:] = d, v, w
+    return pose

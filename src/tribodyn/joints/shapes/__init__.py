@@ -1,0 +1,22 @@
+"""Shapes of clearance joints: how nodes come onto their surfaces, one file each, listed once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+from tribodyn.joints.shapes.annulus import Annulus
+from tribodyn.joints.shapes.base import Points, Shape, Surface
+from tribodyn.joints.shapes.cylinder import Cylinder
+from tribodyn.joints.shapes.mesh import Mesh
+from tribodyn.joints.shapes.sphere import Sphere
+
+SHAPES: Final[dict[str, Callable[..., Shape]]] = {
+    "cylinder": Cylinder,
+    "annulus": Annulus,
+    "sphere": Sphere,
+    "mesh": Mesh,
+}
+"""Made with their sizes by name."""
+
+__all__ = ["SHAPES", "Annulus", "Cylinder", "Mesh", "Points", "Shape", "Sphere", "Surface"]

@@ -1,0 +1,98 @@
+"""What a shape is: it puts nodes on the surfaces of a joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Nodes of one surface, in the socket's frame, the shaft where it is drawn.
+
+    Attributes
+    ----------
+    name
+        Which surface of the joint.
+    position
+        x_k on the shaft [m], shape (n, 3).
+    normal
+        n_k from the shaft into the socket, shape (n, 3).
+    area
+        A_k [m²], shape (n,).
+    gap
+        h0_k without wear [m], shape (n,).
+    rows
+        Records ``Row`` whose nodes count from the first of this surface.
+    tilt
+        What turning does to the gaps, see ``kernels/joints/surface/tilt.py``.
+    axes
+        Names and values of the two coordinates of a map of the nodes, row by row; one for nodes in no order.
+    """
+
+    name: str
+    position: FloatArray
+    normal: FloatArray
+    area: FloatArray
+    gap: FloatArray
+    rows: NDArray[np.void]
+    tilt: float
+    axes: dict[str, FloatArray]
+
+    @property
+    def field_shape(self) -> tuple[int, ...]:
+        """Shape of a map of the nodes."""
+        return tuple(values.size for values in self.axes.values())
+
+
+@dataclass(frozen=True)
+class Points:
+    """Where smooth surfaces of a shape touch: circles, or one sphere.
+
+    Attributes
+    ----------
+    radius, clearance, length
+        Radius of the shaft, radial clearance, and length that two circles share, 0 for a sphere [m].
+    heights
+        Of the centres along the axis [m].
+    """
+
+    radius: float
+    clearance: float
+    length: float
+    heights: tuple[float, ...]
+
+    @property
+    def bore_radius(self) -> float:
+        """Radius of the socket [m]."""
+        return self.radius + self.clearance
+
+
+class Shape(Protocol):
+    """A node generator; its sizes are the arguments by which it is made."""
+
+    def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
+        """Return the surfaces with ``grid`` nodes along their two directions."""
+
+    def points(self) -> Points:
+        """Return where smooth surfaces touch, or say that they do not touch at points."""
+
+
+def check_positive(shape: str, **sizes: float) -> None:
+    """Refuse a size that is not above zero; their keys are those of the table ``clearance``."""
+    for name, value in sizes.items():
+        if not (np.isfinite(value) and value > 0.0):
+            raise InputError(f"of a {shape} must be a length above zero, not {value:g}", key=name)
+
+
+def no_points(shape: str) -> Points:
+    """Refuse a point contact."""
+    raise InputError(
+        f"a {shape} touches over its surface, not at points; use contact = 'surface'", key="contact"
+    )

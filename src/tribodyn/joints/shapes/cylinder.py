@@ -1,0 +1,94 @@
+"""A shaft in a bore, with or without faces at its ends: trunnions, pins, bearings of cranks and rods.
+
+The barrel has nodes as those of the bushing, weighed by the area of the bore. The shaft's flanges stand
+outside the ends of the bore and rest on them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.errors import InputError
+from tribodyn.joints.shapes.annulus import Annulus
+from tribodyn.joints.shapes.base import Points, Surface, check_positive
+from tribodyn.joints.shapes.rings import Rings, across
+from tribodyn.kernels.joints.surface.tilt import AXIS
+
+ENDS = {"upper": 1.0, "lower": -1.0}
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Sizes of a shaft in a bore [m].
+
+    Attributes
+    ----------
+    radius
+        Of the shaft.
+    radial
+        Radial clearance c.
+    length
+        Of the bore.
+    axial
+        Gap at both end faces as drawn; none without faces.
+    axial_upper, axial_lower
+        The same at one end each, along the axis and against it.
+    flange
+        Outer radius of the end faces; the bore is their inner one.
+    """
+
+    radius: float
+    radial: float
+    length: float
+    axial: float | None = None
+    axial_upper: float | None = None
+    axial_lower: float | None = None
+    flange: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that make no joint."""
+        check_positive("cylinder", radius=self.radius, radial=self.radial, length=self.length)
+        if bool(self._faces) != (self.flange is not None):
+            raise InputError(
+                "end faces need both their gap, axial, and their outer radius, flange", key="flange"
+            )
+
+    @property
+    def _faces(self) -> dict[str, float]:
+        """Gaps of the end faces [m]."""
+        gaps = {"upper": self.axial_upper, "lower": self.axial_lower}
+        gaps = {end: self.axial if gap is None else gap for end, gap in gaps.items()}
+        return {end: gap for end, gap in gaps.items() if gap is not None}
+
+    def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
+        """Return the barrel and the faces."""
+        n_theta, n_z = grid
+        z, weight = across(-0.5 * self.length, 0.5 * self.length, n_z)
+        ones = np.ones(z.size)
+        rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.radial) * weight)
+        barrel = rings.surface("barrel", ("z", z), self.radial, n_theta, AXIS)
+        return (
+            barrel,
+            *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self._faces.items()),
+        )
+
+    def _face(self, end: str, gap: float) -> Annulus:
+        assert self.flange is not None
+        return Annulus(
+            inner=self.radius + self.radial,
+            outer=self.flange,
+            axial=gap,
+            height=0.5 * ENDS[end] * self.length,
+            direction=-ENDS[end],
+        )
+
+    def points(self) -> Points:
+        """Return a circle at each end."""
+        if self._faces:
+            raise InputError(
+                "end faces touch over their surface, not at points; leave axial out", key="axial"
+            )
+        half = 0.5 * self.length
+        return Points(self.radius, self.radial, self.length, (-half, half))

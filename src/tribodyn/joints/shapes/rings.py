@@ -1,0 +1,93 @@
+"""Nodes on surfaces of revolution: rings of equal angles at Gauss-Legendre points, and on the edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.shapes.base import Surface
+from tribodyn.kernels.joints.surface.data import Row
+
+
+def across(first: float, last: float, n: int) -> tuple[FloatArray, FloatArray]:
+    """Return ``n`` Gauss-Legendre points and weights between two edges, which weigh nothing.
+
+    Both have the shape (n + 2,), edges first and last.
+    """
+    points, weights = np.polynomial.legendre.leggauss(n)
+    half = 0.5 * (last - first)
+    inside = 0.5 * (first + last) + half * points
+    return np.concatenate([[first], inside, [last]]), np.concatenate([[0.0], half * weights, [0.0]])
+
+
+@dataclass(frozen=True)
+class Rings:
+    """The profile of a surface of revolution, a ring of nodes at each of its points.
+
+    Attributes
+    ----------
+    radius, height
+        Of the rings on the shaft [m], shape (n,).
+    radial, axial
+        Components of the normals, shape (n,).
+    strip
+        Area of the surface over angle that a ring stands for [m²/rad], shape (n,).
+    """
+
+    radius: FloatArray
+    height: FloatArray
+    radial: FloatArray
+    axial: FloatArray
+    strip: FloatArray
+
+    def surface(
+        self, name: str, along: tuple[str, FloatArray], gap: float, n_theta: int, tilt: float
+    ) -> Surface:
+        """Return the surface.
+
+        Parameters
+        ----------
+        name
+            Of the surface.
+        along
+            Name and values of the coordinate across the rings, shape (n,).
+        gap
+            As drawn [m], everywhere.
+        n_theta
+            Nodes of a ring; theirs are the angles 2π i/n_theta about the axis.
+        tilt
+            What turning does to the gaps.
+        """
+        theta = 2.0 * np.pi * np.arange(n_theta) / n_theta
+        around = np.stack([np.cos(theta), np.sin(theta), np.zeros(n_theta)])
+        ones = np.ones(n_theta)
+
+        def spread(radial: FloatArray, axial: FloatArray) -> FloatArray:
+            """Return vectors with given components at all nodes."""
+            vectors = radial[:, None, None] * around
+            vectors[:, 2] = axial[:, None]
+            return np.ascontiguousarray(vectors.transpose(0, 2, 1).reshape(-1, 3))
+
+        area = 2.0 * np.pi / n_theta * self.strip
+        return Surface(
+            name=name,
+            position=spread(self.radius, self.height),
+            normal=spread(self.radial, self.axial),
+            area=np.outer(area, ones).ravel(),
+            gap=np.full(area.size * n_theta, gap),
+            rows=self._rows(n_theta, area),
+            tilt=tilt,
+            axes={along[0]: along[1], "theta": theta},
+        )
+
+    def _rows(self, n_theta: int, area: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.void]]:
+        """Return the records of the rings."""
+        rows = np.zeros(area.size, dtype=Row)
+        rows["first"] = n_theta * np.arange(area.size)
+        rows["count"] = n_theta
+        rows["area"] = n_theta * area
+        rows["normal"][:, 0], rows["normal"][:, 2] = self.radial, self.axial
+        rows["arm"] = self.height * self.radial - self.radius * self.axial
+        return rows

@@ -1,0 +1,79 @@
+"""Entry velocities of a surface, changed at accepted steps only; and its pressure field."""
+
+from __future__ import annotations
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
+from tribodyn.kernels.joints.surface.data import NORMAL, POSITION, SurfaceData, table_of
+from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.nodes import node_gap, window
+
+
+@kernel
+def node_approach(nodes: FloatArray, i: int, v: FloatArray, rate: FloatArray) -> float:
+    """Return the approach speed δ̇ at node ``i`` [m/s]."""
+    x, y, z = nodes[POSITION, i], nodes[POSITION + 1, i], nodes[POSITION + 2, i]
+    along_x = v[0] + rate[1] * z - rate[2] * y
+    along_y = v[1] + rate[2] * x - rate[0] * z
+    along_z = v[2] + rate[0] * y - rate[1] * x
+    return nodes[NORMAL, i] * along_x + nodes[NORMAL + 1, i] * along_y + nodes[NORMAL + 2, i] * along_z
+
+
+@kernel
+def update_entry_velocity(
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, at_start: float
+) -> None:
+    """Let nodes enter and leave contact at the end of an accepted step.
+
+    A node below the onset separation without a memory takes max(|δ̇|, v_min); one above the onset forgets.
+    Points already in contact at the start of a run take v_min.
+
+    Parameters
+    ----------
+    data, surface, memory, pose
+        As for ``wrench``; the entry velocities are changed in place.
+    at_start
+        1 at the start of a run, 0 otherwise.
+    """
+    tilt, entry_velocity = memory.scratch.tilt, memory.entry_velocity
+    onset, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0
+    for r in range(surface.first_row, surface.last_row):
+        row = data.rows[r]
+        first, count = window(row, pose.d, tilt.phi, onset)
+        if count == 0 and memory.remembering[r] == 0.0:
+            continue
+        for k in range(row.count):
+            i = row.first + k
+            inside = k - first if k >= first else k - first + row.count
+            if inside < count and node_gap(data.nodes, i, pose.d, tilt.phi) < onset:
+                approach = heed * node_approach(data.nodes, i, pose.v, tilt.rate)
+                entry_velocity[i] = reference_velocity(
+                    entry_velocity[i], approach, surface.minimum_entry_velocity
+                )
+            else:
+                entry_velocity[i] = 0.0
+        memory.remembering[r] = 1.0 if count > 0 else 0.0
+
+
+@kernel
+def pressure_field(
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, pressure: FloatArray
+) -> None:
+    """Fill the nodes of a surface in ``pressure`` (n_nodes,) with the contact pressure P_c [Pa]."""
+    tilt, table = memory.scratch.tilt, table_of(data, surface)
+    limit = surface.h_last * surface.roughness
+    for i in range(surface.first_node, surface.last_node):
+        gap = node_gap(data.nodes, i, pose.d, tilt.phi)
+        pressure[i] = 0.0
+        if gap < limit:
+            _, pressure[i], _, _ = node_pressure(
+                table,
+                surface.roughness,
+                surface.minimum_entry_velocity,
+                surface.tensile_clip,
+                gap,
+                node_approach(data.nodes, i, pose.v, tilt.rate),
+                memory.entry_velocity[i],
+            )

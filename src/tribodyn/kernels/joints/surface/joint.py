@@ -1,0 +1,183 @@
+"""The kernels of a clearance joint, whatever its surfaces: what mechanisms call.
+
+``j`` counts the clearance joints of a mechanism, ``pose`` is a record as ``pose`` describes it; of the memory
+a kernel changes the scratch, and what it says.
+"""
+
+from __future__ import annotations
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints.pose import V, W
+from tribodyn.kernels.joints.surface import entry, point
+from tribodyn.kernels.joints.surface import report as over_surface
+from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
+from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.pose import TURN
+from tribodyn.kernels.joints.surface.tilt import fill_derivatives, fill_tilt, moment_of
+from tribodyn.kernels.joints.surface.wrench import wrench as surface_wrench
+
+
+@kernel
+def _tilt(surface: Record, memory: SurfaceMemory, pose: Record) -> None:
+    """Fill the tilt of the scratch."""
+    fill_tilt(surface.tilt, pose.rotation, pose.w, memory.scratch.tilt)
+
+
+@kernel
+def _add_wrench(memory: SurfaceMemory, out: FloatArray) -> None:
+    """Add normal and friction of the scratch to ``out`` (6,)."""
+    scratch = memory.scratch
+    for k in range(3):
+        out[k] += scratch.normal[k] + scratch.friction[k]
+        out[3 + k] += scratch.friction[3 + k]
+    moment_of(scratch.tilt, scratch.normal[3:], out[3:])
+
+
+@kernel
+def wrench(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: FloatArray) -> None:
+    """Fill ``out`` (6,) with the wrench on the shaft of joint ``j`` [N, N m]."""
+    for k in range(6):
+        out[k] = 0.0
+    for s in range(data.joints[j], data.joints[j + 1]):
+        surface = data.surfaces[s]
+        _tilt(surface, memory, pose)
+        if surface.points > 0.0:
+            point.add_points(data, s, memory, pose, 0.0, 0.0)
+        else:
+            surface_wrench(data, surface, memory, pose)
+        _add_wrench(memory, out)
+
+
+@kernel
+def wrench_and_jacobian(
+    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: FloatArray, jacobian: FloatArray
+) -> None:
+    """Fill ``out`` (6,) with the wrench and ``jacobian`` (6, 12) with its derivatives in d, ϑ, v and ω."""
+    for k in range(6):
+        out[k] = 0.0
+    clear(jacobian)
+    for s in range(data.joints[j], data.joints[j + 1]):
+        surface = data.surfaces[s]
+        _tilt(surface, memory, pose)
+        if surface.points > 0.0:
+            point.add_points(data, s, memory, pose, 1.0, 0.0)
+        else:
+            wrench_and_derivatives(data, surface, memory, pose)
+        _add_wrench(memory, out)
+        _add_derivatives(surface, memory.scratch, pose, jacobian)
+
+
+@kernel
+def _add_turned(normal: FloatArray, tilt: Record, out: FloatArray) -> None:
+    """Add the derivative ``normal`` to ``out``, both (6, 6), its moments turned by Gᵀ."""
+    for k in range(6):
+        for i in range(3):
+            out[i, k] += normal[i, k]
+            for m in range(3):
+                out[3 + i, k] += tilt.to_rate[m, i] * normal[3 + m, k]
+
+
+@kernel
+def _add_derivatives(surface: Record, scratch: Record, pose: Record, jacobian: FloatArray) -> None:
+    """Carry the derivatives of the scratch to ``jacobian``: dφ = G dϑ and dφ̇ = G dω + (∂φ̇/∂ϑ) dϑ."""
+    tilt, slip = scratch.tilt, scratch.friction_slip
+    place, rate = scratch.friction_place, scratch.friction_rate
+    fill_derivatives(surface.tilt, pose.rotation, pose.w, scratch.normal[3:], tilt, jacobian[3:, TURN:V])
+    _add_turned(scratch.normal_place, tilt, place)
+    _add_turned(scratch.normal_rate, tilt, rate)
+    for i in range(6):
+        for k in range(3):
+            turn = spin = 0.0
+            for m in range(3):
+                turn += place[i, 3 + m] * tilt.to_rate[m, k] + rate[i, 3 + m] * tilt.rate_turn[m, k]
+                spin += rate[i, 3 + m] * tilt.to_rate[m, k]
+            jacobian[i, k] += place[i, k]
+            jacobian[i, TURN + k] += turn
+            jacobian[i, V + k] += rate[i, k] + slip[i, k]
+            jacobian[i, W + k] += spin + slip[i, 3 + k]
+
+
+@kernel
+def _fill_parts(memory: SurfaceMemory, out: Record) -> None:
+    """Fill the forces and moments of a report from the sums of the scratch."""
+    scratch = memory.scratch
+    for k in range(3):
+        scratch.moment[k] = scratch.rigid_moment[k] = 0.0
+    moment_of(scratch.tilt, scratch.normal[3:], scratch.moment)
+    moment_of(scratch.tilt, scratch.rigid[3:], scratch.rigid_moment)
+    out.F_cx, out.F_cy, out.F_cz = scratch.normal[0], scratch.normal[1], scratch.normal[2]
+    out.M_cx, out.M_cy, out.M_cz = scratch.moment[0], scratch.moment[1], scratch.moment[2]
+    out.F_kx, out.F_ky, out.F_kz = scratch.rigid[0], scratch.rigid[1], scratch.rigid[2]
+    out.M_kx, out.M_ky, out.M_kz = scratch.rigid_moment[0], scratch.rigid_moment[1], scratch.rigid_moment[2]
+    out.F_fx, out.F_fy, out.F_fz = scratch.friction[0], scratch.friction[1], scratch.friction[2]
+    out.M_fx, out.M_fy, out.M_fz = scratch.friction[3], scratch.friction[4], scratch.friction[5]
+
+
+@kernel
+def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> None:
+    """Fill the reports of the surfaces of joint ``j``, but for their stored energy, see ``stored``."""
+    for s in range(data.joints[j], data.joints[j + 1]):
+        surface = data.surfaces[s]
+        memory.reports[s] = memory.scratch.blank
+        _tilt(surface, memory, pose)
+        if surface.points > 0.0:
+            point.add_points(data, s, memory, pose, 0.0, 1.0)
+        else:
+            over_surface.report(data, s, memory, pose)
+        _fill_parts(memory, memory.reports[s])
+
+
+@kernel
+def slide(data: SurfaceData, memory: SurfaceMemory, j: int, h: float) -> None:
+    """Add what slides in ``h`` [s], as at the last report, to the sliding load."""
+    for s in range(data.joints[j], data.joints[j + 1]):
+        over_surface.slide(data, s, memory, h)
+
+
+@kernel
+def stored(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> float:
+    """Return the energy stored in joint ``j`` [J] and note it in the reports of its surfaces."""
+    total = 0.0
+    for s in range(data.joints[j], data.joints[j + 1]):
+        surface = data.surfaces[s]
+        _tilt(surface, memory, pose)
+        if surface.points > 0.0:
+            energy = point.stored(data, surface, memory, pose)
+        else:
+            energy = over_surface.stored(data, surface, memory, pose)
+        memory.reports[s].energy_contact = energy
+        total += energy
+    return total
+
+
+@kernel
+def pressure_field(
+    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, pressure: FloatArray
+) -> None:
+    """Fill the nodes of joint ``j`` in ``pressure`` (n_nodes,) with P_c [Pa]; points have none."""
+    for s in range(data.joints[j], data.joints[j + 1]):
+        surface = data.surfaces[s]
+        _tilt(surface, memory, pose)
+        if surface.points > 0.0:
+            for i in range(surface.first_node, surface.last_node):
+                pressure[i] = 0.0
+        else:
+            entry.pressure_field(data, surface, memory, pose, pressure)
+
+
+@kernel
+def update_entry_velocity(
+    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, at_start: float
+) -> None:
+    """Let contact of joint ``j`` begin and end at the end of an accepted step."""
+    for s in range(data.joints[j], data.joints[j + 1]):
+        surface = data.surfaces[s]
+        _tilt(surface, memory, pose)
+        if surface.points > 0.0:
+            point.update_entry_velocity(data, surface, memory, pose, at_start)
+        else:
+            entry.update_entry_velocity(data, surface, memory, pose, at_start)

@@ -1,0 +1,174 @@
+"""Nodes within reach of contact, gathered from all rows of a surface into one list.
+
+Sums over nodes are loops over this list, filled and summed a part at a time: long enough for the processor to
+take four nodes at once, however few are in reach in a row.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.cylinder.window import contact_window
+from tribodyn.kernels.joints.surface.data import AREA as NODE_AREA
+from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
+from tribodyn.kernels.joints.surface.data import NORMAL as NODE_NORMAL
+from tribodyn.kernels.joints.surface.data import POSITION as NODE_POSITION
+from tribodyn.kernels.joints.surface.listed import (
+    APPROACH,
+    AREA,
+    DAMPING,
+    DAMPING_SLOPE,
+    ENTRY,
+    FRACTION,
+    INTERVAL,
+    MOMENT,
+    NORMAL,
+    PART,
+    PITCH,
+    POSITION,
+    RIGID,
+    RIGID_SLOPE,
+)
+from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.lookup import cubic, cubic_slope, interval, offset
+
+
+@kernel
+def window(row: Record, d: FloatArray, phi: FloatArray, limit: float) -> tuple[int, int]:
+    """Return the first node and the number of nodes of a row that hold every gap below ``limit`` [m].
+
+    They count from the first node of the row; in a ring the window may go on at node 0.
+    """
+    if row.whole > 0.0:
+        near = row.normal[0] * d[0] + row.normal[1] * d[1] + row.normal[2] * d[2]
+        near += row.moment[0] * phi[0] + row.moment[1] * phi[1] + row.moment[2] * phi[2]
+        near += row.spread[0] * math.sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
+        near += row.spread[1] * math.sqrt(phi[0] ** 2 + phi[1] ** 2 + phi[2] ** 2)
+        return 0, row.count if row.least - near < limit else 0
+    a = -(row.normal[0] * d[0] + row.arm * phi[1])
+    b = -(row.normal[0] * d[1] - row.arm * phi[0])
+    return contact_window(row.least - row.normal[2] * d[2], a, b, limit, row.count)
+
+
+@inlined
+def node_gap(nodes: FloatArray, i: int, d: FloatArray, phi: FloatArray) -> float:
+    """Return the gap at node ``i`` [m]."""
+    x, y, z = nodes[NODE_POSITION, i], nodes[NODE_POSITION + 1, i], nodes[NODE_POSITION + 2, i]
+    along_x = d[0] + phi[1] * z - phi[2] * y
+    along_y = d[1] + phi[2] * x - phi[0] * z
+    along_z = d[2] + phi[0] * y - phi[1] * x
+    near = nodes[NODE_NORMAL, i] * along_x + nodes[NODE_NORMAL + 1, i] * along_y
+    return nodes[GAP, i] - (near + nodes[NODE_NORMAL + 2, i] * along_z)
+
+
+@kernel
+def _load(
+    nodes: FloatArray,
+    memory: SurfaceMemory,
+    scale: float,
+    shift: float,
+    last: float,
+    pose: Record,
+    first: int,
+    size: int,
+    at: int,
+) -> None:
+    """Write ``size`` nodes from ``first`` on into the list, from place ``at`` on."""
+    work, node = memory.scratch.listed.work, memory.scratch.listed.node
+    phi, rate, entry_velocity = memory.scratch.tilt.phi, memory.scratch.tilt.rate, memory.entry_velocity
+    d_x, d_y, d_z = pose.d[0], pose.d[1], pose.d[2]
+    v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
+    phi_x, phi_y, phi_z = phi[0], phi[1], phi[2]
+    rate_x, rate_y, rate_z = rate[0], rate[1], rate[2]
+    source = np.uint64(first)  # unsigned, so that no index is taken from the end
+    at = min(max(at, 0), PART)
+    for k in range(min(size, PART - at)):
+        i, n = source + np.uint64(k), at + k
+        x, y, z = nodes[NODE_POSITION, i], nodes[NODE_POSITION + 1, i], nodes[NODE_POSITION + 2, i]
+        n_x, n_y, n_z = nodes[NODE_NORMAL, i], nodes[NODE_NORMAL + 1, i], nodes[NODE_NORMAL + 2, i]
+        m_x, m_y, m_z = y * n_z - z * n_y, z * n_x - x * n_z, x * n_y - y * n_x
+        near = n_x * d_x + n_y * d_y + n_z * d_z + m_x * phi_x + m_y * phi_y + m_z * phi_z
+        number, place = interval(shift + scale * (nodes[GAP, i] - near), last)
+        work[INTERVAL + n] = number
+        work[FRACTION + n] = place
+        work[APPROACH + n] = n_x * v_x + n_y * v_y + n_z * v_z + m_x * rate_x + m_y * rate_y + m_z * rate_z
+        work[ENTRY + n] = entry_velocity[i]
+        work[AREA + n] = nodes[NODE_AREA, i]
+        work[POSITION + n] = x
+        work[POSITION + PITCH + n] = y
+        work[POSITION + 2 * PITCH + n] = z
+        work[NORMAL + n] = n_x
+        work[NORMAL + PITCH + n] = n_y
+        work[NORMAL + 2 * PITCH + n] = n_z
+        work[MOMENT + n] = m_x
+        work[MOMENT + PITCH + n] = m_y
+        work[MOMENT + 2 * PITCH + n] = m_z
+        node[n] = i
+
+
+@kernel
+def rewind(surface: Record, memory: SurfaceMemory) -> None:
+    """Begin the list anew."""
+    cursor = memory.scratch.listed.cursor
+    cursor[0], cursor[1] = surface.first_row, 0
+
+
+@kernel
+def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, with_edges: float) -> int:
+    """Fill the next part of the list and return the number of its nodes, 0 after the last one.
+
+    Parameters
+    ----------
+    data, surface, memory, pose
+        As for ``wrench``; the tilt in ``memory.scratch`` belongs to the pose.
+    with_edges
+        1 if rows that stand for no area are wanted too, 0 otherwise.
+    """
+    cursor, phi = memory.scratch.listed.cursor, memory.scratch.tilt.phi
+    limit = surface.h_last * surface.roughness
+    last = float(surface.last_interval - surface.first_interval - 1)
+    scale = surface.inverse_step / surface.roughness
+    shift = 1.0 - surface.h_first * surface.inverse_step
+    r, taken, n = cursor[0], cursor[1], 0
+    while r < surface.last_row and n < PART:
+        row, left = data.rows[r], 0
+        if with_edges > 0.0 or row.area > 0.0:
+            first, count = window(row, pose.d, phi, limit)
+            left = count - taken
+            while left > 0 and n < PART:
+                start = first + taken if first + taken < row.count else first + taken - row.count
+                size = min(left, row.count - start, PART - n)
+                _load(data.nodes, memory, scale, shift, last, pose, row.first + start, size, n)
+                n, left, taken = n + size, left - size, taken + size
+        if left <= 0:
+            r, taken = r + 1, 0
+    cursor[0], cursor[1] = r, taken
+    return n
+
+
+@kernel
+def look_up(cubics: FloatArray, memory: SurfaceMemory, n: int) -> None:
+    """Fill in the pressures of the contact table, for loops that write as well as read.
+
+    Such a loop could not take four nodes at once if it read the table, whose places it cannot foresee.
+    """
+    work = memory.scratch.listed.work
+    for k in range(min(n, PART)):
+        first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
+        work[RIGID + k] = cubic(cubics, first, x)
+        work[DAMPING + k] = cubic(cubics, first + np.uint64(4), x)
+
+
+@kernel
+def look_up_slopes(cubics: FloatArray, memory: SurfaceMemory, n: int) -> None:
+    """Fill in the slopes of these pressures within their intervals."""
+    work = memory.scratch.listed.work
+    for k in range(min(n, PART)):
+        first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
+        work[RIGID_SLOPE + k] = cubic_slope(cubics, first, x)
+        work[DAMPING_SLOPE + k] = cubic_slope(cubics, first + np.uint64(4), x)

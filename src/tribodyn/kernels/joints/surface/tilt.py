@@ -1,0 +1,109 @@
+"""The tilt φ of a shaft, its rate, and the moment that does the work of the pressure.
+
+Gaps follow the tilt φ(R), not the angular velocity: φ̇ = G ω with a matrix G that is the identity only as
+drawn. With the moment m = Σ A x × (−p n) about P, the power of the pressure over all gaps is F·v + m·φ̇. So
+the moment on the shaft is M = Gᵀ m, and approach speeds are taken with φ̇. With m and ω in their places a
+tilted shaft that spins about its own axis would do work against frictionless walls: by Ω (m_y φ_x − m_x
+φ_y), first order in the tilt.
+
+Three kinds of surfaces: a sphere has no tilt. On a surface of revolution only the axis a of the shaft
+counts, φ = (−a_y/a_z, a_x/a_z, 0). Any other surface is held against all turning, φ = ½ (R − Rᵀ) as a vector,
+which is the rotation vector to second order.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.jit import kernel
+
+NO_TILT: Final = 0.0
+AXIS: Final = 1.0
+WHOLE: Final = 2.0
+
+Tilt: Final = record_type(
+    ("phi", "f8", (3,)),
+    ("rate", "f8", (3,)),
+    ("to_rate", "f8", (3, 3)),
+    ("rate_turn", "f8", (3, 3)),
+)
+"""φ [rad], φ̇ [rad/s], G, and ∂φ̇/∂ϑ [1/s] for a small rotation ϑ of the shaft, whose ω is held fixed."""
+
+
+@kernel
+def fill_tilt(kind: float, rotation: FloatArray, w: FloatArray, tilt: Record) -> None:
+    """Fill φ, G and φ̇.
+
+    Parameters
+    ----------
+    kind
+        ``NO_TILT``, ``AXIS`` or ``WHOLE``.
+    rotation, w
+        Of the pose.
+    tilt
+        Filled, but for ``rate_turn``.
+    """
+    phi, matrix, rate = tilt.phi, tilt.to_rate, tilt.rate
+    clear(matrix)
+    for i in range(3):
+        phi[i] = rate[i] = 0.0
+    if kind == AXIS:
+        x, y = -rotation[1, 2] / rotation[2, 2], rotation[0, 2] / rotation[2, 2]
+        phi[0], phi[1] = x, y
+        matrix[0, 0], matrix[0, 1], matrix[0, 2] = 1.0 + x * x, x * y, -y
+        matrix[1, 0], matrix[1, 1], matrix[1, 2] = x * y, 1.0 + y * y, x
+    elif kind == WHOLE:
+        phi[0] = 0.5 * (rotation[2, 1] - rotation[1, 2])
+        phi[1] = 0.5 * (rotation[0, 2] - rotation[2, 0])
+        phi[2] = 0.5 * (rotation[1, 0] - rotation[0, 1])
+        trace = rotation[0, 0] + rotation[1, 1] + rotation[2, 2]
+        for i in range(3):
+            for k in range(3):
+                matrix[i, k] = -0.5 * rotation[i, k]
+            matrix[i, i] += 0.5 * trace
+    for i in range(3):
+        for k in range(3):
+            rate[i] += matrix[i, k] * w[k]
+
+
+@kernel
+def moment_of(tilt: Record, m: FloatArray, moment: FloatArray) -> None:
+    """Add Gᵀ m to ``moment``, both of shape (3,) [N m]."""
+    matrix = tilt.to_rate
+    for i in range(3):
+        for k in range(3):
+            moment[i] += matrix[k, i] * m[k]
+
+
+@kernel
+def fill_derivatives(
+    kind: float, rotation: FloatArray, w: FloatArray, m: FloatArray, tilt: Record, out: FloatArray
+) -> None:
+    """Fill ``tilt.rate_turn`` and add ∂(Gᵀ m)/∂ϑ with m held fixed to the columns of ``out`` (3, 3)."""
+    rate_turn, matrix = tilt.rate_turn, tilt.to_rate
+    clear(rate_turn)
+    if kind == AXIS:
+        x, y = tilt.phi[0], tilt.phi[1]
+        # G as a function of φ; φ turns with G ϑ.
+        by_x = (2.0 * x * w[0] + y * w[1], y * w[0] + w[2])
+        by_y = (x * w[1] - w[2], x * w[0] + 2.0 * y * w[1])
+        m_by_x = (2.0 * x * m[0] + y * m[1], y * m[0], m[1])
+        m_by_y = (x * m[1], x * m[0] + 2.0 * y * m[1], -m[0])
+        for k in range(3):
+            turn_x, turn_y = matrix[0, k], matrix[1, k]
+            for i in range(2):
+                rate_turn[i, k] = by_x[i] * turn_x + by_y[i] * turn_y
+            for i in range(3):
+                out[i, k] += m_by_x[i] * turn_x + m_by_y[i] * turn_y
+    elif kind == WHOLE:
+        # G = ½ (tr R − R) with dR = ϑ × R column by column and d tr R = −2 φ·ϑ.
+        for k in range(3):
+            a, b = (k + 1) % 3, (k + 2) % 3
+            for i in range(3):
+                rate_turn[i, k] -= tilt.phi[k] * w[i]
+                rate_turn[a, k] += 0.5 * rotation[b, i] * w[i]
+                rate_turn[b, k] -= 0.5 * rotation[a, i] * w[i]
+                out[i, k] += 0.5 * (rotation[b, i] * m[a] - rotation[a, i] * m[b]) - tilt.phi[k] * m[i]

@@ -1,0 +1,118 @@
+"""Node generators: areas, normals, refusals."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tribodyn.core.errors import InputError
+from tribodyn.joints.shapes import SHAPES, Annulus, Cylinder, Mesh, Sphere
+from tribodyn.joints.shapes.mesh import PATCH, nearby, split
+
+CUBE_FACE = np.array([[[0.0, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [1, 0, 0]]]) * 1e-2
+"""Two triangles of a square centimetre at z = 0 that face −z."""
+MADE = {
+    "cylinder": Cylinder(6e-3, 20e-6, 20e-3),
+    "annulus": Annulus(6e-3, 9e-3),
+    "sphere": Sphere(8e-3, 20e-6, 0.8),
+    "mesh": Mesh(CUBE_FACE, 20e-6, 3e-3),
+}
+
+
+def test_every_shape_is_tried() -> None:
+    assert MADE.keys() == SHAPES.keys()
+
+
+@pytest.mark.parametrize("shape", MADE)
+def test_nodes_are_whole(shape: str) -> None:
+    for surface in MADE[shape].surfaces((12, 5)):
+        n = surface.area.size
+        assert surface.position.shape == surface.normal.shape == (n, 3)
+        assert surface.gap.shape == (n,)
+        np.testing.assert_allclose(np.linalg.norm(surface.normal, axis=1), 1.0, rtol=1e-14)
+        assert math.prod(surface.field_shape) == n
+        assert sorted(
+            node for row in surface.rows for node in range(row["first"], row["first"] + row["count"])
+        ) == [*range(n)]
+
+
+def test_areas_are_those_of_the_socket() -> None:
+    # Gauss-Legendre is exact for the areas of all three.
+    barrel = MADE["cylinder"].surfaces((12, 5))[0]
+    assert barrel.area.sum() == pytest.approx(2.0 * math.pi * 6.02e-3 * 20e-3, rel=1e-13)
+    ring = MADE["annulus"].surfaces((12, 5))[0]
+    assert ring.area.sum() == pytest.approx(math.pi * (81e-6 - 36e-6), rel=1e-13)
+    race = MADE["sphere"].surfaces((12, 5))[0]
+    assert race.area.sum() == pytest.approx(4.0 * math.pi * 8.02e-3**2 * math.sin(0.8), rel=1e-13)
+    mesh = MADE["mesh"].surfaces((12, 5))[0]
+    assert mesh.area.sum() == pytest.approx(1e-4, rel=1e-13)
+
+
+def test_normals_point_into_the_socket() -> None:
+    barrel, upper, lower = Cylinder(6e-3, 20e-6, 20e-3, axial=5e-6, flange=8e-3).surfaces((12, 5))
+    assert (np.sum(barrel.normal * barrel.position, axis=1) > 0.0).all()
+    # Flanges of the journal stand outside and rest on the ends.
+    assert (upper.name, lower.name) == ("upper face", "lower face")
+    assert (upper.position[:, 2] == 10e-3).all()
+    assert (upper.normal == [0.0, 0.0, -1.0]).all()
+    assert (lower.position[:, 2] == -10e-3).all()
+    assert (lower.normal == [0.0, 0.0, 1.0]).all()
+    race = MADE["sphere"].surfaces((12, 5))[0]
+    np.testing.assert_allclose(race.position, 8e-3 * race.normal, atol=1e-18)
+    # A socket that faces −z is filled above: into it means +z, and the journal lies below by the gap.
+    mesh = MADE["mesh"].surfaces((12, 5))[0]
+    np.testing.assert_allclose(mesh.normal, np.tile([0.0, 0.0, 1.0], (mesh.area.size, 1)), atol=1e-15)
+    np.testing.assert_allclose(mesh.position[:, 2], -20e-6, rtol=1e-12)
+
+
+def test_one_face_alone() -> None:
+    names = [
+        surface.name for surface in Cylinder(6e-3, 2e-5, 2e-2, axial_upper=0.0, flange=8e-3).surfaces((12, 5))
+    ]
+    assert names == ["barrel", "upper face"]
+
+
+def test_long_triangles_are_split() -> None:
+    small = split(CUBE_FACE, 3e-3)
+    sides = np.linalg.norm(small - np.roll(small, 1, axis=1), axis=2)
+    assert sides.max() <= 3e-3
+    across = np.cross(small[:, 1] - small[:, 0], small[:, 2] - small[:, 0])
+    assert 0.5 * np.abs(across[:, 2]).sum() == pytest.approx(1e-4, rel=1e-13)
+    assert (across[:, 2] < 0.0).all()  # none turned over
+
+
+def test_neighbours_lie_together() -> None:
+    points = np.random.default_rng(0).random((1000, 3))
+    order = nearby(points)
+    assert sorted(order) == [*range(1000)]
+    spans = [np.ptp(points[order[k : k + PATCH]], axis=0).max() for k in range(0, 1000, PATCH)]
+    # 32 boxes of a cube have sides of a quarter and a half.
+    assert np.median(spans) < 0.6
+
+
+@pytest.mark.parametrize(
+    ("make", "key"),
+    [
+        (lambda: Cylinder(-1.0, 1e-5, 1e-2), "radius"),
+        (lambda: Cylinder(1e-3, math.nan, 1e-2), "radial"),
+        (lambda: Cylinder(1e-3, 1e-5, 1e-2, axial=1e-5), "flange"),
+        (lambda: Cylinder(1e-3, 1e-5, 1e-2, flange=2e-3), "flange"),
+        (lambda: Cylinder(1e-3, 1e-5, 1e-2, axial=1e-5, flange=5e-4).surfaces((8, 3)), "outer"),
+        (lambda: Cylinder(1e-3, 1e-5, 1e-2, axial=1e-5, flange=2e-3).points(), "axial"),
+        (lambda: Annulus(2e-3, 1e-3), "outer"),
+        (lambda: Annulus(1e-3, 2e-3, axial=-1e-6), "axial"),
+        (lambda: Annulus(1e-3, 2e-3, direction=0.5), "direction"),
+        (lambda: Annulus(1e-3, 2e-3).points(), "contact"),
+        (lambda: Sphere(1e-3, 1e-5, 2.0), "band"),
+        (lambda: Mesh(np.zeros((0, 3, 3)), 1e-5, 1e-3), "facets"),
+        (lambda: Mesh(np.zeros((2, 3, 3)), 1e-5, 1e-3).surfaces((1, 1)), "facets"),
+        (lambda: Mesh(np.full((1, 3, 3), math.inf), 1e-5, 1e-3), "facets"),
+        (lambda: Mesh(CUBE_FACE, 1e-5, 1e-7).surfaces((1, 1)), "edge"),
+    ],
+)
+def test_what_makes_no_joint_is_refused(make: object, key: str) -> None:
+    with pytest.raises(InputError) as caught:
+        make()  # type: ignore[operator]
+    assert caught.value.key == key
