@@ -120,9 +120,13 @@ def _from_status(name: str) -> int:
 
 
 def _serve() -> None:
-    # What every command would import; the first one is not to be blamed for it.
+    # What commands would import and load, each one again; their files are not to be blamed for it.
     for name in ("figures", "report", "results.store", "simulation", "studies", "surfaces"):
         importlib.import_module(f"tribodyn.{name}")
+    with contextlib.suppress(ImportError):
+        importlib.import_module("SurfaceTopography.IO")
+    with contextlib.redirect_stdout(io.StringIO()):
+        main(["check", "vsv", "--deep", "--quiet"])
     limit = _from_status("VmData") + _SPARE * MEGABYTES * 1024**2
     resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
     for line in sys.stdin:
