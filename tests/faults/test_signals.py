@@ -28,7 +28,7 @@ from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import read
 
 SOON = 30.0
-"""Time within which a process ends after the signal [s], drawing on a busy machine included."""
+"""Time within which a process ends after the signal [s], without what it waits for a processor."""
 LONGEST = 8.0
 """Processor time until which a command is left alone; a run is certainly under way by then [s]."""
 PARTS, SIGNALS = 10, 20
@@ -146,12 +146,29 @@ def stopped(
         with suppress(ProcessLookupError):
             (os.killpg if everyone else os.kill)(process.pid, number)
     try:
-        said = process.communicate(timeout=SOON)[1]
+        said, took = ended(process, sent)
     finally:
         process.kill()
-    took = time.monotonic() - sent
     assert no_one_left(process.pid), "processes that the command had started go on"
     return process.returncode, said, took if alive else 0.0
+
+
+def ended(process: subprocess.Popen[str], sent: float) -> tuple[str, float]:
+    """Wait for a process to end; return what it said on stderr, and its time since the signal [s]."""
+    before = waited = waiting(process.pid)
+    while (took := time.monotonic() - sent - (waited - before)) < SOON:
+        with suppress(subprocess.TimeoutExpired):
+            return process.communicate(timeout=0.1)[1], took
+        waited = max(waited, waiting(process.pid))
+    raise AssertionError(f"it goes on {took:.1f} s after the signal")
+
+
+def waiting(pid: int) -> float:
+    """Return how long a process was ready and had no processor [s], which is not its fault."""
+    try:
+        return int(Path(f"/proc/{pid}/schedstat").read_text(encoding="ascii").split()[1]) / 1e9
+    except OSError:
+        return 0.0
 
 
 def no_one_left(session: int) -> bool:

@@ -13,6 +13,7 @@ from scipy.sparse import coo_array, csc_array, csc_matrix, diags_array
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import Algebra, Banded, Full, Sparse, is_sparse
+from tribodyn.integrate.mebdf_doubt import Doubted
 
 LARGEST_IN_CORE: Final = 64
 """Number of equations up to which the compiled core solves: its decomposition is a plain loop."""
@@ -24,7 +25,12 @@ Bands = tuple[int, int]
 
 
 def make_jacobian(
-    solver: OdeSolver, jac: Any, sparsity: Any, bands: Bands | None, threshold: FloatArray
+    solver: OdeSolver,
+    jac: Any,
+    sparsity: Any,
+    bands: Bands | None,
+    threshold: FloatArray,
+    in_trouble: Callable[[], bool],
 ) -> tuple[Jacobian, Algebra | None]:
     """Return ``jacobian(t, y)`` of shape (n, n), and who solves with it instead of the compiled core.
 
@@ -40,8 +46,15 @@ def make_jacobian(
         Numbers of diagonals below and above the main one, or ``None``.
     threshold
         Size of each component below which the difference no longer shrinks with it, shape (n,).
+    in_trouble
+        Tells whether a Jacobian that was given should be compared with the right-hand side.
     """
     n = solver.n
+
+    def watched(given: Jacobian) -> Jacobian:
+        differences = _differences(solver, None, threshold)
+        return Doubted(given, differences, solver.fun_single, threshold, in_trouble)
+
     if bands is not None and sparsity is not None:
         raise ValueError("Give either `jac_sparsity` or `lband` and `uband`.")
     if jac is None:
@@ -57,13 +70,14 @@ def make_jacobian(
     if bands is not None:
         evaluate = _checked(given, (bands[0] + bands[1] + 1, n))
         if n <= LARGEST_IN_CORE:
-            return _chosen(lambda t, y: _unpacked(evaluate(t, y), bands), n)
+            return watched(lambda t, y: _unpacked(evaluate(t, y), bands)), None
         return evaluate, Banded(evaluate, n, *bands)
     evaluate = _checked(given, (n, n))
-    if n > LARGEST_IN_CORE:
-        evaluate = _Remembered(evaluate, float(solver.t), solver.y.copy())
-        if is_sparse(evaluate.first):
-            return evaluate, Sparse(evaluate, n)
+    if n <= LARGEST_IN_CORE:
+        return watched(lambda t, y: _dense(evaluate(t, y))), None
+    evaluate = _Remembered(evaluate, float(solver.t), solver.y.copy())
+    if is_sparse(evaluate.first):
+        return evaluate, Sparse(evaluate, n)
     return _chosen(lambda t, y: _dense(evaluate(t, y)), n)
 
 

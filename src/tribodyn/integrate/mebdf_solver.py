@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 import numba as nb
 import numpy as np
@@ -37,6 +37,9 @@ from tribodyn.kernels.mebdf.phases import (
     STEP_ACCEPTED,
 )
 from tribodyn.kernels.mebdf.state import new_state
+
+RENEWED: Final = 0.5
+"""Decompositions a step that raise doubts about the Jacobian; a right one takes a third or so."""
 
 
 class MEBDF(OdeSolver):
@@ -104,7 +107,7 @@ class MEBDF(OdeSolver):
         self.rtol, self.atol = tolerances(rtol, atol, self.n)
         resolved(self.y, self.rtol, self.atol)
         self._jacobian, self._algebra = make_jacobian(
-            self, jac, jac_sparsity, bands(lband, uband, self.n), self.atol
+            self, jac, jac_sparsity, bands(lband, uband, self.n), self.atol, self._in_trouble
         )
         self._state = new_state(
             float(self.t),
@@ -142,6 +145,11 @@ class MEBDF(OdeSolver):
         self.t = float(state.real[entry.T])
         self.y = state.rows[entry.HISTORY].copy()
         return True, None
+
+    def _in_trouble(self) -> bool:
+        """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
+        counts = self._state.counts
+        return bool(counts[entry.N_LU] > RENEWED * counts[entry.STEPS])
 
     def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
