@@ -118,8 +118,8 @@ def end(status: int) -> None:
 
 
 def on_leaving(action: Callable[[], None]) -> None:
-    """Have something done before a signal ends the process."""
-    _met.tidying.append(action)
+    """Have something done before a signal ends the process; what was asked for last is done first."""
+    _met.tidying.insert(0, action)
 
 
 def last_words(text: str) -> None:

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import sys
+import warnings
+from argparse import ArgumentParser
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.directory import FIGURES, REPORT
+from tribodyn.cli.interrupt import on_leaving
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -15,12 +21,64 @@ FEW_POINTS: Final = 24
 """Points of a sweep up to which each gets its report without being asked: a second and 3 MB each."""
 
 
-def draw(dataset: xr.Dataset, directory: Path) -> None:
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the options that leave pictures out."""
+    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw no figures")
+    parser.add_argument("--no-report", dest="page", action="store_false", help="write no report")
+
+
+def draw(dataset: xr.Dataset, directory: Path, *, figures: bool = True, page: bool = True) -> None:
     """Draw all figures and write the report of a result into its directory."""
     from tribodyn import report
 
-    report.draw_all(dataset, directory / FIGURES)
-    report.write(dataset, directory / REPORT)
+    if figures:
+        every_other = [
+            partial(report.draw_all, dataset, directory / FIGURES, part=slice(k, None, 2)) for k in (0, 1)
+        ]
+        with _meanwhile(every_other[1]):
+            every_other[0]()
+    if page:
+        report.write(dataset, directory / REPORT)
+
+
+@contextmanager
+def _meanwhile(work: Callable[[], object]) -> Iterator[None]:
+    """Have another process do something while the block runs; where none can, this one does it then."""
+    from multiprocessing import get_context
+
+    from tribodyn.core.machine import processors
+
+    if sys.platform != "linux" or processors() < 2:
+        yield
+        work()
+        return
+    with warnings.catch_warnings():
+        # Threads of libraries hold no lock here, and matplotlib, which is all that runs there, has none.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        process = get_context("fork").Process(target=_alone, args=(work,), daemon=True)
+        process.start()
+    on_leaving(process.kill)
+    try:
+        yield
+    except BaseException:
+        process.kill()
+        raise
+    process.join()
+    if process.exitcode:
+        work()
+
+
+def _alone(work: Callable[[], object]) -> None:
+    """Do the work of a process that another one started, which is the one to hear signals and to complain."""
+    import os
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    try:
+        work()
+    except BaseException:
+        os._exit(1)
 
 
 def draw_points(directory: Path, note: Callable[[str], None]) -> None:

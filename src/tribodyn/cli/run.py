@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import traceback
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
@@ -11,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
-from tribodyn.cli.directory import RESULT, OutputDirectory
+from tribodyn.cli.directory import REPORT, RESULT, OutputDirectory
 from tribodyn.cli.headlines import in_words
 from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
 from tribodyn.cli.progress import CYCLES, Progress, progress
 from tribodyn.core.errors import InputError
@@ -30,6 +32,7 @@ HELP = "simulate a case; results, figures and a report go to a directory"
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``run``."""
     add_case_arguments(parser)
+    add_drawing_arguments(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: results-CASE)")
     parser.add_argument("--force", action="store_true", help="overwrite the finished result of another case")
 
@@ -49,8 +52,9 @@ def execute(args: Namespace) -> int:
             summary = _save(dataset, directory)
             if case.campaign_cycles and not dataset.attrs.get("failure"):
                 directory.checkpoint.unlink(missing_ok=True)
-        drawn = _draw(dataset, directory, console, args.debug)
-    _tell(summary, directory.path, console)
+        _tell(summary, console)
+        drawn = _draw(dataset, directory, console, args)
+    _say_where(directory.path, console)
     failure = str(dataset.attrs.get("failure", ""))
     if failure:
         complain(_stopped(dataset, case, failure, directory.path))
@@ -100,16 +104,17 @@ def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
     return summarise(dataset)
 
 
-def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, debug: bool) -> bool:
+def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, args: Namespace) -> bool:
     """Draw figures and report; the result is safe whatever happens here. Tell whether all were drawn."""
     path = os.fspath(directory.path)
     safe = f"the result is saved in {path}; `tribodyn report {path}` draws them"
     last_words(f"interrupted while drawing figures and report; {safe}")
-    console.note("drawing figures and report")
+    if args.figures or args.page:
+        console.note("drawing figures and report")
     try:
-        draw(dataset, directory.path)
+        draw(dataset, directory.path, figures=args.figures, page=args.page)
     except Exception as error:
-        if debug:
+        if args.debug:
             traceback.print_exc()
         for picture in directory.pictures():
             picture.unlink(missing_ok=True)
@@ -119,18 +124,21 @@ def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, deb
     return True
 
 
-def _tell(summary: dict[str, Any], path: Path, console: Console) -> None:
-    """Print the headline numbers, the warnings, and where to look."""
+def _tell(summary: dict[str, Any], console: Console) -> None:
+    """Print the headline numbers and the warnings."""
     for line in ("", str(summary.get("title", "")), *in_words(summary), ""):
         console.say(line)
     for warning in summary["warnings"]:
         complain(f"warning: {warning}")
-    report = path / "report.html"
-    console.say(
-        f"look at {report if report.exists() else path / 'result.nc'}; everything is in {path}{os.sep}"
-    )
     if console.json:
         show_json(summary)
+    sys.stdout.flush()
+
+
+def _say_where(path: Path, console: Console) -> None:
+    """Print where to look."""
+    report = path / REPORT
+    console.say(f"look at {report if report.exists() else path / RESULT}; everything is in {path}{os.sep}")
 
 
 def _stopped(dataset: xr.Dataset, case: Case, failure: str, path: Path) -> str:

@@ -6,6 +6,7 @@ import json
 import os
 import traceback
 from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -17,11 +18,12 @@ from tribodyn.cli.directory import POINTS as POINTS_FOLDER
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
+from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
-from tribodyn.core.quoting import as_given
+from tribodyn.core.quoting import as_given, meant
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,6 +47,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "may be repeated: lists and ranges form a grid",
     )
     parser.add_argument(
+        "--show",
+        metavar="NAMES",
+        help="headline numbers of summary.json in the table, instead of all that vary: "
+        "vane_angle_error_max_deg,steps",
+    )
+    parser.add_argument(
         "--samples", metavar="N", type=int, help="how many samples are drawn from distributions"
     )
     parser.add_argument("--method", metavar="NAME", default="lhs", help="lhs (Latin hypercube) or sobol")
@@ -61,6 +69,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         ("key", "its private key, unless it stands in the same file"),
     ):
         parser.add_argument(f"--tls-{name}", metavar="FILE", help=meaning)
+    add_drawing_arguments(parser)
     again = parser.add_mutually_exclusive_group()
     again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
     again.add_argument("--fresh", action="store_true", help="compute all points again")
@@ -81,9 +90,9 @@ def execute(args: Namespace) -> int:
     from tribodyn.studies import Means, Sampling, make_plan
 
     console = Console.of(args)
-    plan = make_plan(
-        chosen_case(args), _variations(args.vary), Sampling(args.samples, args.method, args.seed)
-    )
+    case = chosen_case(args)
+    shown = _shown(args.show, case.kind())
+    plan = make_plan(case, _variations(args.vary), Sampling(args.samples, args.method, args.seed))
     means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
     directory = OutputDirectory(folder)
     with directory.reserved():
@@ -92,13 +101,29 @@ def execute(args: Namespace) -> int:
             dataset = _computed(plan, directory.path, means, console, interruption)
         # That of an earlier sweep would contradict this one.
         (directory.path / REPORT).unlink(missing_ok=True)
-        drawn = _draw(dataset, directory.path, console, args.debug, points=not interruption.requested)
-    _tell(directory.path, console)
+        # Only the table and the figures of this command look at it.
+        dataset.attrs["shown"] = ",".join(shown)
+        drawn = _draw(dataset, directory.path, console, args, points=not interruption.requested)
+    _tell(directory.path, shown, console)
     _warn(dataset)
     lost = int(dataset.attrs["points_failed"])
     if lost:
         complain(_lost(dataset, lost))
     return 0 if drawn and not lost else 1
+
+
+def _shown(asked: str | None, kind: str) -> list[str]:
+    """Return the names of the headline numbers that the user wants to see."""
+    from tribodyn.mechanisms.results import headlines_of
+
+    names = [name.strip() for name in (asked or "").split(",") if name.strip()]
+    known = headlines_of(kind)
+    for name in names:
+        if name not in known:
+            raise InputError(
+                f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}", key="--show"
+            )
+    return names
 
 
 def _tls(args: Namespace) -> Tls | None:
@@ -167,7 +192,7 @@ class _Shown:
         self._stack.enter_context(announced_compilation(self._bar.note))
 
 
-def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool, *, points: bool) -> bool:
+def _draw(dataset: xr.Dataset, path: Path, console: Console, args: Namespace, *, points: bool) -> bool:
     """Draw figures and reports; the results are safe whatever happens here. Tell whether all were drawn.
 
     The reports of ``points`` take long, and can be left out.
@@ -175,12 +200,13 @@ def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool, *, poi
     safe = f"the results are saved in {path}; `tribodyn report {path}` draws them"
     last_words(f"interrupted while drawing; {safe}")
     try:
-        if points and int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
+        if args.page and points and int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
             draw_points(path, console.note)
-        console.note("drawing figures and report")
-        draw(dataset, path)
+        if args.page or args.figures:
+            console.note("drawing figures and report")
+        draw(dataset, path, figures=args.figures, page=args.page)
     except Exception as error:
-        if debug:
+        if args.debug:
             traceback.print_exc()
         complain(f"figures and report could not be made ({error}); {safe}")
         return False
@@ -188,12 +214,15 @@ def _draw(dataset: xr.Dataset, path: Path, console: Console, debug: bool, *, poi
     return True
 
 
-def _tell(path: Path, console: Console) -> None:
+def _tell(path: Path, shown: Sequence[str], console: Console) -> None:
     """Print the table, and where to look."""
     record: dict[str, Any] = json.loads((path / "sweep.json").read_text(encoding="utf-8"))
-    for line in ("", record["title"], *sweep_in_words(record), ""):
+    for line in ("", record["title"], *sweep_in_words(record, shown), ""):
         console.say(line)
-    console.say(f"look at {path / REPORT}; everything is in {path}{os.sep}")
+    from tribodyn.studies.sweep import DATASET
+
+    look = path / (REPORT if (path / REPORT).exists() else DATASET)
+    console.say(f"look at {look}; everything is in {path}{os.sep}")
     if console.json:
         show_json(record)
 

@@ -14,33 +14,49 @@ _LEFT_OUT: Final = ("Trust", "Effort")
 """Groups of headline numbers that say nothing about the machine."""
 
 
-def sweep_in_words(record: Mapping[str, Any]) -> Iterator[str]:
+def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iterator[str]:
     """Give the lines of a table.
 
     Parameters
     ----------
     record
         Content of ``sweep.json``.
+    shown
+        Names of the numbers to show; without them all of the machine that vary, as many as there is room for.
     """
+    given = shown or _varying(record["points"])
     if record["statistics"]:
-        yield from _statistics(record["statistics"], record["kind"])
+        yield from _statistics(record["statistics"], _headlines(given, record["kind"], every=bool(shown)))
     else:
-        yield from _points(record["points"], record["kind"])
+        numbers = _headlines(given, record["kind"], every=bool(shown))
+        yield from _points(record["points"], numbers, every=bool(shown))
 
 
-def _headlines(given: Sequence[str], kind: str) -> dict[str, str]:
+def _varying(points: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the names of the numbers that are not the same at all points; all where that says nothing."""
+    names = {name: None for point in points for name in point}
+    values = {name: {str(point[name]) for point in points if name in point} for name in names}
+    alone = sum(not point["failure"] for point in points) < 2
+    return [name for name in names if alone or len(values[name]) > 1]
+
+
+def _headlines(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str]:
     """Return the headings of the numbers that a user wants to see, by name."""
     from tribodyn.mechanisms.results import known
 
-    wanted = {name: entry for name, entry in known(given, kind).items() if entry.group not in _LEFT_OUT}
+    found = known(given, kind)
+    wanted = (
+        {name: found[name] for name in given if name in found}
+        if every
+        else {name: entry for name, entry in found.items() if entry.group not in _LEFT_OUT}
+    )
     return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}
 
 
-def _points(points: Sequence[Mapping[str, Any]], kind: str) -> Iterator[str]:
-    numbers = _headlines([name for point in points for name in point], kind)
+def _points(points: Sequence[Mapping[str, Any]], numbers: Mapping[str, str], *, every: bool) -> Iterator[str]:
     widths = {name: _width(name, points) for name in points[0]["changes"]}
     room = shutil.get_terminal_size((120, 40)).columns - sum(widths.values()) - 2 * len(widths)
-    shown = dict(list(numbers.items())[: max(room // (_COLUMN + 2), 1)])
+    shown = dict(list(numbers.items())[: None if every else max(room // (_COLUMN + 2), 1)])
     yield from _heading({name: (name.replace(".", " "), width) for name, width in widths.items()}, shown)
     for point in points[:_MOST_ROWS]:
         changes = (f"{point['changes'][name]:<{width}.{width}}" for name, width in widths.items())
@@ -71,15 +87,15 @@ def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) ->
         yield "  ".join(cells).rstrip()
 
 
-def _statistics(records: Sequence[Mapping[str, Any]], kind: str) -> Iterator[str]:
+def _statistics(records: Sequence[Mapping[str, Any]], labels: Mapping[str, str]) -> Iterator[str]:
     for record in records:
         at = ", ".join(f"{path} = {value}" for path, value in record["at"].items())
         yield from [at] if at else []
-        yield from _one_statistic(record["numbers"], kind)
+        yield from _one_statistic(record["numbers"], labels)
 
 
-def _one_statistic(record: Mapping[str, Mapping[str, float]], kind: str) -> Iterator[str]:
-    labels = _headlines(list(record), kind)
+def _one_statistic(record: Mapping[str, Mapping[str, float]], labels: Mapping[str, str]) -> Iterator[str]:
+    labels = {name: label for name, label in labels.items() if name in record}
     names = list(next(iter(record.values()), {}))
     width = max((len(label) for label in labels.values()), default=0)
     yield "  ".join([" " * (width + 2), *(f"{name:>{_COLUMN}}" for name in names)])

@@ -54,11 +54,20 @@ _WIDE_RANGE: Final = 50.0
 """Largest over smallest value of a parameter above which its axis is logarithmic."""
 _MOST_WRITTEN: Final = 60
 """Cells of a map up to which each has its number written into it."""
+EFFORT_GROUP: Final = "Effort"
 
 
 def families(dataset: xr.Dataset) -> dict[str, Family]:
-    """Return the figures of a sweep by name, one for each of its headline numbers."""
-    names = [str(name) for name, variable in dataset.data_vars.items() if variable.dtype.kind == "f"]
+    """Return the figures of a sweep by name, one for each of its headline numbers.
+
+    How much work the points were is left out where it is not asked for by the attribute ``shown``.
+    """
+    asked = str(dataset.attrs.get("shown", "")).split(",")
+    names = [
+        str(name)
+        for name, variable in dataset.data_vars.items()
+        if variable.dtype.kind == "f" and (variable.attrs.get("group") != EFFORT_GROUP or name in asked)
+    ]
     return {
         name: Family(
             name=name,

@@ -20,7 +20,7 @@ def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:
     return mechanism_of(dataset).figures
 
 
-def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
+def draw_all(dataset: xr.Dataset, directory: str | Path, *, part: slice = slice(None)) -> list[Path]:
     """Draw every figure that the result holds the data for, as PNG and as PDF.
 
     Parameters
@@ -30,6 +30,8 @@ def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     directory
         Folder to write to; made if missing. A figure left by an earlier result that this one cannot
         show is removed.
+    part
+        Which of them: processes that share the work take every other one.
 
     Returns
     -------
@@ -39,7 +41,7 @@ def draw_all(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for family in figures_of(dataset).values():
+    for family in list(figures_of(dataset).values())[part]:
         if family.drawable(dataset):
             written.append(save(family.draw(dataset), folder, family.name))
         else:

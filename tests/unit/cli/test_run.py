@@ -30,7 +30,7 @@ def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture(autouse=True)
 def _quick_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
-    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         directory.mkdir(exist_ok=True)
         (directory / "motion.png").write_text("new", encoding="utf-8")
 
@@ -203,7 +203,7 @@ def test_pictures_that_fail_do_not_lose_the_result(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         raise ValueError("no colour left")
 
     monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
@@ -223,7 +223,7 @@ def test_an_interrupt_while_drawing_keeps_the_result(
     leaving: None,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         os.kill(os.getpid(), signal.SIGTERM)
 
     monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
@@ -336,3 +336,54 @@ def test_quotes_left_around_a_value_are_taken_off(
     simulation()
     assert main(["run", "vsv", "-o", "out", "--set", f"joint.clearance={value}"]) == 0
     assert 'clearance = "40 um"' in (in_empty_directory / "out" / "case.toml").read_text(encoding="utf-8")
+
+
+def test_figures_and_report_can_be_left_out(
+    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation()
+    assert main(["run", "vsv", "-o", "out", "--no-figures", "--no-report"]) == 0
+    assert {path.name for path in Path("out").iterdir()} == {"result.nc", "summary.json", "case.toml"}
+    out, err = capsys.readouterr()
+    assert "drawing" not in err
+    assert "look at out/result.nc" in out
+    assert main(["run", "vsv", "-o", "out", "--no-figures"]) == 0
+    assert not Path("out/figures").exists()
+    assert Path("out/report.html").exists()
+
+
+def test_the_numbers_come_before_the_pictures(
+    in_empty_directory: Path,
+    simulation: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    told = []
+    monkeypatch.setattr(
+        tribodyn.report, "write", lambda dataset, path: told.append(capsys.readouterr().out) or path.touch()
+    )
+    simulation()
+    assert main(["run", "vsv"]) == 0
+    assert "Contact force" in told[0]
+    assert capsys.readouterr().out.startswith("look at")
+
+
+@pytest.mark.parametrize("processors", [1, 2])
+def test_two_processes_share_the_figures_and_one_makes_up_for_the_other(
+    processors: int, in_empty_directory: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from tribodyn.cli import pictures
+
+    monkeypatch.setattr("tribodyn.core.machine.processors", lambda: processors)
+    here = os.getpid()
+
+    def draw_all(dataset: xr.Dataset, directory: Path, part: slice) -> None:
+        if part.start == 1 and processors == 2 and os.getpid() != here:
+            raise MemoryError
+        for name in list("abcde")[part]:
+            (directory / name).touch()
+
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
+    Path("figures").mkdir()
+    pictures.draw(xr.Dataset(), in_empty_directory, page=False)
+    assert sorted(path.name for path in Path("figures").iterdir()) == list("abcde")

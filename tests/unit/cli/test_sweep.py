@@ -22,7 +22,7 @@ ON_TLS = ["--vary", "joint.clearance=20 um", "--scheduler", "tls://127.0.0.1:1"]
 
 @pytest.fixture(autouse=True)
 def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, simulated: list[Any]) -> Path:
-    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         directory.mkdir(exist_ok=True)
 
     def write(dataset: xr.Dataset, path: Path) -> None:
@@ -144,7 +144,7 @@ def test_an_interrupt_keeps_what_is_done(
 def test_pictures_that_fail_do_not_lose_the_result(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def draw_all(dataset: xr.Dataset, directory: Path) -> None:
+    def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         raise ValueError("no colour left")
 
     monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
@@ -221,3 +221,25 @@ def test_warnings_of_points_are_told(capsys: pytest.CaptureFixture[str]) -> None
     assert main(["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,45 um", "--quiet"]) == 0
     assert "warning of 1 of 2 points" in (err := capsys.readouterr().err)
     assert err.endswith(": odd\n")
+
+
+def test_the_table_shows_what_varies_or_what_is_asked_for() -> None:
+    from tribodyn.cli.tables import sweep_in_words
+
+    numbers = {"contact_force_max_N": 5.0, "tilt_max_mrad": 1.0, "steps": 7}
+    points = [
+        {"changes": {"joint.clearance": f"{c} um"}, "failure": "", **numbers, "tilt_max_mrad": c}
+        for c in (20.0, 30.0)
+    ]
+    record = {"statistics": [], "points": points, "kind": "vsv"}
+    heading = " ".join(" ".join(list(sweep_in_words(record))[:-2]).split())
+    assert "Tilt" in heading
+    assert "force" not in heading
+    heading = " ".join(list(sweep_in_words(record, ["steps", "contact_force_max_N"]))[:-2])
+    assert heading.index("Steps") < heading.index("Contact")
+    assert "Tilt" not in heading
+
+
+def test_a_number_that_nobody_knows_cannot_be_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*SWEEP, "-o", "out", "--show", "tilt_max_rad"]) == 2
+    assert 'did you mean "tilt_max_mrad"' in capsys.readouterr().err
