@@ -18,7 +18,9 @@ The rules
 4. ``observe`` and ``picture`` are called at output times, after ``advance`` has
    reached them and while the memory that the step was computed with is in force.
 5. ``accept`` is called once at the end of each accepted step, after rules 3 and 4.
-   It is the only place where the state of contact (such as entry velocities) changes.
+   It is the only place where the state of contact (such as entry velocities) changes. There and
+   in ``enter`` a problem may correct the state, to keep it on its constraints; an integrator that
+   cannot take the correction over goes on without it.
 6. An integrator never steps across a breakpoint. Stage evaluations may lie beyond it;
    the regime set by ``enter`` then still holds.
 7. A problem with an ``algebra`` of its own never meets a matrix of n² numbers: ``jac`` is handed the entries
@@ -55,7 +57,8 @@ class CompiledFunctions:
         ``advance(t_a, t_b, y_b, data, memory)`` adds path integrals over ``[t_a, t_b]``. The values at
         ``t_a`` were left in ``memory`` by the previous ``advance`` or by ``enter``.
     accept
-        ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step.
+        ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step; it may
+        correct ``y``.
     observe
         ``observe(t, y, data, memory, row)`` fills ``row`` (n_observed,).
     picture
@@ -79,7 +82,9 @@ class Algebra:
     ----------
     places
         Row and column of each entry of the Jacobian that may differ from zero, shape (2, n_entries);
-        entries of one place add up.
+        entries of one place add up. It may be shorter where ``n_entries`` is given: entries without a place
+        are the problem's own affair, and those with one are to bound how the rounding of the state shows in
+        its rates.
     factorise
         ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with 1 − γJ from the entries
         ``jacobian`` (n_entries,); returns whether the matrix is regular. Compiled, as are those of
@@ -88,6 +93,8 @@ class Algebra:
         ``solve(data, factors, pivots, x)`` replaces the right-hand side ``x`` (n,) by the solution.
     n_factors, n_pivots
         Sizes of ``factors`` (float64) and ``pivots`` (int64): what ``factorise`` leaves to ``solve``.
+    n_entries
+        Number of entries, 0 for that of places. Integrators other than ``mebdf`` need a place for each.
     """
 
     places: NDArray[np.int64]
@@ -95,6 +102,7 @@ class Algebra:
     solve: Callable[..., None]
     n_factors: int
     n_pivots: int = 0
+    n_entries: int = 0
 
 
 @dataclass(frozen=True)
@@ -117,6 +125,8 @@ class Problem:
         Times strictly inside ``t_span`` [s], increasing, where the integrator restarts.
     atol
         Absolute tolerance of each state, shape (n,).
+    relative
+        Share of the relative tolerance that holds for each state, shape (n,); ``None`` for all of it.
     state_names
         Names of the states, for messages.
     n_observed
@@ -137,6 +147,7 @@ class Problem:
     state_names: tuple[str, ...]
     n_observed: int
     field_shape: tuple[int, ...]
+    relative: FloatArray | None = None
     algebra: Algebra | None = None
 
 

@@ -122,8 +122,9 @@ class _CompiledWalk(Walk):
     def _new_state(self, t: float, t_end: float) -> MebdfState:
         from tribodyn.kernels.mebdf.state import new_state
 
-        outside = self.problem.algebra is not None
-        return new_state(t, self.y, t_end, self._rtol, self.problem.atol, outside=outside)
+        share, outside = self.problem.relative, self.problem.algebra is not None
+        rtol = self._rtol if share is None else self._rtol * share
+        return new_state(t, self.y, t_end, rtol, self.problem.atol, outside=outside)
 
     def _jacobian(self, state: MebdfState) -> FloatArray:
         """Return what ``jac`` fills."""
@@ -135,7 +136,7 @@ class _CompiledWalk(Walk):
     def _new_matrix(self, algebra: Algebra) -> OwnMatrix:
         from tribodyn.kernels.mebdf.own import OwnMatrix
 
-        entry, last = np.zeros((2, algebra.places.shape[1]))
+        entry, last = np.zeros((2, algebra.n_entries or algebra.places.shape[1]))
         pivots = np.zeros(algebra.n_pivots, dtype=np.int64)
         return OwnMatrix(algebra.places, entry, last, np.zeros(algebra.n_factors), pivots)
 
@@ -180,9 +181,10 @@ class _CompiledWalk(Walk):
 
     def _entry_not_finite(self, state: MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
-        bad = ~np.isfinite(self._jacobian(state))
-        row, column = np.argwhere(bad)[0] if self._own is None else self._own.places[:, bad][:, 0]
-        return int(row), int(column)
+        bad = np.argwhere(~np.isfinite(self._jacobian(state)))[0]
+        if self._own is not None:
+            bad = self._own.places[:, min(int(bad[0]), self._own.places.shape[1] - 1)]
+        return int(bad[0]), int(bad[1])
 
 
 @contextmanager

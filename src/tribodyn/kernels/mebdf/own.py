@@ -20,7 +20,7 @@ class OwnMatrix(NamedTuple):
     Attributes
     ----------
     places
-        Row and column of each entry of the Jacobian, shape (2, n_entries).
+        Row and column of the first entries of the Jacobian, shape (2, n), n ≤ n_entries.
     jacobian
         Entries as filled in, shape (n_entries,).
     last
@@ -53,5 +53,5 @@ def magnify(own: OwnMatrix, rows: FloatArray, scaled: float) -> None:
     """Fill the row MAGNITUDE."""
     for i in range(rows.shape[1]):
         rows[MAGNITUDE, i] = abs(rows[Y, i])
-    for k in range(own.last.size):
+    for k in range(own.places.shape[1]):
         rows[MAGNITUDE, own.places[0, k]] += abs(scaled * own.last[k] * rows[Y, own.places[1, k]])

@@ -1,0 +1,1 @@
+"""Kernels of any mechanism: bodies and couplings are data."""

@@ -1,0 +1,356 @@
+"""What the kernels of a mechanism read and change: bodies and couplings, one record each.
+
+A *coupling* is whatever acts between two bodies: a joint, a spring, a load (between the ground and a body).
+It has a socket on its first body and a shaft on its second, and up to six constraint rows; the ground is
+the body after the last. The *nodes* of the linear systems are the bodies and the couplings that have rows,
+six unknowns each.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final, NamedTuple
+
+from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.pose import Pose
+
+N_STATES: Final = 13
+"""Of a body: mass centre (3) [m], unit quaternion (4), velocity (3) [m/s], angular velocity (3) [rad/s]."""
+ORIENTATION: Final = 3
+VELOCITY: Final = 7
+TURNING: Final = 10
+"""First states of quaternion, velocity, and angular velocity in the axes of the body."""
+
+POINT: Final = 0
+DIRECTION: Final = 1
+ANGLE: Final = 2
+POSITION: Final = 3
+"""Kinds of constraint rows, see ``kernels/mechanism/constraints.py``."""
+
+NOTHING: Final = 0
+SPRINGS: Final = 1
+SPRING: Final = 2
+LOAD_GROUND: Final = 3
+LOAD_BODY: Final = 4
+LOAD_MOTION: Final = 5
+CONTACT: Final = 6
+"""Kinds of forces, see ``kernels/mechanism/forces.py``."""
+
+NONE: Final = -1
+"""Number of a signal, node, block or coupling that is not there."""
+
+PLAIN: Final = 0
+SLOPES: Final = 1
+REPORTS: Final = 2
+"""What forces are asked for: themselves, their derivatives too, or what is told about them."""
+
+WORK: Final = 0
+DAMPING: Final = 1
+FRICTION: Final = 2
+"""Powers of a coupling."""
+
+Constants: Final = record_type(
+    ("gravity", "f8", (3,)),
+    ("size", "f8"),
+    *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work")),
+)
+"""Gravity [m/s²], size of the mechanism [m], number of all constraint rows and of those that are independent,
+of nodes, and of the blocks that hold the work space of solutions."""
+
+Body: Final = record_type(
+    ("mass", "f8"), ("inertia", "f8", (3, 3)), ("inverse", "f8", (3, 3)), ("centre", "f8", (3,))
+)
+"""Mass [kg]; mass centre as drawn [m]; inertia about the mass centre in the axes of the body, which are those
+of the drawing at first; its inverse."""
+
+Coupling: Final = record_type(
+    ("socket", "i8"),
+    ("shaft", "i8"),
+    ("socket_point", "f8", (3,)),
+    ("shaft_point", "f8", (3,)),
+    ("to_socket", "f8", (3, 3)),
+    ("shaft_axes", "f8", (3, 3)),
+    ("node", "i8"),
+    ("n_rows", "i8"),
+    ("first_row", "i8"),
+    ("row_kind", "i8", (6,)),
+    ("row_axis", "i8", (6,)),
+    ("row_other", "i8", (6,)),
+    ("row_signal", "i8", (6,)),
+    ("force", "i8"),
+    ("stiffness", "f8", (6,)),
+    ("damping", "f8", (6,)),
+    ("length", "f8"),
+    ("slip_velocity", "f8"),
+    ("signals", "i8", (6,)),
+    ("follows", "i8"),
+    ("follows_position", "i8"),
+    ("effort", "i8", (2,)),
+    ("contact", "i8"),
+    ("rows_block", "i8", (2, 2)),
+    ("bodies_block", "i8", (2,)),
+)
+"""Constants of a coupling.
+
+socket, shaft
+    Numbers of the two bodies.
+socket_point, shaft_point
+    Origins, from the mass centres in the axes of the bodies [m].
+to_socket
+    Turns axes of the socket's body into those of the socket.
+shaft_axes
+    Axes of the shaft as columns, in the axes of its body.
+node, first_row
+    Of its constraint rows, ``NONE`` without rows; number of the first among all.
+row_kind, row_axis, row_other, row_signal
+    Of each row: its kind, axis of the socket, axis of the shaft, number of the signal it follows.
+force
+    Kind of force.
+stiffness, damping
+    Along x, y, z of the socket and about x, y, z; of a spring the first.
+length, slip_velocity
+    Of a spring without force [m]; of a load against the motion [m/s].
+signals
+    Of the six components of a load; of ``follows``, the coupling whose coordinate they follow (``NONE``:
+    time), its angle, or its position where ``follows_position`` is 1.
+effort
+    Signals of torque about and force along the axis.
+contact
+    Number among the joints with clearance.
+rows_block
+    Blocks (rows, body) and (body, rows) for socket and shaft.
+bodies_block
+    Blocks (socket, shaft) and (shaft, socket) of the iteration matrix.
+"""
+
+Signal: Final = record_type(("first", "i8"), ("n", "i8"), ("sine", "f8", (3,)))
+"""Pieces of a polynomial, and a sine beside it: amplitude, angular frequency, phase."""
+Piece: Final = record_type(("until", "f8"), ("left", "f8"), ("c", "f8", (5,)))
+"""A polynomial over the distance from ``left``, rising powers, up to ``until``."""
+
+BodyNow: Final = record_type(
+    ("r", "f8", (3,)),
+    ("p", "f8", (4,)),
+    ("v", "f8", (3,)),
+    ("w", "f8", (3,)),
+    ("A", "f8", (3, 3)),
+    ("force", "f8", (6,)),
+    ("acceleration", "f8", (6,)),
+    ("gyroscopic", "f8", (3, 3)),
+)
+"""Of a body at one instant: its states, its attitude (body to global), the force and, in its own axes, the
+moment on it without constraints, and its acceleration with the angular one
+in its own axes; derivative of ω × J ω in ω."""
+
+CouplingNow: Final = record_type(
+    ("pose", Pose),
+    ("RT", "f8", (3, 3)),
+    ("B", "f8", (3, 3)),
+    ("x", "f8", (3,)),
+    ("u", "f8", (3,)),
+    ("w_s", "f8", (3,)),
+    ("twist", "f8", (6,)),
+    ("bias", "f8", (6,)),
+    ("H", "f8", (6, 12)),
+    ("Vq", "f8", (6, 12)),
+    ("Aq", "f8", (6, 12)),
+    ("Av", "f8", (6, 12)),
+    ("residual", "f8", (6,)),
+    ("rate", "f8", (6,)),
+    ("gamma", "f8", (6,)),
+    ("N", "f8", (6, 6)),
+    ("G", "f8", (6, 12)),
+    ("prescribed", "f8", (6, 3)),
+    ("compliance", "f8", (6,)),
+    ("scale", "f8", (6,)),
+    ("dependent", "f8", (6,)),
+    ("multiplier", "f8", (6,)),
+    ("wrench", "f8", (6,)),
+    ("constraint", "f8", (6,)),
+    ("slope", "f8", (6, 12)),
+    ("Kq", "f8", (12, 12)),
+    ("Kv", "f8", (12, 12)),
+    ("Gq", "f8", (6, 12)),
+    ("Gv", "f8", (6, 12)),
+    ("work", "f8", (6, 12)),
+    ("strip", "f8", (6, 12)),
+    ("small", "f8", (3, 3)),
+    ("turned", "f8", (3, 3)),
+    ("angle", "f8"),
+    ("angle_mark", "f8"),
+    ("powers", "f8", (3,)),
+    ("stored", "f8"),
+)
+"""Of a coupling at one instant; wrenches act on the shaft at its origin, in the axes of the socket.
+
+RT, B
+    From global axes, and from those of the shaft's body, to those of the socket.
+x, u, w_s
+    From the socket's mass centre to the shaft's origin, its velocity against that centre, and the angular
+    velocity of the socket's body.
+twist, bias
+    Relative velocity and angular velocity; their rates while bodies do not accelerate.
+H
+    twist = H V, with V the velocities of socket and shaft, six each.
+Vq, Aq, Av
+    Derivatives of the twist in the position, and of its rate in position and velocity; positions are turned
+    about the axes of the body.
+residual, rate, gamma
+    Of each row: what is not closed, its rate, and the acceleration that keeps it closed.
+N, G
+    Rows over the twist and over V.
+prescribed
+    What each row follows, with two derivatives in time.
+compliance, scale, dependent
+    Of each row: see ``kernels/mechanism/solution.py``; inverse of the mass that it moves; 1 if it follows
+    from others.
+multiplier
+    Of each row.
+wrench, constraint
+    By forces and by constraints.
+slope
+    Derivative of ``wrench`` in relative displacement, small rotation, velocity and angular velocity.
+Kq, Kv, Gq, Gv
+    Derivatives of the forces on both bodies, with sign, and of the rows' accelerations in position and
+    velocity.
+angle, angle_mark
+    Angle of the shaft about the axis with its whole turns, and the one that turns are counted from.
+powers, stored
+    What drives and loads put in, what damping and friction turn into heat [W]; stored energy [J].
+"""
+
+Course: Final = record_type(
+    ("begin", "f8"),
+    ("until", "f8"),
+    ("settled_at", "f8"),
+    ("wait", "i8"),
+    ("times", "f8", (3,)),
+    ("kinetic", "f8"),
+    ("potential", "f8"),
+    ("momentum", "f8", (6,)),
+    ("external", "f8", (6,)),
+)
+"""What the motion has come to: the segment [begin, until] whose pieces of tables hold; the time for which
+bodies and couplings stand settled on the constraints; accepted steps until redundant rows are chosen again;
+energies [J], momentum and external force with moments about the origin."""
+
+
+Book: Final = record_type(("marks", "f8", (3, 3)), ("sums", "f8", (3,)))
+"""Three integrands at three marks, and their integrals: the powers of a coupling, the external force, its
+moment."""
+
+
+class Pattern(NamedTuple):
+    """Operations on blocks that factorise and solve, see ``kernels/mechanism/blocks.py``.
+
+    Attributes
+    ----------
+    factor
+        Operation and blocks, shape (n, 4).
+    forward, backward
+        Block, row and column, shape (n, 3).
+    exchanges
+        Work space, shape (6,).
+    """
+
+    factor: IntArray
+    forward: IntArray
+    backward: IntArray
+    exchanges: IntArray
+
+
+class Parts(NamedTuple):
+    """What a mechanism is made of, as records named above; most kernels need no more.
+
+    Attributes
+    ----------
+    constants, bodies, couplings
+        One record; one for each body; one for each coupling.
+    """
+
+    constants: Record
+    bodies: Any
+    couplings: Any
+
+
+class Now(NamedTuple):
+    """Where the parts are at one instant, and work space.
+
+    Attributes
+    ----------
+    course, bodies, couplings
+        Records named above; of ``bodies`` the last is the ground.
+    x, rest
+        Unknowns and right-hand sides of the nodes, shape (n_nodes, 6).
+    """
+
+    course: Record
+    bodies: Any
+    couplings: Any
+    x: FloatArray
+    rest: FloatArray
+
+
+class Signals(NamedTuple):
+    """What drives and loads follow.
+
+    Attributes
+    ----------
+    signals, pieces
+        Records named above.
+    kinks
+        Times at which a table of time has a kink [s].
+    """
+
+    signals: Any
+    pieces: Any
+    kinks: FloatArray
+
+
+class MechanismData(NamedTuple):
+    """What the kernels read.
+
+    Attributes
+    ----------
+    parts, signals
+        See :class:`Parts` and :class:`Signals`.
+    mass, newton
+        Patterns of the equations of motion and of the iteration matrix of implicit methods.
+    contact
+        All joints with clearance.
+    """
+
+    parts: Parts
+    signals: Signals
+    mass: Pattern
+    newton: Pattern
+    contact: SurfaceData
+
+
+class MechanismMemory(NamedTuple):
+    """What accepted steps change, and work arrays.
+
+    Attributes
+    ----------
+    now
+        See :class:`Now`.
+    blocks
+        Matrix by blocks, shape (n_blocks, 6, 6).
+    independence
+        Products of all rows, shape (n_rows, n_rows); of no size without redundant rows.
+    settled
+        State on the constraints at ``course.settled_at``, shape (n,).
+    books
+        Powers and works, see ``kernels/mechanism/ledger.py``.
+    contact
+        What the joints with clearance remember.
+    """
+
+    now: Now
+    blocks: FloatArray
+    independence: FloatArray
+    settled: FloatArray
+    books: Any
+    contact: SurfaceMemory

@@ -1,0 +1,187 @@
+"""Forces of a coupling on its shaft, at its origin, in the axes of the socket, with their derivatives.
+
+The derivatives are those in relative displacement, a small turn ϑ of the shaft, velocity and angular
+velocity. What a load or a torque that follows a coordinate changes with it is left out of them: it is never
+stiff.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.joints.surface import joint as surfaces
+from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.mechanism.data import (
+    CONTACT,
+    DAMPING,
+    FRICTION,
+    LOAD_BODY,
+    LOAD_GROUND,
+    LOAD_MOTION,
+    NONE,
+    REPORTS,
+    SLOPES,
+    SPRING,
+    SPRINGS,
+    WORK,
+    MechanismData,
+    MechanismMemory,
+    Signals,
+)
+from tribodyn.kernels.mechanism.signals import evaluate
+
+
+@kernel
+def force(
+    data: MechanismData, memory: MechanismMemory, number: int, t: float, within: float, mode: int
+) -> None:
+    """Fill wrench, slope, powers and stored energy of a coupling; what ``mode`` asks for of a contact."""
+    coupling, now = data.parts.couplings[number], memory.now.couplings[number]
+    for i in range(6):
+        now.wrench[i] = 0.0
+    for i in range(3):
+        now.powers[i] = 0.0
+    now.stored = 0.0
+    clear(now.slope)
+    kind = coupling.force
+    if kind == SPRINGS:
+        _springs(coupling, now)
+    elif kind == SPRING:
+        _spring(coupling, now)
+    elif kind in (LOAD_GROUND, LOAD_BODY, LOAD_MOTION):
+        _load(coupling, now, memory.now.couplings, data.signals, t, within)
+    elif kind == CONTACT:
+        _contact(coupling.contact, now, data.contact, memory.contact, mode)
+    for axis in range(2):
+        if coupling.effort[axis] != NONE:
+            value, _, _ = evaluate(data.signals, coupling.effort[axis], t, within)
+            entry = 5 if axis == 0 else 2
+            now.wrench[entry] += value
+            now.powers[WORK] += value * now.twist[entry]
+
+
+@kernel
+def _contact(j: int, now: Record, joints: SurfaceData, memory: SurfaceMemory, mode: int) -> None:
+    """Fill the forces of a joint with clearance."""
+    if mode == SLOPES:
+        surfaces.wrench_and_jacobian(joints, memory, j, now.pose, now.wrench, now.slope)
+        return
+    surfaces.wrench(joints, memory, j, now.pose, now.wrench)
+    if mode == REPORTS:
+        surfaces.report(joints, memory, j, now.pose)
+        now.stored = surfaces.stored(joints, memory, j, now.pose)
+        for s in range(joints.joints[j], joints.joints[j + 1]):
+            now.powers[DAMPING] += memory.reports[s].damping_power
+            now.powers[FRICTION] -= memory.reports[s].friction_power
+
+
+@kernel
+def _springs(coupling: Record, now: Record) -> None:
+    """Fill the wrench of three springs along and three about the axes, with dampers.
+
+    Those about the axes across have the energy ½ k_x f_y² + ½ k_y f_x² with the shaft's axis f, the one
+    about the axis ½ k_z θ².
+    """
+    k, c, twist, slope = coupling.stiffness, coupling.damping, now.twist, now.slope
+    f, q = now.pose.rotation[:, 2], now.pose.rotation[:, 0]
+    for i in range(3):
+        now.wrench[i] = -k[i] * now.pose.d[i]
+        now.stored += 0.5 * k[i] * now.pose.d[i] ** 2
+        slope[i, i] = -k[i]
+    now.stored += 0.5 * (k[3] * f[1] ** 2 + k[4] * f[0] ** 2 + k[5] * now.angle**2)
+    inverse = 1.0 / (q[0] * q[0] + q[1] * q[1])
+    # ∂θ/∂ϑ = q × (q_x e_y − q_y e_x) / (q_x² + q_y²).
+    g_x, g_y, g_z = -q[2] * q[0] * inverse, -q[2] * q[1] * inverse, 1.0
+    now.wrench[3] = k[3] * f[1] * f[2] - k[5] * now.angle * g_x
+    now.wrench[4] = -k[4] * f[0] * f[2] - k[5] * now.angle * g_y
+    now.wrench[5] = (k[4] - k[3]) * f[0] * f[1] - k[5] * now.angle * g_z
+    for j in range(3):
+        # δf = e_j × f.
+        d_x = f[2] if j == 1 else (-f[1] if j == 2 else 0.0)
+        d_y = -f[2] if j == 0 else (f[0] if j == 2 else 0.0)
+        d_z = f[1] if j == 0 else (-f[0] if j == 1 else 0.0)
+        twisted = k[5] * (g_x if j == 0 else (g_y if j == 1 else g_z))
+        slope[3, 3 + j] = k[3] * (d_y * f[2] + f[1] * d_z) - twisted * g_x
+        slope[4, 3 + j] = -k[4] * (d_x * f[2] + f[0] * d_z) - twisted * g_y
+        slope[5, 3 + j] = (k[4] - k[3]) * (d_x * f[1] + f[0] * d_y) - twisted * g_z
+    for i in range(6):
+        now.wrench[i] -= c[i] * twist[i]
+        now.powers[DAMPING] += c[i] * twist[i] ** 2
+        slope[i, 6 + i] = -c[i]
+
+
+@kernel
+def _spring(coupling: Record, now: Record) -> None:
+    """Fill the force of a spring and damper between the two origins."""
+    d, v, slope = now.pose.d, now.pose.v, now.slope
+    length = math.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
+    stretch = length - coupling.length
+    k, c = coupling.stiffness[0], coupling.damping[0]
+    rate = (d[0] * v[0] + d[1] * v[1] + d[2] * v[2]) / length
+    tension = k * stretch + c * rate
+    now.stored = 0.5 * k * stretch * stretch
+    now.powers[DAMPING] = c * rate * rate
+    for i in range(3):
+        n_i = d[i] / length
+        now.wrench[i] = -tension * n_i
+        for j in range(3):
+            n_j = d[j] / length
+            across = (1.0 if i == j else 0.0) - n_i * n_j
+            swing = (v[j] - rate * n_j) / length
+            slope[i, j] = -k * n_i * n_j - c * n_i * swing - tension / length * across
+            slope[i, 6 + j] = -c * n_i * n_j
+
+
+@kernel
+def _load(coupling: Record, now: Record, couplings: Any, signals: Signals, t: float, within: float) -> None:
+    """Fill a load: its components are global, or turn with the body, or stand against the motion."""
+    x = t
+    if coupling.follows != NONE:
+        followed = couplings[coupling.follows]
+        x = followed.pose.d[2] if coupling.follows_position == 1 else followed.angle
+        within = x
+    for i in range(6):
+        if coupling.signals[i] != NONE:
+            value, _, _ = evaluate(signals, coupling.signals[i], x, within)
+            now.wrench[i] = value
+    if coupling.force == LOAD_BODY:
+        _turn_with_body(now)
+    elif coupling.force == LOAD_MOTION:
+        _oppose(now, now.wrench[0], 0, coupling.slip_velocity)
+        _oppose(now, now.wrench[3], 3, coupling.slip_velocity)
+    for i in range(6):
+        now.powers[WORK] += now.wrench[i] * now.twist[i]
+
+
+@kernel
+def _turn_with_body(now: Record) -> None:
+    """Make a load on the socket the wrench on the shaft, which is the ground: −F, and −M + d × F."""
+    w, d = now.wrench, now.pose.d
+    f_x, f_y, f_z = w[0], w[1], w[2]
+    w[0], w[1], w[2] = -f_x, -f_y, -f_z
+    w[3] = d[1] * f_z - d[2] * f_y - w[3]
+    w[4] = d[2] * f_x - d[0] * f_z - w[4]
+    w[5] = d[0] * f_y - d[1] * f_x - w[5]
+    now.slope[3, 1], now.slope[3, 2] = f_z, -f_y
+    now.slope[4, 2], now.slope[4, 0] = f_x, -f_z
+    now.slope[5, 0], now.slope[5, 1] = f_y, -f_x
+
+
+@kernel
+def _oppose(now: Record, size: float, first: int, slip: float) -> None:
+    """Make three components a force of a given size against the (angular) velocity."""
+    u = now.twist
+    square = u[first] ** 2 + u[first + 1] ** 2 + u[first + 2] ** 2 + slip * slip
+    if square == 0.0:
+        square = 1.0
+    slope = size / math.sqrt(square)
+    for i in range(3):
+        now.wrench[first + i] = -slope * u[first + i]
+        for j in range(3):
+            now.slope[first + i, 6 + first + j] = slope * u[first + i] * u[first + j] / square
+        now.slope[first + i, 6 + first + i] -= slope

@@ -1,0 +1,183 @@
+"""The compiled functions of any mechanism, as the protocol in ``core/problem.py`` asks for them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import copy
+from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.joints.surface import joint as surfaces
+from tribodyn.kernels.joints.surface.memory import note_peaks
+from tribodyn.kernels.mechanism import ledger
+from tribodyn.kernels.mechanism.bodies import rates
+from tribodyn.kernels.mechanism.data import (
+    CONTACT,
+    PLAIN,
+    SLOPES,
+    MechanismData,
+    MechanismMemory,
+    Now,
+    Parts,
+)
+from tribodyn.kernels.mechanism.derivatives import fill_derivatives
+from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
+from tribodyn.kernels.mechanism.newton import fill_entries
+from tribodyn.kernels.mechanism.observe import fill_row
+from tribodyn.kernels.mechanism.redundancy import choose_rows
+from tribodyn.kernels.mechanism.solution import accelerations, settle
+
+BEFORE_KINK: Final = 1.0e-9
+"""Part of a segment by which its pieces end before the kink."""
+SMALL: Final = 48
+"""Number of rows up to which dependent ones are looked for after every step."""
+
+
+@entry
+def rhs(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, f: FloatArray) -> None:
+    """Fill ``f`` (n,) with the time derivative of the state."""
+    accelerations(data, memory, t, y, PLAIN)
+    rates(memory.now.bodies, f)
+
+
+@kernel
+def _differentiate(
+    t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, f: FloatArray
+) -> None:
+    """Fill ``f`` and the derivatives that bodies and couplings hold."""
+    accelerations(data, memory, t, y, SLOPES)
+    rates(memory.now.bodies, f)
+    fill_derivatives(data.parts, memory.now)
+    fill_gyroscopic(data.parts, memory.now)
+
+
+@entry
+def jac(
+    t: float,
+    y: FloatArray,
+    data: MechanismData,
+    memory: MechanismMemory,
+    f: FloatArray,
+    jacobian: FloatArray,
+) -> None:
+    """Fill ``f`` (n,) and its derivative ``jacobian`` (n, n)."""
+    _differentiate(t, y, data, memory, f)
+    fill_jacobian(data.parts, memory.now, data.mass, memory.blocks, jacobian)
+
+
+@entry
+def jac_entries(
+    t: float,
+    y: FloatArray,
+    data: MechanismData,
+    memory: MechanismMemory,
+    f: FloatArray,
+    entries: FloatArray,
+) -> None:
+    """Fill ``f`` (n,) and the entries (n_entries,) that ``kernels/mechanism/newton.py`` names."""
+    _differentiate(t, y, data, memory, f)
+    fill_entries(data.parts, memory.now, entries)
+
+
+@entry
+def enter(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
+    """Begin a segment: its pieces of tables hold, and the state is put on the constraints as they go on."""
+    course, kinks = memory.now.course, data.signals.kinks
+    course.begin, course.until = t, math.inf
+    for i in range(kinks.size - 1, -1, -1):
+        if kinks[i] > t:
+            course.until = kinks[i] - BEFORE_KINK * (kinks[i] - t)
+    settle(data, memory, t, y)
+    _mark_angles(memory.now.couplings)
+    _look_after_rows(data.parts, memory.now, memory.independence)
+    copy(memory.settled, y)
+    ledger.begin(data.parts, memory.now, memory.books, t)
+
+
+@kernel
+def _mark_angles(couplings: Any) -> None:
+    """Count whole turns from here."""
+    for k in range(couplings.size):
+        couplings[k].angle_mark = couplings[k].angle
+
+
+@kernel
+def _look_after_rows(parts: Parts, now: Now, matrix: FloatArray) -> None:
+    """Choose the independent rows anew where some are not; the more there are, the more rarely."""
+    course, n = now.course, parts.constants.n_rows
+    course.wait -= 1
+    if parts.constants.rank < n and course.wait <= 0:
+        choose_rows(parts, now, matrix)
+        course.wait = 1 + (n // SMALL) ** 3
+
+
+@kernel
+def _slide(data: MechanismData, memory: MechanismMemory, h: float) -> None:
+    """Add to the sliding loads what slides in ``h`` [s] as at the last reports."""
+    for k in range(data.parts.couplings.size):
+        if data.parts.couplings[k].force == CONTACT:
+            surfaces.slide(data.contact, memory.contact, data.parts.couplings[k].contact, h)
+
+
+@entry
+def advance(t_a: float, t_b: float, y_b: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
+    """Settle at the end of a part of an accepted step and add to the books."""
+    h = t_b - t_a
+    _slide(data, memory, 0.5 * h)
+    settle(data, memory, t_b, y_b)
+    ledger.add_part(data.parts, memory.now, memory.books, t_b)
+    _slide(data, memory, 0.5 * h)
+    for k in range(data.parts.couplings.size):
+        if data.parts.couplings[k].force == CONTACT:
+            note_peaks(data.contact, memory.contact, data.parts.couplings[k].contact, t_b, h)
+
+
+@entry
+def observe(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, row: FloatArray) -> None:
+    """Fill ``row``, see ``kernels/mechanism/quantities.py``."""
+    _stand_at(data, memory, t, y)
+    fill_row(data, memory, row)
+
+
+@kernel
+def _stand_at(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray) -> None:
+    """Settle, if evaluations in between have moved bodies elsewhere."""
+    if memory.now.course.settled_at != t:
+        settle(data, memory, t, y)
+        ledger.fill_totals(data.parts, memory.now)
+
+
+@entry
+def accept(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
+    """Put the state on the constraints, count turns, let contact begin and end."""
+    _stand_at(data, memory, t, y)
+    copy(memory.settled, y)
+    _mark_angles(memory.now.couplings)
+    touch(data, memory, 0.0)
+    _look_after_rows(data.parts, memory.now, memory.independence)
+
+
+@kernel
+def touch(data: MechanismData, memory: MechanismMemory, at_start: float) -> None:
+    """Let contact of all joints begin and end."""
+    for k in range(data.parts.couplings.size):
+        if data.parts.couplings[k].force == CONTACT:
+            pose = memory.now.couplings[k].pose
+            surfaces.update_entry_velocity(
+                data.contact, memory.contact, data.parts.couplings[k].contact, pose, at_start
+            )
+
+
+@entry
+def picture(
+    t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, fields: FloatArray
+) -> None:
+    """Fill the contact pressure at the nodes of all joints [Pa], shape (n_nodes,)."""
+    _stand_at(data, memory, t, y)
+    for k in range(data.parts.couplings.size):
+        if data.parts.couplings[k].force == CONTACT:
+            pose = memory.now.couplings[k].pose
+            surfaces.pressure_field(
+                data.contact, memory.contact, data.parts.couplings[k].contact, pose, fields
+            )

@@ -1,0 +1,35 @@
+"""Numbers that follow time or a coordinate."""
+
+from __future__ import annotations
+
+import math
+
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mechanism.data import Signals
+
+
+@kernel
+def evaluate(signals: Signals, number: int, x: float, within: float) -> tuple[float, float, float]:
+    """Return the value of a signal at ``x`` and its first two derivatives.
+
+    The piece is the one that holds at ``within``: stages beyond a kink go on with the piece before it.
+    """
+    signal, pieces = signals.signals[number], signals.pieces
+    low, high = signal.first, signal.first + signal.n - 1
+    while low < high:
+        middle = (low + high) // 2
+        if within < pieces[middle].until:
+            high = middle
+        else:
+            low = middle + 1
+    c, s = pieces[low].c, x - pieces[low].left
+    value = c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4])))
+    rate = c[1] + s * (2.0 * c[2] + s * (3.0 * c[3] + s * 4.0 * c[4]))
+    second = 2.0 * c[2] + s * (6.0 * c[3] + s * 12.0 * c[4])
+    amplitude, frequency = signal.sine[0], signal.sine[1]
+    if amplitude != 0.0:
+        phase = frequency * x + signal.sine[2]
+        value += amplitude * math.sin(phase)
+        rate += amplitude * frequency * math.cos(phase)
+        second -= amplitude * frequency * frequency * math.sin(phase)
+    return value, rate, second

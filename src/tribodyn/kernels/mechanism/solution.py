@@ -1,0 +1,285 @@
+"""Accelerations and reactions from one sparse linear system, and the way back to the constraints.
+
+With accelerations a, multipliers λ and the compliances ε of the rows,
+
+    M a − Gᵀ λ = Q,   G a + ε λ = γ + ε λ₀,
+
+first from λ₀ = 0, then from the λ found: the method of multipliers, which after three rounds leaves an error
+(ε/(ε + σ²))³ where the rows resist with σ². Independent rows have a small compliance, which where a mechanism
+passes a position in which they depend on each other lets go of them for a moment. Rows that depend on others
+everywhere have as much as the bodies they hold: then they carry nothing and, because they follow from the
+others, are kept all the same. For the reactions that are told all rows get the same small compliance, which
+shares them among dependent rows by least norm.
+
+On the constraints a state is put the shortest way by mass, as impulses of the joints would: near a position
+in which rows become dependent corrections are large, and any other metric would change the motion that is
+free.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mechanism.blocks import factorise, solve
+from tribodyn.kernels.mechanism.bodies import collect, move, own_force, place
+from tribodyn.kernels.mechanism.constraints import fill_rows, prescribe
+from tribodyn.kernels.mechanism.data import (
+    NONE,
+    REPORTS,
+    WORK,
+    MechanismData,
+    MechanismMemory,
+    Now,
+    Parts,
+    Pattern,
+    Signals,
+)
+from tribodyn.kernels.mechanism.forces import force
+from tribodyn.kernels.mechanism.relative import relative_motion
+
+HARD: Final = 1.0e-8
+SOFT: Final = 1.0
+"""Compliances of rows, in units of the inverse mass that a row moves."""
+ROUNDS: Final = 3
+MOST_CORRECTIONS: Final = 6
+CLOSED: Final = 1.0e-14
+"""Residual of constraints, relative to the size of the mechanism, that is none."""
+
+
+@kernel
+def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
+    """Fill relative motion and rows of all couplings where the bodies are."""
+    within = min(max(t, now.course.begin), now.course.until)
+    for k in range(parts.couplings.size):
+        coupling, state = parts.couplings[k], now.couplings[k]
+        relative_motion(coupling, state, now.bodies)
+        if coupling.n_rows > 0:
+            prescribe(coupling, state, signals, t, within)
+            fill_rows(coupling, state)
+
+
+@kernel
+def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: int) -> None:
+    """Fill the forces of all couplings, and what else ``mode`` asks for, and sum them up at the bodies."""
+    parts, now = data.parts, memory.now
+    within = min(max(t, now.course.begin), now.course.until)
+    for b in range(parts.bodies.size):
+        own_force(parts.constants, parts.bodies[b], now.bodies[b], now.x[0, :3])
+    for k in range(parts.couplings.size):
+        force(data, memory, k, t, within, mode)
+        coupling = parts.couplings[k]
+        _apply(now.couplings[k], now.bodies[coupling.socket], now.bodies[coupling.shaft])
+
+
+@kernel
+def _apply(state: Record, socket: Record, shaft: Record) -> None:
+    """Add Hᵀ times the wrench of a coupling to the forces on its two bodies."""
+    for i in range(6):
+        push = state.wrench[i]
+        if push != 0.0:
+            for j in range(6):
+                socket.force[j] += state.H[i, j] * push
+                shaft.force[j] += state.H[i, 6 + j] * push
+
+
+@kernel
+def assemble(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+    """Fill the blocks of the equations of motion and factorise them."""
+    for k in range(blocks.shape[0]):
+        for i in range(6):
+            for j in range(6):
+                blocks[k, i, j] = 0.0
+    for b in range(parts.bodies.size):
+        body = parts.bodies[b]
+        for i in range(3):
+            blocks[b, i, i] = body.mass
+            for j in range(3):
+                blocks[b, 3 + i, 3 + j] = body.inertia[i, j]
+    for k in range(parts.couplings.size):
+        if parts.couplings[k].node != NONE:
+            _fill_blocks(parts.couplings[k], now.couplings[k], blocks)
+    factorise(pattern, blocks)
+
+
+@kernel
+def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
+    """Fill the blocks of the rows of a coupling."""
+    for m in range(6):
+        blocks[coupling.node, m, m] = state.compliance[m] if m < coupling.n_rows else 1.0
+    for side in range(2):
+        block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
+        if block == NONE:
+            continue
+        for m in range(coupling.n_rows):
+            for j in range(6):
+                blocks[block, m, j] = state.G[m, 6 * side + j]
+                blocks[transposed, j, m] = -state.G[m, 6 * side + j]
+
+
+@kernel
+def solve_rows(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers."""
+    x, rest = now.x, now.rest
+    for repeat in range(ROUNDS if parts.constants.n_rows > 0 else 1):
+        for k in range(parts.couplings.size):
+            coupling, state = parts.couplings[k], now.couplings[k]
+            for m in range(coupling.n_rows):
+                before = x[coupling.node, m] if repeat > 0 else 0.0
+                x[coupling.node, m] = rest[coupling.node, m] + state.compliance[m] * before
+        for b in range(parts.bodies.size):
+            for i in range(6):
+                x[b, i] = rest[b, i]
+        solve(pattern, blocks, x)
+
+
+@kernel
+def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+    """Solve for accelerations and multipliers with the factors at hand, and fill the constraint wrenches."""
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.rest[b, i] = now.bodies[b].force[i]
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        for m in range(coupling.n_rows):
+            now.rest[coupling.node, m] = now.couplings[k].gamma[m]
+    solve_rows(parts, now, pattern, blocks)
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.bodies[b].acceleration[i] = now.x[b, i]
+    for k in range(parts.couplings.size):
+        _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
+
+
+@kernel
+def _take_multipliers(coupling: Record, state: Record, x: FloatArray) -> None:
+    """Fill multipliers and the wrench Nᵀ λ of a coupling."""
+    for i in range(6):
+        total = 0.0
+        for m in range(coupling.n_rows):
+            state.multiplier[m] = x[coupling.node, m]
+            total += state.N[m, i] * state.multiplier[m]
+        state.constraint[i] = total
+
+
+@kernel
+def accelerations(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray, mode: int) -> None:
+    """Fill kinematics, forces, accelerations and multipliers at a state."""
+    parts, now = data.parts, memory.now
+    place(y, now.bodies)
+    now.course.settled_at = math.nan
+    kinematics(parts, now, data.signals, t)
+    forces(data, memory, t, mode)
+    assemble(parts, now, data.mass, memory.blocks)
+    take_accelerations(parts, now, data.mass, memory.blocks)
+
+
+@kernel
+def _gap(parts: Parts, now: Now) -> float:
+    """Fill the right-hand side of a correction of positions; return the largest residual."""
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.rest[b, i] = 0.0
+    largest = 0.0
+    for k in range(parts.couplings.size):
+        coupling, state = parts.couplings[k], now.couplings[k]
+        for m in range(coupling.n_rows):
+            now.rest[coupling.node, m] = -state.residual[m]
+            largest = max(largest, abs(state.residual[m]))
+    return largest
+
+
+@kernel
+def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float) -> None:
+    """Move the bodies onto the constraints, the shortest way by mass, and fill the kinematics there.
+
+    Those of where the bodies are must have been filled.
+    """
+    gap = _gap(parts, now)
+    for _ in range(MOST_CORRECTIONS):
+        if gap <= CLOSED * parts.constants.size:
+            break
+        assemble(parts, now, pattern, blocks)
+        solve_rows(parts, now, pattern, blocks)
+        for b in range(parts.bodies.size):
+            move(now.bodies[b], now.x[b], now.rest[b, :4])
+        kinematics(parts, now, signals, t)
+        before = gap
+        gap = _gap(parts, now)
+        if not gap < 0.5 * before:
+            break
+
+
+@kernel
+def correct_velocities(
+    parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float
+) -> None:
+    """Make velocities those that the constraints allow, by impulses, and fill the kinematics with them."""
+    assemble(parts, now, pattern, blocks)
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.rest[b, i] = 0.0
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        for m in range(coupling.n_rows):
+            now.rest[coupling.node, m] = -now.couplings[k].rate[m]
+    solve_rows(parts, now, pattern, blocks)
+    for b in range(parts.bodies.size):
+        body = now.bodies[b]
+        for i in range(3):
+            body.v[i] += now.x[b, i]
+            body.w[i] += now.x[b, 3 + i]
+    kinematics(parts, now, signals, t)
+
+
+@kernel
+def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray) -> None:
+    """Fill ``memory.settled`` with the state on the constraints next to ``y``, and all that holds there.
+
+    Kinematics, forces, accelerations; and the reactions, of least norm where rows depend on each other.
+    """
+    parts, now, blocks, n_rows = data.parts, memory.now, memory.blocks, data.parts.constants.n_rows
+    place(y, now.bodies)
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.x[b, i] = 0.0
+        move(now.bodies[b], now.x[b], now.rest[b, :4])  # makes the quaternion one of length 1
+    kinematics(parts, now, data.signals, t)
+    if n_rows > 0:
+        close(parts, now, data.signals, data.mass, blocks, t)
+        correct_velocities(parts, now, data.signals, data.mass, blocks, t)
+    collect(now.bodies, memory.settled)
+    now.course.settled_at = t
+    forces(data, memory, t, REPORTS)
+    redundant = parts.constants.rank < n_rows
+    if redundant:
+        share(parts, now)
+    assemble(parts, now, data.mass, blocks)
+    take_accelerations(parts, now, data.mass, blocks)
+    if redundant:
+        set_compliance(parts, now)
+    for k in range(parts.couplings.size):
+        state = now.couplings[k]
+        for i in range(6):
+            state.powers[WORK] += state.constraint[i] * state.twist[i]
+
+
+@kernel
+def share(parts: Parts, now: Now) -> None:
+    """Give all rows the compliance of independent ones: multipliers then are of least norm."""
+    for k in range(parts.couplings.size):
+        state = now.couplings[k]
+        for m in range(parts.couplings[k].n_rows):
+            state.compliance[m] = HARD * state.scale[m]
+
+
+@kernel
+def set_compliance(parts: Parts, now: Now) -> None:
+    """Give every row the compliance of an independent or a dependent one."""
+    for k in range(parts.couplings.size):
+        state = now.couplings[k]
+        for m in range(parts.couplings[k].n_rows):
+            state.compliance[m] = (SOFT if state.dependent[m] > 0.0 else HARD) * state.scale[m]

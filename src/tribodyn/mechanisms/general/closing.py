@@ -1,0 +1,241 @@
+"""A mechanism while its drawing is closed, its rows as full matrices."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mechanism.bodies import move
+from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, POSITION, Parts
+from tribodyn.kernels.mechanism.redundancy import row_scale
+from tribodyn.kernels.mechanism.solution import kinematics
+from tribodyn.mechanisms.general.description import GROUND, Description
+from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
+from tribodyn.mechanisms.general.inspection import Finding, sound_drives
+
+CLOSED: Final = 1.0e-12
+"""Residual, in units of the mechanism's size or in radians, of a joint that closes."""
+DEPENDENT: Final = 1.0e-6
+"""Singular value of the scaled rows, relative to the largest, below which rows depend on each other."""
+_MOST_STEPS: Final = 60
+_LONGEST: Final = 0.2
+"""Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
+_NEAR: Final = 0.03
+"""Distance of positions near by, in the same units."""
+
+
+class System:
+    """A mechanism while it is put together, its rows as full matrices."""
+
+    def __init__(self, description: Description, worn: FloatArray | None = None) -> None:
+        self.description = description
+        self.data = mechanism_data(description, worn)
+        self.parts, self.now = self.data.parts, new_memory(self.data).now
+        self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]
+        self.n = len(description.bodies)
+        self.size = float(self.parts.constants.size)
+        self.t = 0.0
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Fill kinematics where the bodies are."""
+        kinematics(self.parts, self.now, self.data.signals, self.t)
+
+    def take_positions(self, other: System) -> None:
+        """Take over where the bodies of another system are."""
+        for name in ("r", "p", "A"):
+            self.now.bodies[name][:] = other.now.bodies[name]
+        self.refresh()
+        row_scale(self.parts, self.now)
+
+    def drive_rows(self) -> list[tuple[int, int, str]]:
+        """Return coupling, row and name of the drives that are constraints."""
+        found = []
+        for drive in sound_drives(self.description):
+            if drive.level < 2:
+                kind = ANGLE if drive.coordinate == "angle" else POSITION
+                of_joint = self.parts.couplings[drive.joint].row_kind[
+                    : self.parts.couplings[drive.joint].n_rows
+                ]
+                found += [(drive.joint, m, drive.name) for m in np.flatnonzero(of_joint == kind).tolist()]
+        return found
+
+    def matrix(self) -> FloatArray:
+        """Return G over the velocities of all bodies, shape (n_rows, 6 n)."""
+        g = np.zeros((len(self.rows), 6 * (self.n + 1)))
+        for i, (k, m) in enumerate(self.rows):
+            coupling, now = self.parts.couplings[k], self.now.couplings[k]
+            for side, body in enumerate((coupling.socket, coupling.shaft)):
+                g[i, 6 * body : 6 * body + 6] += now.G[m, 6 * side : 6 * side + 6]
+        return g[:, : 6 * self.n]
+
+    def entries(self, name: str) -> FloatArray:
+        """Return one quantity of all rows, shape (n_rows,)."""
+        return np.array([self.now.couplings[k][name][m] for k, m in self.rows])
+
+    def metric(self) -> FloatArray:
+        """Return the inverse square root of the mass matrix, shape (6 n, 6 n)."""
+        root = np.zeros((6 * self.n, 6 * self.n))
+        for b, body in enumerate(self.parts.bodies):
+            root[6 * b : 6 * b + 3, 6 * b : 6 * b + 3] = np.eye(3) / np.sqrt(body.mass)
+            values, vectors = np.linalg.eigh(body.inertia)
+            turned = vectors @ np.diag(values**-0.5) @ vectors.T
+            root[6 * b + 3 : 6 * b + 6, 6 * b + 3 : 6 * b + 6] = turned
+        return root
+
+    def scaled(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return G over the metric with rows of length one, the metric and the lengths."""
+        root = self.metric()
+        g = self.matrix() @ root
+        length = np.linalg.norm(g, axis=1)
+        length[length == 0.0] = 1.0
+        return g / length[:, None], root, length
+
+    def step(self, change: FloatArray) -> None:
+        """Move the bodies by a change (6 n,), not too far at once."""
+        ways = np.abs(change.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
+        change = change / max(1.0, float(np.max(ways, initial=0.0)) / _LONGEST)
+        for b in range(self.n):
+            move(self.now.bodies[b], change[6 * b : 6 * b + 6], np.zeros(4))
+        self.refresh()
+
+    def gap(self) -> float:
+        """Return the largest residual, ways in units of the size."""
+        scale = np.array([1.0 if row_is_turn(self.parts, k, m) else self.size for k, m in self.rows])
+        return float(np.max(np.abs(self.entries("residual")) / scale, initial=0.0))
+
+    def close(self) -> float:
+        """Move the bodies onto the constraints by Gauss and Newton, least by mass; return the gap left."""
+        gap = self.gap()
+        for _ in range(_MOST_STEPS):
+            if gap < CLOSED:
+                break
+            g, root, length = self.scaled()
+            change, *_ = np.linalg.lstsq(g, -self.entries("residual") / length, rcond=DEPENDENT)
+            self.step(root @ change)
+            gap = self.gap()
+        return gap
+
+    def approach(self) -> list[Finding]:
+        """Close all joints, drives led from the drawing to where they start; return what fails."""
+        pieces = self.data.signals.pieces
+        numbers = {int(self.parts.couplings[k].row_signal[m]) for k, m, _ in self.drive_rows()}
+        firsts = [
+            slice(
+                self.data.signals.signals[i].first,
+                self.data.signals.signals[i].first + self.data.signals.signals[i].n,
+            )
+            for i in numbers
+        ]
+        if not self.rows:
+            return []
+        starts = [self._value(i) for i in numbers]
+        n_steps = 1 + int(max((abs(s) for s in starts), default=0.0) / _LONGEST)
+        kept = pieces.c.copy()
+        for step in range(n_steps + 1):
+            pieces.c[:] = kept
+            for part, start in zip(firsts, starts, strict=True):
+                pieces.c[part, 0] -= start * (1.0 - step / n_steps)
+            self.refresh()
+            gap = self.close()
+        pieces.c[:] = kept
+        return [] if gap < CLOSED else [self.open_joint()]
+
+    def _value(self, number: int) -> float:
+        """Return a signal at the start."""
+        for k, m, _ in self.drive_rows():
+            if self.parts.couplings[k].row_signal[m] == number:
+                return float(self.now.couplings[k].prescribed[m, 0])
+        return 0.0
+
+    def open_joint(self) -> Finding:
+        """Return which joint closes least, with its gap and its bodies."""
+        worst, size = 0, -1.0
+        for k in range(len(self.description.joints)):
+            n_rows = self.parts.couplings[k].n_rows
+            gap = float(np.max(np.abs(self.now.couplings[k].residual[:n_rows]), initial=0.0))
+            if gap > size:
+                worst, size = k, gap
+        joint = self.description.joints[worst]
+        now = self.now.couplings[worst]
+        way = float(np.linalg.norm(now.pose.d[: 3 if joint.kind != "pin-slot" else 2]))
+        first, second = (_name(self.description, b) for b in joint.bodies)
+        text = (
+            f"joint {joint.name} between {first} and {second} does not close: {way * 1e3:.4g} mm are left "
+            f"between its points, {size:.3g} in its worst constraint, when all joints are nearest to closing"
+        )
+        return Finding(f"joints.{joint.name}", text)
+
+    def independence(self) -> tuple[int, FloatArray]:
+        """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
+
+        Taken here and at two positions near by, because where a mechanism is drawn rows may depend on each
+        other that elsewhere do not.
+        """
+        if not self.rows:
+            return 0, np.zeros((0, 0))
+        kept = self.now.bodies.copy()
+        rank, vanishing = self._rank()
+        rng = np.random.default_rng(1)
+        for _ in range(2):
+            g, root, _ = self.scaled()
+            free = np.eye(6 * self.n) - np.linalg.pinv(g, rcond=DEPENDENT) @ g
+            way = root @ free @ rng.normal(size=6 * self.n)
+            ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
+            if np.max(ways) > 1.0e-12:
+                self.step(_NEAR * way / np.max(ways))
+                self.close()
+                other, others = self._rank()
+                if other > rank:
+                    rank, vanishing = other, others
+            self.now.bodies[:] = kept
+            self.refresh()
+        return rank, vanishing
+
+    def _rank(self) -> tuple[int, FloatArray]:
+        """Return rank and vanishing combinations of the rows here."""
+        g, _, length = self.scaled()
+        u, values, _ = np.linalg.svd(g)
+        rank = int(np.sum(values > DEPENDENT * values[0]))
+        return rank, u[:, rank:].T / length
+
+    def start(self, speeds: tuple[tuple[int, str, float], ...]) -> list[Finding]:
+        """Fill the velocities that drives and given speeds ask for, with the least kinetic energy."""
+        g, root, length = self.scaled()
+        wanted = [-self.entries("rate") / length] if self.rows else []
+        matrices = [g]
+        for k, coordinate, value in speeds:
+            coupling, now = self.parts.couplings[k], self.now.couplings[k]
+            row = np.zeros(6 * (self.n + 1))
+            entry = 5 if coordinate == "angle" else 2
+            for side, body in enumerate((coupling.socket, coupling.shaft)):
+                row[6 * body : 6 * body + 6] += now.H[entry, 6 * side : 6 * side + 6]
+            over = row[: 6 * self.n] @ root
+            matrices.append(over[None] / max(float(np.linalg.norm(over)), 1e-300))
+            wanted.append(np.array([value / max(float(np.linalg.norm(over)), 1e-300)]))
+        if not wanted:
+            return []
+        matrix, target = np.vstack(matrices), np.concatenate(wanted)
+        solution, *_ = np.linalg.lstsq(matrix, target, rcond=DEPENDENT)
+        velocity = (root @ solution).reshape(-1, 6)
+        self.now.bodies.v[:-1], self.now.bodies.w[:-1] = velocity[:, :3], velocity[:, 3:]
+        self.refresh()
+        left = float(np.max(np.abs(matrix @ solution - target)))
+        if left > DEPENDENT * float(np.max(np.abs(target), initial=1.0e-300)):
+            given = [self.description.joints[k].name for k, _, _ in speeds]
+            text = "no motion has the speeds at the start that drives and joints ask for"
+            key = f"joints.{given[0]}" if given else "drives"
+            return [Finding(key, f"{text}; given are those of {', '.join(given)}" if given else text)]
+        return []
+
+
+def row_is_turn(parts: Parts, coupling: int, row: int) -> bool:
+    """Tell whether a row is about directions, not about ways."""
+    return bool(parts.couplings[coupling].row_kind[row] in (DIRECTION, ANGLE))
+
+
+def _name(description: Description, body: int) -> str:
+    """Return the name of a body."""
+    return "ground" if body == GROUND else description.bodies[body].name

@@ -1,0 +1,154 @@
+"""In which order the blocks of a mechanism's matrices are eliminated.
+
+Minimum degree, with one condition that makes pivoting between blocks needless. The rows of a joint are
+eliminated only after one of its bodies, and only while the bodies eliminated with it, held together by joints
+eliminated before, touch no more than one other body (or the ground). Then their relative motion is free but
+for constraints among themselves, and the pivot is what the rows of the joint see of it: regular unless the
+rows are truly dependent. For a tree that is elimination from the leaves to the root; a loop is closed before
+the body it hangs on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import IntArray
+from tribodyn.kernels.mechanism.blocks import DIVIDE, INVERT, SUBTRACT
+from tribodyn.kernels.mechanism.data import Pattern
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Constraint rows of a joint as a node.
+
+    Attributes
+    ----------
+    node
+        Its number.
+    bodies
+        Its bodies, without the ground.
+    grounded
+        Whether the ground is one of its bodies.
+    """
+
+    node: int
+    bodies: tuple[int, ...]
+    grounded: bool
+
+
+class _Anchors:
+    """Bodies not yet eliminated that the clusters of eliminated bodies are tied to by eliminated joints."""
+
+    def __init__(self, n_bodies: int) -> None:
+        self.cluster = list(range(n_bodies))
+        self.anchors: list[set[int]] = [set() for _ in range(n_bodies)]
+        self.gone = [False] * n_bodies
+        self.ground = n_bodies
+
+    def _of(self, rows: Rows) -> tuple[set[int], set[int]]:
+        """Return the clusters that a joint ties together, and all that they are tied to then."""
+        clusters = {self.cluster[b] for b in rows.bodies if self.gone[b]}
+        tied = {b for b in rows.bodies if not self.gone[b]} | ({self.ground} if rows.grounded else set())
+        for c in clusters:
+            tied |= {b for b in self.anchors[c] if b == self.ground or not self.gone[b]}
+        return clusters, tied
+
+    def allows(self, rows: Rows) -> bool:
+        """Tell whether a joint may be eliminated."""
+        clusters, tied = self._of(rows)
+        return bool(clusters) and len(tied) <= 1
+
+    def tie(self, rows: Rows) -> None:
+        """Eliminate a joint."""
+        clusters, tied = self._of(rows)
+        first = min(clusters)
+        self.cluster = [first if c in clusters else c for c in self.cluster]
+        self.anchors[first] = tied
+
+    def eliminate(self, body: int) -> None:
+        """Eliminate a body; clusters that were tied to it alone are one with it."""
+        self.gone[body] = True
+        for c, tied in enumerate(self.anchors):
+            if body in tied and self.cluster[c] == c:
+                tied.discard(body)
+                self.cluster = [self.cluster[body] if k == c else k for k in self.cluster]
+                self.anchors[self.cluster[body]] |= tied
+
+
+def elimination_order(
+    n_nodes: int, n_bodies: int, rows: list[Rows], edges: list[tuple[int, int]]
+) -> list[int]:
+    """Return all nodes in the order of their elimination.
+
+    Parameters
+    ----------
+    n_nodes, n_bodies
+        Nodes; the first of them are the bodies.
+    rows
+        Nodes with constraint rows.
+    edges
+        Pairs of nodes with a block.
+    """
+    neighbours: list[set[int]] = [set() for _ in range(n_nodes)]
+    for a, b in edges:
+        neighbours[a].add(b)
+        neighbours[b].add(a)
+    of_node = {r.node: r for r in rows}
+    anchors, order, left = _Anchors(n_bodies), [], set(range(n_nodes))
+    while left:
+        allowed = [k for k in left if k < n_bodies or anchors.allows(of_node[k])]
+        node = min(allowed, key=lambda k: (len(neighbours[k]), k < n_bodies, k))
+        order.append(node)
+        left.discard(node)
+        if node < n_bodies:
+            anchors.eliminate(node)
+        else:
+            anchors.tie(of_node[node])
+        around = neighbours[node]
+        for k in around:
+            neighbours[k] |= around - {k}
+            neighbours[k].discard(node)
+    return order
+
+
+def make_pattern(order: list[int], block_of: dict[tuple[int, int], int]) -> Pattern:
+    """Return the operations that factorise and solve; blocks that fill in are added to ``block_of``.
+
+    Parameters
+    ----------
+    order
+        From :func:`elimination_order`.
+    block_of
+        Numbers of the blocks by row and column, both of each pair.
+    """
+    place = {node: i for i, node in enumerate(order)}
+    later: dict[int, set[int]] = {node: set() for node in order}
+    for a, b in block_of:
+        if place[a] < place[b]:
+            later[a].add(b)
+    factor: list[tuple[int, int, int, int]] = []
+    forward: list[tuple[int, int, int]] = []
+    backward: list[tuple[int, int, int]] = []
+    for node in order:
+        below = sorted(later[node], key=place.__getitem__)
+        diagonal = block_of[node, node]
+        factor.append((INVERT, diagonal, 0, 0))
+        factor.extend((DIVIDE, block_of[i, node], diagonal, 0) for i in below)
+        for i in below:
+            for j in below:
+                target = block_of.setdefault((i, j), len(block_of))
+                factor.append((SUBTRACT, target, block_of[i, node], block_of[node, j]))
+            later[i] |= {j for j in below if place[j] > place[i]}
+        forward.extend((block_of[i, node], i, node) for i in below)
+    for node in reversed(order):
+        backward.extend((block_of[node, j], node, j) for j in later[node])
+        backward.append((block_of[node, node], node, node))
+    return Pattern(_array(factor, 4), _array(forward, 3), _array(backward, 3), np.zeros(6, dtype=np.int64))
+
+
+def _array(operations: Sequence[tuple[int, ...]], width: int) -> IntArray:
+    """Return operations as an array."""
+    return np.array(operations, dtype=np.int64).reshape(-1, width)

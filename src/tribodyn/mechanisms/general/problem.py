@@ -1,0 +1,141 @@
+"""A mechanism as an initial value problem."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Algebra, CompiledFunctions, Problem
+from tribodyn.kernels.mechanism import functions, newton
+from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
+from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
+from tribodyn.mechanisms.base import Carried
+from tribodyn.mechanisms.general.assembly import Assembly, memory_of
+from tribodyn.mechanisms.general.equations import n_blocks
+
+FUNCTIONS: Final = CompiledFunctions(
+    rhs=functions.rhs,
+    jac=functions.jac_entries,
+    enter=functions.enter,
+    advance=functions.advance,
+    accept=functions.accept,
+    observe=functions.observe,
+    picture=functions.picture,
+)
+STATES: Final = (
+    *("x", "y", "z"),
+    *("p_0", "p_1", "p_2", "p_3"),
+    *("v_x", "v_y", "v_z"),
+    *("omega_1", "omega_2", "omega_3"),
+)
+"""States of a body; the angular velocity is in its own axes."""
+
+Tolerances = tuple[float, float, float, float]
+
+
+def mechanism_problem(
+    assembly: Assembly,
+    *,
+    duration: float,
+    rtol: float,
+    atol: Tolerances | None = None,
+    carried: Carried | None = None,
+    dense: bool = False,
+) -> Problem:
+    """Return the initial value problem of an assembled mechanism.
+
+    Parameters
+    ----------
+    assembly
+        From :func:`tribodyn.mechanisms.general.assembly.assemble`.
+    duration
+        Simulated time [s].
+    rtol
+        Relative tolerance of the run. It holds for velocities; positions and orientations are kept to
+        ``atol`` wherever in the drawing they are.
+    atol
+        Absolute tolerances of positions [m], orientations [rad], velocities [m/s], angular velocities
+        [rad/s]; from ``rtol``, :func:`length_scale` and the speed of the mechanism by default.
+    carried
+        State and remembered entry velocities to go on from.
+    dense
+        Whether the Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
+    """
+    data, bodies, n = assembly.data, assembly.description.bodies, len(assembly.description.bodies)
+    start = (assembly.state if carried is None else carried.state).copy()
+    memory, kinks = memory_of(assembly, start), data.signals.kinks
+    if carried is not None:
+        memory.contact.entry_velocity[:] = carried.entry_velocity
+    # Of what is carried on, points that wear has taken out of contact forget.
+    functions.touch(data, memory, 1.0 if carried is None else 0.0)
+    tolerances = rtol * _scales(assembly, duration) if atol is None else np.asarray(atol)
+    return Problem(
+        functions=replace(FUNCTIONS, jac=functions.jac) if dense else FUNCTIONS,
+        data=data,
+        memory=memory,
+        y0=start,
+        t_span=(0.0, duration),
+        breakpoints=tuple(kinks[(kinks > 0.0) & (kinks < duration)].tolist()),
+        atol=np.tile(np.repeat(tolerances, [3, 4, 3, 3]), n),
+        relative=np.tile(np.repeat([0.0, 1.0], [VELOCITY, N_STATES - VELOCITY]), n),
+        state_names=tuple(f"{name} of {body.name}" for body in bodies for name in STATES),
+        n_observed=len(WHOLE) + n * len(BODY) + data.parts.couplings.size * len(COUPLING),
+        field_shape=(data.contact.nodes.shape[1],),
+        algebra=None if dense else _algebra(data),
+    )
+
+
+def _algebra(data: MechanismData) -> Algebra:
+    """Return how the problem solves with its iteration matrix."""
+    n, n_couplings = data.parts.bodies.size, data.parts.couplings.size
+    state = N_STATES * np.arange(n)[:, None]
+    rows = np.array([VELOCITY, VELOCITY + 1, VELOCITY + 2, TURNING, TURNING + 1, TURNING + 2])
+    private = newton.N_BODY * n + newton.N_COUPLING * n_couplings
+    n_numbers = n_blocks(data.newton) + int(data.parts.constants.n_work)
+    return Algebra(
+        places=np.ascontiguousarray(
+            [(state + np.repeat(rows, 3)).ravel(), (state + np.tile(np.arange(ORIENTATION), 6)).ravel()]
+        ),
+        factorise=newton.factorise,
+        solve=newton.solve,
+        n_factors=1 + private + 9 * n + 36 * n_numbers,
+        n_entries=newton.N_PLACES * n + private,
+    )
+
+
+def length_scale(assembly: Assembly) -> float:
+    """Return the length that positions are resolved against [m].
+
+    The smallest clearance as drawn; a tenth of the mechanism where all joints are ideal.
+    """
+    clearances = [
+        size
+        for joint in assembly.description.joints
+        if joint.clearance is not None
+        for name, size in joint.clearance.sizes.items()
+        if name in ("radial", "gap") and size > 0.0
+    ]
+    return min(clearances, default=0.1 * float(assembly.data.parts.constants.size))
+
+
+def _scales(assembly: Assembly, duration: float) -> FloatArray:
+    """Return what positions, orientations, velocities and angular velocities are small beside, shape (4,)."""
+    size, length = float(assembly.data.parts.constants.size), length_scale(assembly)
+    state = assembly.state.reshape(-1, N_STATES)
+    speed = max(
+        float(np.max(np.linalg.norm(state[:, VELOCITY:TURNING], axis=1))),
+        size * float(np.max(np.linalg.norm(state[:, TURNING:], axis=1))),
+        float(np.sqrt(np.linalg.norm(assembly.description.gravity) * size)),
+        size / duration,
+    )
+    return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])
+
+
+def stored_energy(problem: Problem) -> float:
+    """Return the energy stored in the joints with clearance of a mechanism at the start of a problem [J]."""
+    data, memory = problem.data, problem.memory
+    functions.enter(problem.t_span[0], problem.y0.copy(), data, memory)
+    return float(np.sum(memory.now.couplings.stored[data.parts.couplings.force == CONTACT]))

@@ -1,0 +1,69 @@
+"""Signals as the pieces that kernels evaluate, and their integrals over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """A signal between breaks.
+
+    Attributes
+    ----------
+    until, left
+        Where each piece ends and what its polynomial is over the distance from, shape (n,).
+    polynomial
+        Rising powers, shape (n, 5).
+    sine
+        Amplitude, angular frequency and phase of a sine beside it.
+    """
+
+    until: FloatArray
+    left: FloatArray
+    polynomial: FloatArray
+    sine: tuple[float, float, float]
+
+
+def pieces_of(signal: Signal) -> Pieces:
+    """Return the pieces of a signal; beyond a table its first and last value hold."""
+    if signal.kind != "table":
+        c = signal.coefficients
+        sine = (float(c[1]), float(c[2]), float(c[3])) if signal.kind == "sinusoid" else (0.0, 0.0, 0.0)
+        return Pieces(np.array([np.inf]), np.zeros(1), _padded(c[None, :1]), sine)
+    knots, inner = signal.knots, signal.coefficients.T[:, ::-1]
+    wide = knots[1:] > knots[:-1]
+    ends = np.array([inner[0, 0], _value(inner[-1], knots[-1] - knots[-2])])
+    polynomial = np.vstack([_padded(ends[:1, None]), _padded(inner[wide]), _padded(ends[1:, None])])
+    left = np.concatenate([[knots[0]], knots[:-1][wide], [knots[-1]]])
+    until = np.concatenate([left[1:], [np.inf]])
+    return Pieces(until, left, polynomial, (0.0, 0.0, 0.0))
+
+
+def integral_of(pieces: Pieces) -> Pieces:
+    """Return the integral over time, zero at t = 0."""
+    polynomial = np.zeros_like(pieces.polynomial)
+    polynomial[:, 1:] = pieces.polynomial[:, :-1] / np.arange(1.0, 5.0)
+    for k in range(1, len(polynomial)):
+        polynomial[k, 0] = _value(polynomial[k - 1], pieces.left[k] - pieces.left[k - 1])
+    amplitude, frequency, phase = pieces.sine
+    sine = (amplitude / frequency, frequency, phase - 0.5 * np.pi) if amplitude != 0.0 else (0.0, 0.0, 0.0)
+    at_zero = int(np.searchsorted(pieces.until, 0.0, side="right"))
+    start = _value(polynomial[at_zero], -pieces.left[at_zero]) + sine[0] * np.sin(sine[2])
+    polynomial[:, 0] -= start
+    return Pieces(pieces.until, pieces.left, polynomial, sine)
+
+
+def _padded(polynomial: FloatArray) -> FloatArray:
+    """Return polynomials with five coefficients."""
+    return np.pad(polynomial, ((0, 0), (0, 5 - polynomial.shape[1])))
+
+
+def _value(polynomial: FloatArray, x: float) -> float:
+    """Return the value of one polynomial."""
+    return float(np.polynomial.polynomial.polyval(x, polynomial))

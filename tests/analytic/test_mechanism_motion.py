@@ -1,0 +1,182 @@
+"""Mechanisms with solutions in closed form, conservation laws, and their books."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import ellipk
+from tests.unit.mechanisms.general.drawings import (
+    body,
+    bricard,
+    joint,
+    mechanism,
+    rod,
+    run,
+    slider_crank,
+    spatial_slider_crank,
+)
+
+from tribodyn.core.signals import constant, spline
+from tribodyn.mechanisms.general.description import GROUND, Description, Drive, Load, Spring
+
+RTOL = 1e-8
+TIMES = np.linspace(0.0, 2.0, 41)
+
+
+def free_body(**parts: object) -> Description:
+    """Return a body of 2 kg with springs so weak that it is free."""
+    weak = np.full(6, 1e-30)
+    bodies = [body("body", 2.0, (0.3, 0.2, 0.1), (0.02, 0.03, 0.04))]
+    held = [joint("held", "spring-damper", (GROUND, 0), (0.0, 0.0, 0.0), stiffness=weak, damping=weak)]
+    return replace(mechanism(bodies, held), **parts)
+
+
+def load(
+    frame: str, *components: float, slip: float = 0.0, point: tuple[float, ...] = (0.3, 0.2, 0.1)
+) -> Load:
+    """Return a constant load on the first body, by default at its mass centre."""
+    signals = tuple(constant(c) for c in (*components, *[0.0] * (6 - len(components))))
+    return Load("load", 0, np.array(point), frame, signals, -1, slip)
+
+
+def test_a_pendulum_swings_with_the_period_of_the_elliptic_integral() -> None:
+    angle, length = np.radians(60.0), 1.0
+    end = length * np.array([np.sin(angle), -np.cos(angle), 0.0])
+    pendulum = mechanism(
+        [rod("rod", (0.0, 0.0, 0.0), end)],
+        [joint("pin", "revolute", (GROUND, 0), (0.0, 0.0, 0.0))],
+        gravity=(0.0, -9.81, 0.0),
+    )
+    period = 4.0 * np.sqrt(2.0 * length / (3.0 * 9.81)) * ellipk(np.sin(0.5 * angle) ** 2)
+    result = run(pendulum, [0.0, 0.25 * period, 0.5 * period, period], RTOL)
+    # A quarter later it hangs, then it has turned by twice the angle, and it comes back.
+    assert result.joint(0, "angle") == pytest.approx([0.0, -angle, -2.0 * angle, 0.0], abs=1e-6)
+    assert np.ptp(result.energy) < 1e-6 * result.whole("energy_kinetic").max()
+
+
+def test_a_free_body_tumbles_with_constant_energy_and_momentum() -> None:
+    tumbling = free_body(speeds=((0, "angle", 3.0),))
+    bodies = (
+        replace(
+            tumbling.bodies[0],
+            inertia=np.array([[0.03, 0.004, 0.0], [0.004, 0.02, 0.005], [0.0, 0.005, 0.04]]),
+        ),
+    )
+    result = run(replace(tumbling, bodies=bodies), TIMES, RTOL)
+    assert np.ptp(result.body(0, "omega_x")) > 0.1
+    assert np.ptp(result.energy) < 1e-6 * result.energy[0]
+    for axis in "xyz":
+        assert np.ptp(result.whole(f"spin_{axis}")) < 1e-6 * result.whole("spin_z")[0]
+
+
+def test_a_constant_force_accelerates_and_its_work_is_booked() -> None:
+    result = run(free_body(loads=(load("ground", 3.0, 0.0, 1.0),)), TIMES, RTOL)
+    assert result.body(0, "x") == pytest.approx(0.3 + 0.75 * TIMES**2, abs=1e-7)
+    assert result.body(0, "v_z") == pytest.approx(0.5 * TIMES, abs=1e-7)
+    assert result.whole("impulse_x") == pytest.approx(3.0 * TIMES, abs=1e-9)
+    assert result.imbalance < 1e-6
+
+
+def test_a_force_that_turns_with_the_body_runs_on_a_circle() -> None:
+    # Speed v and angular velocity v/r with the force m v²/r always across it.
+    spin, radius = 2.0, 0.25
+    force = 2.0 * spin**2 * radius
+    turning = free_body(loads=(load("body", -force),), speeds=((0, "angle", spin),))
+    # Turning about the origin as drawn: the circle is that about the joint.
+    centre = np.array([radius, 0.0, 0.0])
+    bodies = (replace(turning.bodies[0], centre=centre),)
+    loads = (replace(turning.loads[0], point=centre),)
+    rigid = replace(turning.joints[0], kind="cylindrical", stiffness=np.zeros(0), damping=np.zeros(0))
+    pinned = run(replace(turning, bodies=bodies, loads=loads, joints=(rigid,)), TIMES, RTOL)
+    # The load is all the centripetal force there is; nothing is left for the joint.
+    assert np.abs(pinned.joint(0, "F_x")).max() < 1e-6 * force
+    assert np.abs(pinned.joint(0, "F_y")).max() < 1e-6 * force
+
+
+def test_a_load_against_the_motion_brakes_to_rest() -> None:
+    sliding = mechanism(
+        [body("block", 2.0, (0.0, 0.0, 0.0), (0.01, 0.01, 0.01))],
+        [joint("guide", "prismatic", (GROUND, 0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))],
+        speeds=((0, "position", 1.0),),
+    )
+    braked = replace(sliding, loads=(load("motion", 4.0, slip=1e-6, point=(0.0, 0.0, 0.0)),))
+    result = run(braked, TIMES, 1e-7)
+    # 1 m/s less 2 m/s² t until 0.5 s.
+    wanted = np.where(TIMES < 0.5, TIMES - TIMES**2, 0.25)
+    assert result.joint(0, "d_z") == pytest.approx(wanted, abs=1e-4)
+
+
+def test_a_torque_and_a_spring_with_damper_on_a_shaft() -> None:
+    inertia, stiffness, damping, torque = 0.04, 4.0, 0.08, 0.5
+    springs = np.array([0.0, 0.0, 0.0, stiffness, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, damping, 0.0, 0.0])
+    shaft = mechanism(
+        [body("shaft", 1.0, (0.0, 0.0, 0.0), (0.03, 0.03, inertia))],
+        [
+            joint("bearing", "revolute", (GROUND, 0), (0.0, 0.0, 0.0)),
+            joint(
+                "spring",
+                "spring-damper",
+                (GROUND, 0),
+                (0.0, 0.0, 0.0),
+                stiffness=springs[0],
+                damping=springs[1],
+            ),
+        ],
+        drives=[Drive("motor", 0, "angle", 2, constant(torque))],
+    )
+    result = run(shaft, TIMES, RTOL)
+    decay, natural = 0.5 * damping / inertia, np.sqrt(stiffness / inertia)
+    damped = np.sqrt(natural**2 - decay**2)
+    swing = np.exp(-decay * TIMES) * (np.cos(damped * TIMES) + decay / damped * np.sin(damped * TIMES))
+    assert result.joint(0, "angle") == pytest.approx(torque / stiffness * (1.0 - swing), abs=1e-6)
+    # Heat and work are integrals of parabolas through the ends of steps.
+    assert result.imbalance < 1e-4
+
+
+def test_a_drive_with_a_kink_changes_the_speed_by_an_impulse() -> None:
+    knots, values = [0.0, 0.5, 1.0, 1.0, 1.5, 2.0], [0.0, 0.5, 1.0, 1.0, 1.0, 1.0]
+    driven = replace(
+        slider_crank(), drives=(Drive("motor", 0, "angle", 0, spline(knots, values)),), gravity=np.zeros(3)
+    )
+    result = run(driven, TIMES, 1e-7)
+    assert result.joint(0, "angle") == pytest.approx(np.minimum(TIMES, 1.0), abs=1e-9)
+    assert result.body(0, "omega_z")[TIMES < 0.99] == pytest.approx(1.0, abs=1e-9)
+    assert result.body(0, "omega_z")[TIMES > 1.01] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("make", [spatial_slider_crank, bricard], ids=["spatial", "Bricard"])
+def test_momentum_changes_by_gravity_and_ground_alone(make: object) -> None:
+    result = run(make(), np.linspace(0.0, 1.0, 21), 1e-7)
+    for name in ("momentum", "spin"):
+        impulse = "impulse" if name == "momentum" else "spin_impulse"
+        for axis in "xyz":
+            change = result.whole(f"{name}_{axis}") - result.whole(f"{name}_{axis}")[0]
+            scale = max(np.abs(result.whole(f"{name}_{a}")).max() for a in "xyz")
+            # Integrals of parabolas through the ends of steps.
+            assert np.abs(change - result.whole(f"{impulse}_{axis}")).max() < 1e-3 * scale
+
+
+def test_other_integrators_agree() -> None:
+    times = np.linspace(0.0, 0.5, 6)
+    ours, other = (run(spatial_slider_crank(), times, 1e-8, solver) for solver in ("mebdf", "radau"))
+    assert ours.body(2, "x") == pytest.approx(other.body(2, "x"), abs=1e-6)
+
+
+def test_a_spring_between_two_bodies_conserves_their_momentum() -> None:
+    weak = np.full(6, 1e-30)
+    pair = mechanism(
+        [
+            body("one", 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)),
+            body("two", 3.0, (1.0, 0.2, 0.0), (0.1, 0.2, 0.15)),
+        ],
+        [joint("held", "spring-damper", (GROUND, 0), (0.0, 0.0, 0.0), stiffness=weak, damping=weak)],
+        springs=[Spring("spring", (0, 1), np.array([[0.1, 0.0, 0.0], [0.9, 0.0, 0.1]]), 50.0, 0.5, 0.5)],
+    )
+    result = run(pair, TIMES, RTOL)
+    assert np.ptp(result.body(0, "x")) > 0.1
+    for name in ("momentum", "spin"):
+        for axis in "xyz":
+            assert np.abs(result.whole(f"{name}_{axis}")).max() < 1e-9
+    assert result.imbalance < 1e-4

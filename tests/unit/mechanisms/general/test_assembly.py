@@ -1,0 +1,158 @@
+"""Assembly: gaps closed, freedoms and redundancy counted, and what is wrong said in words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.unit.mechanisms.general.drawings import (
+    body,
+    bricard,
+    chain,
+    joint,
+    mechanism,
+    rod,
+    slider_crank,
+    spatial_slider_crank,
+    speed_drive,
+    two_four_bars,
+)
+
+from tribodyn.core.errors import InputError
+from tribodyn.core.signals import constant, sinusoid
+from tribodyn.mechanisms.general.assembly import assemble, closes_until
+from tribodyn.mechanisms.general.description import GROUND, Description, Drive, Joint
+
+
+def four_bar(crank: float = 0.2) -> Description:
+    """Return a driven four-bar with a coupler and a rocker of 0.5 m, drawn with the crank along x."""
+    pivot, end = np.zeros(3), np.array([crank, 0.0, 0.0])
+    ground = np.array([0.6, 0.0, 0.0])
+    across = ground - end
+    half = 0.5 * float(np.linalg.norm(across))
+    top = end + 0.5 * across + np.array([0.0, np.sqrt(0.25 - half**2), 0.0])
+    bodies = [rod("crank", pivot, end), rod("coupler", end, top), rod("rocker", top, ground)]
+    joints = [
+        *(joint("A", "revolute", (GROUND, 0), pivot), joint("B", "revolute", (0, 1), end)),
+        *(joint("C", "revolute", (1, 2), top), joint("D", "revolute", (2, GROUND), ground)),
+    ]
+    return mechanism(bodies, joints, drives=[speed_drive("motor", 0, 10.0)])
+
+
+def moved(description: Description, number: int, change: tuple[float, float, float]) -> Description:
+    """Return a drawing in which a joint's point on its second body is elsewhere."""
+    joints: list[Joint] = list(description.joints)
+    points = joints[number].points.copy()
+    points[1] += change
+    joints[number] = replace(joints[number], points=points)
+    return replace(description, joints=tuple(joints))
+
+
+@pytest.mark.parametrize(
+    ("description", "freedoms", "redundant"),
+    [
+        (slider_crank(), 0, 3),
+        (two_four_bars(), 1, 6),
+        (spatial_slider_crank(), 1, 0),
+        (bricard(), 1, 1),
+        (four_bar(), 0, 3),
+        (chain(5), 5, 0),
+    ],
+    ids=["slider-crank", "A02", "spatial", "Bricard", "four-bar", "chain"],
+)
+def test_freedoms_and_redundancy(description: Description, freedoms: int, redundant: int) -> None:
+    assembly = assemble(description)
+    assembly.require_sound()
+    assert assembly.freedoms == freedoms
+    number = 0 if assembly.redundancy is None else assembly.redundancy.number
+    assert number == redundant
+    assert (f"{redundant} constraint" in "".join(assembly.warnings)) == (redundant > 0)
+
+
+def test_redundancy_names_the_joints_of_the_loop_alone() -> None:
+    loop = four_bar()
+    bodies = (*loop.bodies, rod("tail", (0.6, 0.0, 0.0), (0.9, 0.0, 0.0)))
+    tail = joint("tail", "revolute", (GROUND, 3), (0.6, 0.0, 0.0))
+    assembly = assemble(replace(loop, bodies=bodies, joints=(*loop.joints, tail)))
+    assert assembly.redundancy is not None
+    assert assembly.redundancy.joints == ("A", "B", "C", "D")
+
+
+def test_a_small_gap_is_closed_on_the_branch_that_was_drawn() -> None:
+    assembly = assemble(moved(four_bar(), 2, (1e-3, 2e-3, 0.0)))
+    assembly.require_sound()
+    assert 0.0 < assembly.moved < 0.01
+    assert assembly.state[13 + 1] > 0.0
+    assert "moved a body" in assembly.remarks[-1]
+
+
+def test_a_gap_that_does_not_close_is_told_with_its_joint_and_bodies() -> None:
+    assembly = assemble(moved(four_bar(), 2, (0.0, 0.0, 5e-3)))
+    finding = assembly.findings[0]
+    assert finding.key.startswith("joints.")
+    assert "does not close" in finding.text
+    assert "mm are left" in finding.text
+    with pytest.raises(InputError, match="does not close"):
+        assembly.require_sound()
+
+
+def test_a_drive_starts_elsewhere_than_the_drawing() -> None:
+    start = np.radians(100.0)
+    description = replace(four_bar(), drives=(Drive("motor", 0, "angle", 0, sinusoid(start, 0.1, 5.0, 0.0)),))
+    assembly = assemble(description)
+    assembly.require_sound()
+    assert assembly.state[:2] == pytest.approx([0.1 * np.cos(start), 0.1 * np.sin(start)], abs=1e-9)
+    # ω = 0.1 · 5 at the start.
+    assert assembly.state[12] == pytest.approx(0.5, rel=1e-9)
+
+
+def test_velocities_follow_from_the_drive() -> None:
+    state = assemble(slider_crank(100.0)).state.reshape(-1, 13)
+    assert state[0, 12] == pytest.approx(100.0, rel=1e-12)
+    # At the dead centre the slider rests and the rod turns by −r/l of the crank.
+    assert state[2, 7] == pytest.approx(0.0, abs=1e-9)
+    assert state[1, 12] == pytest.approx(-100.0 * 0.05 / 0.12, rel=1e-9)
+
+
+def _keys(description: Description) -> list[str]:
+    return [finding.key for finding in assemble(description).findings]
+
+
+def test_findings_name_what_to_change() -> None:
+    loop = four_bar()
+    loose = replace(loop, bodies=(*loop.bodies, body("loose", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))))
+    assert _keys(loose) == ["bodies.loose"]
+    flat = replace(loop, bodies=(body("crank", 1.0, (0.1, 0.0, 0.0), (1.0, 1.0, 3.0)), *loop.bodies[1:]))
+    assert _keys(flat) == ["bodies.crank.inertia"]
+    second = Drive("second", 3, "angle", 1, constant(1.0))
+    twice = assemble(replace(loop, drives=(*loop.drives, second)))
+    assert "motor and second drive one freedom" in twice.findings[0].text
+    same = Drive("again", 0, "angle", 1, constant(1.0))
+    assert "drive one freedom" in assemble(replace(loop, drives=(*loop.drives, same))).findings[0].text
+    wrong = Drive("pusher", 1, "position", 1, constant(1.0))
+    assert "has nothing to drive" in assemble(replace(loop, drives=(wrong,))).findings[0].text
+
+
+def test_a_drive_against_a_locked_joint_has_nothing_to_drive() -> None:
+    bodies = [rod("arm", (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))]
+    joints = [
+        joint("pivot", "revolute", (GROUND, 0), (0.0, 0.0, 0.0)),
+        joint("lock", "fixed", (GROUND, 0), (1.0, 0.0, 0.0)),
+    ]
+    findings = assemble(mechanism(bodies, joints, drives=[speed_drive("motor", 0, 1.0)])).findings
+    assert "drive motor has nothing to drive" in findings[0].text
+
+
+def test_a_loop_that_does_not_close_over_the_drive_is_found() -> None:
+    # Crank and ground are too long for coupler and rocker: no full turn.
+    late = closes_until(assemble(four_bar(crank=0.5)), 1.0)
+    assert late is not None
+    assert 0.0 < late[0] < 0.5
+    assert "does not close" in late[1].text
+    assert closes_until(assemble(four_bar()), 0.7) is None
+
+
+def test_speeds_that_contradict_a_drive_are_refused() -> None:
+    findings = assemble(replace(slider_crank(), speeds=((0, "angle", 1.0),))).findings
+    assert findings[0].key == "joints.main"

@@ -1,0 +1,83 @@
+"""The order of elimination: cost linear in bodies, and pivots that are regular."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.unit.mechanisms.general.drawings import chain, joint, mechanism, rod
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mechanism.blocks import factorise, solve
+from tribodyn.mechanisms.general.description import GROUND, Description
+from tribodyn.mechanisms.general.equations import mechanism_data, n_blocks
+from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
+
+
+def star(n: int) -> Description:
+    """Return a ring that turns about the ground, with n bodies hinged to it."""
+    ring = rod("ring", (-0.5, 0.0, 0.0), (0.5, 0.0, 0.0))
+    ways = [np.array([np.cos(a), np.sin(a), 0.0]) for a in 2.0 * np.pi * np.arange(n) / n]
+    vanes = [rod(f"vane {k}", 0.5 * way, way) for k, way in enumerate(ways)]
+    hinges = [joint(f"hinge {k}", "spherical", (0, k + 1), 0.5 * way) for k, way in enumerate(ways)]
+    return mechanism([ring, *vanes], [joint("main", "revolute", (GROUND, 0), (0.0, 0.0, 0.0)), *hinges])
+
+
+def softened(description: Description) -> Description:
+    """Return a mechanism whose joints are springs, so that nothing but bodies is eliminated."""
+    springs = np.ones(6)
+    joints = [
+        replace(j, kind="spring-damper", stiffness=springs, damping=springs) for j in description.joints
+    ]
+    return replace(description, joints=tuple(joints))
+
+
+@pytest.mark.parametrize("make", [chain, star])
+@pytest.mark.parametrize("change", [lambda d: d, softened], ids=["ideal", "springs"])
+def test_operations_grow_linearly(make: object, change: object) -> None:
+    for which in ("mass", "newton"):
+        counts = [
+            [len(operations) for operations in getattr(mechanism_data(change(make(n))), which)[:3]]
+            for n in (16, 32, 64)
+        ]
+        first, second = np.diff(counts, axis=0)
+        assert np.all(second == 2 * first), (which, counts)
+
+
+def _loop() -> tuple[FloatArray, list[Rows], dict[tuple[int, int], int]]:
+    """Return a random saddle-point matrix of a closed loop of three bodies with rows of 5, 4, 5 and 3."""
+    rng = np.random.default_rng(4)
+    rows = [Rows(3, (0,), True), Rows(4, (0, 1), False), Rows(5, (1, 2), False), Rows(6, (2,), True)]
+    matrix = np.zeros((42, 42))
+    block_of = {(k, k): k for k in range(7)}
+    for b in range(3):
+        root = rng.normal(size=(6, 6))
+        matrix[6 * b : 6 * b + 6, 6 * b : 6 * b + 6] = root @ root.T + np.eye(6)
+    for row, n_rows in zip(rows, (5, 4, 5, 3), strict=True):
+        first = 6 * row.node
+        matrix[first : first + 6, first : first + 6] = np.diag([1e-12] * n_rows + [1.0] * (6 - n_rows))
+        for b in row.bodies:
+            block = np.zeros((6, 6))
+            block[:n_rows] = rng.normal(size=(n_rows, 6))
+            matrix[first : first + 6, 6 * b : 6 * b + 6] = block
+            matrix[6 * b : 6 * b + 6, first : first + 6] = -block.T
+            block_of[row.node, b] = len(block_of)
+            block_of[b, row.node] = len(block_of)
+    return matrix, rows, block_of
+
+
+def test_elimination_without_pivoting_between_blocks_is_accurate() -> None:
+    matrix, rows, block_of = _loop()
+    order = elimination_order(7, 3, rows, [pair for pair in block_of if pair[0] < pair[1]])
+    given = dict(block_of)
+    pattern = make_pattern(order, block_of)
+    blocks = np.zeros((n_blocks(pattern), 6, 6))
+    for (i, j), number in given.items():
+        blocks[number] = matrix[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
+    wanted = np.random.default_rng(5).normal(size=42)
+    x = (matrix @ wanted).reshape(7, 6)
+    assert factorise(pattern, blocks)
+    solve(pattern, blocks, x)
+    # Condition 1e3 to 1e4.
+    assert x.ravel() == pytest.approx(wanted, abs=1e-10)
