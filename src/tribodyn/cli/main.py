@@ -10,7 +10,7 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
-from tribodyn.cli import bounce, cases, check, compare, report, reproduce, run, show, surface, sweep
+from tribodyn.cli import bounce, cases, check, compare, find, report, reproduce, run, show, surface, sweep
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
@@ -37,6 +37,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "show": show,
     "check": check,
     "sweep": sweep,
+    "find": find,
     "report": report,
     "compare": compare,
     "reproduce": reproduce,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import traceback
 from argparse import ArgumentParser, Namespace
@@ -47,6 +48,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         "may be repeated: lists and ranges form a grid",
     )
     parser.add_argument(
+        "--limit",
+        dest="limits",
+        metavar="NAME=LIMIT",
+        action="append",
+        default=[],
+        help="a headline number and what it may be at most: how many points keep it? May be repeated",
+    )
+    parser.add_argument(
         "--show",
         metavar="NAMES",
         help="headline numbers of summary.json in the table, instead of all that vary: "
@@ -55,7 +64,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--samples", metavar="N", type=int, help="how many samples are drawn from distributions"
     )
-    parser.add_argument("--method", metavar="NAME", default="lhs", help="lhs (Latin hypercube) or sobol")
+    parser.add_argument(
+        "--method",
+        metavar="NAME",
+        default="lhs",
+        help="lhs (Latin hypercube), sobol, or saltelli: sensitivities, N (parameters + 2) points",
+    )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="equal seeds give equal samples")
     parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: sweep-CASE)")
     where = parser.add_mutually_exclusive_group()
@@ -88,10 +102,12 @@ def execute(args: Namespace) -> int:
         # It imports and loads while this process imports, too.
         fork_server.start(name=args.case, changes=changes(args))
     from tribodyn.studies import Means, Sampling, make_plan
+    from tribodyn.studies.search import limit
 
     console = Console.of(args)
     case = chosen_case(args)
     shown = _shown(args.show, case.kind())
+    limits = [limit(text, case.kind(), "--limit") for text in args.limits]
     plan = make_plan(case, _variations(args.vary), Sampling(args.samples, args.method, args.seed))
     means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
     directory = OutputDirectory(folder)
@@ -103,6 +119,8 @@ def execute(args: Namespace) -> int:
         (directory.path / REPORT).unlink(missing_ok=True)
         # Only the table and the figures of this command look at it.
         dataset.attrs["shown"] = ",".join(shown)
+        dataset.attrs["limits"] = json.dumps({asked.name: asked.value for asked in limits})
+        _judge(dataset, directory.path)
         drawn = _draw(dataset, directory.path, console, args, points=not interruption.requested)
     _tell(directory.path, shown, console)
     _warn(dataset)
@@ -110,6 +128,32 @@ def execute(args: Namespace) -> int:
     if lost:
         complain(_lost(dataset, lost))
     return 0 if drawn and not lost else 1
+
+
+def _judge(dataset: xr.Dataset, path: Path) -> None:
+    """Add to the record which share of the points keeps each limit, and on what the numbers depend."""
+    from dataclasses import asdict
+
+    from tribodyn.results.atomic import write_text
+    from tribodyn.studies import sensitivities, shares
+    from tribodyn.studies.sweep import RECORD
+
+    limits: dict[str, float] = json.loads(dataset.attrs["limits"])
+    given = {name: value for name, value in limits.items() if name in dataset}
+    record = json.loads((path / RECORD).read_text(encoding="utf-8"))
+    record["limits"] = [
+        {"name": name, "limit": given[name], **_finite(asdict(share))}
+        for name, share in shares(dataset, given).items()
+    ]
+    record["sensitivities"] = {
+        name: {path: _finite(asdict(index)) for path, index in found.items()}
+        for name, found in sensitivities(dataset).items()
+    }
+    write_text(path / RECORD, json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def _finite(numbers: dict[str, float]) -> dict[str, float]:
+    return {name: value for name, value in numbers.items() if math.isfinite(value)}
 
 
 def _shown(asked: str | None, kind: str) -> list[str]:

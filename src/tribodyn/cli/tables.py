@@ -30,6 +30,42 @@ def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iter
     else:
         numbers = _headlines(given, record["kind"], every=bool(shown))
         yield from _points(record["points"], numbers, every=bool(shown))
+    yield from _limits(record)
+    yield from _sensitivities(record, shown)
+
+
+def _limits(record: Mapping[str, Any]) -> Iterator[str]:
+    """Say how many points keep each limit."""
+    from tribodyn.mechanisms.results import known
+
+    for entry in record.get("limits", []):
+        headline = known([entry["name"]], record["kind"])[entry["name"]]
+        limit = f"{entry['limit']:g} {headline.unit}".rstrip()
+        share = 100.0 * entry["within"] / max(entry["points"], 1)
+        between = ""
+        if "low" in entry:
+            between = f" (with 95 % confidence {100 * entry['low']:.0f} to {100 * entry['high']:.0f} %)"
+        yield ""
+        yield (
+            f"{headline.label}: at most {limit} at {entry['within']} of {entry['points']} points, "
+            f"{share:.0f} %{between}"
+        )
+
+
+def _sensitivities(record: Mapping[str, Any], shown: Sequence[str]) -> Iterator[str]:
+    """Say what share of the variance of each number each parameter makes, alone and in all."""
+    found = record.get("sensitivities", {})
+    for name, label in _headlines(shown or list(found), record["kind"], every=bool(shown)).items():
+        if name not in found:
+            continue
+        yield from ("", f"Sobol' indices of: {label}")
+        yield f"  {'':<34}{'alone':>16}{'in all':>16}"
+        for path, index in found[name].items():
+            alone, total = (
+                f"{index[part]:.2f} ± {index.get(f'{part}_error', float('nan')):.2f}"
+                for part in ("first", "total")
+            )
+            yield f"  {path:<34}{alone:>16}{total:>16}"
 
 
 def _varying(points: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -7,6 +7,7 @@ parameter, samples with their distribution. Points that failed are marked.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
 from functools import partial
@@ -90,6 +91,15 @@ def draw(dataset: xr.Dataset, name: str) -> Figure:
     name
         Name of the number.
     """
+    figure = _drawn(dataset, name)
+    limit = json.loads(dataset.attrs.get("limits", "{}")).get(name)
+    if limit is not None and not any(axes.collections for axes in figure.axes):
+        for axes in figure.axes:
+            axes.axhline(limit, color=VERMILION, lw=1.0, ls="--", label="_limit")
+    return figure
+
+
+def _drawn(dataset: xr.Dataset, name: str) -> Figure:
     values = dataset[name]
     if SAMPLES in values.dims or values.ndim > 2:
         return _panels(dataset, name)

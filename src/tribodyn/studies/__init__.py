@@ -6,7 +6,8 @@ from tribodyn.studies.cluster import Tls
 from tribodyn.studies.distributions import DISTRIBUTIONS
 from tribodyn.studies.plan import Plan, Sampling, make_plan
 from tribodyn.studies.samplers import SAMPLERS
-from tribodyn.studies.statistics import statistics
+from tribodyn.studies.search import find
+from tribodyn.studies.statistics import sensitivities, shares, statistics
 from tribodyn.studies.sweep import Arrival, Means, Watcher, run, sweep
 
 __all__ = [
@@ -18,8 +19,11 @@ __all__ = [
     "Sampling",
     "Tls",
     "Watcher",
+    "find",
     "make_plan",
     "run",
+    "sensitivities",
+    "shares",
     "statistics",
     "sweep",
 ]

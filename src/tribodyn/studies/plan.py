@@ -19,6 +19,8 @@ from tribodyn.studies.samplers import SAMPLERS
 from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
 
 MOST_POINTS: Final = 100_000
+SENSITIVITY: Final = "saltelli"
+"""The sampler whose points give Sobol' indices."""
 POINT: Final = "point"
 """Dimension of samples."""
 
@@ -141,12 +143,12 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
     levels = [entry for entry in wanted if isinstance(entry, Levels)]
     scatters = [entry for entry in wanted if isinstance(entry, Scatter)]
     axes = [Axis(entry.key.path, {entry.key: entry.values}) for entry in levels]
-    _check_sampling(sampling, scatters)
-    n_points = math.prod(axis.size for axis in axes) * (sampling.samples or 1)
-    if n_points > MOST_POINTS:
-        raise InputError(f"these are {n_points} points; at most {MOST_POINTS} are allowed", key=SOURCE)
+    _check_sampling(sampling, scatters, levels)
+    _check_number(math.prod(axis.size for axis in axes) * (sampling.samples or 1))
     if scatters:
         axes.append(_drawn(scatters, sampling))
+    n_points = math.prod(axis.size for axis in axes)
+    _check_number(n_points)
     return Plan(case, tuple(axes), _points(case, axes, n_points), sampling)
 
 
@@ -159,7 +161,12 @@ def _key(case: Case, path: str) -> Key:
     return keys[path]
 
 
-def _check_sampling(sampling: Sampling, scatters: Sequence[Scatter]) -> None:
+def _check_number(n_points: int) -> None:
+    if n_points > MOST_POINTS:
+        raise InputError(f"these are {n_points} points; at most {MOST_POINTS} are allowed", key=SOURCE)
+
+
+def _check_sampling(sampling: Sampling, scatters: Sequence[Scatter], levels: Sequence[Levels]) -> None:
     if sampling.method not in SAMPLERS:
         raise InputError(f"{as_given(sampling.method)}; allowed: {', '.join(SAMPLERS)}", key="--method")
     if scatters and (sampling.samples is None or sampling.samples < 1):
@@ -173,6 +180,15 @@ def _check_sampling(sampling: Sampling, scatters: Sequence[Scatter]) -> None:
             'joint.clearance="normal(20 um, 2 um)", or leave the samples out',
             key="--samples",
         )
+    if sampling.method == SENSITIVITY and sampling.samples is not None:
+        n = sampling.samples
+        if n & (n - 1) or n < 2:
+            raise InputError(f"given {n}; {SENSITIVITY} needs a power of two, 2 or more", key="--samples")
+        if levels:
+            raise InputError(
+                f"{SENSITIVITY} takes distributions only, and {levels[0].key.path} forms a grid",
+                key="--method",
+            )
     if sampling.seed < 0:
         raise InputError(f"given {sampling.seed}; allowed: 0 or more", key="--seed")
 

@@ -36,11 +36,24 @@ def sobol(samples: int, dimensions: int, seed: int) -> FloatArray:
         return np.asarray(sampler.random(samples))
 
 
+def saltelli(samples: int, dimensions: int, seed: int) -> FloatArray:
+    """Return the points that Sobol' indices are made of: A, B, and A with each column of B in turn.
+
+    Saltelli et al., Comput. Phys. Commun. 181 (2010) 259. These are ``samples·(dimensions + 2)`` points.
+    """
+    both = sobol(samples, 2 * dimensions, seed)
+    a, b = both[:, :dimensions], both[:, dimensions:]
+    columns = np.eye(dimensions, dtype=bool)
+    return np.concatenate([a, b, *(np.where(column, b, a) for column in columns)])
+
+
 SAMPLERS: Final[dict[str, Callable[[int, int, int], FloatArray]]] = {
     "lhs": latin_hypercube,
     "sobol": sobol,
+    "saltelli": saltelli,
 }
 """Every sampler by the name it has after ``--method``.
 
-Takes the number of samples, of dimensions, and a seed; returns shape (samples, dimensions).
+Takes the number of samples, of dimensions, and a seed; returns shape (samples, dimensions), of ``saltelli``
+(samples·(dimensions + 2), dimensions).
 """

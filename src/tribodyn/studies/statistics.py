@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+import json
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.studies.plan import POINT
+from tribodyn.studies.plan import POINT, SENSITIVITY
 
 STATISTICS: Final[dict[str, Callable[[FloatArray], Any]]] = {
     "mean": np.mean,
@@ -57,3 +60,124 @@ def _all(part: xr.Dataset) -> Statistics:
         for name, values in found.items()
         if values.size
     }
+
+
+@dataclass(frozen=True)
+class Share:
+    """How many points keep a limit.
+
+    Attributes
+    ----------
+    within, points
+        How many keep it, and how many gave the number.
+    low, high
+        Between which shares that of the whole population lies, with 95 % confidence; NaN where nothing was
+        sampled.
+    """
+
+    within: int
+    points: int
+    low: float
+    high: float
+
+
+def shares(dataset: xr.Dataset, limits: Mapping[str, float]) -> dict[str, Share]:
+    """Return by name of a headline number how many points of a sweep do not exceed its limit.
+
+    Parameters
+    ----------
+    dataset
+        A sweep. Points that failed do not count.
+    limits
+        Greatest value allowed of each number.
+
+    Returns
+    -------
+    dict
+        With the score interval of a share (Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
+    """
+    return {
+        name: _share(dataset[name].values, limit, POINT in dataset.dims) for name, limit in limits.items()
+    }
+
+
+def _share(values: FloatArray, limit: float, sampled: bool) -> Share:
+    from scipy.stats import binomtest
+
+    known = values[np.isfinite(values)]
+    within = int((known <= limit).sum())
+    if not sampled or not known.size:
+        return Share(within, known.size, np.nan, np.nan)
+    interval = binomtest(within, known.size).proportion_ci(method="wilson")
+    return Share(within, known.size, float(interval.low), float(interval.high))
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Which share of the variance of a number a parameter makes.
+
+    Attributes
+    ----------
+    first
+        Alone: first-order index of Sobol'.
+    total
+        With all its interactions: total index.
+    first_error, total_error
+        Half widths of their 95 % confidence intervals, by bootstrap.
+    """
+
+    first: float
+    total: float
+    first_error: float
+    total_error: float
+
+
+def sensitivities(dataset: xr.Dataset, resamples: int = 499) -> dict[str, dict[str, Sensitivity]]:
+    """Return Sobol' indices by headline number and dotted path of the parameter.
+
+    Parameters
+    ----------
+    dataset
+        A sweep by the method ``saltelli``; of another one there are none. A number that a point lacks, or
+        that does not vary, has none either.
+    resamples
+        Of the bootstrap.
+
+    Returns
+    -------
+    dict
+        Estimators of Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, by SciPy.
+    """
+    if dataset.attrs.get("sampling_method") != SENSITIVITY:
+        return {}
+    names = [str(name) for name in dataset.data_vars if dataset[name].dtype.kind == "f"]
+    given = {name: np.asarray(dataset[name].values) for name in names}
+    paths = json.loads(dataset.attrs["varied"])
+    return {
+        name: dict(zip(paths, _indices(values, len(paths), resamples), strict=True))
+        for name, values in given.items()
+        if np.isfinite(values).all() and np.ptp(values) > 0.0
+    }
+
+
+def _indices(values: FloatArray, n_parameters: int, resamples: int) -> list[Sensitivity]:
+    from scipy.stats import sobol_indices
+
+    blocks = values.reshape(n_parameters + 2, 1, -1)
+    n = blocks.shape[-1]
+    found = sobol_indices(
+        func={"f_A": blocks[0], "f_B": blocks[1], "f_AB": blocks[2:]}, n=n, rng=np.random.default_rng(0)
+    )
+    with warnings.catch_warnings():
+        # Of an index that is the same in all resamples, as that of a parameter without any effect.
+        warnings.simplefilter("ignore")
+        spread = found.bootstrap(confidence_level=0.95, n_resamples=resamples)
+    errors = [_half_width(part) for part in (spread.first_order, spread.total_order)]
+    columns = (found.first_order.ravel(), found.total_order.ravel(), *errors)
+    return [Sensitivity(*map(float, row)) for row in zip(*columns, strict=True)]
+
+
+def _half_width(index: Any) -> FloatArray:
+    """Return half the confidence interval of each index; 0 where resamples do not differ."""
+    ends = index.confidence_interval
+    return np.where(index.standard_error == 0.0, 0.0, 0.5 * (ends.high - ends.low)).ravel()

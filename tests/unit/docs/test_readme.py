@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import subprocess
@@ -112,3 +113,15 @@ def test_every_wrong_equation_has_what_was_built_instead_and_why() -> None:
     assert rows[0] == ["where", "printed", "built", "why"]
     assert len(rows) > 15
     assert all(len(row) == 4 and all(row) for row in rows)
+
+
+def test_the_clearance_that_can_be_allowed_is_the_one_shown(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (command,) = (line for line in CODE_LINES if line.startswith("$ tribodyn find"))
+    assert main([*shlex.split(command)[2:], "--quiet", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    shown = float(re.search(r"at joint.clearance = ([0-9.]+) um", TEXT)[1])  # type: ignore[index]
+    # The search stops within a hundredth of the range of 50 um, here as when the README was written.
+    assert float(found["value"].removesuffix(" um")) == pytest.approx(shown, abs=1.0)

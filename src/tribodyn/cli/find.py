@@ -1,0 +1,118 @@
+"""``tribodyn find``: the value of a parameter at which a number reaches its limit."""
+
+from __future__ import annotations
+
+import os
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
+from tribodyn.cli.compiling import announced_compilation
+from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
+
+if TYPE_CHECKING:
+    from tribodyn.studies.search import Question, Search
+    from tribodyn.studies.sweep import Arrival
+
+HELP = "find the value of a parameter at which a headline number reaches a limit"
+_STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``find``."""
+    add_case_arguments(parser)
+    parser.add_argument(
+        "--vary", metavar="PATH=A..B", required=True, help='the range to search: joint.clearance="10..60 um"'
+    )
+    parser.add_argument(
+        "--until",
+        metavar="NAME=LIMIT",
+        required=True,
+        help="a number of summary.json, in its unit: vane_angle_error_max_deg=0.03",
+    )
+    parser.add_argument(
+        "--within",
+        metavar="PERCENT",
+        type=float,
+        default=1.0,
+        help="how near, as a share of the range (default: %(default)s)",
+    )
+    parser.add_argument("-o", "--output", metavar="DIR", help="where runs are kept (default: find-CASE)")
+    parser.add_argument(
+        "--workers", metavar="N", type=int, default=0, help="processes (default: this one alone)"
+    )
+
+
+def execute(args: Namespace) -> int:
+    """Search, and say what was found."""
+    from tribodyn.studies import Means
+    from tribodyn.studies.search import Search, limit, question
+    from tribodyn.studies.sweep import Watcher
+
+    if not 0.0 < args.within < 100.0:
+        raise InputError(f"given {args.within:g}; allowed: above 0 and below 100", key="--within")
+    case, console = chosen_case(args), Console.of(args)
+    path, equals, values = (without_quotes(part) for part in typed(args.vary).partition("="))
+    if not equals:
+        raise InputError(
+            f"{as_given(args.vary)}; allowed: PATH=A..B, such as joint.clearance=10..60um", key="--vary"
+        )
+    asked = question(case, path, values, limit(args.until, case.kind(), "--until"))
+    directory = OutputDirectory(f"find-{Path(args.case).stem}" if args.output is None else args.output)
+    with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
+        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+        stack.enter_context(announced_compilation(console.note))
+        watcher = Watcher(_told(console), stop, console.note)
+        search = Search(asked, directory.path, Means(workers=args.workers, keep_results=False), watcher)
+        root = search.root(args.within / 100.0)
+        search.dataset()
+    _tell(search, root, console)
+    return 0
+
+
+def _told(console: Console) -> Callable[[Arrival], None]:
+    def tell(arrival: Arrival) -> None:
+        if arrival.point is not None:
+            console.note(f"tried {arrival.point.label}")
+
+    return tell
+
+
+def _tell(search: Search, root: float, console: Console) -> None:
+    """Print what was tried and what was found."""
+    asked, limit = search.question, search.question.until
+    unit = asked.headline.unit
+    for value in sorted(search.tried):
+        console.say(f"  {_shown(asked, value):<16}{search.tried[value]:>12.4g} {unit}")
+    low, high = (_shown(asked, end) for end in search.bracket())
+    label = asked.headline.label
+    console.say(
+        f"\n{label} reaches {limit.value:g} {unit} at {asked.key.path} = {_shown(asked, root)}".rstrip()
+    )
+    console.say(
+        f"(between {low} and {high}; {len(search.tried)} runs, kept in {os.fspath(search.directory)}{os.sep})"
+    )
+    if console.json:
+        show_json(
+            {
+                "path": asked.key.path,
+                "value": _shown(asked, root),
+                "between": [low, high],
+                "number": limit.name,
+                "limit": limit.value,
+                "tried": {_shown(asked, value): number for value, number in sorted(search.tried.items())},
+            }
+        )
+
+
+def _shown(asked: Question, value: float) -> str:
+    from tribodyn.studies.variation import written
+
+    return written(asked.key, value)

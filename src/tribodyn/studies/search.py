@@ -1,0 +1,285 @@
+"""The value of a parameter at which a headline number reaches a limit: a root found with few runs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Final
+
+import xarray as xr
+
+from tribodyn.cases import Case, Key, keys_in
+from tribodyn.cases.entry import Entry, read_entry
+from tribodyn.cases.keys import Value
+from tribodyn.cases.units import with_shared_unit
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.quoting import as_given, meant
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.results import headlines_of
+from tribodyn.results.headline import Headline
+from tribodyn.studies.plan import make_plan
+from tribodyn.studies.sweep import Means, Watcher, run
+from tribodyn.studies.variation import SOURCE, written
+
+WITHIN: Final = 0.01
+"""How near the root is found, as a share of the range."""
+_DIGITS: Final = 5
+"""Digits of the values that are tried: a value that a person can read, and that reads back exactly."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A headline number and the value that it must reach, or not exceed.
+
+    Attributes
+    ----------
+    name
+        Name in ``summary.json``.
+    value
+        In the unit of the number.
+    """
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked: where a number reaches its limit.
+
+    Attributes
+    ----------
+    case, key
+        What is simulated, and which of its keys varies.
+    low, high
+        Ends of the range that is searched, SI.
+    until
+        The number and its limit.
+    """
+
+    case: Case
+    key: Key
+    low: float
+    high: float
+    until: Limit
+
+    @property
+    def headline(self) -> Headline:
+        """What is known of the number."""
+        return headlines_of(self.case.kind())[self.until.name]
+
+
+@dataclass
+class Search:
+    """A question under way; everything tried is kept in a folder, from which a second search goes on.
+
+    Attributes
+    ----------
+    question
+        What is asked.
+    directory
+        Where runs are kept, as by :func:`tribodyn.studies.run`.
+    means, watcher
+        As for a sweep.
+    tried
+        The number at each value of the parameter that was tried, SI.
+    """
+
+    question: Question
+    directory: Path
+    means: Means
+    watcher: Watcher
+    tried: dict[float, float] = field(default_factory=dict)
+
+    def root(self, within: float = WITHIN) -> float:
+        """Return the value at which the number reaches the limit, SI.
+
+        Parameters
+        ----------
+        within
+            How near, as a share of the range.
+
+        Raises
+        ------
+        TribodynError
+            The number lies on one side of the limit at both ends, or a run failed.
+        """
+        from scipy.optimize import brentq
+
+        asked = self.question
+        at_ends = self._numbers([asked.low, asked.high])
+        if (at_ends[0] - asked.until.value) * (at_ends[1] - asked.until.value) > 0.0:
+            raise TribodynError(self._not_between(at_ends))
+        xtol = within * abs(asked.high - asked.low)
+        found = float(brentq(self._excess, asked.low, asked.high, xtol=xtol, rtol=4 * math.ulp(1.0)))
+        return _readable(found)
+
+    def dataset(self) -> xr.Dataset:
+        """Return all that was tried as a sweep, which then stands in the folder."""
+        return self._runs(sorted(self.tried))
+
+    def bracket(self) -> tuple[float, float]:
+        """Return the values nearest to each other between which the number passes the limit, SI."""
+        values = sorted(self.tried)
+        limit = self.question.until.value
+        pairs = pairwise(values)
+        return min(
+            ((a, b) for a, b in pairs if (self.tried[a] - limit) * (self.tried[b] - limit) <= 0.0),
+            key=lambda pair: pair[1] - pair[0],
+        )
+
+    def _excess(self, value: float) -> float:
+        return self._numbers([_readable(value)])[0] - self.question.until.value
+
+    def _numbers(self, values: Sequence[float]) -> list[float]:
+        missing = [value for value in values if value not in self.tried]
+        if missing:
+            dataset = self._runs(missing)
+            for text in dataset["failure"].values.ravel().tolist():
+                if text:
+                    raise TribodynError(f"a run of the search failed: {text}")
+            numbers = dataset[self.question.until.name].values.tolist()
+            self.tried |= dict(zip(missing, numbers, strict=True))
+        if not all(math.isfinite(self.tried[value]) for value in values):
+            raise TribodynError(f"the runs have no {self.question.until.name}")
+        return [self.tried[value] for value in values]
+
+    def _runs(self, values: Sequence[float]) -> xr.Dataset:
+        key = self.question.key
+        plan = make_plan(self.question.case, {key.path: [written(key, value) for value in values]})
+        return run(plan, self.directory, self.means, self.watcher)
+
+    def _not_between(self, at_ends: Sequence[float]) -> str:
+        asked = self.question
+        low, high = (
+            f"{number:.4g} at {written(asked.key, end)}"
+            for number, end in zip(at_ends, (asked.low, asked.high), strict=True)
+        )
+        return (
+            f"{asked.until.name} is {low} and {high}: it does not pass {asked.until.value:g} between them; "
+            "search a wider range, or another limit"
+        )
+
+
+def find(
+    case: Case | str | Path,
+    vary: str,
+    between: str,
+    until: str,
+    *,
+    within: float = WITHIN,
+    directory: str | Path | None = None,
+    workers: int = 0,
+) -> float:
+    """Return the value of a parameter at which a headline number reaches a limit.
+
+    Parameters
+    ----------
+    case
+        A case, the name of a built-in one, or a file.
+    vary
+        Dotted path of the parameter.
+    between
+        The range that is searched, such as ``"10..60 um"``; the number must pass the limit in it.
+    until
+        Headline number and limit in its unit, such as ``"vane_angle_error_max_deg=0.03"``.
+    within
+        How near the value is found, as a share of the range.
+    directory
+        Where runs are kept; what is there already is not computed again. By default nowhere.
+    workers
+        Processes on this machine; 0 computes in this process.
+
+    Returns
+    -------
+    float
+        The value in SI units, by Brent's method (Brent, *Algorithms for Minimization without Derivatives*,
+        1973).
+
+    Raises
+    ------
+    InputError
+        Something asked for cannot be.
+    TribodynError
+        The number does not pass the limit, or a run failed.
+    """
+    chosen = case if isinstance(case, Case) else load_case(case)
+    asked = question(chosen, vary, between, limit(until, chosen.kind(), "until"))
+    with TemporaryDirectory() as place:
+        means = Means(workers=workers, keep_results=False)
+        return Search(asked, Path(directory or place), means, Watcher()).root(within)
+
+
+def question(case: Case, vary: str, values: str, until: Limit) -> Question:
+    """Return what is asked, checked.
+
+    Parameters
+    ----------
+    case
+        What is simulated.
+    vary
+        Dotted path of the key that varies.
+    values
+        The range, such as ``"10..60 um"``.
+    until
+        The number and its limit.
+
+    Raises
+    ------
+    InputError
+        There is no such key, it cannot vary over a range, or the range is none.
+    """
+    keys = keys_in(case)
+    if vary not in keys:
+        # Raises, and the message names the nearest valid key.
+        case.replace({vary: ""}, source=SOURCE)
+    key = keys[vary]
+    ends = values.split("..")
+    if key.kind not in ("quantity", "number") or len(ends) != 2:
+        raise InputError(
+            f"{as_given(values)}; allowed: a range of {key.allowed}, as in 10..60 um", key=vary, source=SOURCE
+        )
+    low, high = (_read(key, text) for text in with_shared_unit([end.strip() for end in ends]))
+    if not low < high:
+        raise InputError(f"{as_given(values)}; the range must go upwards", key=vary, source=SOURCE)
+    return Question(case, key, low, high, until)
+
+
+def _read(key: Key, text: str) -> float:
+    value: Value = read_entry(key, Entry(text, SOURCE, text=True))
+    assert isinstance(value, float)
+    return value
+
+
+def limit(text: str, kind: str, option: str) -> Limit:
+    """Return a limit that is written ``NAME=NUMBER``, the number in the unit of the headline number.
+
+    A part of the name will do: ``vane_angle_error_deg`` is ``vane_angle_error_max_deg``, the first that has
+    all its words.
+
+    Raises
+    ------
+    InputError
+        There is no such headline number, or what follows is no number.
+    """
+    name, equals, number = (part.strip() for part in text.partition("="))
+    known = headlines_of(kind)
+    words = name.split("_")
+    full = name if name in known else next((n for n in known if set(words) <= set(n.split("_"))), None)
+    try:
+        value = float(number)
+    except ValueError:
+        value = math.nan
+    if not equals or not math.isfinite(value):
+        raise InputError(f"{as_given(text)}; allowed: NAME=NUMBER, such as tilt_max_mrad=2", key=option)
+    if full is None:
+        raise InputError(f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}", key=option)
+    return Limit(full, value)
+
+
+def _readable(value: float) -> float:
+    return float(f"{value:.{_DIGITS}g}")
