@@ -22,7 +22,8 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.mechanisms.general.description import Description, Drive, Joint, Load, Spring
 from tribodyn.mechanisms.general.inspection import sound_drives
-from tribodyn.mechanisms.general.joints import KINDS, frame
+from tribodyn.mechanisms.general.joints import ROWS, frame
+from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
 from tribodyn.mechanisms.general.signals import Pieces, integral_of, pieces_of
 
@@ -195,7 +196,7 @@ def _fill_joint(record: Any, description: Description, joint: Joint) -> None:
     _place(record, description, [joint.bodies[k] for k in order], joint.points[order], (socket, shaft))
     if joint.clearance is not None:
         return
-    for row in KINDS[joint.kind].rows:
+    for row in ROWS[joint.kind]:
         _add_row(record, *row)
     if joint.kind == "spring-damper":
         record.force = kinds.SPRINGS

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.mechanisms.general.description import Body, Description, Drive
-from tribodyn.mechanisms.general.joints import KINDS
+from tribodyn.mechanisms.general.kinds import KINDS
 
 
 @dataclass(frozen=True)

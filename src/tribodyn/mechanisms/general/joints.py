@@ -1,8 +1,7 @@
-"""Joints as constraint rows: one entry of one list for each kind."""
+"""Ideal joints as constraint rows: one entry of one list for each kind."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -19,35 +18,21 @@ _ALIGNED: Final[tuple[Row, ...]] = ((DIRECTION, 0, 2), (DIRECTION, 1, 2))
 _NO_TURN: Final[tuple[Row, ...]] = ((DIRECTION, 1, 0),)
 
 
-@dataclass(frozen=True)
-class Kind:
-    """A kind of ideal joint.
-
-    Attributes
-    ----------
-    rows
-        What vanishes.
-    coordinates
-        Which of ``angle`` and ``position`` are free, so that a drive can act there.
-    """
-
-    rows: tuple[Row, ...]
-    coordinates: tuple[str, ...] = ()
-
-
-KINDS: Final[dict[str, Kind]] = {
-    "fixed": Kind((*_BALL, *_ALIGNED, *_NO_TURN)),
-    "revolute": Kind((*_BALL, *_ALIGNED), ("angle",)),
-    "spherical": Kind(_BALL),
-    "cylindrical": Kind((*_ALONG, *_ALIGNED), ("angle", "position")),
-    "prismatic": Kind((*_ALONG, *_ALIGNED, *_NO_TURN), ("position",)),
-    "universal": Kind((*_BALL, (DIRECTION, 2, 0))),
-    "pin-slot": Kind(_ALONG, ("position",)),
-    "planar": Kind((_BALL[2], *_ALIGNED), ("angle",)),
-    "spring-damper": Kind((), ("angle", "position")),
+ROWS: Final[dict[str, tuple[Row, ...]]] = {
+    "fixed": (*_BALL, *_ALIGNED, *_NO_TURN),
+    "revolute": (*_BALL, *_ALIGNED),
+    "spherical": _BALL,
+    "cylindrical": (*_ALONG, *_ALIGNED),
+    "prismatic": (*_ALONG, *_ALIGNED, *_NO_TURN),
+    "universal": (*_BALL, (DIRECTION, 2, 0)),
+    "pin-slot": _ALONG,
+    "planar": (_BALL[2], *_ALIGNED),
+    "spring-damper": (),
 }
-"""All kinds by name; z is the axis, of a universal joint that on the first body, whose other axis is the
-shaft's x."""
+"""What vanishes in the ideal joints of ``kinds.KINDS``.
+
+z is the axis, of a universal joint that on the first body, whose other axis is the x of the shaft.
+"""
 
 
 def frame(axis: FloatArray, second: FloatArray) -> FloatArray:

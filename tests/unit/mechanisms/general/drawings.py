@@ -16,7 +16,7 @@ from tribodyn.integrate import integrate
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
 from tribodyn.mechanisms.general.assembly import assemble
 from tribodyn.mechanisms.general.description import GROUND, Body, Description, Drive, Joint, Spring
-from tribodyn.mechanisms.general.joints import KINDS
+from tribodyn.mechanisms.general.joints import ROWS
 from tribodyn.mechanisms.general.problem import mechanism_problem
 
 NOTHING = np.zeros(0)
@@ -201,7 +201,7 @@ def with_springs(description: Description, stiffness: float, turning: float, sha
     """
     joints = []
     for old in description.joints:
-        rows = {(kind, axis, other) for kind, axis, other in KINDS[old.kind].rows}
+        rows = set(ROWS[old.kind])
         held = [(0, 2, 0) in rows, (0, 0, 0) in rows, (0, 1, 0) in rows]
         held += [(1, 1, 0) in rows, (1, 1, 2) in rows, (1, 0, 2) in rows]
         k = np.array([*[stiffness] * 3, *[turning] * 3]) * held

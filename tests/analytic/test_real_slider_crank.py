@@ -1,0 +1,75 @@
+"""A slider-crank whose wrist is real: it tends to the ideal one, and its books close at every clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.unit.mechanisms.general.drawings import Run, chain, run, slider_crank
+
+from tribodyn.mechanisms.general.description import Clearance, Description
+
+TURN = 0.012
+"""One turn of the crank at 5000 rpm [s]."""
+TIMES = TURN * np.linspace(0.0, 2.0, 401)
+LAST = TIMES >= TURN
+"""The second turn: the shaft starts in the middle and lands in the first."""
+WRIST = 2
+
+
+def with_wrist(make_clearance: Callable[..., Clearance], clearance: float) -> Description:
+    """Return the slider-crank with a wrist pin of 9.5 mm in a bushing."""
+    real = make_clearance("cylinder", grid=(96, 4), radius=9.5e-3, radial=clearance, slip_velocity=1e-3)
+    joints = list(slider_crank().joints)
+    joints[WRIST] = replace(joints[WRIST], clearance=real)
+    return replace(slider_crank(), joints=tuple(joints))
+
+
+@pytest.fixture(scope="module")
+def ideal() -> Run:
+    return run(slider_crank(), TIMES, 1e-6)
+
+
+@pytest.fixture(scope="module")
+def real(make_clearance: Callable[..., Clearance]) -> dict[float, Run]:
+    """Runs over clearance."""
+    sizes = (200e-6, 100e-6, 50e-6, 20e-6, 5e-6)
+    return {c: run(with_wrist(make_clearance, c), TIMES, 1e-4) for c in sizes}
+
+
+def test_energy_and_momentum_close_at_every_clearance(real: dict[float, Run]) -> None:
+    for clearance, result in real.items():
+        assert result.imbalance < 1e-2, clearance
+        change = result.whole("momentum_x") - result.whole("momentum_x")[0]
+        left = np.abs(change - result.whole("impulse_x")).max()
+        assert left < 1e-2 * np.ptp(result.whole("momentum_x")), clearance
+
+
+def test_motion_and_mean_forces_tend_to_the_ideal_ones(ideal: Run, real: dict[float, Run]) -> None:
+    def force(result: Run) -> float:
+        return float(np.mean(np.hypot(result.joint(WRIST, "F_x"), result.joint(WRIST, "F_y"))[LAST]))
+
+    for clearance, result in real.items():
+        # The pin lies within the clearance, and a few micrometres deeper where surfaces give way.
+        off = np.abs(result.body(2, "x") - ideal.body(2, "x")).max()
+        assert off < 1.5 * clearance + 5e-6, clearance
+        assert result.whole("gap").max() < 1e-10
+    errors = [abs(force(result) / force(ideal) - 1.0) for result in real.values()]
+    # Impacts at 200 um, next to none at 5 um.
+    assert errors[-1] < 1e-2
+    assert errors[-1] < errors[0]
+
+
+def test_every_pin_of_a_chain_may_be_real(make_clearance: Callable[..., Clearance]) -> None:
+    pin = make_clearance(
+        "flanged", grid=(24, 4), radius=5e-3, length=10e-3, radial=50e-6, axial=50e-6, flange=8e-3
+    )
+    hanging = chain(4)
+    real = replace(hanging, joints=tuple(replace(joint, clearance=pin) for joint in hanging.joints))
+    times = np.linspace(0.0, 0.05, 11)
+    ours, ideal = run(real, times, 1e-4), run(hanging, times, 1e-6)
+    # Four clearances, and what the surfaces give way.
+    assert ours.body(3, "z") == pytest.approx(ideal.body(3, "z"), abs=5e-4)
+    assert ours.imbalance < 1e-2
