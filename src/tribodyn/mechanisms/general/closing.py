@@ -176,8 +176,10 @@ class System:
         """
         if not self.rows:
             return 0, np.zeros((0, 0))
-        kept = self.now.bodies.copy()
         rank, vanishing = self._rank()
+        if rank == len(self.rows):
+            return rank, vanishing
+        kept = self.now.bodies.copy()
         rng = np.random.default_rng(1)
         for _ in range(2):
             g, root, _ = self.scaled()
