@@ -23,6 +23,7 @@ from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.fields import text
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
+from tribodyn.cases.meshes import with_meshes_read
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, located, problems, unknown
 from tribodyn.cases.tables import (
     FROZEN,
@@ -233,6 +234,7 @@ def build(
     scanned = scans.scan_entries(entries)
     with faults.noted():
         entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
+        entries = with_meshes_read(entries, keys)
     values = _values(entries, keys, faults)
     tables = {path: entry for path, entry in given.items() if _is_empty_table(path, entry, keys)}
     there = [path for path in given if path not in declared and (path in keys or path in tables)]
@@ -273,8 +275,11 @@ def _validated(
         tree = _nested({**_defaults(model, values, asked), **values}, named)
         case = model.model_validate(tree, context=asked)
     except InputError as error:
-        # What does not go together may only follow from what is wrong by itself.
+        # What does not go together may only follow from what is wrong by itself, and what is missing from
+        # what could not be read.
+        told = {fault.key for fault in faults.found}
         found = [fault for fault in error.faults if sound or not isinstance(fault, Disagreement)]
+        found = [fault for fault in found if fault.key not in told]
         raise together([*faults.found, *found]) from None
     faults.raise_any()
     return case
@@ -342,7 +347,12 @@ def _one_of_each(model: type[Case], entries: Mapping[str, Entry], keys: Mapping[
 
 
 def _alternatives(model: type[Case], keys: Mapping[str, Key]) -> tuple[tuple[str, str], ...]:
-    return (*alternatives(model, keys), *scans.ALTERNATIVES)
+    of_scans = (
+        (f"{table}{first}", f"{table}{second}")
+        for table in scans.tables_of_surfaces(keys)
+        for first, second in scans.ALTERNATIVES
+    )
+    return (*alternatives(model, keys), *of_scans)
 
 
 def _nested(values: Mapping[str, Value], tables: Iterable[str]) -> dict[str, Any]:

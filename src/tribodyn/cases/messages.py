@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from tribodyn.cases.entry import Entry, refused
 from tribodyn.cases.keys import ANY_NAME, Key, shown
-from tribodyn.cases.tables import ALLOWED_NAME, general, impossible_name
+from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import closest
 
@@ -35,7 +35,7 @@ def unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> 
     name = impossible_name(path, declared)
     if name is not None:
         return f"given {shown(name)}; allowed: {ALLOWED_NAME}"
-    table = general(path, declared)
+    table = as_declared(path, declared)
     inside = [key.name for key in declared.values() if key.table == table]
     if inside:
         return f"this is a table, not a value; its keys: {', '.join(inside)}"

@@ -8,7 +8,7 @@ trunnion smooth; with a scan of each surface their spectral moments add up.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -101,8 +101,28 @@ def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> di
     entries
         What was given, by dotted path.
     keys
-        The keys of the kind of case.
+        The keys of the case; sets of surfaces may stand in several tables.
     """
+    read = dict(entries)
+    for table in tables_of_surfaces(keys):
+        own = {path.removeprefix(table): entry for path, entry in read.items() if path.startswith(table)}
+        there = {path.removeprefix(table): key for path, key in keys.items() if path.startswith(table)}
+        try:
+            found = _with_scans_read(own, there)
+        except InputError as error:
+            raise InputError(error.reason, key=f"{table}{error.key}", source=error.source) from None
+        read = {path: entry for path, entry in read.items() if not path.startswith(table)}
+        read |= {f"{table}{path}": entry for path, entry in found.items()}
+    return read
+
+
+def tables_of_surfaces(keys: Iterable[str]) -> list[str]:
+    """Return what stands before the paths of sets of surfaces: nothing, or a table and its dot."""
+    return [path.removesuffix(COMBINED) for path in keys if path.endswith(COMBINED)]
+
+
+def _with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
+    """Return the entries of one set of surfaces with the numbers of its scans."""
     given = [path for path in (COMBINED, *EACH) if path in entries]
     options = [path for path in _OPTION_PATHS if path in entries]
     if not given:

@@ -171,7 +171,7 @@ def _regular(path: str) -> str:
     return re.escape(path).replace(re.escape(ANY_NAME), "[^.]+")
 
 
-def general(path: str, declared: Mapping[str, Key]) -> str:
+def as_declared(path: str, declared: Mapping[str, Key]) -> str:
     """Return the dotted path of a key or table as it is declared: without the names that a user chose."""
     steps = path.split(".")
     for key in declared.values():

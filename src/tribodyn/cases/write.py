@@ -9,7 +9,7 @@ from textwrap import wrap
 from pydantic import BaseModel
 
 from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of
-from tribodyn.cases.tables import VALUE, general, keys_in, value_at
+from tribodyn.cases.tables import VALUE, as_declared, keys_in, value_at
 
 _COMMENT_COLUMN = 38
 _LONGEST_LINE = 120
@@ -31,7 +31,7 @@ def to_toml(case: BaseModel, kind: str, own: Collection[str], *, comments: bool)
         lines += ["", f"[{table}]", *inside] if table else inside
     if comments:
         declared = keys_of(type(case))
-        lines += _not_there(declared, {general(key.table, declared) for key in keys.values()})
+        lines += _not_there(declared, {as_declared(key.table, declared) for key in keys.values()})
     return "\n".join(lines) + "\n"
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from tests.unit.mechanisms.general.slider_crank import FILE, built, parsed
 
+from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.describe import describe
 from tribodyn.mechanisms.general.description import GROUND
 from tribodyn.studies.plan import make_plan
@@ -88,6 +92,24 @@ def test_a_pair_has_surfaces_and_law_of_its_own() -> None:
         {"joints.wrist.clearance.pair": "steel-polyimide", "pairs.steel-polyimide.contact.law": "ke"}
     )
     assert plain.pairs["steel-polyimide"].contact.law == "ke"
+
+
+def test_a_pair_may_take_its_numbers_from_a_scan(tmp_path: Path) -> None:
+    heights = np.random.default_rng(3).normal(scale=0.5, size=(64, 64))
+    rows = "\n".join(",".join(f"{h:.6f}" for h in row) for row in heights)
+    (tmp_path / "scan.csv").write_text(f"# unit: um\n# spacing: 1 um\n{rows}\n")
+    text = FILE.replace(
+        "[drives.motor]", '[pairs.steel-polyimide.asperities]\nsurface = "scan.csv"\n[drives.motor]'
+    )
+    found = parse(text, "mine.toml", {"mechanism": MechanismCase}, tmp_path)
+    assert found.at("pairs.steel-polyimide.asperities.surface") is None
+    # The scan's roughness, to the scatter of 4096 heights.
+    assert found.at("pairs.steel-polyimide.surfaces.bushing.roughness") == pytest.approx(0.5e-6, rel=0.05)
+    assert found.at("surfaces.bushing.roughness") == pytest.approx(1.586e-6)
+    with pytest.raises(
+        InputError, match=r"pairs\.steel-polyimide\.asperities\.level: this belongs to a scan"
+    ):
+        parsed(text.replace('surface = "scan.csv"', 'level = "plane"'))
 
 
 def test_an_undamped_law_of_a_pair_has_no_damping_factor() -> None:
