@@ -6,17 +6,24 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from tests.unit.mechanisms.general.slider_crank import FILE, parsed
+from tests.unit.mechanisms.general.slider_crank import FILE, IDEAL, parsed
 
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.general.system import MechanismSystem
 
 REFUSED = tomllib.loads(Path(__file__).with_name("refused_mechanisms.toml").read_text(encoding="utf-8"))
+
+
+def test_the_slider_crank_itself_is_sound() -> None:
+    for text in (FILE, IDEAL):
+        assert MechanismSystem(parsed(text)).check()
 
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_mechanism_that_cannot_be_is_refused_in_words(name: str) -> None:
     change = REFUSED[name]
-    assert FILE.count(change["old"]) >= 1
+    text = IDEAL if change.get("ideal") else FILE
+    assert text.count(change["old"]) >= 1
     with pytest.raises(InputError) as caught:
-        parsed(FILE.replace(change["old"], change["new"], 1))
+        MechanismSystem(parsed(text.replace(change["old"], change["new"], 1))).check()
     assert str(caught.value) == change["message"]

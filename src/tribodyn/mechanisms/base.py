@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.groups import Solver, Wear
+from tribodyn.cases.groups import Wear
 from tribodyn.cases.load import BuiltIn
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
@@ -121,12 +121,26 @@ class Part:
         Why the run stopped before its end, if it did and the mechanism knows more than the integrator.
     """
 
-    coordinates: Mapping[str, FloatArray] = field(default_factory=dict)
+    coordinates: Mapping[str, ArrayLike] = field(default_factory=dict)
     columns: Mapping[str, FloatArray] = field(default_factory=dict)
     fields: Mapping[str, NDArray[np.floating[Any]]] = field(default_factory=dict)
     attributes: Mapping[str, object] = field(default_factory=dict)
     warnings: Sequence[str] = ()
     failure: str = ""
+
+
+class Steps(Protocol):
+    """What a run needs to know of a table ``[solver]``."""
+
+    @property
+    def name(self) -> str:
+        """Name of the integrator."""
+        ...
+
+    @property
+    def rtol(self) -> float:
+        """Relative tolerance."""
+        ...
 
 
 class SystemCase(Protocol):
@@ -143,7 +157,7 @@ class SystemCase(Protocol):
         ...
 
     @property
-    def solver(self) -> Solver:
+    def solver(self) -> Steps:
         """Its table ``[solver]``."""
         ...
 

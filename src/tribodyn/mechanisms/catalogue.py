@@ -14,6 +14,7 @@ from tribodyn.mechanisms.base import Mechanism
 
 FOLDERS: Final = (
     "vsv",
+    "general",
     "journal",
 )
 """Every mechanism by its folder beside this file, whose ``descriptor.py`` holds its ``MECHANISM``."""

@@ -76,7 +76,8 @@ def known(names: Iterable[str], kind: str) -> dict[str, Headline]:
     """Return what is known of those of the names that are headline numbers of a kind, in reading order."""
     given = list(names)
     of_all = {name: headline for name, headline in headlines_of(kind).items() if name in given}
-    return of_all | _of_joints([name for name in given if name not in of_all], kind)
+    own = {name: headline for name, headline in of_all.items() if name not in summary.EFFORT}
+    return own | _of_joints([name for name in given if name not in of_all], kind) | of_all
 
 
 def _of_joints(names: Iterable[str], kind: str) -> dict[str, Headline]:

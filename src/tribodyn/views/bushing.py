@@ -27,12 +27,15 @@ class Unrolled:
         Where it is cut [°].
     empty
         Height [mm] below which nothing happens and the drawing is shortened; 0 where it is not.
+    middle
+        What is added to heights where they are told [mm]: the middle of a surface that is not about zero.
     """
 
     theta: FloatArray
     z: FloatArray
     cut: float
     empty: float
+    middle: float = 0.0
 
     def reordered(self, fields: FloatArray) -> FloatArray:
         """Return fields of shape (n, n_theta, n_z) as rows for the drawing, (n, n_z, n_theta + 1)."""
@@ -43,16 +46,16 @@ class Unrolled:
         """Return coordinates and tick marks."""
         angle = rolled(self.theta, np.zeros((self.theta.size, 1)), self.cut)[0]
         half = float(self.z[-1])
-        marks = height_marks(half, self.empty)
+        marks = np.array([-half, 0.0, half]) if self.middle else height_marks(half, self.empty)
         turns = 45.0 * np.ceil(angle[0] / 45.0 - 1e-9) + 45.0 * np.arange(9)
         return {
             "angle": packed(angle),
             "height": packed(self._drawn(self.z)),
-            "z": packed(self.z),
+            "z": packed(self.z + self.middle),
             "angle_ticks": [float(turn) for turn in turns],
             "angle_texts": [f"{turn % 360:.0f}" for turn in turns],
             "height_ticks": [float(mark) for mark in self._drawn(marks)],
-            "height_texts": [f"{mark:.3g}".replace("-", "−") for mark in marks],
+            "height_texts": [f"{mark + self.middle:.3g}".replace("-", "−") for mark in marks],
             "empty": [float(edge) for edge in self._drawn(np.array([-self.empty, self.empty]))]
             if self.empty
             else [],

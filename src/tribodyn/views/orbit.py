@@ -45,6 +45,8 @@ def data(dataset: xr.Dataset) -> Payload | None:
     return {
         "clearance": clearance,
         "reach": 1.25 * reach,
+        # The bushing point named theta lies at -(cos theta, sin theta).
+        "wall": -1,
         "joined": True,
         "looks": LOOKS,
         "places": [f"top, z = {signed(half * 1e3)} mm", "middle", f"bottom, z = {signed(-half * 1e3)} mm"],

@@ -79,7 +79,7 @@ class LoadKeys(NamedGroup):
     )
     direction: Vector | None = vector(None, "of force and moment", "", example="[-1, 0, 0]")
     frame: Literal["ground", "body", "motion"] = choice(
-        "ground", "direction stands still, turns with the body, or is always against the motion", ""
+        "ground", "direction stands still, turns with the body, or is always against the motion", "assumed"
     )
     force: ForceSignal | None = None
     moment: TorqueSignal | None = None

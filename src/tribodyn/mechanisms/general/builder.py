@@ -112,14 +112,14 @@ class Mechanism:
         """Add a joint that moves against a ``stiffness`` and an ``angular_stiffness``, with ``damping``."""
         return self.joint(name, "spring-damper", first, second, point=point, **keys)
 
-    def clearance(self, joint: str, *, radius: str, radial: str, **keys: object) -> Mechanism:
-        """Make an ideal joint a real one: ``length``, ``axial``, ``friction_coefficient``, ``pair``."""
+    def clearance(self, joint: str, **keys: object) -> Mechanism:
+        """Make an ideal joint a real one: ``radius``, ``radial``, ``length``, ``axial``, ``pair``."""
         if joint not in self._tables.get("joints", {}):
             raise InputError(
                 "write the joint first, then its clearance", key=f"joints.{joint}", source=SOURCE
             )
         held = self._tables["joints"][joint]
-        held["clearance"] = {"radius": radius, "radial": radial, **_plain(keys)}
+        held["clearance"] = _plain(keys)
         return self
 
     def drive(self, name: str, joint: str, **keys: object) -> Mechanism:

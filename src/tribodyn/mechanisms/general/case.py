@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.fields import Vector, choice, number, quantity, tables, text, vector
-from tribodyn.cases.groups import Asperities, Contact, Solver, Surfaces, Wear, check_output_interval
+from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
+from tribodyn.cases.groups import Asperities, Contact, Surfaces, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import RoughCase
 from tribodyn.core.quoting import meant
@@ -61,6 +61,21 @@ class Run(Group):
     )
 
 
+class Nodes(Group):
+    """Quadrature points over each surface of a joint with clearance, unless the joint says otherwise."""
+
+    theta: int = count(96, "points around", ASSUMED, ge=12, le=4096)
+    z: int = count(16, "Gauss points across", ASSUMED, ge=2, le=256)
+
+
+class Integration(Group):
+    """The time integration; absolute tolerances follow from clearances and sizes."""
+
+    name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
+    rtol: float = number(1e-4, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
+    grid: Nodes = Nodes()
+
+
 class MechanismCase(RoughCase):
     """Bodies, joints and what moves them, in one drawing."""
 
@@ -71,7 +86,7 @@ class MechanismCase(RoughCase):
     gravity: Vector = vector(
         "0, 0, 0 m/s^2",
         "acceleration of gravity",
-        "",
+        ASSUMED,
         unit="m/s^2",
         example='["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]',
     )
@@ -82,7 +97,7 @@ class MechanismCase(RoughCase):
     springs: Mapping[str, SpringKeys] = tables("springs between them")
     pairs: Mapping[str, PairKeys] = tables("surfaces of joints that name them")
     wear: Wear = Wear()
-    solver: Solver = Solver(rtol=1e-6)
+    solver: Integration = Integration()
     run: Run = Run()
 
     @classmethod

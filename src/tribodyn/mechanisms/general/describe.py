@@ -11,8 +11,8 @@ from tribodyn.cases.fields import Vector
 from tribodyn.contact import SurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, constant, scaled
-from tribodyn.core.tables import ContactTable
-from tribodyn.joints import BushingGeometry, contact_table
+from tribodyn.joints.clearances import table_of
+from tribodyn.joints.shapes import SHAPES
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.description import (
@@ -25,11 +25,13 @@ from tribodyn.mechanisms.general.description import (
     Load,
     Spring,
 )
+from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.parts import FLANGE, BodyKeys, ClearanceKeys, JointKeys, SpringKeys, unit
 
 SIZES: Mapping[str, tuple[str, ...]] = {
     "cylinder": ("radius", "radial", "length", "axial", "axial_upper", "axial_lower", "flange"),
     "sphere": ("radius", "radial", "band"),
+    "mesh": ("gap",),
 }
 """Which keys of a clearance are dimensions of its shape."""
 
@@ -95,25 +97,41 @@ def _six(joint: JointKeys, along: Vector | None, about: Vector | None) -> FloatA
 
 def _clearance(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) -> Clearance:
     contact, surfaces = _pair(case, clearance)
-    sizes = {key: getattr(clearance, key) for key in SIZES[joint.shape]}
+    given = {key: getattr(clearance, key) for key in SIZES[joint.shape]}
+    sizes = {key: float(size) for key, size in given.items() if size is not None}
     if clearance.has_faces and clearance.flange is None:
-        sizes["flange"] = FLANGE * clearance.radius
+        sizes["flange"] = FLANGE * sizes["radius"]
+    facets = _facets(joint, clearance)
+    if facets.size:
+        sizes["edge"] = clearance.mesh_edge or float(np.ptp(facets.reshape(-1, 3), axis=0).max())
     grid = case.solver.grid
     return Clearance(
         shape=joint.shape,
-        sizes={key: float(size) for key, size in sizes.items() if size is not None},
+        sizes=sizes,
         socket=int(clearance.socket == joint.between[1]),
         grid=(clearance.nodes_around or grid.theta, clearance.nodes_along or grid.z),
         roughness=surfaces.roughness_rms,
-        table=_table(clearance, contact, surfaces),
+        table=table_of(
+            clearance.contact,
+            contact.law_of(surfaces),
+            SHAPES[joint.shape](**sizes, **({"facets": facets} if facets.size else {})),
+            onset=contact.onset_separation,
+            smoothing_width=contact.smoothing_width,
+        ),
         friction_coefficient=clearance.friction_coefficient,
         slip_velocity=clearance.slip_velocity,
         onset=contact.onset_separation,
         minimum_velocity=contact.least_entry_velocity,
         tensile_clip=contact.tensile_clip,
         contact=clearance.contact,
-        facets=np.empty((0, 3, 3)),
+        facets=facets,
     )
+
+
+def _facets(joint: JointKeys, clearance: ClearanceKeys) -> FloatArray:
+    """Return the triangles of a mesh in the axes of the joint, shape (n, 3, 3); none of other shapes."""
+    corners = np.array(clearance.facets if joint.shape == "mesh" else ()).reshape(-1, 3, 3)
+    return np.ascontiguousarray((corners - np.array(joint.point)) @ frame(*_axes(joint)))
 
 
 def _pair(case: MechanismCase, clearance: ClearanceKeys) -> tuple[groups.Contact, SurfacePair]:
@@ -122,18 +140,6 @@ def _pair(case: MechanismCase, clearance: ClearanceKeys) -> tuple[groups.Contact
         return case.contact, case.surface_pair
     pair = case.pairs[clearance.pair]
     return pair.contact, pair.surface_pair
-
-
-def _table(clearance: ClearanceKeys, contact: groups.Contact, surfaces: SurfacePair) -> ContactTable:
-    # A ball has no length; one end of a bushing carries half of its force there.
-    length = clearance.length or 2.0 * clearance.radius
-    return contact_table(
-        clearance.contact,
-        contact.law_of(surfaces),
-        BushingGeometry(clearance.radial, clearance.radius, length),
-        onset=contact.onset_separation,
-        smoothing_width=contact.smoothing_width,
-    )
 
 
 def _drive(name: str, drive: DriveKeys, joints: Mapping[str, int]) -> Drive:

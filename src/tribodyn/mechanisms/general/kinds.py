@@ -34,10 +34,10 @@ class JointKind:
 
 KINDS: Final[dict[str, JointKind]] = {
     "fixed": JointKind("nothing moves"),
-    "revolute": JointKind("turns about its axis", "axis", False, ("angle",), ("cylinder",)),
-    "spherical": JointKind("turns about its point", shapes=("sphere",)),
+    "revolute": JointKind("turns about its axis", "axis", False, ("angle",), ("cylinder", "mesh")),
+    "spherical": JointKind("turns about its point", shapes=("sphere", "mesh")),
     "cylindrical": JointKind(
-        "turns about its axis and slides along it", "axis", False, ("angle", "position"), ("cylinder",)
+        "turns about its axis and slides along it", "axis", False, ("angle", "position"), ("cylinder", "mesh")
     ),
     "prismatic": JointKind("slides along its axis", "axis", False, ("position",)),
     "universal": JointKind("turns about an axis of each body", "axis", True),

@@ -4,15 +4,30 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING, ClassVar, Final, Literal
+from typing import ClassVar, Final, Literal
 
 from tribodyn.cases.case import NamedGroup, demand
-from tribodyn.cases.fields import Vector, choice, count, name, names, number, quantity, vector
+from tribodyn.cases.fields import (
+    Numbers,
+    Vector,
+    choice,
+    count,
+    file,
+    name,
+    names,
+    number,
+    quantity,
+    series,
+    vector,
+)
 from tribodyn.mechanisms.general.kinds import KINDS
 
-if TYPE_CHECKING:
-    from tribodyn.cases.fields import Numbers
-
+NEEDED: Final = {
+    "cylinder": {"radius": "its radius", "radial": "its clearance", "length": "the length of the bore"},
+    "sphere": {"radius": "its radius", "radial": "its clearance"},
+    "mesh": {"facets": 'triangles, such as mesh = "socket.stl"', "gap": "its gap"},
+}
+"""Keys that each shape needs, with what they are."""
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 FLANGE: Final = 1.5
 """Outer radius of end faces over the radius of the pin, where the case does not say it."""
@@ -35,8 +50,12 @@ class BodyKeys(NamedGroup):
         example='["1e-4 kg m^2", "1e-4 kg m^2", "2e-4 kg m^2"]',
         required=True,
     )
-    first_axis: Vector = vector("1, 0, 0", "first principal axis in the drawing", "", example="[1, 0, 0]")
-    second_axis: Vector = vector("0, 1, 0", "second principal axis in the drawing", "", example="[0, 1, 0]")
+    first_axis: Vector = vector(
+        "1, 0, 0", "first principal axis in the drawing", "axes of the drawing", example="[1, 0, 0]"
+    )
+    second_axis: Vector = vector(
+        "0, 1, 0", "second principal axis in the drawing", "axes of the drawing", example="[0, 1, 0]"
+    )
 
     def model_post_init(self, context: object, /) -> None:
         """Check that a body of this inertia can exist."""
@@ -61,11 +80,12 @@ class ClearanceKeys(NamedGroup):
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
         ("axial", "axial_upper"),
         ("axial", "axial_lower"),
+        ("mesh", "facets"),
     )
 
-    radius: float = quantity(None, "of pin or ball", "", unit="mm", gt=0, example="9.5 mm", required=True)
-    radial: float = quantity(
-        None, "radial clearance: bore radius less radius", "", unit="um", gt=0, example="20 um", required=True
+    radius: float | None = quantity(None, "of pin or ball", "", gt=0, example="9.5 mm")
+    radial: float | None = quantity(
+        None, "radial clearance: bore radius less radius", "", gt=0, example="20 um"
     )
     length: float | None = quantity(None, "of the bore, of a cylinder", "", gt=0, example="20 mm")
     axial: float | None = quantity(
@@ -81,8 +101,17 @@ class ClearanceKeys(NamedGroup):
     band: float = quantity(
         "40 deg", "half the width of the race of a ball, as latitude", "assumed", gt=0, le="90 deg"
     )
-    shape: Literal["cylinder", "sphere"] | None = choice(
-        None, "of a pin-slot: a ball or a pin in the bore", "", example="sphere"
+    shape: Literal["cylinder", "sphere", "mesh"] | None = choice(
+        None, "if it is not that of the type: a pin in a pin-slot, or a mesh", "", example="cylinder"
+    )
+    mesh: str | None = file("STL file of the socket in the drawing, outsides anticlockwise", "socket.stl")
+    mesh_unit: float = quantity("1 mm", "what a unit of that file is", "assumed", gt=0)
+    mesh_edge: float | None = quantity(
+        None, "longest edge of a triangle; longer ones are split", "", gt=0, example="0.5 mm"
+    )
+    gap: float | None = quantity(None, "constant gap of a mesh", "", gt=0, example="20 um")
+    facets: Numbers | None = series(
+        "corners of triangles in the drawing, in the place of a file", "", unit="m", example='"0, 0, 1 m"'
     )
     socket: str | None = name(
         None, "which of the two bodies holds the bore; the first without it", "", example="rod"
@@ -91,7 +120,9 @@ class ClearanceKeys(NamedGroup):
     slip_velocity: float = quantity(
         "1 mm/s", "slip at which traction is fully developed u_s", "assumed", gt=0
     )
-    contact: str = choice("surface", "over the surface, or at a point", "", family="tribodyn.joints:CONTACTS")
+    contact: str = choice(
+        "surface", "over the surface, or at a point", "assumed", family="tribodyn.joints:CONTACTS"
+    )
     pair: str | None = name(
         None,
         "its surfaces and contact law, of [pairs]; those of the case without it",
@@ -107,6 +138,9 @@ class ClearanceKeys(NamedGroup):
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several sizes."""
+        demand(len(self.facets or ()) % 9 == 0, "facets", "a triangle has nine coordinates")
+        if self.radius is None or self.radial is None:
+            return
         demand(
             self.radial <= 0.1 * self.radius, "radial", "the clearance must not exceed a tenth of the radius"
         )
@@ -226,8 +260,9 @@ class JointKeys(NamedGroup):
         shape = self.shape
         words = f"a {self.type} joint has the shape {' or '.join(shapes)}"
         demand(shape in shapes, "clearance.shape", words)
-        words = "a pin in a bore needs the length of the bore"
-        demand(shape != "cylinder" or clearance.length is not None, "clearance.length", words)
+        for key, size in NEEDED[shape].items():
+            words = f"a joint of the shape {shape} needs {size}"
+            demand(getattr(clearance, key) is not None, f"clearance.{key}", words)
         faces = ("axial", "axial_upper", "axial_lower", "flange")
         for key in faces:
             words = f"end faces are for revolute joints, not for a {self.type} one"
@@ -252,8 +287,8 @@ class SpringKeys(NamedGroup):
     second_point: Vector = vector(
         None, "its end on the second body, as drawn", "", unit="mm", example=POINT, required=True
     )
-    stiffness: float = quantity("0 N/mm", "force over elongation", "", ge=0, example="2 N/mm")
-    damping: float = quantity("0 N s/m", "force over speed", "", ge=0, example="5 N s/m")
+    stiffness: float = quantity("0 N/mm", "force over elongation", "assumed", ge=0, example="2 N/mm")
+    damping: float = quantity("0 N s/m", "force over speed", "assumed", ge=0, example="5 N s/m")
     length: float | None = quantity(
         None, "length without force; as drawn without it", "", gt=0, example="80 mm"
     )

@@ -20,6 +20,8 @@ SCRIPTS: Final = (
     "field.js",
     "solid.js",
     "scene.js",
+    "linkage.js",
+    "choice.js",
     "parallel.js",
     "run.js",
 )

@@ -69,9 +69,8 @@ function orbitLayout(data) {
     layer: "below",
   };
   const angles = [0, 90, 180, 270].map((theta) => ({
-    // The bushing point named theta lies at -(cos theta, sin theta).
-    x: -1.12 * c * Math.cos((theta * Math.PI) / 180),
-    y: -1.12 * c * Math.sin((theta * Math.PI) / 180),
+    x: data.wall * 1.12 * c * Math.cos((theta * Math.PI) / 180),
+    y: data.wall * 1.12 * c * Math.sin((theta * Math.PI) / 180),
     text: `${theta}°`,
     showarrow: false,
     font: { size: 11, color: theme.colour("quiet") },

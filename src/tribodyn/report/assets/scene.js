@@ -7,33 +7,12 @@ widgets.scene = (box, data) => {
   const area = plotArea(
     box,
     isNarrow() ? 320 : 430,
-    {
-      ArrowLeft: () => turn(-0.15, 0),
-      ArrowRight: () => turn(0.15, 0),
-      ArrowUp: () => turn(0, 0.12),
-      ArrowDown: () => turn(0, -0.12),
-      "+": () => approach(0.85),
-      "=": () => approach(0.85),
-      "-": () => approach(1 / 0.85),
-    },
+    cameraKeys(() => area),
     "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.",
   );
   const state = { view: "whole", magnification: data.magnification.value };
 
   const camera = () => area.layout.scene.camera;
-  const look = (eye) => Plotly.relayout(area, { "scene.camera": { ...camera(), eye } });
-  const turn = (around, up) => {
-    const { x, y, z } = camera().eye;
-    const far = Math.hypot(x, y, z);
-    const azimuth = Math.atan2(y, x) + around;
-    const height = Math.max(-1.5, Math.min(1.5, Math.asin(z / far) + up));
-    const flat = far * Math.cos(height);
-    look({ x: flat * Math.cos(azimuth), y: flat * Math.sin(azimuth), z: far * Math.sin(height) });
-  };
-  const approach = (factor) => {
-    const { x, y, z } = camera().eye;
-    look({ x: factor * x, y: factor * y, z: factor * z });
-  };
 
   const views = Object.keys(VIEWS).map((name) =>
     button(

@@ -58,6 +58,33 @@ class Solid {
   }
 }
 
+/** Return what keys do in a scene: arrows turn it, plus and minus move nearer and away. */
+function cameraKeys(area) {
+  const camera = () => area().layout.scene.camera;
+  const look = (eye) => Plotly.relayout(area(), { "scene.camera": { ...camera(), eye } });
+  const turn = (around, rise) => {
+    const up = Object.values(camera().up);
+    const eye = rotate(Object.values(camera().eye), up, around);
+    const height = Math.asin(dot(unit(eye), up));
+    const wanted = Math.max(-1.5, Math.min(1.5, height + rise));
+    const [x, y, z] = rotate(eye, unit(cross(up, eye)), height - wanted);
+    look({ x, y, z });
+  };
+  const approach = (factor) => {
+    const { x, y, z } = camera().eye;
+    look({ x: factor * x, y: factor * y, z: factor * z });
+  };
+  return {
+    ArrowLeft: () => turn(-0.15, 0),
+    ArrowRight: () => turn(0.15, 0),
+    ArrowUp: () => turn(0, 0.12),
+    ArrowDown: () => turn(0, -0.12),
+    "+": () => approach(0.85),
+    "=": () => approach(0.85),
+    "-": () => approach(1 / 0.85),
+  };
+}
+
 /** Return `sides` points on the unit circle. */
 function circle(sides) {
   return Array.from({ length: sides }, (_, n) => {
@@ -72,6 +99,18 @@ function minus(a, b) {
 
 function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+function dot(a, b) {
+  return a.reduce((sum, value, n) => sum + value * b[n], 0);
+}
+
+/** Return a vector turned about a unit vector [rad]. */
+function rotate(vector, axis, angle) {
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  const beside = cross(axis, vector);
+  const along = (1 - cos) * dot(axis, vector);
+  return vector.map((value, n) => value * cos + beside[n] * sin + axis[n] * along);
 }
 
 function unit(a) {

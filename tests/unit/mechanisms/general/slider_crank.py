@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from tribodyn.cases.load import parse
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.case import MechanismCase
@@ -72,6 +74,10 @@ stiffness = "2 N/mm"
 [run]
 cycles = 2
 """
+
+
+IDEAL = re.sub(r"\[joints.wrist.clearance\].*?(?=\[joints)", "", FILE, flags=re.DOTALL)
+"""The same with all joints ideal."""
 
 
 def parsed(text: str = FILE) -> MechanismCase:

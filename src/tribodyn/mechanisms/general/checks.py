@@ -1,0 +1,85 @@
+"""What a run of a mechanism says about its own trustworthiness, by the names of its joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.checks import CLIP_LIMIT, ENERGY_LIMIT, of_steps
+
+GAP_LIMIT: Final = 1.0e-9
+"""Residual of a constraint, in m or rad, below which nobody sees it."""
+_TIGHTEN: Final = "Tighten solver.rtol tenfold."
+
+
+def of_ledgers(energy: float, gaps: FloatArray) -> list[str]:
+    """Return what is to be said of energy and constraints; empty texts where nothing is.
+
+    Parameters
+    ----------
+    energy
+        What the energy ledger misses, as a fraction of its largest term.
+    gaps
+        Largest residual of a constraint over time [m or rad], shape (n_t,).
+    """
+    if math.isnan(energy):
+        return [
+            "Energy could not be accounted for to the end. Doubt what follows the last finite "
+            "energy_residual."
+        ]
+    gap = float(np.max(gaps, initial=0.0))
+    return [
+        f"Energy is missed: {100 * energy:.2g} % of the largest term. {_TIGHTEN}"
+        if energy > ENERGY_LIMIT
+        else "",
+        f"Ideal joints came apart by up to {gap:.2g} m or rad. {_TIGHTEN}" if gap > GAP_LIMIT else "",
+    ]
+
+
+def of_surfaces(
+    names: Sequence[str], roughness: Sequence[float], peaks: Mapping[str, FloatArray], t_end: float
+) -> list[str]:
+    """Return what is to be said of contacts, each by its name.
+
+    Parameters
+    ----------
+    names
+        Of the surfaces.
+    roughness
+        Their σ [m].
+    peaks
+        What was largest or least at any accepted step, each of shape (n_surfaces,).
+    t_end
+        Simulated time reached [s].
+    """
+    depth = {
+        name: least / sigma
+        for name, sigma, least in zip(names, roughness, peaks["separation_least"], strict=True)
+    }
+    clipped = {
+        name: time / t_end if t_end > 0.0 else 0.0
+        for name, time in zip(names, peaks["tensile_clip_time"], strict=True)
+    }
+    return [
+        *(
+            f"In {name} the mean planes came within {value:.2g} sigma of each other: below 0 the statistical "
+            "contact law is outside its range."
+            for name, value in depth.items()
+            if value < 0.0
+        ),
+        *(
+            f"In {name} the clip of tensile pressure acted on {100 * share:.2g} % of the contact on average: "
+            "damping is strong against stiffness there."
+            for name, share in clipped.items()
+            if share > CLIP_LIMIT
+        ),
+    ]
+
+
+def said(*parts: Sequence[str], cost: Mapping[str, float]) -> list[str]:
+    """Return all that is to be said, that of the integration last."""
+    return [message for part in (*parts, of_steps(cost)) for message in part if message]

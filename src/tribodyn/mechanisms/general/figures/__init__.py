@@ -1,0 +1,26 @@
+"""Figures of a mechanism, in the order in which one reads them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.figures import chart, energy, wear_history
+from tribodyn.figures.base import Family
+from tribodyn.mechanisms.general.figures import joints, mechanism
+from tribodyn.mechanisms.general.ledger import LEDGERS
+from tribodyn.mechanisms.general.sections.charts import CLEARANCES, JOINT_FORCES, MOTION
+
+FIGURES: Final[dict[str, Family]] = {
+    family.name: family
+    for family in (
+        mechanism.FAMILY,
+        chart.family(JOINT_FORCES),
+        chart.family(MOTION),
+        joints.ORBITS,
+        chart.family(CLEARANCES),
+        joints.PRESSURE,
+        joints.WEAR,
+        energy.family(LEDGERS),
+        wear_history.FAMILY,
+    )
+}

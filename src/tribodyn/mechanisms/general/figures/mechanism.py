@@ -1,0 +1,98 @@
+"""The mechanism at some moments of its cycle, seen from where it is best seen."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.base import Family
+from tribodyn.figures.style import GREY, INK, PALE, SMALL, VERMILION, finish, note, sheet
+from tribodyn.mechanisms.general.sections.mechanism import at_frames
+from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, skeleton, view
+
+TITLE: Final = "The mechanism in its cycle"
+_MOMENTS: Final = 8
+"""Moments that are drawn, evenly over the playback, all but the first pale."""
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw every body as lines between its joints [mm], at one moment and, pale, at others."""
+    figure = sheet(dataset, TITLE, 4.2)
+    axes = figure.subplots()
+    axes.set_aspect("equal")
+    case = case_of(dataset)
+    if case is None or dataset["time"].size < 2:
+        note(axes, "nothing to draw")
+        return figure
+    drawn, (position, orientation) = skeleton(case), at_frames(dataset)
+    eye, up = view(MM * position.reshape(-1, 3))
+    plane = _plane(eye, up)
+    first, *others = np.linspace(0, position.shape[0] - 1, _MOMENTS + 1).astype(int)[1:]
+    for k in others:
+        _draw_at(axes, drawn, plane, position[k], orientation[k], PALE)
+    _draw_at(axes, drawn, plane, position[first], orientation[first], INK)
+    _draw_joints(axes, drawn, plane, position[first], orientation[first])
+    finish(axes, *(_direction(row) for row in plane))
+    return figure
+
+
+def _plane(eye: FloatArray, up: FloatArray) -> FloatArray:
+    """Return the directions to the right and upwards on paper, shape (2, 3)."""
+    right = np.cross(up, eye)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(eye, right)])
+
+
+def _direction(row: FloatArray) -> str:
+    """Return the label of an axis on paper: that of the drawing that it is, if it is one."""
+    along = int(np.argmax(np.abs(row)))
+    sign = "−" if row[along] < 0.0 else ""
+    return f"{sign}{'xyz'[along]} [mm]" if abs(row[along]) > 0.999 else "[mm]"
+
+
+def _draw_at(
+    axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray, colour: str
+) -> None:
+    for body in range(len(drawn.bodies)):
+        points = drawn.lines(body, position[body], orientation[body]) @ plane.T
+        hub = points.mean(axis=0)
+        for point in points if len(points) > 2 else points[:1]:
+            other = hub if len(points) > 2 else points[1]
+            axes.plot(*np.array([other, point]).T, color=colour, linewidth=1.8 if colour == INK else 1.0)
+        if colour == INK:
+            axes.annotate(
+                drawn.bodies[body], hub, xytext=(5, -9), textcoords="offset points", size=SMALL, color=GREY
+            )
+
+
+def _draw_joints(
+    axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray
+) -> None:
+    there: dict[tuple[float, ...], list[Mark]] = {}
+    for mark in drawn.marks:
+        point = MM * mark.point
+        if mark.body >= 0:
+            point = drawn.moved(mark.point[None], mark.body, position[mark.body], orientation[mark.body])[0]
+        there.setdefault(tuple((plane @ point).round(1)), []).append(mark)
+    for (x, y), marks in there.items():
+        rim = VERMILION if any(mark.real for mark in marks) else INK
+        axes.plot(x, y, "o", ms=7, mfc="white", mec=rim, mew=1.4, zorder=4)
+        names = ", ".join(mark.name for mark in marks)
+        axes.annotate(names, (x, y), xytext=(6, 6), textcoords="offset points", size=SMALL)
+
+
+FAMILY: Final = Family(
+    name="mechanism",
+    title=TITLE,
+    caption=(
+        "Bodies as lines between their joints, to scale, early in the cycle shown and, pale, later in it. "
+        "Joints with clearance have an orange rim."
+    ),
+    needs=("position", "orientation", "body", "joint"),
+    draw=draw,
+)

@@ -1,0 +1,67 @@
+"""What the report shows of a mechanism: its chapters, and what a comparison lays over each other."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from tribodyn.mechanisms.general.headlines import offset, sizes
+from tribodyn.mechanisms.general.sections import mechanism
+from tribodyn.mechanisms.general.sections.charts import CLEARANCES, ENERGY, JOINT_FORCES, MOTION
+from tribodyn.mechanisms.general.sections.joints import ORBITS, PRESSURE, REACTIONS, WEAR
+from tribodyn.views import wear_history
+from tribodyn.views.overlay import Overlay, Quantity
+from tribodyn.views.section import OVER_TIME, Chapter
+
+CHAPTERS: Final = (
+    Chapter(
+        "playback",
+        "One cycle",
+        "Everything in this part shows the same moment. Move the slider, or press play.",
+        (mechanism.SECTION, ORBITS, PRESSURE),
+        playback=True,
+    ),
+    Chapter(
+        "time",
+        "Over time",
+        OVER_TIME,
+        (REACTIONS, JOINT_FORCES.section, CLEARANCES.section, MOTION.section, ENERGY.section),
+    ),
+    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR, wear_history.SECTION)),
+)
+"""Chapters in reading order."""
+
+OVERLAYS: Final = (
+    Overlay(
+        "force",
+        "Forces in the joints",
+        (
+            Quantity(
+                "largest of all joints [N]",
+                ("reaction_force",),
+                lambda d: sizes(d, "reaction_force").max(axis=1),
+            ),
+        ),
+    ),
+    Overlay(
+        "offset",
+        "Offset in the joints",
+        (
+            Quantity(
+                "largest of all joints [µm]",
+                ("displacement", "clearance"),
+                lambda d: 1e6 * np.nan_to_num(offset(d)).max(axis=1),
+            ),
+        ),
+    ),
+    Overlay(
+        "drive",
+        "Drive",
+        (
+            Quantity("moment [N m]", ("drive_moment",), lambda d: d["drive_moment"].values.sum(axis=1)),
+            Quantity("force [N]", ("drive_force",), lambda d: d["drive_force"].values.sum(axis=1)),
+        ),
+    ),
+)
+"""What a comparison of runs shows."""

@@ -1,0 +1,97 @@
+"""Charts over time of any mechanism."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.general.headlines import offset, sizes
+from tribodyn.mechanisms.general.ledger import WHOLE
+from tribodyn.views.chart import Chart
+from tribodyn.views.curves import LOOKS, Curve, Panel
+from tribodyn.views.energy import ledger_chart
+
+DEG: Final = 180.0 / np.pi
+
+
+def curves(names: list[str], values: FloatArray) -> list[Curve]:
+    """Return the largest of some curves, as many as have a look of their own; values of shape (n_t, n)."""
+    reach = np.nan_to_num(np.abs(values)).max(axis=0, initial=0.0)
+    chosen = sorted(np.argsort(-reach, kind="stable")[: len(LOOKS)].tolist())
+    looks = zip(chosen, LOOKS, strict=False)
+    return [Curve(names[k], values[:, k], colour, dash) for k, (colour, dash) in looks if reach[k] > 0.0]
+
+
+def _names(dataset: xr.Dataset, part: str) -> list[str]:
+    return [str(name) for name in dataset[part].values]
+
+
+def _panels(*panels: tuple[str, list[Curve]]) -> list[Panel]:
+    drawn = [panel for panel in panels if panel[1]] or panels[:1]
+    # A legend comes with the second curve.
+    return [Panel(f"{label}\n{found[0].name}" if len(found) == 1 else label, found) for label, found in drawn]
+
+
+def motion(dataset: xr.Dataset) -> list[Panel]:
+    """Return angles of joints [°] and speeds of bodies [m/s]."""
+    joints, bodies = _names(dataset, "joint"), _names(dataset, "body")
+    return _panels(
+        ("angle [°]", curves(joints, DEG * dataset["joint_angle"].values)),
+        ("speed of\nmass centre [m/s]", curves(bodies, sizes(dataset, "velocity"))),
+        ("acceleration of\nmass centre [m/s²]", curves(bodies, sizes(dataset, "acceleration"))),
+    )
+
+
+def joint_forces(dataset: xr.Dataset) -> list[Panel]:
+    """Return sizes of the forces in the joints [N] and the efforts of drives."""
+    joints = _names(dataset, "joint")
+    return _panels(
+        ("force in joint [N]", curves(joints, sizes(dataset, "reaction_force"))),
+        ("drive moment [N m]", curves(joints, dataset["drive_moment"].values)),
+        ("drive force [N]", curves(joints, dataset["drive_force"].values)),
+    )
+
+
+def clearances(dataset: xr.Dataset) -> list[Panel]:
+    """Return how far shafts leave the middle of their bores [µm], and peak pressures [MPa]."""
+    real = np.isfinite(dataset["clearance"].values)
+    names = [name for name, wanted in zip(_names(dataset, "joint"), real, strict=True) if wanted]
+    return _panels(
+        ("offset [µm]", curves(names, 1e6 * offset(dataset)[:, real])),
+        ("peak pressure [MPa]", curves(names, 1e-6 * dataset["pressure_max"].values[:, real])),
+    )
+
+
+MOTION: Final = Chart(
+    name="motion",
+    title="Motion",
+    caption="Angles of the joints from the drawing, speeds and accelerations of the bodies.",
+    needs=("joint_angle", "velocity", "acceleration", "joint", "body"),
+    panels=motion,
+)
+JOINT_FORCES: Final = Chart(
+    name="joint_forces",
+    title="Forces in the joints",
+    caption="Sizes of the forces that the joints carry, and what the drives give.",
+    needs=("reaction_force", "drive_moment", "drive_force", "joint"),
+    panels=joint_forces,
+)
+CLEARANCES: Final = Chart(
+    name="clearances",
+    title="Motion in the clearances",
+    caption="How far shafts leave the middle of their bores, across the axis, and the highest pressures.",
+    needs=("displacement", "clearance", "pressure_max", "joint"),
+    panels=clearances,
+)
+ENERGY: Final = ledger_chart(
+    WHOLE,
+    name="energy",
+    title="Energy ledger",
+    caption=(
+        "What drives and loads put in, what is stored and what became heat since the start. The residual is "
+        "what the sum misses: an error of the integration would show there."
+    ),
+)

@@ -1,0 +1,175 @@
+"""What happens in the joints: forces, the motion in the clearance, pressure and wear, joint by joint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.bushing import Unrolled
+from tribodyn.views.choice import choice
+from tribodyn.views.curves import LOOKS, Curve, Panel
+from tribodyn.views.depth import fitting_unit
+from tribodyn.views.encode import packed, quantised
+from tribodyn.views.lines import over_time
+from tribodyn.views.playback import in_playback, playback_times
+from tribodyn.views.section import Payload, Section
+from tribodyn.views.series import peak
+from tribodyn.views.unrolled import best_cut
+
+_AXES: Final = "xyz"
+LAID_FLAT: Final = (
+    "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
+    "or arc of a ball."
+)
+WORN: Final = (
+    "Depth worn off: after the cycles of the wear campaign, or else a linear estimate for this run, in which "
+    "the worn shape does not change the pressure."
+)
+
+
+def real_joints(dataset: xr.Dataset) -> list[int]:
+    """Return the numbers of the joints with clearance."""
+    return np.flatnonzero(np.isfinite(dataset["clearance"].values)).tolist()
+
+
+def _names(dataset: xr.Dataset) -> list[str]:
+    return [str(name) for name in dataset["joint"].values]
+
+
+def reactions(dataset: xr.Dataset) -> Payload | None:
+    """Return force and moment of every joint over time, in its own axes."""
+    force, moment = dataset["reaction_force"].values, dataset["reaction_moment"].values
+    parts = {
+        name: over_time(dataset, [_vector("force [N]", force[:, j]), _vector("moment [N m]", moment[:, j])])
+        for j, name in enumerate(_names(dataset))
+    }
+    return choice("lines", "joint", parts)
+
+
+def _vector(label: str, values: FloatArray) -> Panel:
+    curves = [
+        Curve(axis, values[:, i], colour, dash)
+        for i, (axis, (colour, dash)) in enumerate(zip(_AXES, LOOKS, strict=False))
+    ]
+    return Panel(label, curves)
+
+
+def orbits(dataset: xr.Dataset) -> Payload | None:
+    """Return where the shaft of every joint with clearance is, across its axis [µm]."""
+    times = playback_times(dataset)
+    if times.size < 2:
+        return None
+    names = _names(dataset)
+    return choice("orbit", "joint", {names[j]: _orbit(dataset, j, times) for j in real_joints(dataset)})
+
+
+def _orbit(dataset: xr.Dataset, joint: int, times: FloatArray) -> dict[str, Any]:
+    time, inside = dataset["time"].values, in_playback(dataset)
+    x, y = (1e6 * dataset["displacement"].values[:, joint, i] for i in range(2))
+    clearance = 1e6 * float(dataset["clearance"].values[joint])
+    now = {"x": packed(np.interp(times, time, x)), "y": packed(np.interp(times, time, y))}
+    return {
+        "clearance": clearance,
+        "reach": 1.25 * max(clearance, peak(x[inside]), peak(y[inside])),
+        "wall": 1,
+        "joined": False,
+        "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
+        "places": ["shaft"],
+        "paths": [{"x": packed(x[inside]), "y": packed(y[inside])}],
+        "at": [now],
+    }
+
+
+def pressures(dataset: xr.Dataset) -> Payload | None:
+    """Return the frames of pressure of every surface [MPa]."""
+    if dataset["pressure_cycle"].shape[0] < 2:
+        return None
+    return _maps(dataset, "pressure_cycle", lambda _: ("MPa", 1e6), "contact pressure", 1.6)
+
+
+def wear(dataset: xr.Dataset) -> Payload | None:
+    """Return the wear depth of every surface as one picture each, in a unit that fits."""
+    return _maps(dataset, "wear_depth", fitting_unit, "wear depth", 1.0)
+
+
+def _maps(
+    dataset: xr.Dataset, name: str, unit_of: Callable[[float], tuple[str, float]], label: str, room: float
+) -> Payload | None:
+    """Return maps of all surfaces that are not empty; colours go ``room`` times as far as the median peak."""
+    parts: dict[str, Any] = {}
+    for surface, place, theta, fields in surfaces(dataset, name):
+        largest = float(fields.max(initial=0.0))
+        if not largest > 0.0:
+            continue
+        unit, size = unit_of(largest)
+        cut = best_cut(theta, fields.max(axis=(0, 2)))
+        middle = 0.5e3 * float(place[0] + place[-1])
+        laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
+        steps, peaks = quantised(laid.reordered(fields / size))
+        parts[surface] = {
+            **laid.axes(),
+            "unit": unit,
+            "stages": [],
+            "label": f"{label} [{unit}]",
+            "largest": float(peaks.max()),
+            "usual": float(np.median(peaks[peaks > 0.0])) * room,
+            "steps": packed(steps, "uint8"),
+            "peaks": packed(peaks),
+        }
+    return choice("field", "surface", parts)
+
+
+def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
+    """Yield each surface's name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows)."""
+    field = np.nan_to_num(dataset[name].values)
+    field = field if field.ndim == 4 else field[None]
+    for k, surface in enumerate(dataset["surface"].values):
+        place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
+        rows, columns = np.append(np.diff(place) > 0.0, True), np.append(np.diff(theta) > 0.0, True)
+        if np.count_nonzero(rows) > 1:
+            own = field[:, k][:, rows][:, :, columns]
+            yield str(surface), place[rows], theta[columns], own.transpose(0, 2, 1)
+
+
+REACTIONS: Final = Section(
+    name="reactions",
+    title="Force and moment of a joint",
+    caption="Force and moment on the shaft's body, along and about the axes of the joint: z is its axis.",
+    needs=("reaction_force", "reaction_moment", "joint"),
+    widget="choice",
+    data=reactions,
+)
+ORBITS: Final = Section(
+    name="orbits",
+    title="Shafts in their bores",
+    caption=(
+        "Seen along the axis of the joint: the circle is the clearance, the mark is the middle of the "
+        "shaft now, the line its path. Beyond the circle the mean planes of the surfaces overlap."
+    ),
+    needs=("displacement", "clearance", "joint"),
+    widget="choice",
+    data=orbits,
+    still="orbits",
+)
+PRESSURE: Final = Section(
+    name="pressure",
+    title="Contact pressure",
+    caption=LAID_FLAT,
+    needs=("pressure_cycle", "frame_time", "surface"),
+    widget="choice",
+    data=pressures,
+    still="pressure_maps",
+)
+WEAR: Final = Section(
+    name="wear",
+    title="Wear depth",
+    caption=WORN,
+    needs=("wear_depth", "surface"),
+    widget="choice",
+    data=wear,
+    still="wear_maps",
+)

@@ -1,0 +1,98 @@
+"""The mechanism in space: every body drawn from its joints, at the frames."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.general.skeleton import Mark, Skeleton, case_of, skeleton, view
+from tribodyn.views.curves import LOOKS
+from tribodyn.views.encode import packed
+from tribodyn.views.playback import playback_times
+from tribodyn.views.section import Payload, Section
+
+_ROOM: Final = 0.08
+"""Room around the mechanism, as a share of its size."""
+
+
+def at_frames(dataset: xr.Dataset) -> tuple[FloatArray, FloatArray]:
+    """Return positions [m] and unit quaternions at the frames, (n_frames, n_bodies, 3) and (…, 4)."""
+    time, frames = dataset["time"].values, playback_times(dataset)
+    position, orientation = (
+        _between(frames, time, dataset[name].values) for name in ("position", "orientation")
+    )
+    return position, orientation / np.linalg.norm(orientation, axis=-1, keepdims=True)
+
+
+def _between(frames: FloatArray, time: FloatArray, values: FloatArray) -> FloatArray:
+    """Return values at frames by straight lines between rows."""
+    k = np.clip(np.searchsorted(time, frames, side="right") - 1, 0, time.size - 2)
+    share = ((frames - time[k]) / (time[k + 1] - time[k]))[:, None, None]
+    return np.asarray((1.0 - share) * values[k] + share * values[k + 1])
+
+
+def data(dataset: xr.Dataset) -> Payload | None:
+    """Return the points of bodies and joints at the frames [mm], and from where to look."""
+    case = case_of(dataset)
+    if case is None or playback_times(dataset).size < 2:
+        return None
+    drawn, (position, orientation) = skeleton(case), at_frames(dataset)
+    bodies = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
+    marks = [_mark(drawn, mark, position, orientation) for mark in drawn.marks]
+    everywhere = np.concatenate([part.reshape(-1, 3) for part in (*bodies, *(mark[:, 0] for mark in marks))])
+    low, high = everywhere.min(axis=0), everywhere.max(axis=0)
+    size = float(np.linalg.norm(high - low))
+    eye, up = view(everywhere)
+    return {
+        "size": size,
+        "ranges": [
+            [float(a - _ROOM * size), float(b + _ROOM * size)] for a, b in zip(low, high, strict=True)
+        ],
+        "eye": eye.tolist(),
+        "up": up.tolist(),
+        "bodies": [
+            _body(name, k, points) for k, (name, points) in enumerate(zip(drawn.bodies, bodies, strict=True))
+        ],
+        "joints": [
+            {"name": mark.name, "real": mark.real, "points": packed(points)}
+            for mark, points in zip(drawn.marks, marks, strict=True)
+        ],
+    }
+
+
+def _body(name: str, number: int, points: FloatArray) -> dict[str, Any]:
+    """Return a body as the script reads it: lines from the first point, or from the middle, to the others."""
+    hub = points.mean(axis=1, keepdims=True)
+    spread = points if points.shape[1] == 2 else np.concatenate([hub, points], axis=1)
+    return {
+        "name": name,
+        "colour": LOOKS[(number + 1) % len(LOOKS)][0],
+        "n": spread.shape[1],
+        "points": packed(spread),
+    }
+
+
+def _mark(drawn: Skeleton, mark: Mark, position: FloatArray, orientation: FloatArray) -> FloatArray:
+    """Return a joint at the frames and a point one metre along its axis [mm]; twice the same for a ball."""
+    tip = mark.point if mark.axis is None else mark.point + mark.axis
+    points = np.array([mark.point, tip])
+    if mark.body < 0:
+        return np.broadcast_to(1e3 * points, (position.shape[0], 2, 3))
+    return drawn.moved(points, mark.body, position[:, mark.body], orientation[:, mark.body])
+
+
+SECTION: Final = Section(
+    name="mechanism",
+    title="The mechanism",
+    caption=(
+        "Bodies as rods between their joints; joints with clearance stand out. Drag to turn it, or use the "
+        "arrow keys."
+    ),
+    needs=("position", "orientation", "body", "joint"),
+    widget="linkage",
+    data=data,
+    still="mechanism",
+)

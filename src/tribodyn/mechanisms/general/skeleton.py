@@ -1,0 +1,143 @@
+"""A mechanism as lines between its joints: where the points of every body are, as pictures need it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases.load import parse
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.parts import unit
+
+MM: Final = 1e3
+_FLAT: Final = 0.2
+"""A mechanism thinner than this share of its size is looked at across its plane."""
+
+
+def case_of(dataset: xr.Dataset) -> MechanismCase | None:
+    """Return the case of a result; nothing where its text is not (or no longer) one of a mechanism."""
+    kinds = {MechanismCase.kind(): MechanismCase}
+    try:
+        case = parse(str(dataset.attrs.get("case", "")), "case of the result", kinds)
+    except InputError:
+        return None
+    return case if isinstance(case, MechanismCase) else None
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A joint as it is drawn.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    body
+        Number of the body that carries it; −1 for the ground.
+    point, axis
+        Place [m] and direction in the drawing; no direction for a ball.
+    real
+        Whether it has clearance.
+    """
+
+    name: str
+    body: int
+    point: FloatArray
+    axis: FloatArray | None
+    real: bool
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """What is drawn of a mechanism.
+
+    Attributes
+    ----------
+    bodies
+        Names.
+    centres
+        Mass centres in the drawing [m], shape (n_bodies, 3).
+    points
+        Of each body the ends of its lines in the drawing [m], shape (n, 3): its joints, and its mass centre
+        where it has fewer than two.
+    marks
+        The joints.
+    """
+
+    bodies: tuple[str, ...]
+    centres: FloatArray
+    points: tuple[FloatArray, ...]
+    marks: tuple[Mark, ...]
+
+    def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
+        """Return the ends of the lines of a body [mm], shape (..., n, 3).
+
+        Parameters
+        ----------
+        body
+            Its number.
+        position, orientation
+            Mass centre [m] and quaternion, shapes (..., 3) and (..., 4).
+        """
+        return self.moved(self.points[body], body, position, orientation)
+
+    def moved(
+        self, points: FloatArray, body: int, position: FloatArray, orientation: FloatArray
+    ) -> FloatArray:
+        """Return where points of the drawing [m] are when a body carries them [mm], shape (..., n, 3)."""
+        arms = points - self.centres[body]
+        return MM * (position[..., None, :] + rotated(orientation[..., None, :], arms))
+
+
+def skeleton(case: MechanismCase) -> Skeleton:
+    """Return what is drawn of the mechanism of a case."""
+    names = tuple(case.bodies)
+    centres = np.array([body.centre for body in case.bodies.values()])
+    ends: list[list[FloatArray]] = [[] for _ in names]
+    for joint in case.joints.values():
+        for body, point in zip(joint.between, (joint.point, joint.other_point or joint.point), strict=True):
+            if body != GROUND:
+                ends[names.index(body)].append(np.array(point))
+    points = tuple(
+        np.array(own if len(own) > 1 else [*own, centre]) for own, centre in zip(ends, centres, strict=True)
+    )
+    return Skeleton(names, centres, points, tuple(_mark(case, name, names) for name in case.joints))
+
+
+def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:
+    joint = case.joints[name]
+    first = joint.between[0]
+    axis = np.array(unit(joint.axis, "axis")) if joint.axis is not None and KINDS[joint.type].axis else None
+    body = -1 if first == GROUND else bodies.index(first)
+    return Mark(name, body, np.array(joint.point), axis, joint.clearance is not None)
+
+
+def rotated(quaternion: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Return vectors turned by unit quaternions (w, x, y, z); shapes (..., 4) and (..., 3)."""
+    w, axis = quaternion[..., :1], quaternion[..., 1:]
+    twice = 2.0 * np.cross(axis, vectors)
+    return np.asarray(vectors + w * twice + np.cross(axis, twice))
+
+
+def view(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return from where a mechanism is seen, and what is up, two unit vectors.
+
+    Parameters
+    ----------
+    points
+        Where it comes to, shape (n, 3).
+    """
+    spans = np.ptp(points, axis=0)
+    thin = int(np.argmin(spans))
+    up = np.eye(3)[2 if thin != 2 else 1]
+    if spans[thin] <= _FLAT * spans.max():
+        across = np.eye(3)[thin]
+        return (across if thin == 2 else -across), up
+    eye = np.array([0.55, -1.0, 0.45])
+    return eye / np.linalg.norm(eye), up

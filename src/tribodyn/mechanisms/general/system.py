@@ -1,0 +1,224 @@
+"""A case of a mechanism as a system to integrate, and what its runs tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.problem import Problem
+from tribodyn.joints.clearances import places
+from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
+from tribodyn.mechanisms.general import checks
+from tribodyn.mechanisms.general.assembly import Assembly, assemble, closes_until
+from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.describe import describe
+from tribodyn.mechanisms.general.description import Clearance, Description
+from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
+from tribodyn.mechanisms.general.maps import Maps
+from tribodyn.mechanisms.general.problem import mechanism_problem, stored_energy
+from tribodyn.mechanisms.general.variables import AXES, BODIES, JOINTS, Observed, observed
+from tribodyn.mechanisms.playback import frame_times, shown
+
+_STATES: Final = 13
+"""Of a body."""
+
+
+@dataclass(frozen=True)
+class MechanismSystem:
+    """The mechanism of a case; see :class:`~tribodyn.mechanisms.base.WearingSystem`."""
+
+    case: MechanismCase
+
+    @cached_property
+    def description(self) -> Description:
+        """The mechanism as drawn, in SI units."""
+        return describe(self.case)
+
+    @cached_property
+    def assembly(self) -> Assembly:
+        """The mechanism put together, its joints not worn."""
+        return self._assembled(None)
+
+    def _assembled(self, depth: FloatArray | None) -> Assembly:
+        found = assemble(self.description, depth)
+        found.require_sound()
+        return found
+
+    @cached_property
+    def real(self) -> tuple[tuple[str, Clearance], ...]:
+        """Names and clearances of the joints that have one."""
+        joints = self.description.joints
+        return tuple((joint.name, joint.clearance) for joint in joints if joint.clearance is not None)
+
+    @cached_property
+    def maps(self) -> Maps:
+        """How fields over nodes become maps of surfaces."""
+        found = places([clearance for _, clearance in self.real])
+        return Maps(tuple(f"{self.real[place.joint][0]}:{place.surface.name}" for place in found), found)
+
+    @property
+    def period(self) -> float:
+        """Time of one cycle [s]; all of the run where nothing says how long it is."""
+        return self.case.period or self.case.duration
+
+    @property
+    def nodes(self) -> Nodes:
+        """The nodes of all joints with clearance, shape (n_nodes,)."""
+        roughness = min((clearance.roughness for _, clearance in self.real), default=1.0)
+        return Nodes(self.maps.area, roughness, _STATES * len(self.description.bodies))
+
+    def check(self) -> Sequence[str]:
+        """Put the mechanism together, move it through its cycle, and say what there is to know of it."""
+        stuck = closes_until(self.assembly, self.case.duration)
+        if stuck is not None:
+            time, finding = stuck
+            raise InputError(f"at t = {time:.4g} s {finding.text}", key=finding.key)
+        return self.assembly.remarks
+
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+        """Return the initial value problem over ``duration`` [s]."""
+        return mechanism_problem(
+            self.assembly if worn is None else self._assembled(worn.depth),
+            duration=duration,
+            rtol=self.case.solver.rtol,
+            carried=None if worn is None else worn.carried,
+        )
+
+    def output_times(self, duration: float) -> FloatArray:
+        """Return the times of the rows [s], the end included."""
+        n = max(round(duration / self.case.output_interval), 1)
+        return np.linspace(0.0, duration, n + 1)
+
+    def picture_times(self, duration: float) -> FloatArray:
+        """Return the times of the frames of the playback [s]; none where all joints are ideal."""
+        return frame_times(duration, self.period, np.empty(0), 0.0) if self.real else np.empty(0)
+
+    def sliding_load(self, problem: Problem) -> FloatArray:
+        """Return ∫P_c |s| dt at the nodes over the run [N/m], shape (n_nodes,)."""
+        load: FloatArray = problem.memory.contact.sliding_load
+        return load
+
+    def as_field(self, depth: FloatArray) -> FloatArray:
+        """Return wear depths [m] as maps of surfaces."""
+        return np.asarray(self.maps(depth), dtype=np.float64)
+
+    def carried(self, run: Run) -> Carried:
+        """Return what the next cycle goes on from."""
+        return Carried(run.solution.y_end, run.problem.memory.contact.entry_velocity)
+
+    def contact_energy(self, worn: Worn) -> float:
+        """Return the energy stored in the contact [J]."""
+        return stored_energy(self.problem(self.period, worn))
+
+    def of_cycle(self, run: Run) -> dict[str, float]:
+        """Return what a campaign writes down about the motion of one cycle."""
+        force = np.linalg.norm(JOINTS["reaction_force"].values(self._observed(run).couplings), axis=-1)
+        means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self._real_numbers]]
+        return {
+            "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
+            "wear_force_mean": max(means),
+        }
+
+    def gather(self, run: Run) -> Part:
+        """Return what the mechanism knows about a run."""
+        found = self._observed(run)
+        ledger = ledger_columns(found.whole)
+        energy = WHOLE.fraction(ledger)
+        peaks = self._peaks(run)
+        return Part(
+            coordinates=self._coordinates(run),
+            columns={
+                **{name: kept.values(found.bodies) for name, kept in BODIES.items()},
+                **{name: kept.values(self._of_joints(found)) for name, kept in JOINTS.items()},
+                **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
+                **ledger,
+            },
+            fields={"clearance": self._clearances(), **peaks, **self._pressure(run)},
+            attributes={
+                "energy_residual": energy,
+                **({"cycle_period": self.case.period} if self.case.period is not None else {}),
+            },
+            warnings=checks.said(
+                [*self.assembly.warnings],
+                checks.of_ledgers(energy, found.whole["gap"]),
+                checks.of_surfaces(self.maps.names, self._roughness, peaks, float(run.solution.t_end))
+                if peaks
+                else [],
+                cost=run.cost,
+            ),
+            failure=run.solution.failure or "",
+        )
+
+    def _observed(self, run: Run) -> Observed:
+        return observed(run.solution.rows, len(self.description.bodies))
+
+    def _of_joints(self, found: Observed) -> dict[str, FloatArray]:
+        """Return what is observed of the joints alone, which come before springs and loads."""
+        n = len(self.description.joints)
+        return {name: values[:, :n] for name, values in found.couplings.items()}
+
+    @property
+    def _real_numbers(self) -> list[int]:
+        return [k for k, joint in enumerate(self.description.joints) if joint.clearance is not None]
+
+    @property
+    def _roughness(self) -> list[float]:
+        return [self.real[place.joint][1].roughness for place in self.maps.places]
+
+    def _clearances(self) -> FloatArray:
+        joints = self.description.joints
+        return np.array(
+            [
+                np.nan
+                if j.clearance is None
+                else j.clearance.sizes.get("radial", j.clearance.sizes.get("gap", np.nan))
+                for j in joints
+            ]
+        )
+
+    def _peaks(self, run: Run) -> dict[str, FloatArray]:
+        """Return what was largest or least of each surface at any step; NaN where it never touched."""
+        if not self.real:
+            return {}
+        peaks: Any = run.problem.memory.contact.peaks
+        return {name: np.where(np.isfinite(peaks[name]), peaks[name], np.nan) for name in peaks.dtype.names}
+
+    def _coordinates(self, run: Run) -> dict[str, ArrayLike]:
+        parts = {
+            "body": [body.name for body in self.description.bodies],
+            "joint": [joint.name for joint in self.description.joints],
+            "axis": list(AXES),
+            "entry": ["w", *AXES],
+        }
+        if not self.real:
+            return dict(parts)
+        frames = run.solution.picture_times[self._playback(run)]
+        return {
+            **parts,
+            "surface": list(self.maps.names),
+            "frame": np.arange(frames.size, dtype=np.float64),
+            "frame_time": frames,
+            **self.maps.coordinates(),
+        }
+
+    def _playback(self, run: Run) -> slice:
+        return shown(run.solution.picture_times, run.duration, self.period)
+
+    def _pressure(self, run: Run) -> dict[str, Any]:
+        if not self.real:
+            return {}
+        pictures = run.solution.pictures[self._playback(run)].astype(np.float32)
+        return {"pressure_cycle": self.maps(pictures)}
+
+
+_IN_LEDGER: Final = ("energy_gravity", "work_in", "heat_damping", "heat_friction")
+"""What reaches the user under the names of the ledger instead."""
+
+SYSTEM: Final = MechanismSystem

@@ -1,0 +1,78 @@
+"""A drawn mechanism simulated: motion in closed form, books, names, wear, and a campaign gone on with."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
+
+import tribodyn as td
+from tribodyn.mechanisms import results
+from tribodyn.mechanisms.general.builder import Mechanism
+
+PLAIN = parsed(
+    IDEAL.split("[pairs")[0] + '[drives.motor]\njoint = "main"\nspeed = "5000 rpm"\n[run]\ncycles = 1\n'
+)
+"""Slider-crank of ideal joints at 5000 rpm under gravity."""
+
+
+def bob(**clearance: str) -> Mechanism:
+    """Return a bob of 1 kg on an arm of 0.2 m, let go 30° from the lowest point."""
+    drawn = Mechanism("Pendulum", gravity="0, 0, -9.81 m/s^2", run={"duration": "20 ms"})
+    drawn.body("bob", mass="1 kg", centre="100, 0, -173.205081 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.revolute("pivot", "ground", "bob", point="0, 0, 0 mm", axis=[0, 1, 0])
+    if clearance:
+        drawn.clearance("pivot", radius="6 mm", radial="20 um", length="20 mm", axial="50 um", **clearance)
+    return drawn
+
+
+@pytest.fixture(scope="module")
+def turn() -> xr.Dataset:
+    return td.simulate(PLAIN)
+
+
+def test_the_slider_moves_as_the_closed_form_says(turn: xr.Dataset) -> None:
+    # Piston kinematics; the tolerance of the run is 1e-4 of a tenth of the mechanism.
+    theta = 2.0 * math.pi * 5000.0 / 60.0 * turn["time"].values
+    x = 0.05 * np.cos(theta) + np.sqrt(0.12**2 - (0.05 * np.sin(theta)) ** 2)
+    found = turn["position"].sel(body="slider", axis="x").values
+    np.testing.assert_allclose(found, x, atol=2e-6)
+    assert not turn.attrs["failure"]
+
+
+def test_what_is_not_unique_is_said_by_name(turn: xr.Dataset) -> None:
+    told = " ".join(results.summarise(turn)["warnings"])
+    assert all(name in told for name in ("main", "pin", "wrist", "guide"))
+
+
+def test_energy_is_accounted_for(turn: xr.Dataset) -> None:
+    # Of the largest term; ten times the tolerance of the run.
+    assert abs(turn.attrs["energy_residual"]) < 1e-3
+
+
+def test_a_pendulum_on_a_pin_presses_it_down(tmp_path: Path) -> None:
+    result = td.simulate(bob(friction_coefficient=0.0).case())
+    results.write_run(result, tmp_path)
+    again = results.read(tmp_path)
+    assert again["surface"].values.tolist()[0] == "pivot:barrel"
+    assert float(again["pressure_max"].sel(joint="pivot").max()) > 0.0
+    assert float(again["pressure_cycle"].max()) > 0.0
+    told = results.summarise(again)
+    # The pin ends up below the middle, its mean planes a little apart.
+    assert 5.0 < told["offset_max_um_pivot"] < 22.0
+
+
+def test_a_campaign_wears_and_goes_on_where_it_was(tmp_path: Path) -> None:
+    wearing = {"cycles": 3, "specific_wear_rate": "1e-12 m^2/N", "jump_limit": 0.05}
+    case = bob(friction_coefficient=0.1)
+    asked = {"run": {"cycles": 1, "period": "20 ms"}, "wear": wearing}
+    case._tables |= asked
+    whole = td.simulate(case.case(), checkpoint=tmp_path / "whole.npz")
+    assert whole.attrs["worn_volume"] > 0.0
+    assert whole["wear_depth"].dims == ("surface", "row", "column")
+    again = td.simulate(case.case(), checkpoint=tmp_path / "whole.npz")
+    assert again["wear_depth"].equals(whole["wear_depth"])
