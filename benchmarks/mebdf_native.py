@@ -7,6 +7,7 @@ from functools import cache
 from typing import Any
 
 import numba as nb
+import numpy as np
 from numba.core.types import FunctionType
 
 from benchmarks.problems import JAC, RHS, Benchmark
@@ -35,11 +36,12 @@ LONG_ENOUGH = 0.01
 
 
 @kernel
-def _run(rhs, jac, real, counts, rows, matrices):  # type: ignore[no-untyped-def]
+def _run(rhs, jac, state):  # type: ignore[no-untyped-def]
     """Integrate to the end."""
+    real, counts, rows, matrices, mass, places = state
     y, f, jacobian = rows[Y], rows[F], matrices[JACOBIAN]
     while True:
-        request = resume(real, counts, rows, matrices)
+        request = resume(real, counts, rows, matrices, mass, places)
         if request == NEED_F:
             rhs(real[T_EVAL], y, f)
         elif request == NEED_JACOBIAN:
@@ -51,20 +53,20 @@ def _run(rhs, jac, real, counts, rows, matrices):  # type: ignore[no-untyped-def
 
 
 @kernel
-def _repeated(rhs, jac, real, counts, rows, matrices, real_0, counts_0, rows_0, repeats):  # type: ignore[no-untyped-def]
+def _repeated(rhs, jac, state, start, repeats):  # type: ignore[no-untyped-def]
     """Integrate again and again from the same start."""
     failed = False
     for _ in range(repeats):
-        real[:], counts[:], rows[:, :] = real_0, counts_0, rows_0
-        failed = _run(rhs, jac, real, counts, rows, matrices)
+        state.real[:], state.counts[:], state.rows[:, :] = start[0], start[1], start[2]
+        failed = _run(rhs, jac, state)
     return failed
 
 
 @cache
 def _compiled() -> Any:
-    floats, counts, square, cube = nb.float64[::1], nb.int64[::1], nb.float64[:, ::1], nb.float64[:, :, ::1]
-    state = (floats, counts, square)
-    return _repeated.compile((FunctionType(RHS), FunctionType(JAC), *state, cube, *state, nb.int64))
+    state = new_state(0.0, np.zeros(1), 1.0, 1e-3, np.ones(1))
+    types = map(nb.typeof, (state, tuple(state)[:3]))
+    return _repeated.compile((FunctionType(RHS), FunctionType(JAC), *types, nb.int64))
 
 
 def mebdf(
@@ -81,14 +83,14 @@ def mebdf(
     ``differenced`` treats the Jacobian as one that costs evaluations.
     """
     loop = _compiled()
-    state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol, differenced=differenced)
+    state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol, differenced=int(differenced))
     for place, value in (settings or {}).items():
         state.real[place] = value
     start = (state.real.copy(), state.counts.copy(), state.rows.copy())
     repeats, seconds = 1, 0.0
     while True:
         begin = time.thread_time()
-        failed = loop(problem.rhs, problem.jac, *state, *start, repeats)
+        failed = loop(problem.rhs, problem.jac, state, start, repeats)
         seconds = time.thread_time() - begin
         if seconds > at_least:
             break

@@ -76,7 +76,9 @@ class CompiledFunctions:
 
 @dataclass(frozen=True)
 class Algebra:
-    """How a problem of many states solves with its Newton matrix 1 − γJ itself, in less than n² numbers.
+    """How a problem of many states solves with its Newton matrix M − γJ itself, in less than n² numbers.
+
+    M is the mass matrix of the problem, 1 where it has none.
 
     Attributes
     ----------
@@ -86,7 +88,7 @@ class Algebra:
         are the problem's own affair, and those with one are to bound how the rounding of the state shows in
         its rates.
     factorise
-        ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with 1 − γJ from the entries
+        ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with M − γJ from the entries
         ``jacobian`` (n_entries,); returns whether the matrix is regular. Compiled, as are those of
         :class:`CompiledFunctions`; ``gamma`` may be negative.
     solve
@@ -135,6 +137,11 @@ class Problem:
         Shape of the array of ``picture``.
     algebra
         ``None`` for dense matrices, which are fastest up to some dozens of states.
+    mass
+        Constant mass matrix M of M dy/dt = f, which may be singular, shape (n, n), dense or sparse, or its
+        diagonal, shape (n,); ``None`` for dy/dt = f. Only ``mebdf`` integrates with one.
+    index
+        Index of each state, 1 to 3, shape (n,), with a mass matrix; empty where all are 1.
     """
 
     functions: CompiledFunctions
@@ -149,6 +156,8 @@ class Problem:
     field_shape: tuple[int, ...]
     relative: FloatArray | None = None
     algebra: Algebra | None = None
+    mass: Any = None
+    index: tuple[int, ...] = ()
 
 
 @dataclass

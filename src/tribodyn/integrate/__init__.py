@@ -82,5 +82,7 @@ def integrate(
         raise InputError(f"rtol must lie between 0 and 1, not {rtol}", key="solver.rtol")
     if problem.atol.shape != problem.y0.shape or not np.all(problem.atol > 0.0):
         raise InputError("every state needs an absolute tolerance above zero", key="solver.atol")
+    if problem.mass is not None and solver != "mebdf":
+        raise InputError(f"{solver!r} takes no mass matrix; choose mebdf", key="solver.name")
     schedule = make_schedule(problem.t_span, problem.breakpoints, output_times, picture_times)
     return SOLVERS[solver](problem, schedule, rtol, progress, stop)

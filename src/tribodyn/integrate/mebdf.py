@@ -17,16 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import IntegrationFailure
+from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Algebra, Problem, Solution
 from tribodyn.integrate.binding import argument_types, is_compiled
 from tribodyn.integrate.driver import INTERRUPTED, Walk
 from tribodyn.integrate.schedule import Schedule
 
 if TYPE_CHECKING:
+    from tribodyn.integrate.mebdf_mass import MassMatrix
     from tribodyn.kernels.mebdf.drive import Marks
     from tribodyn.kernels.mebdf.own import OwnMatrix
-    from tribodyn.kernels.mebdf.state import MebdfState
+    from tribodyn.kernels.mebdf.state import Mass, MebdfState
 
 HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
 """Functions of a problem that the compiled loop is handed, in the order of its arguments."""
@@ -68,6 +69,8 @@ class _CompiledWalk(Walk):
     _loop: Callable[..., int]
     _functions: tuple[Callable[..., Any] | None, ...]
     _own: OwnMatrix | None
+    _matrix: MassMatrix | None
+    _mass: Mass | None = None
     _marks: Marks
     _in_machine_code: bool
     _pause: NDArray[np.int64]
@@ -80,6 +83,7 @@ class _CompiledWalk(Walk):
         self._rtol = rtol
         self._pause = np.array([AFTER_STEP])
         self._marks = self._new_marks()
+        self._matrix = self._read_mass()
         algebra = self.problem.algebra
         self._own = None if algebra is None else self._new_matrix(algebra)
         solvers = (None, None) if algebra is None else (algebra.factorise, algebra.solve)
@@ -122,9 +126,40 @@ class _CompiledWalk(Walk):
     def _new_state(self, t: float, t_end: float) -> MebdfState:
         from tribodyn.kernels.mebdf.state import new_state
 
-        share, outside = self.problem.relative, self.problem.algebra is not None
-        rtol = self._rtol if share is None else self._rtol * share
-        return new_state(t, self.y, t_end, rtol, self.problem.atol, outside=outside)
+        atol, outside = self.problem.atol, self.problem.algebra is not None
+        return new_state(t, self.y, t_end, self._relative, atol, outside=outside, mass=self._mass)
+
+    @property
+    def _relative(self) -> float | FloatArray:
+        """Relative tolerance of each state."""
+        share = self.problem.relative
+        return self._rtol if share is None else self._rtol * share
+
+    def enter(self) -> None:
+        """Begin a segment, with a mass matrix from consistent values."""
+        super().enter()
+        if self._matrix is None:
+            return
+        from tribodyn.integrate.mebdf_consistent import consistent
+
+        scale = self.problem.atol + self._relative * np.abs(self.y)
+        end, names = float(self.schedule.edges[-1]), self.problem.state_names
+        try:
+            self.y, slope, _ = consistent(self.binding.rhs, self.t, self.y, end, self._matrix, scale, names)
+        except ValueError as wrong:
+            raise IntegrationFailure(self.t, str(wrong)) from wrong
+        self._mass = self._matrix.for_core(slope)
+
+    def _read_mass(self) -> MassMatrix | None:
+        """Return the mass matrix of the problem, if it has one."""
+        if self.problem.mass is None:
+            return None
+        from tribodyn.integrate.mebdf_mass import read_mass
+
+        try:
+            return read_mass(self.problem.mass, self.problem.index or None, None, self.y.size)
+        except ValueError as wrong:
+            raise InputError(str(wrong)) from wrong
 
     def _jacobian(self, state: MebdfState) -> FloatArray:
         """Return what ``jac`` fills."""

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any, Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import lapack
-from scipy.sparse import coo_array, csc_array, eye_array, issparse
+from scipy.sparse import coo_array, csc_array, diags_array, issparse
 from scipy.sparse.linalg import splu
 
 from tribodyn.core.arrays import FloatArray
@@ -28,7 +29,7 @@ class Algebra(Protocol):
         ...
 
     def factorise(self, scaled: float) -> bool:
-        """Prepare solutions with 1 − ``scaled`` J; return whether it is regular."""
+        """Prepare solutions with M − ``scaled`` J; return whether it is regular."""
         ...
 
     def solve(self, residual: FloatArray) -> FloatArray:
@@ -36,7 +37,7 @@ class Algebra(Protocol):
         ...
 
     def magnitude(self, scaled: float, y: FloatArray) -> FloatArray:
-        """Return |y_i| + |scaled| Σ_j |J_ij y_j|, shape (n,)."""
+        """Return Σ_j (|M_ij| + |scaled J_ij|) |y_j|, shape (n,), as ``kernels.mebdf.matrix.magnify``."""
         ...
 
     def entry_not_finite(self) -> tuple[int, int]:
@@ -51,16 +52,29 @@ class _Kept:
     ----------
     jacobian
         ``jacobian(t, y)``.
-    n
-        Number of equations.
+    mass
+        Mass matrix, sparse, shape (n, n).
+    algebraic
+        Which equations have no derivatives, shape (n,): step and β do not multiply their Jacobian.
+    typical
+        Size of each variable at which its relative tolerance is as large as the absolute one, shape (n,).
     """
 
-    def __init__(self, jacobian: Evaluation, n: int) -> None:
+    def __init__(
+        self, jacobian: Evaluation, mass: Any, algebraic: NDArray[np.bool_], typical: FloatArray
+    ) -> None:
         self._jacobian = jacobian
-        self._n = n
+        self._typical = typical
+        self._mass = mass
+        self._n = algebraic.size
+        self._algebraic = algebraic
         self._newest: Any = None
         self._matrix: Any = None
         self._factors: Any = None
+
+    def _factor(self, scaled: float) -> FloatArray:
+        """Return what multiplies the Jacobian of each equation, shape (n,)."""
+        return np.where(self._algebraic, 1.0, scaled)
 
     def linearise(self, t: float, y: FloatArray) -> bool:
         """See :class:`Algebra`."""
@@ -71,14 +85,21 @@ class _Kept:
             self._matrix = self._newest
         return finite
 
+    def _magnitude(self, y: FloatArray, scaled: float, product: Callable[[FloatArray], Any]) -> FloatArray:
+        """Return the magnitude from the product of the absolute Jacobian with the sizes of variables."""
+        of_jacobian = product(np.abs(y))
+        if np.any(self._algebraic):
+            of_jacobian = of_jacobian + np.where(self._algebraic, product(self._typical), 0.0)
+        magnitude: FloatArray = abs(self._mass) @ np.abs(y) + abs(scaled) * of_jacobian
+        return magnitude
+
 
 class Full(_Kept):
     """LU decomposition of LAPACK."""
 
     def factorise(self, scaled: float) -> bool:
         """See :class:`Algebra`."""
-        matrix = np.asfortranarray(-scaled * self._matrix)
-        matrix[np.diag_indices(self._n)] += 1.0
+        matrix = np.asfortranarray(self._mass.toarray() - self._factor(scaled)[:, None] * self._matrix)
         *self._factors, singular = lapack.dgetrf(matrix, overwrite_a=True)
         return bool(singular == 0)
 
@@ -89,8 +110,7 @@ class Full(_Kept):
 
     def magnitude(self, scaled: float, y: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
-        product: FloatArray = np.abs(self._matrix) @ np.abs(y)
-        return np.abs(y) + abs(scaled) * product
+        return self._magnitude(y, scaled, lambda sizes: np.abs(self._matrix) @ sizes)
 
     def entry_not_finite(self) -> tuple[int, int]:
         """See :class:`Algebra`."""
@@ -103,24 +123,34 @@ class Banded(_Kept):
 
     Parameters
     ----------
-    jacobian, n
-        ``jacobian(t, y)``, packed, shape (lower + upper + 1, n).
+    jacobian, mass, algebraic, typical
+        ``jacobian(t, y)``, packed, shape (lower + upper + 1, n); the mass matrix within these diagonals.
     lower, upper
         Numbers of diagonals below and above the main one.
     """
 
-    def __init__(self, jacobian: Evaluation, n: int, lower: int, upper: int) -> None:
-        super().__init__(jacobian, n)
+    def __init__(
+        self,
+        jacobian: Evaluation,
+        mass: Any,
+        algebraic: NDArray[np.bool_],
+        typical: FloatArray,
+        lower: int,
+        upper: int,
+    ) -> None:
+        super().__init__(jacobian, mass, algebraic, typical)
+        n = self._n
         self._lower, self._upper = lower, upper
         row: Any = np.arange(n) - upper + np.arange(lower + upper + 1)[:, None]
         self._row = row
         self._inside = (row >= 0) & (row < n)
+        self._packed_mass = packed(mass, lower, upper)
 
     def factorise(self, scaled: float) -> bool:
         """See :class:`Algebra`."""
         work = np.zeros((2 * self._lower + self._upper + 1, self._n), order="F")
-        work[self._lower :] = np.where(self._inside, -scaled * self._matrix, 0.0)
-        work[self._lower + self._upper] += 1.0
+        factor = self._factor(scaled)[np.where(self._inside, self._row, 0)]
+        work[self._lower :] = np.where(self._inside, self._packed_mass - factor * self._matrix, 0.0)
         *self._factors, singular = lapack.dgbtrf(work, self._lower, self._upper, overwrite_ab=True)
         return bool(singular == 0)
 
@@ -132,10 +162,12 @@ class Banded(_Kept):
 
     def magnitude(self, scaled: float, y: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
-        terms = np.abs(self._matrix * y)[self._inside]
-        sums: Any = np.bincount(self._row[self._inside], weights=terms, minlength=self._n)
-        magnitude: FloatArray = np.abs(y) + abs(scaled) * sums
-        return magnitude
+
+        def sums(sizes: FloatArray) -> Any:
+            terms = np.abs(self._matrix * sizes)[self._inside]
+            return np.bincount(self._row[self._inside], weights=terms, minlength=self._n)
+
+        return self._magnitude(y, scaled, sums)
 
     def entry_not_finite(self) -> tuple[int, int]:
         """See :class:`Algebra`."""
@@ -146,14 +178,11 @@ class Banded(_Kept):
 class Sparse(_Kept):
     """SuperLU; the Jacobian is a sparse matrix in compressed columns."""
 
-    def __init__(self, jacobian: Evaluation, n: int) -> None:
-        super().__init__(jacobian, n)
-        self._unit = csc_array(eye_array(n))
-        self._order = ""
+    _order = ""
 
     def factorise(self, scaled: float) -> bool:
         """See :class:`Algebra`."""
-        matrix = csc_array(self._unit - scaled * self._matrix)
+        matrix = csc_array(self._mass - diags_array(self._factor(scaled)) @ self._matrix)
         try:
             if not self._order:
                 self._order = min(ORDERS, key=lambda order: _factors(matrix, order).nnz)
@@ -169,14 +198,21 @@ class Sparse(_Kept):
 
     def magnitude(self, scaled: float, y: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
-        product: FloatArray = abs(self._matrix) @ np.abs(y)
-        return np.abs(y) + abs(scaled) * product
+        return self._magnitude(y, scaled, lambda sizes: abs(self._matrix) @ sizes)
 
     def entry_not_finite(self) -> tuple[int, int]:
         """See :class:`Algebra`."""
         entries = coo_array(self._newest)
         first = int(np.argmax(~np.isfinite(entries.data)))
         return int(entries.row[first]), int(entries.col[first])
+
+
+def packed(matrix: Any, lower: int, upper: int) -> FloatArray:
+    """Return a sparse matrix by its diagonals, shape (lower + upper + 1, n)."""
+    entries = coo_array(matrix)
+    diagonals = np.zeros((lower + upper + 1, matrix.shape[0]))
+    diagonals[upper + entries.row - entries.col, entries.col] = entries.data
+    return diagonals
 
 
 def is_sparse(matrix: Any) -> bool:

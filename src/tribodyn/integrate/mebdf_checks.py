@@ -51,6 +51,15 @@ def bands(lower: int | None, upper: int | None, n: int) -> tuple[int, int] | Non
     return int(numbers[0]), int(numbers[1])
 
 
+def inner_times(times: ArrayLike, t0: float, t_bound: float) -> list[float]:
+    """Return the times between start and end, each once, in the order in which they are met."""
+    array = np.unique(np.asarray(times, dtype=np.float64))
+    if np.any(np.isnan(array)):
+        raise ValueError("`breakpoints` must be numbers.")
+    inner: list[float] = array[(array > min(t0, t_bound)) & (array < max(t0, t_bound))].tolist()
+    return inner if t_bound >= t0 else inner[::-1]
+
+
 def resolved(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> None:
     """Refuse what is too small for its relative tolerance to be a number of full precision."""
     lost = (atol == 0.0) & (y0 != 0.0) & (rtol * np.abs(y0) < SMALLEST_TOLERANCE)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import OdeSolver
 from scipy.integrate._ivp.common import num_jac
 from scipy.optimize._numdiff import group_columns
-from scipy.sparse import coo_array, csc_array, csc_matrix, diags_array
+from scipy.sparse import coo_array, csc_array, csc_matrix, diags_array, eye_array
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.integrate.mebdf_algebra import Algebra, Banded, Full, Sparse, is_sparse
+from tribodyn.integrate.mebdf_algebra import Algebra, Banded, Full, Sparse, is_sparse, packed
 from tribodyn.integrate.mebdf_doubt import Doubted
+from tribodyn.integrate.mebdf_mass import MassMatrix
 
 LARGEST_IN_CORE: Final = 64
 """Number of equations up to which the compiled core solves: its decomposition is a plain loop."""
@@ -24,15 +26,52 @@ Jacobian = Callable[[float, FloatArray], Any]
 Bands = tuple[int, int]
 
 
+class Linear(NamedTuple):
+    """The Jacobian, and who solves with it.
+
+    Attributes
+    ----------
+    jacobian
+        ``jacobian(t, y)``, shape (n, n).
+    algebra
+        Who solves instead of the compiled core, which does where this is ``None``.
+    evaluations
+        How many evaluations of the right-hand side the Jacobian costs, 0 if it is given.
+    """
+
+    jacobian: Jacobian
+    algebra: Algebra | None
+    evaluations: int
+
+
+class Matrices(NamedTuple):
+    """What stands beside the Jacobian: arguments of the classes that solve.
+
+    Attributes
+    ----------
+    mass
+        Mass matrix, sparse, shape (n, n).
+    algebraic
+        Which equations have no derivatives, shape (n,).
+    typical
+        Size of each component at which its relative tolerance is as large as the absolute one, shape (n,).
+    """
+
+    mass: Any
+    algebraic: NDArray[np.bool_]
+    typical: FloatArray
+
+
 def make_jacobian(
     solver: OdeSolver,
     jac: Any,
     sparsity: Any,
     bands: Bands | None,
-    threshold: FloatArray,
+    tolerances: tuple[FloatArray, FloatArray],
+    mass: MassMatrix | None,
     in_trouble: Callable[[], bool],
-) -> tuple[Jacobian, Algebra | None]:
-    """Return ``jacobian(t, y)`` of shape (n, n), and who solves with it instead of the compiled core.
+) -> Linear:
+    """Return the Jacobian and who solves with it.
 
     Parameters
     ----------
@@ -44,46 +83,84 @@ def make_jacobian(
         Where the differences may not be zero, shape (n, n), or ``None``.
     bands
         Numbers of diagonals below and above the main one, or ``None``.
-    threshold
-        Size of each component below which the difference no longer shrinks with it, shape (n,).
+    tolerances
+        Relative and absolute tolerance of each component, shape (n,) each.
+    mass
+        Mass matrix, ``None`` for the unit matrix.
     in_trouble
         Tells whether a Jacobian that was given should be compared with the right-hand side.
     """
     n = solver.n
+    rtol, atol = tolerances
 
-    def watched(given: Jacobian) -> Jacobian:
-        differences = _differences(solver, None, threshold)
-        return Doubted(given, differences, solver.fun_single, threshold, in_trouble)
+    def watched(given: Linear) -> Linear:
+        if given.algebra is not None:
+            return given
+        differences = _differences(solver, None, atol)
+        return given._replace(
+            jacobian=Doubted(given.jacobian, differences, solver.fun_single, atol, in_trouble)
+        )
 
     if bands is not None and sparsity is not None:
         raise ValueError("Give either `jac_sparsity` or `lband` and `uband`.")
+    if mass is None:
+        matrices = Matrices(csc_array(eye_array(n)), np.zeros(n, dtype=bool), atol / rtol)
+    else:
+        matrices = Matrices(csc_array(mass.matrix), mass.algebraic_equations, atol / rtol)
     if jac is None:
-        pattern = _pattern(sparsity, bands, n)
-        evaluate = _differences(solver, pattern, threshold)
-        if pattern is None or n <= LARGEST_IN_CORE:
-            return _chosen(lambda t, y: _dense(evaluate(t, y)), n)
-        width = bands or _bands(pattern)
-        if bands is None and 2 * width[0] + width[1] + 1 > NARROW * pattern.nnz / n:
-            return evaluate, Sparse(evaluate, n)
-        return evaluate, Banded(lambda t, y: _packed(evaluate(t, y), width), n, *width)
+        return _by_differences(solver, _pattern(sparsity, bands, n), bands, atol, matrices)
     given = jac if callable(jac) else _Constant(jac)
     if bands is not None:
-        evaluate = _checked(given, (bands[0] + bands[1] + 1, n))
-        if n <= LARGEST_IN_CORE:
-            return watched(lambda t, y: _unpacked(evaluate(t, y), bands)), None
-        return evaluate, Banded(evaluate, n, *bands)
+        return watched(_by_diagonals(_checked(given, (bands[0] + bands[1] + 1, n)), bands, matrices))
     evaluate = _checked(given, (n, n))
-    if n <= LARGEST_IN_CORE:
-        return watched(lambda t, y: _dense(evaluate(t, y))), None
-    evaluate = _Remembered(evaluate, float(solver.t), solver.y.copy())
-    if is_sparse(evaluate.first):
-        return evaluate, Sparse(evaluate, n)
-    return _chosen(lambda t, y: _dense(evaluate(t, y)), n)
+    if n > LARGEST_IN_CORE:
+        evaluate = _Remembered(evaluate, float(solver.t), solver.y.copy())
+        if is_sparse(evaluate.first):
+            return Linear(evaluate, Sparse(evaluate, *matrices), 0)
+    return watched(_full(evaluate, matrices))
 
 
-def _chosen(jacobian: Jacobian, n: int) -> tuple[Jacobian, Algebra | None]:
-    """Return a dense Jacobian, and who solves with it."""
-    return jacobian, None if n <= LARGEST_IN_CORE else Full(jacobian, n)
+def _by_differences(
+    solver: OdeSolver, pattern: Any, bands: Bands | None, threshold: FloatArray, matrices: Matrices
+) -> Linear:
+    """Return a Jacobian by differences; ``threshold`` are values below which these no longer shrink."""
+    n = solver.n
+    groups = None if pattern is None else group_columns(pattern)
+    evaluations = n if groups is None else int(np.max(groups, initial=-1)) + 1
+    evaluate = _differences(solver, None if pattern is None else (pattern, groups), threshold)
+    if pattern is None or n <= LARGEST_IN_CORE:
+        return _full(evaluate, matrices, evaluations)
+    width = _wider(bands or _bands(pattern), _bands(matrices.mass))
+    if bands is None and 2 * width[0] + width[1] + 1 > NARROW * pattern.nnz / n:
+        return Linear(evaluate, Sparse(evaluate, *matrices), evaluations)
+    banded = Banded(lambda t, y: packed(evaluate(t, y), *width), *matrices, *width)
+    return Linear(evaluate, banded, evaluations)
+
+
+def _by_diagonals(evaluate: Jacobian, bands: Bands, matrices: Matrices) -> Linear:
+    """Return a Jacobian that is given by its diagonals."""
+    if matrices.algebraic.size <= LARGEST_IN_CORE:
+        return _full(lambda t, y: _unpacked(evaluate(t, y), bands), matrices)
+    width = _wider(bands, _bands(matrices.mass))
+    rows = (width[1] - bands[1], width[0] - bands[0]), (0, 0)
+    return Linear(evaluate, Banded(lambda t, y: np.pad(evaluate(t, y), rows), *matrices, *width), 0)
+
+
+def _full(evaluate: Jacobian, matrices: Matrices, evaluations: int = 0) -> Linear:
+    """Return a dense Jacobian."""
+
+    def dense(t: float, y: FloatArray) -> FloatArray:
+        matrix = evaluate(t, y)
+        full: FloatArray = matrix.toarray() if is_sparse(matrix) else np.asarray(matrix)
+        return full
+
+    small = matrices.algebraic.size <= LARGEST_IN_CORE
+    return Linear(dense, None if small else Full(dense, *matrices), evaluations)
+
+
+def _wider(one: Bands, other: Bands) -> Bands:
+    """Return the diagonals that hold both of two matrices."""
+    return max(one[0], other[0]), max(one[1], other[1])
 
 
 class _Constant:
@@ -127,12 +204,6 @@ def _checked(jac: Jacobian, shape: tuple[int, int]) -> Jacobian:
     return jacobian
 
 
-def _dense(matrix: Any) -> FloatArray:
-    """Return what may be a sparse matrix as a dense one."""
-    dense: FloatArray = matrix.toarray() if is_sparse(matrix) else np.asarray(matrix)
-    return dense
-
-
 def _pattern(sparsity: Any, bands: Bands | None, n: int) -> Any:
     """Return where the Jacobian may differ from zero; ``None`` for everywhere."""
     if bands is not None:
@@ -156,29 +227,20 @@ def _bands(pattern: Any) -> Bands:
     return max(int(below.max(initial=0)), 0), max(int(-below.min(initial=0)), 0)
 
 
-def _packed(matrix: Any, bands: Bands) -> FloatArray:
-    """Return a sparse matrix by its diagonals."""
-    entries = coo_array(matrix)
-    packed = np.zeros((bands[0] + bands[1] + 1, matrix.shape[0]))
-    packed[bands[1] + entries.row - entries.col, entries.col] = entries.data
-    return packed
-
-
-def _unpacked(packed: FloatArray, bands: Bands) -> FloatArray:
+def _unpacked(diagonals: FloatArray, bands: Bands) -> FloatArray:
     """Return the dense matrix with these diagonals."""
-    n = packed.shape[1]
-    row = np.arange(n) - bands[1] + np.arange(len(packed))[:, None]
+    n = diagonals.shape[1]
+    row = np.arange(n) - bands[1] + np.arange(len(diagonals))[:, None]
     inside = (row >= 0) & (row < n)
     dense = np.zeros((n, n))
-    dense[row[inside], np.broadcast_to(np.arange(n), row.shape)[inside]] = packed[inside]
+    dense[row[inside], np.broadcast_to(np.arange(n), row.shape)[inside]] = diagonals[inside]
     return dense
 
 
-def _differences(solver: OdeSolver, pattern: Any, threshold: FloatArray) -> Jacobian:
+def _differences(solver: OdeSolver, grouped: Any, threshold: FloatArray) -> Jacobian:
     """Return the Jacobian by the finite differences of SciPy's own solvers."""
     difference: Any = num_jac
     factor: FloatArray | None = None
-    grouped: Any = None if pattern is None else (pattern, group_columns(pattern))
 
     def jacobian(t: float, y: FloatArray) -> Any:
         nonlocal factor

@@ -28,6 +28,8 @@ def reason(
     if state.counts[entry.REASON] == phases.JACOBIAN_NOT_FINITE:
         row, column = entry_not_finite(state)
         return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
+    if state.counts[entry.CAUSE] == phases.SINGULAR and state.counts[entry.WORST] >= 0:
+        return f"the matrix of Newton's iteration is singular{_undetermined(state, names)}"
     if state.counts[entry.REASON] == phases.NO_PROGRESS:
         name = names[int(state.counts[entry.WORST])]
         return (
@@ -47,3 +49,19 @@ def reason(
     newest = state.rows[entry.HISTORY + int(state.counts[entry.K_LAST]) + 1]
     fastest = int(np.argmax(np.abs(newest * state.rows[entry.WEIGHT])))
     return f"{text}; the solution changes fastest in {names[fastest]}"
+
+
+def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
+    """Return, in words, which state the equations do not determine, where that can be told."""
+    if not state.matrices.size:
+        return ": the equations do not determine all states"
+    n = state.rows.shape[1]
+    matrix = -float(state.real[entry.SCALED]) * state.matrices[entry.LAST_JACOBIAN]
+    if state.places.size:
+        row = np.repeat(np.arange(n), np.diff(state.places[: n + 1]))
+        matrix[row, state.places[n + 1 :]] += state.mass
+    else:
+        matrix += np.eye(n)
+    direction = np.linalg.svd(matrix / np.abs(matrix).max())[2][-1]
+    name = names[int(np.argmax(np.abs(direction)))]
+    return f": the equations do not determine {name}; see to them, the mass matrix and the index"

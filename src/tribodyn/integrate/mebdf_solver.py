@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any, Final
+from warnings import warn
 
 import numba as nb
 import numpy as np
@@ -14,6 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import Algebra
 from tribodyn.integrate.mebdf_checks import (
     bands,
+    inner_times,
     largest_step,
     order,
     resolved,
@@ -22,7 +24,9 @@ from tribodyn.integrate.mebdf_checks import (
     tolerances,
     warn_extraneous,
 )
+from tribodyn.integrate.mebdf_consistent import consistent
 from tribodyn.integrate.mebdf_jacobian import make_jacobian
+from tribodyn.integrate.mebdf_mass import read_mass
 from tribodyn.integrate.mebdf_reasons import reason
 from tribodyn.kernels.mebdf import state as entry
 from tribodyn.kernels.mebdf.coefficients import MAX_K
@@ -73,6 +77,17 @@ class MEBDF(OdeSolver):
     lband, uband
         Numbers of diagonals of the Jacobian below and above the main one. ``jac`` then gives the diagonals,
         ``jac(t, y)[i - j + uband, j]`` = ∂f_i/∂y_j, shape (lband + uband + 1, n); one not given is 0.
+    mass
+        Constant mass matrix M of M y' = f(t, y), which may be singular: shape (n, n), dense or sparse, or its
+        diagonal, shape (n,). ``None`` for the unit matrix.
+    index
+        Index of each variable, 1 to 3, shape (n,); ``None`` for 1. The errors of variables of index 2 and 3
+        are multiplied by the step and its square (of steps below 1).
+    test_algebraic
+        Whether variables without derivatives are in the error test; ``None`` for those of index 1.
+    breakpoints
+        Times at which the right-hand side jumps or kinks, where the integration begins anew; those outside of
+        the interval are dropped. No evaluation for a step before one of them lies at it or behind it.
     max_order
         Largest order, 2 to 8.
 
@@ -97,6 +112,10 @@ class MEBDF(OdeSolver):
         first_step: float | None = None,
         lband: int | None = None,
         uband: int | None = None,
+        mass: Any = None,
+        index: ArrayLike | None = None,
+        test_algebraic: bool | None = None,
+        breakpoints: ArrayLike = (),
         max_order: int = MAX_K + 1,
         **extraneous: Any,
     ) -> None:
@@ -106,42 +125,69 @@ class MEBDF(OdeSolver):
         self.max_step = largest_step(max_step)
         self.rtol, self.atol = tolerances(rtol, atol, self.n)
         resolved(self.y, self.rtol, self.atol)
-        self._jacobian, self._algebra = make_jacobian(
-            self, jac, jac_sparsity, bands(lband, uband, self.n), self.atol, self._in_trouble
+        self._mass = read_mass(mass, index, test_algebraic, self.n)
+        self._names = [f"component {i}" for i in range(self.n)]
+        self._ends = [*inner_times(breakpoints, self.t, self.t_bound), float(self.t_bound)]
+        self._jacobian, self._algebra, evaluations = make_jacobian(
+            self,
+            jac,
+            jac_sparsity,
+            bands(lband, uband, self.n),
+            (self.rtol, self.atol),
+            self._mass,
+            self._in_trouble,
         )
-        self._state = new_state(
-            float(self.t),
-            self.y,
-            float(self.t_bound),
-            self.rtol,
-            self.atol,
-            max_step=self.max_step,
-            first_step=starting_step(first_step, t0, t_bound),
-            largest_k=order(max_order, MAX_K + 1) - 1,
-            inside=True,
-            differenced=jac is None,
-            outside=self._algebra is not None,
-        )
+        self._options: dict[str, Any] = {
+            "max_step": self.max_step,
+            "largest_k": order(max_order, MAX_K + 1) - 1,
+            "inside": True,
+            "differenced": evaluations,
+            "outside": self._algebra is not None,
+        }
+        self._costs = np.zeros(2, dtype=np.int64)
+        self._state = self._new_state(starting_step(first_step, t0, t_bound))
         self._resume = _machine_code()
+
+    def _new_state(self, first_step: float) -> entry.MebdfState:
+        """Begin at the present time, up to the next breakpoint or the end."""
+        mass, t = None, float(self.t)
+        if self._mass is not None:
+            scale = self.atol + self.rtol * np.abs(self.y)
+            self.y, slope, told = consistent(
+                self.fun_single, t, self.y, self._ends[0], self._mass, scale, self._names
+            )
+            mass = self._mass.for_core(slope)
+            if told:
+                warn(told, stacklevel=4)
+        return new_state(
+            t, self.y, self._ends[0], self.rtol, self.atol, first_step=first_step, mass=mass, **self._options
+        )
 
     def _step_impl(self) -> tuple[bool, str | None]:
         """Take one step; return whether it succeeded, and why not."""
+        if len(self._ends) > 1 and self.t == self._ends[0]:
+            self._costs += self._state.counts[[entry.N_J, entry.N_LU]]
+            del self._ends[0]
+            try:
+                self._state = self._new_state(0.0)
+            except ValueError as problem:
+                return False, str(problem)
         state = self._state
         request = 0
         while request not in (STEP_ACCEPTED, FAILED):
             request = self._resume(*state)
             if request in (STEP_ACCEPTED, FAILED):
                 break
-            t, y = float(state.real[entry.T_EVAL]), state.rows[entry.Y].copy()
+            t, y = self._inside(float(state.real[entry.T_EVAL])), state.rows[entry.Y].copy()
             if request == NEED_F:
                 state.rows[entry.F] = self.fun(t, y)
             elif self._algebra is None:
                 state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
             else:
                 _answer(request, state, self._algebra, t, y)
-        self.njev, self.nlu = int(state.counts[entry.N_J]), int(state.counts[entry.N_LU])
+        self.njev, self.nlu = (self._costs + state.counts[[entry.N_J, entry.N_LU]]).tolist()
         if request == FAILED:
-            return False, reason(state, [f"component {i}" for i in range(self.n)], self._entry_not_finite)
+            return False, reason(state, self._names, self._entry_not_finite)
         self.t = float(state.real[entry.T])
         self.y = state.rows[entry.HISTORY].copy()
         return True, None
@@ -150,6 +196,11 @@ class MEBDF(OdeSolver):
         """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
         counts = self._state.counts
         return bool(counts[entry.N_LU] > RENEWED * counts[entry.STEPS])
+
+    def _inside(self, t: float) -> float:
+        """Return a time of evaluation on the near side of the next breakpoint."""
+        at_breakpoint = len(self._ends) > 1 and t == self._ends[0]
+        return float(np.nextafter(t, self.t)) if at_breakpoint else t
 
     def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
@@ -207,6 +258,7 @@ def _answer(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y
 
 def _machine_code() -> Callable[..., int]:
     """Return the core compiled for its only types: called directly it need not find them out each time."""
-    types = (nb.float64[::1], nb.int64[::1], nb.float64[:, ::1], nb.float64[:, :, ::1])
+    matrices = (nb.float64[:, ::1], nb.float64[:, :, ::1])
+    types = (nb.float64[::1], nb.int64[::1], *matrices, nb.float64[::1], nb.int64[::1])
     code: Callable[..., int] = resume.compile(types)
     return code

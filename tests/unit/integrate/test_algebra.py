@@ -9,6 +9,7 @@ import numba
 import numpy as np
 import pytest
 
+from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Algebra, CompiledFunctions, Problem
 from tribodyn.integrate import SOLVERS, integrate
 
@@ -132,6 +133,56 @@ def test_memory_grows_with_the_number_of_states():
     assert peaks[1] < 8 * 4000**2 / 10  # a tenth of one dense matrix
 
 
+def with_mass(n, own, **changes):
+    mass = np.ones(n)
+    mass[1::2] = 0.0
+    problem = replace(chain(n, own, compiled=False), mass=mass, **changes)
+    if problem.algebra is None:
+        return problem
+
+    def factorise_with_mass(gamma, data, jacobian, factors, pivots):
+        """Gaussian elimination as above, with the mass on the diagonal."""
+        factors[:] = -gamma * jacobian
+        factors[n - 1 : 2 * n - 1] += mass
+        for i in range(1, n):
+            factors[i - 1] /= factors[n - 2 + i]
+            factors[n - 1 + i] -= factors[i - 1] * factors[2 * n - 2 + i]
+        return bool(np.all(np.isfinite(factors)))
+
+    return replace(problem, algebra=replace(problem.algebra, factorise=factorise_with_mass))
+
+
+def test_a_mass_matrix_with_either_algebra():
+    times = [0.0, 0.05, 0.1]
+    runs = [integrate(with_mass(9, own), rtol=1e-7, output_times=times) for own in (False, True)]
+    assert all(run.complete for run in runs)
+    np.testing.assert_allclose(runs[0].rows, runs[1].rows, rtol=1e-8)
+    # Algebraic values are those of the cubic equation, from the first row on.
+    y = runs[0].y_end
+    inner = RATE * (y[:-2:2] - 2.0 * y[1::2] + y[2::2]) - y[1::2] ** 3
+    np.testing.assert_allclose(inner, 0.0, atol=1e-4 * RATE)
+
+
+def test_other_solvers_refuse_a_mass_matrix():
+    with pytest.raises(InputError, match="'bdf' takes no mass matrix; choose mebdf"):
+        integrate(with_mass(5, own=False), solver="bdf")
+
+
+def test_a_mass_matrix_of_the_wrong_shape_is_refused():
+    with pytest.raises(InputError, match="`mass` is expected to have shape"):
+        integrate(replace(with_mass(5, own=False), mass=np.ones(4)))
+
+
+def test_values_that_cannot_be_consistent_end_the_run():
+    def unsolvable(t, y, data, memory, f):
+        rhs(t, y, data, memory, f)
+        f[1] = 1.0 + y[1] ** 2
+
+    problem = with_mass(5, own=False)
+    problem = replace(problem, functions=replace(problem.functions, rhs=unsolvable))
+    assert "not consistent" in (integrate(problem).failure or "")
+
+
 def test_a_jacobian_that_is_not_finite_is_told_by_its_entry():
     def broken(t, y, data, memory, f, jacobian):
         jac_entries(t, y, data, memory, f, jacobian)
@@ -147,4 +198,4 @@ def test_a_matrix_that_is_always_singular_ends_the_run():
     assert problem.algebra is not None
     singular = replace(problem.algebra, factorise=lambda *arguments: False)
     failure = integrate(replace(problem, algebra=singular)).failure or ""
-    assert "Newton's iteration fails" in failure
+    assert "the matrix of Newton's iteration is singular" in failure

@@ -16,15 +16,20 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.mebdf.mass import is_algebraic
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
     DELTA,
     DOUBTFUL,
     EXPLAINED,
+    HIGHER,
     ITERATION,
     LAST_NORM,
     MAGNITUDE,
     OVERSHOT,
+    RESIDUAL,
+    ROW_WEIGHT,
+    SEEN,
     STAGE,
     TINY,
     UNSOLVED,
@@ -41,6 +46,8 @@ FALSE: Final = -1
 DIVERGED: Final = -2
 IN_DOUBT: Final = 2
 """The rounding of the residual must tell."""
+UNPROVED: Final = 3
+"""The same, of algebraic equations alone."""
 
 PROVED: Final = 0.5
 """What a correction must leave of the residual, at most, to prove the Jacobian."""
@@ -82,13 +89,46 @@ def _left(real: FloatArray, count: NDArray[np.int64]) -> float:
 
 
 @kernel
-def judge_beside_rounding(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+def has_unproved(rows: FloatArray, places: NDArray[np.int64]) -> bool:
+    """Tell whether an algebraic equation has a residual beyond what the Jacobian was seen to remove.
+
+    There is no scale for it but that: the Jacobian's may be wrong.
+    """
+    for i in range(rows.shape[1]):
+        if is_algebraic(places, i) and abs(rows[RESIDUAL, i]) > TRUSTED * rows[SEEN, i]:
+            return True
+    return False
+
+
+@kernel
+def note_removed(rows: FloatArray, i: int, residual: float) -> None:
+    """Remember what the last correction has removed of the residual of an algebraic equation."""
+    before = abs(rows[RESIDUAL, i])
+    if abs(residual) <= PROVED * before:
+        rows[SEEN, i] = max(rows[SEEN, i], before)
+
+
+@kernel
+def judge_algebraic(rows: FloatArray, places: NDArray[np.int64], scaled: float) -> int:
+    """Return SOLVED, or OPEN where such a residual is not rounding, with the row MAGNITUDE filled."""
+    for i in range(rows.shape[1]):
+        residual = abs(rows[RESIDUAL, i])
+        if is_algebraic(places, i) and residual > TRUSTED * rows[SEEN, i]:
+            if residual > NOISE * rows[MAGNITUDE, i] / abs(scaled):
+                return OPEN
+            rows[SEEN, i] = residual
+    return SOLVED
+
+
+@kernel
+def judge_beside_rounding(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool) -> int:
     """Return SOLVED, OPEN or FALSE for a stage in doubt, with its row MAGNITUDE filled."""
     unsolved, size = real[UNSOLVED], real[LAST_NORM]
     # A stage that was predicted with its slope begins with a residual that was not evaluated.
-    given = count[STAGE] == 3 or (count[STAGE] == 1 and count[CARRIED] == 1)
+    predicted = count[STAGE] == 1 and count[CARRIED] == 1 and not massive
+    given = predicted or (count[STAGE] == 3 and count[HIGHER] == 0)
     evaluated = count[ITERATION] - (1 if given else 0)
-    noise = _noise(rows)
+    noise = _noise(rows, ROW_WEIGHT if massive else WEIGHT)
     if unsolved <= noise:
         factor = ABOVE_NOISE * noise / unsolved
         if unsolved <= HARMLESS or factor * size > HARMLESS:
@@ -107,11 +147,11 @@ def _is_doubtful(real: FloatArray, size: float) -> bool:
 
 
 @kernel
-def _noise(rows: FloatArray) -> float:
+def _noise(rows: FloatArray, weight: int) -> float:
     """Return the norm of the residual that the rounding of y, magnified by the Jacobian, may leave."""
     total = 0.0
     for i in range(rows.shape[1]):
-        total += (NOISE * rows[MAGNITUDE, i] * rows[WEIGHT, i]) ** 2
+        total += (NOISE * rows[MAGNITUDE, i] * rows[weight, i]) ** 2
     return math.sqrt(total / rows.shape[1])
 
 

@@ -11,6 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.history import rescale
+from tribodyn.kernels.mebdf.mass import weigh
 from tribodyn.kernels.mebdf.phases import ERROR_TEST, NEWTON, STEP
 from tribodyn.kernels.mebdf.state import (
     ATOL,
@@ -20,6 +21,7 @@ from tribodyn.kernels.mebdf.state import (
     EARLY,
     EQUAL_STEPS,
     ERROR,
+    ERROR_WEIGHT,
     FACTORED,
     FAILURES,
     FIXED,
@@ -63,20 +65,28 @@ FAILED_NEWTON = 0.25
 
 
 @inlined
-def norm(rows: FloatArray, row: int) -> float:
-    """Return the weighted root mean square of a row."""
+def norm(rows: FloatArray, row: int, weight: int) -> float:
+    """Return the root mean square of a row, weighted by another one."""
     total = 0.0
     for i in range(rows.shape[1]):
-        total += (rows[row, i] * rows[WEIGHT, i]) ** 2
+        total += (rows[row, i] * rows[weight, i]) ** 2
     return math.sqrt(total / rows.shape[1])
 
 
 @inlined
-def set_weights(real: FloatArray, rows: FloatArray) -> None:
+def error_weight(places: NDArray[np.int64]) -> int:
+    """Return the row that weighs errors."""
+    return ERROR_WEIGHT if places.size > 0 else WEIGHT
+
+
+@inlined
+def set_weights(real: FloatArray, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
     """Make the weights those of the newest value."""
     for i in range(rows.shape[1]):
         scale = real[TIGHT] * (rows[ATOL, i] + rows[RTOL, i] * abs(rows[HISTORY, i]))
         rows[WEIGHT, i] = 1.0 / max(scale, SMALLEST_SCALE)
+    if places.size > 0:
+        weigh(mass, places, rows, real[H])
 
 
 @kernel
@@ -106,21 +116,23 @@ def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> 
 
 
 @kernel
-def blame(count: NDArray[np.int64], rows: FloatArray, row: int) -> None:
+def blame(count: NDArray[np.int64], rows: FloatArray, row: int, weight: int) -> None:
     """Remember the component that contributes most to the norm of a row."""
     count[CAUSE] = NEWTON if row == DELTA else ERROR_TEST
     worst = -1.0
     for i in range(rows.shape[1]):
-        size = abs(rows[row, i] * rows[WEIGHT, i])
+        size = abs(rows[row, i] * rows[weight, i])
         if size > worst:
             worst = size
             count[WORST] = i
 
 
 @kernel
-def reject(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float, row: int) -> None:
+def reject(
+    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float, row: int, weight: int
+) -> None:
     """Go back to the start of the step and try a smaller one; the largest entry of ``row`` is to blame."""
-    blame(count, rows, row)
+    blame(count, rows, row, weight)
     count[REJECTED] += 1
     count[FAILURES] += 1
     if count[FAILURES] >= 3 and count[K] > 1:
@@ -144,31 +156,38 @@ def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
     else:
         count[WARY] = min(2 * count[WARY] + CAUTION, MOST_CAUTION)
         count[VAIN] += 1
-        reject(real, count, rows, FAILED_NEWTON, DELTA)
+        reject(real, count, rows, FAILED_NEWTON, DELTA, WEIGHT)
 
 
 @kernel
-def growth(rows: FloatArray, k: int, safety: float) -> float:
+def growth(rows: FloatArray, weight: int, k: int, safety: float) -> float:
     """Return by how much the step could grow with ``k`` back values."""
-    error = SCALARS[k, 3] * norm(rows, HISTORY + k + 1)
+    error = SCALARS[k, 3] * norm(rows, HISTORY + k + 1, weight)
     return 1.0 / (safety * error ** (1.0 / (k + 1)) + 1.0e-6)
 
 
 @kernel
-def choose(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def choose(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> None:
     """Choose order and step for the next step, once enough equal steps have been taken."""
     k = count[K]
     settled = count[EQUAL_STEPS] >= k + real[WAIT]
     if count[FIXED] == 1 or not (settled or real[ERROR] > real[EARLY]):
         return
-    set_weights(real, rows)
-    best, factor = k, growth(rows, k, real[SAFETY])
+    set_weights(real, rows, mass, places)
+    weight = error_weight(places)
+    best, factor = k, growth(rows, weight, k, real[SAFETY])
     if k > 1:
-        lower = growth(rows, k - 1, real[SAFETY_LOWER])
+        lower = growth(rows, weight, k - 1, real[SAFETY_LOWER])
         if lower > factor:
             best, factor = k - 1, lower
     if settled and k < count[LARGEST_K]:
-        higher = growth(rows, k + 1, real[SAFETY_HIGHER])
+        higher = growth(rows, weight, k + 1, real[SAFETY_HIGHER])
         if higher > factor:
             best, factor = k + 1, higher
     if settled and factor < real[LEAST_GROWTH]:

@@ -78,6 +78,7 @@ from tribodyn.kernels.mebdf.state import (
     RENEW,
     SAME_MATRIX,
     SCALED,
+    SEEN,
     SLOW,
     STAGE,
     STEPS,
@@ -106,7 +107,14 @@ ROUNDING: Final = 1.0e-10
 
 
 @kernel
-def resume(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
+def resume(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    matrices: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
     """Go on until something is needed; return what: NEED_F …, STEP_ACCEPTED or FAILED.
 
     After STEP_ACCEPTED the solution at ``real[T]`` is ``rows[HISTORY]``, and the polynomial of degree
@@ -117,28 +125,34 @@ def resume(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrice
     while request == 0:
         phase = count[PHASE]
         if phase in (ITERATE, CORRECT, CONCLUDE):
-            request = iterate(real, count, rows, matrices, phase)
+            request = iterate(real, count, rows, matrices, mass, places, phase)
         elif phase == START_STAGE:
-            request = start_stage(real, count, rows)
+            request = start_stage(real, count, rows, mass, places)
         elif phase == STEP:
-            request = _begin_step(real, count, rows)
+            request = _begin_step(real, count, rows, mass, places)
         elif phase == FACTORISE:
-            request = renew_matrix(real, count, rows, matrices)
+            request = renew_matrix(real, count, rows, matrices, mass, places)
         elif phase == FACTORISED:
             begin_stages(real, count, rows)
         elif phase == ACCEPT:
-            _accept(real, count, rows)
+            _accept(real, count, rows, places)
             request = STEP_ACCEPTED
         elif phase == AFTER:
             count[PHASE] = STEP
-            choose(real, count, rows)
+            choose(real, count, rows, mass, places)
         else:
-            request = start(real, count, rows)
+            request = start(real, count, rows, mass, places)
     return request
 
 
 @inlined
-def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+def _begin_step(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
     limit_step(real, count, rows)
     h = real[H]
@@ -149,7 +163,7 @@ def _begin_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     if count[VAIN] >= MOST_VAIN and _stands_still(real, count):
         count[REASON] = NO_PROGRESS
         return FAILED
-    set_weights(real, rows)
+    set_weights(real, rows, mass, places)
     scaled = h * SCALARS[count[K], 0]
     real[SCALED] = scaled
     if count[RATE_AGE] > real[UNSURE]:
@@ -188,7 +202,7 @@ def _stands_still(real: FloatArray, count: NDArray[np.int64]) -> bool:
 
 
 @inlined
-def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64]) -> None:
     """Make y_{n+1} the newest value."""
     push(rows, Y, count[K] + 3, HISTORY)
     real[T_OLD] = real[T]
@@ -211,9 +225,14 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> Non
     count[MATRIX_AGE] += 1
     count[RATE_AGE] += 1
     count[FRESH] = 0
-    count[FAILURES] = 0
+    # Algebraic variables do not heed the history: its noise can make each new step fail, however short.
+    if places.size == 0 or count[EQUAL_STEPS] > 1:
+        count[FAILURES] = 0
     count[WARY] = max(count[WARY] - 1, 0)
     real[EXPLAINED] *= FADING
+    if places.size > 0:
+        for i in range(rows.shape[1]):
+            rows[SEEN, i] *= FADING
     count[BAD] = -1
     count[WORST] = -1
     count[CARRIED] = 1

@@ -19,7 +19,7 @@ from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel, unlocked
 from tribodyn.kernels.mebdf.core import resume
 from tribodyn.kernels.mebdf.history import value_at
-from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, take_over
+from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over
 from tribodyn.kernels.mebdf.phases import (
     FAILED,
     NEED_F,
@@ -35,7 +35,6 @@ from tribodyn.kernels.mebdf.state import (
     HISTORY,
     K_LAST,
     REGULAR,
-    RESIDUAL,
     SCALED,
     T_END,
     T_EVAL,
@@ -123,12 +122,12 @@ def run(
     Another thread may ask for the pause. Called again, the loop goes on to the same bits, for all that it
     needs stands in its arguments.
     """
-    real, count, rows, matrices = state
+    real, count, rows, matrices, mass, places = state
     y, f, newest = rows[Y], rows[F], rows[HISTORY]
     times, position, reached = marks.times, marks.position, marks.reached
     end, tolerance = marks.end, marks.tolerance[0]
     while True:
-        request = resume(real, count, rows, matrices)
+        request = resume(real, count, rows, matrices, mass, places)
         if request == NEED_F:
             rhs(real[T_EVAL], y, data, memory, f)
             if pause[0] == AFTER_EVALUATION:
@@ -149,11 +148,11 @@ def run(
                 count[REGULAR] = factorise(real[SCALED], data, own.last, own.factors, own.pivots)
                 continue
             if request == NEED_SOLUTION:
-                copy(rows[RESIDUAL], rows[DELTA])
+                set_right_side(rows, places, real[SCALED])
                 solve(data, own.factors, own.pivots, rows[DELTA])
                 continue
             if request == NEED_MAGNITUDE:
-                magnify(own, rows, real[SCALED])
+                magnify(own, rows, mass, places, real[SCALED])
                 continue
         t = real[T]
         ended = False

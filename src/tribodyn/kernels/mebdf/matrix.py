@@ -9,25 +9,66 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.state import DELTA, FACTORS, LAST_JACOBIAN, MAGNITUDE, PIVOTS, RESIDUAL, Y
+from tribodyn.kernels.mebdf.mass import is_algebraic, magnitude_of_mass
+from tribodyn.kernels.mebdf.state import (
+    ATOL,
+    DELTA,
+    FACTORS,
+    LAST_JACOBIAN,
+    MAGNITUDE,
+    PIVOTS,
+    RESIDUAL,
+    RTOL,
+    Y,
+)
 
 LARGEST_INVERSE: Final = 24
 """Number of equations up to which the inverse is used: a product has no chain of divisions."""
 
 
 @kernel
-def factorise(count: NDArray[np.int64], matrices: FloatArray, scaled: float) -> bool:
-    """Prepare solutions with I − ``scaled`` J; return whether the matrix is regular."""
+def factorise(
+    count: NDArray[np.int64],
+    matrices: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+    scaled: float,
+) -> bool:
+    """Prepare solutions with M − ``scaled`` J, see :mod:`.mass`; return whether the matrix is regular."""
     n = matrices.shape[1]
     transposed = n <= LARGEST_INVERSE
     for i in range(n):
         for j in range(n):
             entry = matrices[LAST_JACOBIAN, j, i] if transposed else matrices[LAST_JACOBIAN, i, j]
             matrices[FACTORS, i, j] = -scaled * entry
-        matrices[FACTORS, i, i] += 1.0
+        if places.size == 0:
+            matrices[FACTORS, i, i] += 1.0
+    if places.size > 0:
+        _add_mass(matrices, mass, places, transposed, scaled)
     if transposed:
         return _invert(count, matrices)
     return _decompose(count, matrices)
+
+
+@kernel
+def _add_mass(
+    matrices: FloatArray, mass: FloatArray, places: NDArray[np.int64], transposed: bool, scaled: float
+) -> None:
+    """Add the mass matrix in FACTORS, and take the step out of algebraic equations."""
+    n = matrices.shape[1]
+    for i in range(n):
+        for k in range(places[i], places[i + 1]):
+            j = places[n + 1 + k]
+            if transposed:
+                matrices[FACTORS, j, i] += mass[k]
+            else:
+                matrices[FACTORS, i, j] += mass[k]
+        if is_algebraic(places, i):
+            for j in range(n):
+                if transposed:
+                    matrices[FACTORS, j, i] /= scaled
+                else:
+                    matrices[FACTORS, i, j] /= scaled
 
 
 @kernel
@@ -100,13 +141,23 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
 
 
 @kernel
-def magnify(rows: FloatArray, matrices: FloatArray, scaled: float) -> None:
-    """Fill the row MAGNITUDE."""
+def magnify(
+    rows: FloatArray, matrices: FloatArray, mass: FloatArray, places: NDArray[np.int64], scaled: float
+) -> None:
+    """Fill the row MAGNITUDE.
+
+    Algebraic equations hold constants beside their variables: where these are zero, the size at which their
+    relative tolerance is as large as the absolute one stands for them.
+    """
     n = rows.shape[1]
     for i in range(n):
-        magnitude = abs(rows[Y, i])
+        magnitude = magnitude_of_mass(rows, mass, places, i)
         for j in range(n):
             magnitude += abs(scaled) * abs(matrices[LAST_JACOBIAN, i, j] * rows[Y, j])
+        if places.size > 0 and is_algebraic(places, i):
+            for j in range(n):
+                size = rows[ATOL, j] / rows[RTOL, j]
+                magnitude += abs(scaled * matrices[LAST_JACOBIAN, i, j]) * size
         rows[MAGNITUDE, i] = magnitude
 
 

@@ -17,12 +17,17 @@ from tribodyn.kernels.mebdf.acceptance import (
     IN_DOUBT,
     OPEN,
     SOLVED,
+    UNPROVED,
+    has_unproved,
     judge,
+    judge_algebraic,
     judge_beside_rounding,
+    note_removed,
 )
 from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
-from tribodyn.kernels.mebdf.control import CAUTION, newton_failed, norm, reject
+from tribodyn.kernels.mebdf.control import CAUTION, error_weight, newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
+from tribodyn.kernels.mebdf.mass import is_algebraic, multiply, product
 from tribodyn.kernels.mebdf.matrix import factorise, magnify, solve
 from tribodyn.kernels.mebdf.phases import (
     ACCEPT,
@@ -36,11 +41,13 @@ from tribodyn.kernels.mebdf.phases import (
     NEED_FACTORS,
     NEED_MAGNITUDE,
     NEED_SOLUTION,
+    SINGULAR,
     START_STAGE,
 )
 from tribodyn.kernels.mebdf.start import remember_not_finite
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
+    CAUSE,
     CONSTANT,
     CONSTANT_3,
     DELTA,
@@ -54,6 +61,7 @@ from tribodyn.kernels.mebdf.state import (
     FIXED,
     FORGET,
     FRESH,
+    HIGHER,
     HISTORY,
     ITERATION,
     JACOBIAN,
@@ -76,8 +84,10 @@ from tribodyn.kernels.mebdf.state import (
     REGULAR,
     RELAXATION,
     RESIDUAL,
+    ROW_WEIGHT,
     SCALED,
     SCRATCH,
+    SEEN,
     SHRINK,
     STAGE,
     STAGE_HISTORY,
@@ -115,7 +125,14 @@ def _take_over(matrices: FloatArray) -> bool:
 
 
 @kernel
-def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> int:
+def renew_matrix(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    matrices: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
     """Take over a new Jacobian, if it is finite, and factorise."""
     if count[FRESH] == 1:
         if count[OUTSIDE] == 0:
@@ -123,6 +140,8 @@ def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, m
         if count[FINITE] == 0 and count[N_J] == 1:
             count[REASON] = JACOBIAN_NOT_FINITE
             return FAILED
+        for i in range(rows.shape[1]):
+            rows[SEEN, i] = 0.0
     real[FACTORED] = real[SCALED]
     real[RELAXATION] = 1.0
     real[RATE] = 1.0
@@ -131,7 +150,7 @@ def renew_matrix(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, m
     count[PHASE] = FACTORISED
     if count[OUTSIDE] == 1:
         return NEED_FACTORS
-    count[REGULAR] = factorise(count, matrices, real[SCALED])
+    count[REGULAR] = factorise(count, matrices, mass, places, real[SCALED])
     return 0
 
 
@@ -142,10 +161,17 @@ def begin_stages(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -
     count[PHASE] = START_STAGE
     if count[REGULAR] == 0:
         newton_failed(real, count, rows)
+        count[CAUSE] = SINGULAR
 
 
 @inlined
-def start_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+def start_stage(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
     """Fill what the stage knows already, predict, and ask for f where it is not known."""
     stage, h = count[STAGE], real[H]
     _set_constant(real, count, rows)
@@ -153,13 +179,19 @@ def start_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) ->
     real[OVERSHOT] = 0.0
     count[PHASE] = ITERATE
     real[T_EVAL] = real[T] + (2.0 * h if stage == 2 else h)
+    massive = places.size > 0
     if stage == 3:
         _copy(rows, Y_1, Y, F_1, F)
-        return 0
-    if stage == 1 and count[CARRIED] == 1:
+        if massive and count[HIGHER] == 0:
+            multiply(mass, places, rows, F_1, F)
+        if count[HIGHER] == 0:
+            return 0
+    elif stage == 1 and count[CARRIED] == 1:
         _copy(rows, Y_2, Y, F_2, F)
-        return 0
-    _copy(rows, PREDICTED, Y, F, F)
+        if not massive:
+            return 0
+    else:
+        _copy(rows, PREDICTED, Y, F, F)
     count[N_F] += 1
     return NEED_F
 
@@ -201,7 +233,13 @@ def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
 
 @inlined
 def iterate(
-    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray, phase: int
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    matrices: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+    phase: int,
 ) -> int:
     """One Newton correction with f known at Y; then accept the stage, go on, or give up.
 
@@ -209,7 +247,10 @@ def iterate(
     """
     verdict = count[VERDICT]
     if phase == ITERATE:
-        _set_residual(real, rows)
+        if places.size == 0:
+            _set_residual(real, rows)
+        else:
+            _set_residual_with_mass(real, count, rows, mass, places)
         count[N_SOLVES] += 1
         if count[OUTSIDE] == 1:
             count[PHASE] = CORRECT
@@ -217,16 +258,21 @@ def iterate(
         solve(count, rows, matrices)
     if phase != CONCLUDE:
         verdict = _correct(real, count, rows)
-    if verdict == IN_DOUBT:
+        if verdict == SOLVED and places.size > 0 and has_unproved(rows, places):
+            verdict = UNPROVED
+    if verdict in (IN_DOUBT, UNPROVED):
         if phase != CONCLUDE and count[OUTSIDE] == 1:
-            count[VERDICT] = IN_DOUBT
+            count[VERDICT] = verdict
             count[PHASE] = CONCLUDE
             return NEED_MAGNITUDE
         if count[OUTSIDE] == 0:
-            magnify(rows, matrices, real[SCALED])
-        verdict = judge_beside_rounding(real, count, rows)
+            magnify(rows, matrices, mass, places, real[SCALED])
+        if verdict == IN_DOUBT:
+            verdict = judge_beside_rounding(real, count, rows, places.size > 0)
+        if verdict == UNPROVED or (verdict == SOLVED and places.size > 0):
+            verdict = judge_algebraic(rows, places, real[SCALED])
     if verdict == SOLVED:
-        finish_stage(real, count, rows)
+        finish_stage(real, count, rows, error_weight(places))
         return 0
     if verdict in (DIVERGED, FALSE) or count[ITERATION] >= MAX_ITERATIONS[count[STAGE]]:
         if verdict == FALSE:
@@ -266,6 +312,32 @@ def _set_residual(real: FloatArray, rows: FloatArray) -> None:
     real[UNSOLVED] = math.sqrt(total / n)
 
 
+@kernel
+def _set_residual_with_mass(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> None:
+    """Fill the row RESIDUAL and note its norm over the equations with derivatives."""
+    n = rows.shape[1]
+    scaled, total = real[SCALED], 0.0
+    for i in range(n):
+        rows[SCRATCH, i] = rows[CONSTANT, i] - rows[Y, i]
+    for i in range(n):
+        if is_algebraic(places, i):
+            residual = rows[F, i]
+            if count[ITERATION] > 0:
+                note_removed(rows, i, residual)
+        else:
+            residual = scaled * rows[F, i] + product(mass, places, rows, SCRATCH, i)
+        rows[RESIDUAL, i] = residual
+        total += (residual * rows[ROW_WEIGHT, i]) ** 2
+    real[UNSOLVED_BEFORE] = real[UNSOLVED]
+    real[UNSOLVED] = math.sqrt(total / n)
+
+
 @inlined
 def _add_correction(real: FloatArray, rows: FloatArray) -> float:
     """Add the row DELTA, adapted to the present step, to Y; return its norm."""
@@ -294,21 +366,21 @@ def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool
 
 
 @inlined
-def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weight: int) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
     stage = count[STAGE]
     count[PHASE] = START_STAGE
     count[STAGE] = stage + 1
     if stage == 1:
         _keep(real, rows, Y_1, F_1)
-        _test_error(real, count, rows)
+        _test_error(real, count, rows, weight)
     elif stage == 2:
         _keep(real, rows, Y_2, F_2)
     else:
         for i in range(rows.shape[1]):
             rows[SCRATCH, i] = rows[Y, i] - rows[Y_1, i]
-        if count[FIXED] == 0 and norm(rows, SCRATCH) > real[DISAGREEMENT]:
-            reject(real, count, rows, 0.5, SCRATCH)
+        if count[FIXED] == 0 and norm(rows, SCRATCH, weight) > real[DISAGREEMENT]:
+            reject(real, count, rows, 0.5, SCRATCH, weight)
         else:
             count[PHASE] = ACCEPT
 
@@ -323,14 +395,14 @@ def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
 
 
 @inlined
-def _test_error(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def _test_error(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weight: int) -> None:
     """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
     k = count[K]
     push(rows, Y_1, k + 2, STAGE_HISTORY)
-    error = SCALARS[k, 3] * norm(rows, STAGE_HISTORY + k + 1)
+    error = SCALARS[k, 3] * norm(rows, STAGE_HISTORY + k + 1, weight)
     real[ERROR] = error
     if error > 1.0 and count[FIXED] == 0:
         shrink = 1.0 / (real[SHRINK] * error ** (1.0 / (k + 1)))
-        reject(real, count, rows, min(0.9, max(0.1, shrink)), STAGE_HISTORY + k + 1)
+        reject(real, count, rows, min(0.9, max(0.1, shrink)), STAGE_HISTORY + k + 1, weight)
     elif count[LAST] == 1:
         count[PHASE] = ACCEPT

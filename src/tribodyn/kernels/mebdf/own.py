@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.state import MAGNITUDE, Y
+from tribodyn.kernels.mebdf.mass import is_algebraic, magnitude_of_mass
+from tribodyn.kernels.mebdf.state import ATOL, DELTA, MAGNITUDE, RESIDUAL, RTOL, Y
 
 
 class OwnMatrix(NamedTuple):
@@ -49,9 +50,23 @@ def take_over(own: OwnMatrix) -> bool:
 
 
 @kernel
-def magnify(own: OwnMatrix, rows: FloatArray, scaled: float) -> None:
-    """Fill the row MAGNITUDE."""
+def magnify(
+    own: OwnMatrix, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64], scaled: float
+) -> None:
+    """Fill the row MAGNITUDE, as :func:`tribodyn.kernels.mebdf.matrix.magnify` does."""
     for i in range(rows.shape[1]):
-        rows[MAGNITUDE, i] = abs(rows[Y, i])
+        rows[MAGNITUDE, i] = magnitude_of_mass(rows, mass, places, i)
     for k in range(own.places.shape[1]):
-        rows[MAGNITUDE, own.places[0, k]] += abs(scaled * own.last[k] * rows[Y, own.places[1, k]])
+        i, j = own.places[0, k], own.places[1, k]
+        size = abs(rows[Y, j])
+        if places.size > 0 and is_algebraic(places, i):
+            size += rows[ATOL, j] / rows[RTOL, j]
+        rows[MAGNITUDE, i] += abs(scaled * own.last[k]) * size
+
+
+@kernel
+def set_right_side(rows: FloatArray, places: NDArray[np.int64], scaled: float) -> None:
+    """Copy the row RESIDUAL to DELTA, for a matrix that has the step in algebraic equations, too."""
+    for i in range(rows.shape[1]):
+        factor = scaled if places.size > 0 and is_algebraic(places, i) else 1.0
+        rows[DELTA, i] = factor * rows[RESIDUAL, i]

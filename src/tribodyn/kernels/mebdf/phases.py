@@ -19,6 +19,7 @@ NO_PROGRESS: Final = 4
 
 ERROR_TEST: Final = 1
 NEWTON: Final = 2
+SINGULAR: Final = 3
 
 BEGIN: Final = 0
 FIRST_F: Final = 1

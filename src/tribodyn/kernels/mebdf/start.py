@@ -16,14 +16,17 @@ from tribodyn.kernels.mebdf.state import (
     DELTA,
     DIRECTION,
     F_1,
+    F_2,
     H_MAX,
     HISTORY,
     N_F,
     PHASE,
     REASON,
+    ROW_WEIGHT,
     T_BAD,
     T_END,
     T_EVAL,
+    WEIGHT,
     F,
     H,
     T,
@@ -32,22 +35,29 @@ from tribodyn.kernels.mebdf.state import (
 
 
 @kernel
-def start(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+def start(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
     """Go through the phases before the first step; return what is needed, 0 when it can begin."""
     if count[PHASE] == BEGIN:
-        set_weights(real, rows)
+        set_weights(real, rows, mass, places)
         return _ask(real, count, rows, 0.0, FIRST_F)
     if count[PHASE] == FIRST_F:
         if remember_not_finite(real, count, rows):
             count[REASON] = NOT_FINITE
             return FAILED
+        first = F_2 if places.size > 0 else F_1
         for i in range(rows.shape[1]):
-            rows[F_1, i] = rows[F, i]
+            rows[first, i] = rows[F, i]
         if real[H] == 0.0:
             real[H] = _trial_step(real, rows)
             return _ask(real, count, rows, real[DIRECTION] * real[H], SECOND_F)
     else:
-        real[H] = _first_step(real, rows)
+        real[H] = _first_step(real, rows, places)
     real[H] *= real[DIRECTION]
     for i in range(rows.shape[1]):
         rows[HISTORY + 1, i] = real[H] * rows[F_1, i]
@@ -82,19 +92,20 @@ def remember_not_finite(real: FloatArray, count: NDArray[np.int64], rows: FloatA
 @kernel
 def _trial_step(real: FloatArray, rows: FloatArray) -> float:
     """Return a step over which the solution changes by about a hundredth of itself."""
-    value, slope = norm(rows, HISTORY), norm(rows, F)
+    value, slope = norm(rows, HISTORY, WEIGHT), norm(rows, F_1, WEIGHT)
     size = 1.0e-6 if value < 1.0e-5 or slope < 1.0e-5 else 0.01 * value / slope
     return min(size, real[H_MAX], abs(real[T_END] - real[T]))
 
 
 @kernel
-def _first_step(real: FloatArray, rows: FloatArray) -> float:
+def _first_step(real: FloatArray, rows: FloatArray, places: NDArray[np.int64]) -> float:
     """Return the size of the first step from two slopes: Hairer, Nørsett and Wanner, II.4, for order one."""
     trial = real[H]
-    slope = norm(rows, F_1)
+    slope = norm(rows, F_1, WEIGHT)
+    first, weight = (F_2, ROW_WEIGHT) if places.size > 0 else (F_1, WEIGHT)
     for i in range(rows.shape[1]):
-        rows[DELTA, i] = (rows[F, i] - rows[F_1, i]) / trial
-    largest = max(slope, norm(rows, DELTA))
+        rows[DELTA, i] = (rows[F, i] - rows[first, i]) / trial
+    largest = max(slope, norm(rows, DELTA, weight))
     if not math.isfinite(largest):
         return 1.0e-3 * trial
     size = max(1.0e-6, 1.0e-3 * trial) if largest <= 1.0e-15 else math.sqrt(0.01 / largest)

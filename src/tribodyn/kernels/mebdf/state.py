@@ -90,6 +90,13 @@ DEFAULTS: Final = (
 )
 N_REAL: Final = SETTINGS + len(DEFAULTS)
 
+# A Jacobian by many differences must be worse and older before it is renewed.
+EVALUATIONS: Final = 200
+"""Evaluations a Jacobian costs, over the convergence rate at which it is renewed."""
+SLOWEST: Final = 0.5
+OLDEST: Final = 100
+"""Largest rate, and age in steps, up to which a Jacobian is kept for its price."""
+
 # Entries of ``MebdfState.counts``.
 PHASE: Final = 0
 K: Final = 1
@@ -142,7 +149,9 @@ REGULAR: Final = 31
 """Whether the iteration matrix is regular."""
 VERDICT: Final = 32
 """Whether the stage solves its formula, as far as is known."""
-PIVOTS: Final = 33
+HIGHER: Final = 33
+"""Whether a variable has an index above 1: constraints must then hold better than the tolerance."""
+PIVOTS: Final = 34
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -169,7 +178,17 @@ CONSTANT_3: Final = 13
 """What stage 3 takes from the history."""
 MAGNITUDE: Final = 14
 """|y_i| + |hβ| Σ_j |J_ij y_j|: the rounding of the residual is a share of it."""
-HISTORY: Final = 15
+ERROR_WEIGHT: Final = 15
+"""WEIGHT, and 0 for what is not in the error test; with a mass matrix alone, as the next rows."""
+ROW_WEIGHT: Final = 16
+"""Reciprocal scale of the residual of an equation with derivatives, 0 for an algebraic one."""
+POWER: Final = 17
+"""Power of the step in the weight of a variable: its index less one."""
+TESTED: Final = 18
+"""1 for a variable in the error test, else 0."""
+SEEN: Final = 19
+"""Largest residual of an algebraic equation that the present Jacobian was seen to remove; it fades."""
+HISTORY: Final = 20
 """First of the backward differences ∇^i y_n."""
 N_DIFFERENCES: Final = MAX_K + 3
 STAGE_HISTORY: Final = HISTORY + N_DIFFERENCES
@@ -197,12 +216,42 @@ class MebdfState(NamedTuple):
         Vectors named above, shape (N_ROWS, n).
     matrices
         Matrices named above, shape (3, n, n); of no size where the caller solves.
+    mass
+        Entries of the mass matrix, row by row; of no size where it is the unit matrix.
+    places
+        Where each row begins in ``mass``, n + 1 numbers, then the column of each entry.
     """
 
     real: FloatArray
     counts: NDArray[np.int64]
     rows: FloatArray
     matrices: FloatArray
+    mass: FloatArray
+    places: NDArray[np.int64]
+
+
+class Mass(NamedTuple):
+    """A constant mass matrix by its entries, and what goes with it.
+
+    Attributes
+    ----------
+    entries
+        Entries that are not zero, row by row.
+    places
+        Where each row begins in ``entries``, n + 1 numbers, then the column of each entry.
+    slope
+        y' at the start, shape (n,): as far as it is not known 0.
+    indices
+        Index of each variable, shape (n,).
+    tested
+        Whether a variable is in the error test, shape (n,).
+    """
+
+    entries: FloatArray
+    places: NDArray[np.int64]
+    slope: FloatArray
+    indices: NDArray[np.int64]
+    tested: NDArray[np.bool_]
 
 
 def new_state(
@@ -216,8 +265,9 @@ def new_state(
     first_step: float = 0.0,
     largest_k: int = MAX_K,
     inside: bool = False,
-    differenced: bool = False,
+    differenced: int = 0,
     outside: bool = False,
+    mass: Mass | None = None,
 ) -> MebdfState:
     """Return the state before the first step.
 
@@ -238,9 +288,11 @@ def new_state(
     inside
         Whether the right-hand side may not be evaluated beyond ``t_end``.
     differenced
-        Whether the Jacobian comes from differences of the right-hand side.
+        How many evaluations of the right-hand side a Jacobian by differences costs; 0 for one that is given.
     outside
         Whether the caller solves with the iteration matrix, see :mod:`tribodyn.kernels.mebdf.core`.
+    mass
+        Mass matrix, ``None`` for the unit matrix.
     """
     n = y.size
     size = 0 if outside else n
@@ -256,11 +308,22 @@ def new_state(
     count[[K, K_LAST]] = 1
     count[LARGEST_K] = largest_k
     count[INSIDE] = inside
-    count[DIFFERENCED] = differenced
+    count[DIFFERENCED] = min(differenced, 1)
+    real[SLOW] = max(real[SLOW], min(differenced / EVALUATIONS, SLOWEST))
+    real[OLD_JACOBIAN] = max(real[OLD_JACOBIAN], min(differenced, OLDEST))
     count[OUTSIDE] = outside
     count[[BAD, WORST]] = -1
     rows = np.zeros((N_ROWS, n))
     rows[ATOL] = atol
     rows[RTOL] = rtol
     rows[[Y, HISTORY]] = y
-    return MebdfState(real, count, rows, np.zeros((3, size, size)))
+    matrices = np.zeros((3, size, size))
+    if mass is None:
+        return MebdfState(real, count, rows, matrices, np.zeros(0), np.zeros(0, dtype=np.int64))
+    rows[F_1] = mass.slope
+    rows[POWER] = np.maximum(mass.indices - 1, 0)
+    rows[TESTED] = mass.tested
+    if np.any(mass.indices > 1):
+        count[HIGHER] = 1
+        real[SAME_MATRIX] = 0.0  # algebraic equations know no step that a correction could be adapted to
+    return MebdfState(real, count, rows, matrices, mass.entries, mass.places)

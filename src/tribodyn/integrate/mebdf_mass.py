@@ -1,0 +1,111 @@
+"""The mass matrix of the solver class for SciPy: checked, and as the compiled core keeps it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array, diags_array
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.integrate.mebdf_algebra import is_sparse
+from tribodyn.kernels.mebdf.state import Mass
+
+HIGHEST_INDEX = 3
+
+
+@dataclass(frozen=True)
+class MassMatrix:
+    """A constant mass matrix and the index of each variable.
+
+    Attributes
+    ----------
+    matrix
+        Compressed rows without zeros, shape (n, n).
+    index
+        Index of each variable, shape (n,).
+    tested
+        Whether a variable is in the error test, shape (n,).
+    """
+
+    matrix: Any
+    index: NDArray[np.int64]
+    tested: NDArray[np.bool_]
+
+    @cached_property
+    def algebraic_equations(self) -> NDArray[np.bool_]:
+        """Whether an equation has no derivatives, shape (n,)."""
+        empty: NDArray[np.bool_] = np.diff(self.matrix.indptr) == 0
+        return empty
+
+    @cached_property
+    def algebraic_variables(self) -> NDArray[np.bool_]:
+        """Whether a variable has no derivative in any equation, shape (n,)."""
+        return algebraic_variables(self.matrix)
+
+    def for_core(self, slope: FloatArray) -> Mass:
+        """Return it as the compiled core keeps it, with y' at the start."""
+        matrix = self.matrix
+        places = np.concatenate((matrix.indptr, matrix.indices)).astype(np.int64)
+        return Mass(matrix.data.astype(np.float64), places, slope, self.index, self.tested)
+
+
+def algebraic_variables(matrix: Any) -> NDArray[np.bool_]:
+    """Return which columns of a sparse matrix are empty."""
+    used = np.zeros(matrix.shape[1], dtype=bool)
+    used[matrix.indices] = True
+    return ~used
+
+
+def read_mass(mass: Any, index: ArrayLike | None, test_algebraic: bool | None, n: int) -> MassMatrix | None:
+    """Check what a user gave; ``None`` without a mass matrix.
+
+    Parameters
+    ----------
+    mass
+        Shape (n, n), dense or sparse, or its diagonal, shape (n,); or ``None``.
+    index
+        Index of each variable, 1 to 3, shape (n,); ``None`` for 1.
+    test_algebraic
+        Whether algebraic variables are in the error test; ``None`` for those of index 1.
+    n
+        Number of equations.
+    """
+    if mass is None:
+        if index is not None or test_algebraic is not None:
+            raise ValueError("`index` and `test_algebraic` need a `mass` matrix.")
+        return None
+    matrix = _matrix(mass, n)
+    numbers = np.ones(n, dtype=np.int64) if index is None else _index(index, n)
+    algebraic = algebraic_variables(matrix)
+    tested = numbers == 1 if test_algebraic is None else np.full(n, test_algebraic)
+    return MassMatrix(matrix, numbers, tested | ~algebraic)
+
+
+def _matrix(mass: Any, n: int) -> Any:
+    if np.iscomplexobj(mass.data if is_sparse(mass) else np.asarray(mass)):
+        raise ValueError("`mass` must be real.")
+    if is_sparse(mass):
+        matrix = csr_array(mass, dtype=np.float64)
+    else:
+        dense = np.asarray(mass, dtype=np.float64)
+        matrix = csr_array(diags_array(dense) if dense.ndim == 1 else np.atleast_2d(dense))
+    if matrix.shape != (n, n):
+        raise ValueError(f"`mass` is expected to have shape {(n, n)} or {(n,)}, not {matrix.shape}.")
+    if not np.isfinite(matrix.data).all():
+        raise ValueError("`mass` must be finite.")
+    matrix.sum_duplicates()
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _index(index: ArrayLike, n: int) -> NDArray[np.int64]:
+    numbers = np.asarray(index)
+    if numbers.shape != (n,):
+        raise ValueError(f"`index` is expected to have shape {(n,)}, not {numbers.shape}.")
+    if not np.isin(numbers, range(1, HIGHEST_INDEX + 1)).all():
+        raise ValueError(f"`index` must hold whole numbers from 1 to {HIGHEST_INDEX}.")
+    return numbers.astype(np.int64)
