@@ -19,7 +19,7 @@ COARSE = {
     "solver.grid.theta": 48,
     "solver.grid.z": 10,
     "run.output_interval": "20 ms",
-    "run.impact_interval": "2 ms",
+    "run.impact_rows": 50,
 }
 FAST_WEAR = {"wear.specific_wear_rate": "1.1e-12 m^2/N", "wear.cycles": 400, "wear.jump_limit": 0.5}
 

@@ -23,7 +23,7 @@ CHANGES = {
     "solver.grid.theta": 24,
     "solver.grid.z": 6,
     "run.output_interval": "50 ms",
-    "run.impact_interval": "5 ms",
+    "run.impact_rows": 50,
     "wear.specific_wear_rate": "1.1e-12 m^2/N",
     "wear.cycles": 400,
     "wear.jump_limit": 0.5,

@@ -15,8 +15,9 @@ The rules
 3. After a step is accepted, the step is walked once from its beginning to its end.
    For each part of it (parts end at output times and at the end of the step)
    ``advance`` adds the path integrals of that part: works, heats, sliding loads.
-4. ``observe`` and ``picture`` are called at output times, after ``advance`` has
-   reached them and while the memory that the step was computed with is in force.
+4. ``observe`` and ``picture`` are called at output times, ``observe`` also at the ends of
+   steps that the problem wants followed, after ``advance`` has reached them and while the
+   memory that the step was computed with is in force.
 5. ``accept`` is called once at the end of each accepted step, after rules 3 and 4.
    It is the only place where the state of contact (such as entry velocities) changes. There and
    in ``enter`` a problem may correct the state, to keep it on its constraints; an integrator that
@@ -108,6 +109,32 @@ class Algebra:
 
 
 @dataclass(frozen=True)
+class Following:
+    """Stretches of a run in which accepted steps give rows.
+
+    Attributes
+    ----------
+    windows
+        Begin and end of each [s], shape (n, 2): increasing, none overlaps the next.
+    most
+        Rows kept of each; more are thinned.
+    watched
+        Places in a row of what must keep its peaks when rows are thinned.
+    stride
+        Every how many steps give a row.
+    wanted
+        Set above zero by the functions of the problem where a step gives one in any case, shape (1,); it is
+        cleared when the row is taken.
+    """
+
+    windows: FloatArray
+    most: int
+    watched: tuple[int, ...]
+    stride: int = 1
+    wanted: FloatArray = field(default_factory=lambda: np.zeros(1))
+
+
+@dataclass(frozen=True)
 class Problem:
     """An initial value problem with memory, ready to be integrated.
 
@@ -142,6 +169,8 @@ class Problem:
         diagonal, shape (n,); ``None`` for dy/dt = f. Only ``mebdf`` integrates with one.
     index
         Index of each state, 1 to 3, shape (n,), with a mass matrix; empty where all are 1.
+    following
+        Where steps give rows beside those at output times; nowhere by default.
     """
 
     functions: CompiledFunctions
@@ -158,6 +187,7 @@ class Problem:
     algebra: Algebra | None = None
     mass: Any = None
     index: tuple[int, ...] = ()
+    following: Following | None = None
 
 
 @dataclass
@@ -180,7 +210,7 @@ class Solution:
     Attributes
     ----------
     t
-        Output times reached [s], shape (n_t,); shorter than asked for after a failure.
+        Times of the rows [s], shape (n_t,): the output times, up to a failure, and those of steps followed.
     rows
         Observed quantities, shape (n_t, n_observed).
     picture_times

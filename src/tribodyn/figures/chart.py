@@ -16,7 +16,7 @@ from tribodyn.figures.base import Family
 from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
 from tribodyn.views.chart import Chart
 from tribodyn.views.curves import Curve, Marks, Panel
-from tribodyn.views.events import reversal_times
+from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import series
 
@@ -66,7 +66,9 @@ def draw(chart: Chart, dataset: xr.Dataset) -> Figure:
         if panel.marks is not None:
             _draw_marks(axes, panel.marks, scale)
         if panel.smooth and time.size:
-            limit_to_smooth(axes, time / scale, _values(panel), turns / scale, panel.unit)
+            limit_to_smooth(
+                axes, time / scale, _values(panel), turns / scale, impact_time(dataset), panel.unit
+            )
         mark_reversals(axes, turns, label=axes is every[-1] and not panel.smooth)
     every[-1].set_xlabel(f"time [{unit}]", size=style.TEXT)
     figure.align_ylabels()

@@ -25,7 +25,7 @@ from tribodyn.figures.style import (
     lines,
     sheet,
 )
-from tribodyn.views.events import SETTLING, reversal_times
+from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.series import finite, peak, series
 
 TITLE: Final = "Contact force on the trunnion"
@@ -36,12 +36,12 @@ def draw(dataset: xr.Dataset) -> Figure:
     """Draw total, rigid and damping force along X and Y [N]: the whole run, and one reversal close up."""
     figure = sheet(dataset, TITLE, 5.6)
     grid = figure.subplots(2, 2, sharex="col", width_ratios=(1.7, 1.0))
-    turns, (start, end) = reversal_times(dataset), close_up(dataset)
+    turns, settling, (start, end) = reversal_times(dataset), impact_time(dataset), close_up(dataset)
     time = series(dataset, "time")
     for (whole, close), axis in zip(grid, "xy", strict=True):
         curves = _curves(dataset, axis)
         _draw_curves(whole, time, curves)
-        limit_to_smooth(whole, time, np.array([curve[0] for curve in curves]), turns, "N")
+        limit_to_smooth(whole, time, np.array([curve[0] for curve in curves]), turns, settling, "N")
         mark_reversals(whole, turns)
         _shade(whole, time, start, end)
         _draw_close_up(close, time, curves, start, end)
@@ -75,15 +75,15 @@ def close_up(dataset: xr.Dataset) -> tuple[float, float]:
     size = np.hypot(series(dataset, "F_cx"), series(dataset, "F_cy"))
     if not finite(size).size:
         return 0.0, 0.1
-    start = _hardest(time, size, reversal_times(dataset))
+    start = _hardest(time, size, reversal_times(dataset), impact_time(dataset))
     return start, start + _ringing_time(dataset, start)
 
 
-def _hardest(time: FloatArray, size: FloatArray, turns: FloatArray) -> float:
+def _hardest(time: FloatArray, size: FloatArray, turns: FloatArray, settling: float) -> float:
     """Return the reversal followed by the largest force; without reversals, the time of the largest force."""
     if not turns.size:
         return float(time[np.nanargmax(size)])
-    peaks = [peak(size[(time >= turn) & (time <= turn + SETTLING)]) for turn in turns]
+    peaks = [peak(size[(time >= turn) & (time <= turn + settling)]) for turn in turns]
     return float(turns[int(np.argmax(peaks))])
 
 

@@ -27,7 +27,9 @@ def mark_reversals(axes: Axes, times: FloatArray, label: bool = False) -> None:
         )
 
 
-def limit_to_smooth(axes: Axes, time: FloatArray, values: FloatArray, turns: FloatArray, unit: str) -> None:
+def limit_to_smooth(
+    axes: Axes, time: FloatArray, values: FloatArray, turns: FloatArray, impact_time: float, unit: str
+) -> None:
     """Scale the y axis to the smooth motion where impacts would flatten it, and say what lies outside.
 
     Parameters
@@ -38,12 +40,12 @@ def limit_to_smooth(axes: Axes, time: FloatArray, values: FloatArray, turns: Flo
         Times [s], shape (n_t,).
     values
         What is drawn, shape (..., n_t).
-    turns
-        Reversal times [s].
+    turns, impact_time
+        Reversal times, and how long impacts last after them [s].
     unit
         Unit of the values.
     """
-    limits = smooth_limits(time, values, turns)
+    limits = smooth_limits(time, values, turns, impact_time)
     if not limits:
         return
     axes.set_ylim(*limits)

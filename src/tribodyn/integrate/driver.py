@@ -18,6 +18,7 @@ from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate.base import Method, Step, VectorFunction
 from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
+from tribodyn.integrate.following import Followed
 from tribodyn.integrate.schedule import Schedule
 
 INTERRUPTED = "interrupted"
@@ -111,6 +112,8 @@ class Walk:
         self.pictures = np.empty((schedule.picture_times.size, *problem.field_shape))
         self.n_rows = 0
         self.n_pictures = 0
+        self.followed = Followed(problem.following, problem.n_observed)
+        self.n_followed = self.window = self.skipped = 0
 
     def run(self, segment: Callable[[float], None]) -> None:
         """Integrate segment after segment; ``segment`` integrates to the time it is given."""
@@ -172,7 +175,10 @@ class Walk:
             t_part = mark
             self.take()
         self.advance(t_part, t, y)
-        if mark <= t + self.schedule.tolerance:
+        due = mark <= t + self.schedule.tolerance
+        if not (due and self.schedule.is_output[self.next_mark]):
+            self.follow()
+        if due:
             self.take()
         self.functions.accept(t, y, self.problem.data, self.problem.memory)
         self.step_size = t - step.t_old
@@ -200,6 +206,34 @@ class Walk:
             self.n_pictures += 1
         self.next_mark += 1
 
+    def follow(self) -> None:
+        """Take a row at the end of a step where the problem asks for it."""
+        followed, problem = self.followed, self.problem
+        while followed.windows[self.window, 1] < self.t:
+            self.window += 1
+        if followed.windows[self.window, 0] <= self.t and self.wants():
+            n = self.n_followed
+            self.functions.observe(self.t, self.y, problem.data, problem.memory, followed.rows[n])
+            followed.times[n] = self.t
+            self.n_followed += 1
+        if self.n_followed == followed.times.size:
+            self.collect()
+
+    def wants(self) -> bool:
+        """Tell whether it is the turn of the step, or the problem wants its row."""
+        following = self.followed.following
+        self.skipped += 1
+        if self.skipped < following.stride and following.wanted[0] == 0.0:
+            return False
+        self.skipped = 0
+        following.wanted[0] = 0.0
+        return True
+
+    def collect(self) -> None:
+        """Take over the rows of the steps that were followed."""
+        self.followed.collect(self.n_followed)
+        self.n_followed = 0
+
     def describe(self, error: IntegrationFailure) -> str:
         """Return the failure in words: time, last step and what was not finite."""
         if error.reason == INTERRUPTED:
@@ -209,9 +243,12 @@ class Walk:
 
     def solution(self, failure: str | None) -> Solution:
         """Return what was reached."""
+        self.collect()
+        times = self.schedule.output_times[: self.n_rows]
+        times, rows = self.followed.merged(times, self.rows[: self.n_rows])
         return Solution(
-            t=self.schedule.output_times[: self.n_rows],
-            rows=self.rows[: self.n_rows],
+            t=times,
+            rows=rows,
             picture_times=self.schedule.picture_times[: self.n_pictures],
             pictures=self.pictures[: self.n_pictures],
             t_end=self.t,

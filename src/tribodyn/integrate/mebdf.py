@@ -106,7 +106,7 @@ class _CompiledWalk(Walk):
 
         problem, marks = self.problem, self._marks
         state = self._new_state(self.t, t_end)
-        marks.position[:] = self.next_mark, self.n_rows, self.n_pictures
+        marks.position[:] = self.next_mark, self.n_rows, self.n_pictures, 0, self.window, self.skipped
         marks.reached[0] = self.t
         before = vars(self.statistics).copy()
         outcome = PAUSED
@@ -186,7 +186,12 @@ class _CompiledWalk(Walk):
             tolerance=np.array([self.schedule.tolerance]),
             rows=self.rows,
             pictures=pictures,
-            position=np.zeros(3, dtype=np.int64),
+            windows=self.followed.windows,
+            step_times=self.followed.times,
+            step_rows=self.followed.rows,
+            position=np.zeros(6, dtype=np.int64),
+            stride=np.array([self.followed.following.stride]),
+            wanted=self.followed.following.wanted,
             reached=np.zeros(1),
             end=np.zeros(self.y.size),
         )
@@ -194,8 +199,13 @@ class _CompiledWalk(Walk):
     def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
         """Take from the compiled loop where it is and what it has cost."""
         from tribodyn.kernels.mebdf import state as entry
+        from tribodyn.kernels.mebdf.drive import N_STEPS
 
-        self.next_mark, self.n_rows, self.n_pictures = self._marks.position.tolist()
+        position = self._marks.position
+        self.next_mark, self.n_rows, self.n_pictures, self.n_followed, *more = position.tolist()
+        self.window, self.skipped = more
+        self.collect()
+        position[N_STEPS] = 0
         self.t = float(state.real[entry.T])
         self.y = state.rows[entry.HISTORY].copy()
         self.step_size = float(state.real[entry.H_LAST])

@@ -89,11 +89,14 @@ class Run:
         What was integrated, and what came of it.
     cost
         By the names of :class:`~tribodyn.core.problem.Statistics`; of a campaign that of all its cycles.
+    carried
+        Whether it went on from where another run ended.
     """
 
     problem: Problem
     solution: Solution
     cost: Mapping[str, float]
+    carried: bool = False
 
     @property
     def duration(self) -> float:

@@ -20,9 +20,17 @@ TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
 """What makes ledgers close: absolute tolerances alone hold small slips and long ringing."""
 
 
-def peaks(*records: Record) -> dict[str, float]:
-    """Return peaks over all accepted steps by name, SI units, from the records that kernels keep of them."""
+def extremes(*records: Record) -> dict[str, float]:
+    """Return extremes over all accepted steps by name, SI units, from the records that kernels keep."""
     return {name: float(record[name]) for record in records for name in record.dtype.names}
+
+
+def beyond_law(joint: BushingJoint, t_end: float) -> str:
+    """Return why a run stopped at ``t_end`` [s] that left the range of its contact law."""
+    return (
+        f"stopped at t = {t_end:.6g} s: the surfaces came closer than the contact law reaches "
+        f"({joint.table.h_first:g} sigma); load or impact is too much for it"
+    )
 
 
 def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_error: float) -> list[str]:

@@ -17,17 +17,20 @@ OUTCOME: Final = "number"
 TEXTS: Final = "list of texts, as JSON"
 FACTS: Final = "table of numbers and texts, as JSON"
 
+CARRIED: Final = "carried on"
+"""The ``start`` of a run that goes on from where another one ended."""
 SWEEP: Final = "sweep"
 """The ``kind`` of a sweep; that of a run is the kind of its case."""
 
 ATTRIBUTES: Final[dict[str, str]] = {
-    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law"), TEXT),
-    **dict.fromkeys(("clearance", "assembly_clearance", "joint_length", "cycle_period", "viscosity"), SIZE),
+    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start"), TEXT),
+    **dict.fromkeys(
+        ("clearance", "assembly_clearance", "joint_length", "cycle_period", "impact_time", "viscosity"), SIZE
+    ),
     **dict.fromkeys(("roughness", "friction_coefficient", "load_x", "load_y", "speed"), NUMBER),
     **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),
-    **dict.fromkeys(("contact_force_peak", "contact_force_peak_time"), OUTCOME),
-    **dict.fromkeys(("pressure_peak", "pressure_peak_time", "separation_least"), OUTCOME),
-    **dict.fromkeys(("collar_lift_off_time", "tensile_clip_time", "time_reached"), OUTCOME),
+    **dict.fromkeys(("separation_least", "collar_lift_off_time", "tensile_clip_time"), OUTCOME),
+    "time_reached": OUTCOME,
     **dict.fromkeys(("worn_volume", "wear_life_cycles", "wear_cycles_reached"), OUTCOME),
     **dict.fromkeys(("points_in_all", "points_failed", "samples", "sampling_seed"), NUMBER),
     "sampling_method": TEXT,

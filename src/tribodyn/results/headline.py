@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import xarray as xr
@@ -26,6 +26,10 @@ class Headline:
         Returns the number, NaN or an error of lookup where the result does not hold it.
     count
         Whether it is a whole number.
+    digits
+        How many digits of it hold: neighbouring tolerances agree in them, or nearly.
+    over
+        Of a peak, the name of the headline number that says after how many reversals it was looked for.
     """
 
     label: str
@@ -34,3 +38,12 @@ class Headline:
     meaning: str
     compute: Callable[[xr.Dataset], float]
     count: bool = False
+    digits: int = 3
+    over: str = ""
+
+    def label_in(self, summary: Mapping[str, object]) -> str:
+        """Return the label in a summary: a peak says after how many reversals it was looked for."""
+        if self.over not in summary:
+            return self.label
+        n = summary[self.over]
+        return f"{self.label} after {n} reversal" + ("" if n == 1 else "s")

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.results.attributes import CARRIED
 from tribodyn.results.dataset import json_attribute
 
 
@@ -28,9 +29,35 @@ def peak(values: FloatArray) -> float:
     return float(finite.max()) if finite.size else math.nan
 
 
-def reached(dataset: xr.Dataset, attribute: str, values: FloatArray) -> float:
-    """Return the peak of a quantity; where it fell between output times, an attribute holds it."""
-    return peak(np.append(values, float(dataset.attrs.get(attribute, math.nan))))
+def largest(dataset: xr.Dataset, name: str, values: FloatArray) -> float:
+    """Return the peak of a quantity, also where it fell between rows.
+
+    Parameters
+    ----------
+    dataset
+        A result; of some quantities it holds the peaks after each reversal.
+    name
+        Name of the quantity in those.
+    values
+        The quantity over time.
+    """
+    kept = [column(dataset, part) for part in (f"{name}_impact", f"{name}_outside") if part in dataset]
+    return peak(np.concatenate([values, *kept]))
+
+
+def outside(dataset: xr.Dataset, name: str) -> float:
+    """Return the peak of a quantity outside the impacts."""
+    return peak(column(dataset, f"{name}_outside"))
+
+
+def reversals_held(dataset: xr.Dataset) -> int:
+    """Return how many reversals the run holds with the impacts that follow them.
+
+    Where a run goes on from another one, its start is a reversal; otherwise it is none.
+    """
+    turns = column(dataset, "reversal_time") + float(dataset.attrs["impact_time"])
+    held = turns <= float(dataset.attrs["time_reached"])
+    return int(np.count_nonzero(held)) - int(held[0] and dataset.attrs["start"] != CARRIED)
 
 
 def time_mean(dataset: xr.Dataset, values: FloatArray) -> float:

@@ -17,8 +17,9 @@ from tribodyn.kernels.joints.quantities import REPORTED, STATES
 SNAPSHOT: Final = ("snapshot",)
 JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
+REVERSAL: Final = ("reversal",)
 STAGE: Final = ("stage_cycles",)
-EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *STAGE))
+EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *REVERSAL, *STAGE))
 """Dimensions along which a result may hold nothing: it ended before."""
 
 
@@ -50,6 +51,8 @@ COORDINATES: Final[dict[str, Variable]] = {
     "snapshot_time": Variable("s", "simulated time of the snapshot", SNAPSHOT),
     "frame": Variable("1", "number of the pressure frame, over the last cycle", FRAME),
     "frame_time": Variable("s", "simulated time of the pressure frame", FRAME),
+    "reversal": Variable("1", "number of the reversal; 0 is the start of the run", REVERSAL),
+    "reversal_time": Variable("s", "simulated time of the reversal", REVERSAL),
     "jump": Variable("1", "number of the stop of a wear campaign", JUMP),
     "stage_cycles": Variable("1", "drive cycles at the worn profiles kept", STAGE),
     "theta": Variable("rad", "circumferential coordinate of the bushing", ("theta",)),

@@ -49,7 +49,8 @@ class Session:
             progress=progress or self.progress,
             stop=self.stop,
         )
-        return Run(problem, solution, vars(solution.statistics))
+        carried = worn is not None and worn.carried is not None
+        return Run(problem, solution, vars(solution.statistics), carried)
 
     def dataset(self, run: Run, more: Part) -> xr.Dataset:
         """Return the result of a run, with what was added to it."""

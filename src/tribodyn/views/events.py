@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.series import peak, series
 
-SETTLING: Final = 0.35
-"""What follows a reversal within this time [s] counts as impact, not as smooth motion."""
+
+def impact_time(dataset: xr.Dataset) -> float:
+    """Return how long impacts last after the start and each reversal [s]; the rest is smooth motion."""
+    return float(dataset.attrs.get("impact_time", 0.0))
 
 
 def reversal_times(dataset: xr.Dataset) -> FloatArray:
@@ -31,7 +31,9 @@ def direction(dataset: xr.Dataset) -> FloatArray:
     return np.where(series(dataset, "omega_v_ideal") >= 0.0, 1.0, -1.0)
 
 
-def smooth_limits(time: FloatArray, values: FloatArray, turns: FloatArray) -> tuple[float, float] | None:
+def smooth_limits(
+    time: FloatArray, values: FloatArray, turns: FloatArray, impact_time: float
+) -> tuple[float, float] | None:
     """Return an ordinate that fits the smooth motion, where impacts would flatten it; otherwise nothing.
 
     Parameters
@@ -42,10 +44,12 @@ def smooth_limits(time: FloatArray, values: FloatArray, turns: FloatArray) -> tu
         What is drawn, shape (..., n_t).
     turns
         Reversal times [s].
+    impact_time
+        How long impacts last after the start and each of them [s].
     """
     smooth = np.ones(time.shape, dtype=bool)
     for turn in (0.0, *turns):
-        smooth &= ~((time >= turn) & (time <= turn + SETTLING))
+        smooth &= ~((time >= turn) & (time <= turn + impact_time))
     quiet = peak(values[..., smooth])
     if not 0.0 < quiet < 0.5 * peak(values):
         return None

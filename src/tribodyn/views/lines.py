@@ -11,7 +11,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.curves import Curve, Panel
 from tribodyn.views.encode import packed
-from tribodyn.views.events import reversal_times, smooth_limits
+from tribodyn.views.events import impact_time, reversal_times, smooth_limits
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import peak, series
 from tribodyn.views.thinning import thinned
@@ -31,7 +31,7 @@ def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | 
         "scale": scale,
         "turns": [float(turn * scale) for turn in turns],
         "x": packed(time * scale, "float64"),
-        "panels": [_panel(panel, time, turns) for panel in panels],
+        "panels": [_panel(panel, time, turns, impact_time(dataset)) for panel in panels],
     }
 
 
@@ -43,13 +43,13 @@ def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]
         "time": False,
         "turns": [],
         "x": packed(x, "float64"),
-        "panels": [_panel(panel, x, none) for panel in panels],
+        "panels": [_panel(panel, x, none, 0.0) for panel in panels],
     }
 
 
-def _panel(panel: Panel, x: FloatArray, turns: FloatArray) -> dict[str, Any]:
+def _panel(panel: Panel, x: FloatArray, turns: FloatArray, settling: float) -> dict[str, Any]:
     """Return a panel as the script reads it."""
-    limits, note = _limits(panel, x, turns) if panel.smooth else ([], "")
+    limits, note = _limits(panel, x, turns, settling) if panel.smooth else ([], "")
     return {
         "label": panel.label,
         "limits": limits,
@@ -72,10 +72,10 @@ def _curve(curve: Curve, common: FloatArray) -> dict[str, Any]:
     }
 
 
-def _limits(panel: Panel, time: FloatArray, turns: FloatArray) -> tuple[list[float], str]:
+def _limits(panel: Panel, time: FloatArray, turns: FloatArray, settling: float) -> tuple[list[float], str]:
     """Return the ordinate of the smooth motion and a note on what lies beyond; nothing where all fits."""
     values = np.array([curve.values for curve in panel.curves])
-    limits = smooth_limits(time, values, turns)
+    limits = smooth_limits(time, values, turns, settling)
     if limits is None:
         return [], ""
     return list(limits), f"cut off, impacts reach {peak(values):.3g} {panel.unit}".rstrip()

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.joints.quantities import Peaks
+from tribodyn.kernels.joints.quantities import Extremes
 from tribodyn.mechanisms.checks import CLIP_LIMIT, ENERGY_LIMIT, GRID_LIMIT, REJECTED_LIMIT, RESTART_LIMIT
 from tribodyn.mechanisms.journal import checks as journal_checks
 from tribodyn.mechanisms.vsv import checks
@@ -57,7 +57,7 @@ def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str
 
 
 def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    found = new_record(Peaks)
+    found = new_record(Extremes)
     found.separation_least = seen["depth"] * vsv.joint.roughness
     found.tensile_clip_time = seen["clipped"] * T_END
     numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}

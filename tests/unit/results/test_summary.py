@@ -11,6 +11,9 @@ from tribodyn.mechanisms.results import headlines_of, summarise
 from tribodyn.mechanisms.vsv.headlines import HEADLINES
 from tribodyn.results import build
 
+PERIOD = 2.0 * np.pi
+IMPACT_TIME = 0.1 * np.pi
+
 
 def test_every_headline_of_a_whole_run_is_a_number(make_result):
     summary = summarise(make_result())
@@ -64,10 +67,39 @@ def test_a_result_gives_what_it_has():
 
 
 def test_a_peak_between_output_times_is_not_lost(make_result):
-    result = make_result(0.5, contact_force_peak=1234.0, pressure_peak=5e8)
+    result = make_result(4.0)
+    result["contact_force_impact"].values[1] = 1234.0
+    result["pressure_outside"].values[0] = 5e8
     summary = summarise(result)
     assert summary["contact_force_max_N"] == 1234.0
+    assert summary["contact_force_outside_N"] < 100.0
     assert summary["peak_pressure_MPa"] == pytest.approx(500.0)
+    assert summary["pressure_outside_MPa"] == pytest.approx(500.0)
+
+
+@pytest.mark.parametrize(
+    ("end", "start", "held"),
+    [
+        (3.0, "equilibrium", 0),  # before the first reversal
+        (np.pi + 0.5 * IMPACT_TIME, "equilibrium", 0),  # its impacts are not over
+        (np.pi + 1.01 * IMPACT_TIME, "equilibrium", 1),
+        (np.pi + 1.01 * IMPACT_TIME, "carried on", 2),  # the start is a reversal, too
+        (2.0 * PERIOD, "centred", 3),
+        (0.5 * IMPACT_TIME, "carried on", 0),
+    ],
+)
+def test_a_reversal_counts_with_the_impacts_that_follow(make_result, end, start, held):
+    assert summarise(make_result(end, start=start))["reversals"] == held
+
+
+def test_a_peak_is_told_with_the_reversals_it_was_looked_for_after(make_result):
+    summary = summarise(make_result())
+    assert (
+        HEADLINES["contact_force_max_N"].label_in(summary) == "Contact force, largest, peak after 3 reversals"
+    )
+    one = summarise(make_result(5.0))
+    assert HEADLINES["contact_force_max_N"].label_in(one).endswith("after 1 reversal")
+    assert HEADLINES["contact_force_outside_N"].label_in(one) == HEADLINES["contact_force_outside_N"].label
 
 
 @pytest.mark.parametrize("kind", MECHANISMS)

@@ -65,7 +65,7 @@ def test_the_files_read_back(simulated: list[Any], tmp_path: Path) -> None:
         folder = tmp_path / "points" / row["point"]
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         assert summary["contact_force_max_N"] == row["contact_force_max_N"]
-        assert read(folder).attrs["contact_force_peak"] == row["contact_force_max_N"]
+        assert read(folder)["contact_force_impact"].item() == row["contact_force_max_N"]
         point = parse_case((folder / "case.toml").read_text(encoding="utf-8"), "test")
         assert point == load_case("vsv").replace(row["changes"])
 

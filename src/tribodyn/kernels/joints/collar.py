@@ -23,9 +23,9 @@ CONSTANTS: Final = (
     Quantity("radius", "m", "radius r_t of the collar", ()),
     Quantity("friction", "m", "coefficient of friction times that radius", ()),
 )
-PEAKS: Final = (Quantity("collar_lift_off_time", "s", "time during which the collar carries nothing", ()),)
+EXTREMES: Final = (Quantity("collar_lift_off_time", "s", "time during which the collar carries nothing", ()),)
 Collar: Final = of_table(CONSTANTS)
-Peaks: Final = of_table(PEAKS)
+Extremes: Final = of_table(EXTREMES)
 
 
 @kernel
@@ -49,7 +49,7 @@ def stiffness(collar: Record, phi_x: float, phi_y: float, force: float) -> tuple
 
 
 @kernel
-def note_lift_off(peaks: Record, h: float, force: float) -> None:
+def note_lift_off(extremes: Record, h: float, force: float) -> None:
     """Note a part of an accepted step of length ``h`` [s] with the axial force at its end [N]."""
     if force == 0.0:
-        peaks.collar_lift_off_time += h
+        extremes.collar_lift_off_time += h

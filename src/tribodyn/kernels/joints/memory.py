@@ -1,4 +1,4 @@
-"""What a joint remembers: where contact began, how it slid, its peaks; and what it works with."""
+"""What a joint remembers: where contact began, how it slid, its extremes; and what it works with."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.listed import PART, Listed
 from tribodyn.kernels.joints.pose import N_MOTION, N_WRENCH, Pose
-from tribodyn.kernels.joints.quantities import Peaks, Report
+from tribodyn.kernels.joints.quantities import Extremes, Report
 
 Scratch: Final = record_type(
     ("pose", Pose),
@@ -39,7 +39,7 @@ class JointMemory(NamedTuple):
     sliding, pieces
         P_c |u| of the last report [W/m²], and the nodes it belongs to, laid out as in ``Listed``, with the
         number of nodes beside that of pieces.
-    peaks
+    extremes
         Over all accepted steps, see ``kernels/joints/quantities.py``.
     scratch
         See :data:`Scratch`.
@@ -49,7 +49,7 @@ class JointMemory(NamedTuple):
     sliding_load: FloatArray
     sliding: FloatArray
     pieces: IntArray
-    peaks: Record
+    extremes: Record
     scratch: Record
 
 
@@ -64,26 +64,32 @@ def new_memory(field_shape: tuple[int, int], clearance: float) -> JointMemory:
         Largest gap that it can have [m].
     """
     rows, columns = field_shape
-    peaks = new_record(Peaks)
-    peaks.separation_least = clearance
+    extremes = new_record(Extremes)
+    extremes.separation_least = clearance
     return JointMemory(
         entry_velocity=np.zeros(field_shape),
         sliding_load=np.zeros(field_shape),
         sliding=np.zeros(rows * columns),
         pieces=np.zeros((2 * rows + rows * columns // PART + 3, 3), dtype=np.int64),
-        peaks=peaks,
+        extremes=extremes,
         scratch=new_record(Scratch),
     )
 
 
 @kernel
-def note_peaks(memory: JointMemory, t: float, h: float) -> None:
-    """Note the report of an instant ``t``, the end of a part of an accepted step of length ``h`` [s]."""
-    peaks, report = memory.peaks, memory.scratch.report
-    force = math.hypot(report.F_cx, report.F_cy)
-    if force > peaks.contact_force_peak:
-        peaks.contact_force_peak, peaks.contact_force_peak_time = force, t
-    if report.p_max > peaks.pressure_peak:
-        peaks.pressure_peak, peaks.pressure_peak_time = report.p_max, t
-    peaks.separation_least = min(peaks.separation_least, report.separation_min)
-    peaks.tensile_clip_time += h * report.tensile_clip_share
+def note_extremes(memory: JointMemory, h: float) -> None:
+    """Note the report of an instant, the end of a part of an accepted step of length ``h`` [s]."""
+    extremes, report = memory.extremes, memory.scratch.report
+    extremes.separation_least = min(extremes.separation_least, report.separation_min)
+    extremes.tensile_clip_time += h * report.tensile_clip_share
+
+
+@kernel
+def fill_watched(report: Record, y: FloatArray, watched: Record) -> None:
+    """Fill the sizes whose peaks are kept from the report at a state ``y`` (8,)."""
+    watched.contact_force = math.hypot(report.F_cx, report.F_cy)
+    watched.rigid_force = math.hypot(report.F_kx, report.F_ky)
+    watched.damping_force = math.hypot(report.F_cx - report.F_kx, report.F_cy - report.F_ky)
+    watched.pressure = report.p_max
+    watched.eccentricity = math.hypot(y[0], y[1])
+    watched.tilt = math.hypot(y[2], y[3])

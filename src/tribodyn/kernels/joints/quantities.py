@@ -1,4 +1,4 @@
-"""What is told about a clearance joint: its coordinates, its report of an instant, its peaks.
+"""What is told about a clearance joint: its coordinates, its report of an instant, its extremes.
 
 Signs are those of the source paper: φ_x and M_x right-handed, φ_y and M_y left-handed.
 """
@@ -46,15 +46,24 @@ REPORTED: Final = (
 )
 """The report of an instant. Of powers it tells what friction and damping do to the motion."""
 
-PEAKS: Final = (
-    Quantity("contact_force_peak", "N", "largest contact force at any accepted step", ()),
-    Quantity("contact_force_peak_time", "s", "when the contact force was largest", ()),
-    Quantity("pressure_peak", "Pa", "largest contact pressure at any accepted step", ()),
-    Quantity("pressure_peak_time", "s", "when the contact pressure was largest", ()),
+WATCHED: Final = (
+    Quantity("contact_force", "N", "contact force"),
+    Quantity("rigid_force", "N", "rigid part of the contact force"),
+    Quantity("damping_force", "N", "damping part of the contact force"),
+    Quantity("pressure", "Pa", "contact pressure"),
+    Quantity("eccentricity", "m", "distance of the trunnion centre from the bushing axis"),
+    Quantity("tilt", "rad", "tilt of the trunnion"),
+)
+"""Sizes whose peaks are kept, see ``kernels/peaks.py``."""
+SHARP: Final = 4
+"""How many of them, the first ones, have sharp peaks: forces and pressure."""
+
+EXTREMES: Final = (
     Quantity("separation_least", "m", "smallest gap at any accepted step", ()),
     Quantity("tensile_clip_time", "s", "time integral of the share of the contact where the clip acts", ()),
 )
 """Over all accepted steps; output times would miss them."""
 
 Report = of_table(REPORTED)
-Peaks = of_table(PEAKS)
+Watched = of_table(WATCHED)
+Extremes = of_table(EXTREMES)

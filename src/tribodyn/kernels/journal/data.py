@@ -8,6 +8,7 @@ from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.peaks import Peaks
 
 N_COORDINATES: Final = 5
 """Of the ledger: e_x, e_y, φ_x, φ_y and the angle of rotation."""
@@ -103,7 +104,9 @@ class JournalMemory(NamedTuple):
     books
         What the energy ledger has added up, see ``kernels/ledger.py``.
     peaks
-        See ``kernels/journal/quantities.py``.
+        Of ``WATCHED`` in ``kernels/journal/quantities.py``.
+    counts
+        See ``COUNTS`` there.
     course
         See :data:`Course`.
     film
@@ -114,7 +117,8 @@ class JournalMemory(NamedTuple):
 
     joint: JointMemory
     books: Record
-    peaks: Record
+    peaks: Peaks
+    counts: Record
     course: Record
     film: FilmMemory | None
     scratch: Record

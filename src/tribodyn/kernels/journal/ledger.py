@@ -9,17 +9,18 @@ from __future__ import annotations
 import math
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.cylinder.joint import report
-from tribodyn.kernels.joints.memory import note_peaks
+from tribodyn.kernels.joints.memory import fill_watched, note_extremes
 from tribodyn.kernels.joints.paper import from_report
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
 from tribodyn.kernels.journal.equations import film_force, place
-from tribodyn.kernels.journal.quantities import Forces
+from tribodyn.kernels.journal.quantities import Forces, Watched
 from tribodyn.kernels.ledger import LAST, NOW, POSITION, SPEED
 from tribodyn.kernels.ledger import add_part as add_works
 from tribodyn.kernels.ledger import begin as begin_works
+from tribodyn.kernels.peaks import begin as begin_peaks
+from tribodyn.kernels.peaks import note as note_peaks
 
 
 @kernel
@@ -59,8 +60,11 @@ def fill_forces(data: JournalData, memory: JournalMemory) -> None:
 
 @kernel
 def _evaluate_mark(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
-    """Enter the forces of an instant in the books."""
+    """Enter the forces of an instant, and what is watched, in the books."""
     evaluate(data, y, memory)
+    watched, film = memory.peaks.values[NOW].view(Watched)[0], memory.scratch.film
+    fill_watched(memory.joint.scratch.report, memory.scratch.state, watched.joint)
+    watched.film.film_force = math.hypot(film[0], film[1])
     fill_motion(t, data.constants.speed, memory.scratch.state, memory.books.motion[NOW])
     fill_forces(data, memory)
 
@@ -70,23 +74,16 @@ def begin(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> 
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
     _evaluate_mark(data, t, y, memory)
     begin_works(memory.books, t)
+    begin_peaks(memory.peaks, t)
 
 
 @kernel
 def add_part(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Add the path integrals from the mark to ``t`` and move the mark there."""
     _evaluate_mark(data, t, y, memory)
-    note_peaks(memory.joint, t, t - memory.books.times[LAST])
-    _note_film(memory.peaks, memory.scratch.film, t)
+    note_peaks(memory.peaks, t)
+    note_extremes(memory.joint, t - memory.books.times[LAST])
     add_works(memory.books, t)
-
-
-@kernel
-def _note_film(peaks: Record, film: FloatArray, t: float) -> None:
-    """Note the largest film force and when it was."""
-    force = math.hypot(film[0], film[1])
-    if force > peaks.film_force_peak:
-        peaks.film_force_peak, peaks.film_force_peak_time = force, t
 
 
 @kernel
@@ -97,7 +94,7 @@ def count_rebound(data: JournalData, gap: float, memory: JournalMemory) -> None:
     """
     touching = gap < data.joint.onset * data.joint.roughness
     if memory.course.touching > 0.0 and not touching:
-        memory.peaks.rebounds += 1.0
+        memory.counts.rebounds += 1.0
     memory.course.touching = 1.0 if touching else 0.0
 
 

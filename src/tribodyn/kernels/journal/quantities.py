@@ -6,6 +6,7 @@ from typing import Final
 
 from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together
 from tribodyn.kernels.joints.quantities import REPORTED, STATES
+from tribodyn.kernels.joints.quantities import WATCHED as OF_JOINT
 
 FILM: Final = (
     Quantity("F_ox", "N", "force of the oil film on the journal along X"),
@@ -23,12 +24,10 @@ FORCES: Final = (
     Quantity("work_film", "J", "work of the oil film"),
 )
 """What is integrated from forces on the coordinates of the centre, the tilts and the angle of rotation."""
-PEAKS: Final = (
-    Quantity("film_force_peak", "N", "largest film force at any accepted step", ()),
-    Quantity("film_force_peak_time", "s", "when the film force was largest", ()),
-    Quantity("rebounds", "1", "how often the journal left contact again", ()),
-)
-"""Besides those of the joint."""
+WATCHED_TABLES: Final = {"joint": OF_JOINT, "film": (Quantity("film_force", "N", "film force"),)}
+WATCHED: Final = together(WATCHED_TABLES)
+"""Sizes whose peaks are kept, in the order of ``kernels/peaks.py``."""
+COUNTS: Final = (Quantity("rebounds", "1", "how often the journal left contact again", ()),)
 
 TABLES: Final = {"states": STATES, "joint": REPORTED, "film": FILM, "energies": ENERGIES, "works": FORCES}
 QUANTITIES: Final = together(TABLES)
@@ -39,4 +38,5 @@ Row: Final = of_tables(TABLES)
 States: Final = of_table(STATES)
 Film: Final = of_table(FILM)
 Forces: Final = of_table(FORCES)
-Peaks: Final = of_table(PEAKS)
+Counts: Final = of_table(COUNTS)
+Watched: Final = of_tables(WATCHED_TABLES)

@@ -55,6 +55,9 @@ AFTER_EVALUATION: Final = 2
 NEXT_MARK: Final = 0
 N_OUTPUTS: Final = 1
 N_PICTURES: Final = 2
+N_STEPS: Final = 3
+WINDOW: Final = 4
+SKIPPED: Final = 5
 
 
 class Marks(NamedTuple):
@@ -72,8 +75,18 @@ class Marks(NamedTuple):
         Observed quantities, shape (n_outputs, n_observed).
     pictures
         Fields, shape (n_pictures, ...).
+    windows
+        Stretches in which steps give rows, too [s], shape (n_windows + 1, 2), the last one at infinity.
+    step_times, step_rows
+        Times [s] and rows of these steps since the last pause, shapes (n,) and (n, n_observed); when they are
+        full, the loop pauses.
     position
-        Next mark, rows taken and pictures taken.
+        Next mark, rows taken, pictures taken, steps that gave rows since the last pause, the first window
+        that is not over, and how many of its steps gave none since the last one that did.
+    stride
+        Every how many steps in a window give a row, shape (1,).
+    wanted
+        Above zero where the step gives one in any case, shape (1,).
     reached
         Time up to which the accepted step has been walked [s], shape (1,).
     end
@@ -86,7 +99,12 @@ class Marks(NamedTuple):
     tolerance: FloatArray
     rows: FloatArray
     pictures: FloatArray
+    windows: FloatArray
+    step_times: FloatArray
+    step_rows: FloatArray
     position: NDArray[np.int64]
+    stride: NDArray[np.int64]
+    wanted: FloatArray
     reached: FloatArray
     end: FloatArray
 
@@ -97,6 +115,22 @@ def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: fl
     s = (t - real[T]) / real[H_LAST]
     for i in range(y.size):
         y[i] = value_at(rows, HISTORY, count[K_LAST] + 1, s, i)
+
+
+@kernel
+def _is_followed(marks: Marks, t: float) -> bool:
+    """Tell whether the step that ends at ``t`` gives a row."""
+    windows, position = marks.windows, marks.position
+    while windows[position[WINDOW], 1] < t:
+        position[WINDOW] += 1
+    if windows[position[WINDOW], 0] > t:
+        return False
+    position[SKIPPED] += 1
+    if position[SKIPPED] < marks.stride[0] and marks.wanted[0] == 0.0:
+        return False
+    position[SKIPPED] = 0
+    marks.wanted[0] = 0.0
+    return True
 
 
 @unlocked
@@ -155,7 +189,7 @@ def run(
                 magnify(own, rows, mass, places, real[SCALED])
                 continue
         t = real[T]
-        ended = False
+        ended = taken = False
         while not ended:
             mark = position[NEXT_MARK]
             inside = times[mark] < t - tolerance
@@ -171,12 +205,17 @@ def run(
                 if marks.is_output[mark]:
                     observe(t_part, end, data, memory, marks.rows[position[N_OUTPUTS]])
                     position[N_OUTPUTS] += 1
+                    taken = ended
                 if marks.is_picture[mark]:
                     picture(t_part, end, data, memory, marks.pictures[position[N_PICTURES]])
                     position[N_PICTURES] += 1
                 position[NEXT_MARK] += 1
+        if not taken and _is_followed(marks, t):
+            observe(t, newest, data, memory, marks.step_rows[position[N_STEPS]])
+            marks.step_times[position[N_STEPS]] = t
+            position[N_STEPS] += 1
         accept(t, newest, data, memory)
         if t == real[T_END]:
             return ENDED
-        if pause[0] != 0:
+        if pause[0] != 0 or position[N_STEPS] == marks.step_times.size:
             return PAUSED

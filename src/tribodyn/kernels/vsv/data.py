@@ -9,6 +9,7 @@ from tribodyn.core.quantities import Quantity, Record, names, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.peaks import Peaks
 from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS, N_UNKNOWNS
 
 CONSTANTS: Final = tuple(
@@ -117,10 +118,12 @@ class VsvMemory(NamedTuple):
     joint
         What the bushing remembers.
     collar
-        Peaks of the thrust collar.
+        Extremes of the thrust collar.
     regime
-        Direction of the ideal vane motion, ±1, and the vane speed that traction is told instead of
-        the actual one (0: none), shape (2,).
+        Direction of the ideal vane motion, ±1; the vane speed that traction is told instead of the actual
+        one (0: none); and 1 once an accepted step has left the range of the contact law, shape (3,).
+    peaks
+        Of ``WATCHED`` in ``kernels/vsv/quantities.py``.
     books
         What the energy ledgers have added up, see ``kernels/ledger.py``.
     scratch
@@ -130,5 +133,6 @@ class VsvMemory(NamedTuple):
     joint: JointMemory
     collar: Record
     regime: FloatArray
+    peaks: Peaks
     books: Record
     scratch: Record

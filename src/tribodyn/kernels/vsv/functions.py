@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from typing import Final
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
@@ -14,7 +17,10 @@ from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_grad
 from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
 from tribodyn.kernels.vsv.motion import fill_rods
 
-JUST_AFTER = 1.0e-5
+BEYOND: Final = 2
+"""Entry of the regime that tells whether the range of the contact law was left. From then on no force is a
+number, which stops every integrator. Trial states may lie there: the law goes on linearly."""
+JUST_AFTER: Final = 1.0e-5
 """How long after a reversal the new direction is read, as a phase of the drive [rad]."""
 
 
@@ -24,7 +30,7 @@ def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray
     accelerations(data, t, y, memory)
     for i in range(4):
         f[i] = y[4 + i]
-        f[4 + i] = memory.scratch.acceleration[i]
+        f[4 + i] = memory.scratch.acceleration[i] if memory.regime[BEYOND] == 0.0 else math.nan
 
 
 @entry
@@ -67,10 +73,12 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: VsvData, memory: VsvM
 
 @entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Update entry velocities at the end of an accepted step."""
+    """Update entry velocities and watch the range of the law at the end of an accepted step."""
     pose = memory.joint.scratch.pose
     fill_pose(y, 0.0, 0.0, pose)
     update_entry_velocity(data.joint, memory.joint, pose, 0.0)
+    if memory.joint.scratch.report.separation_min < data.joint.table.h_first * data.joint.roughness:
+        memory.regime[BEYOND] = 1.0
 
 
 @entry

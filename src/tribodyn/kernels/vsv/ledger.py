@@ -1,7 +1,8 @@
-"""What the mechanism enters in its two energy ledgers: powers and forces at an instant, and energies.
+"""What the mechanism enters in its books: powers and forces at an instant, energies, and what has peaks.
 
-The whole mechanism gives powers. The clearance ledger follows the clearance motion alone, q̇ᵀ(N q̈ − Q), with
-N = Σ m_r δr δrᵀ: forces on the four clearance coordinates, and the momenta N q̇.
+Of the two energy ledgers, that of the whole mechanism gets powers. The clearance ledger follows the clearance
+motion alone, q̇ᵀ(N q̈ − Q), with N = Σ m_r δr δrᵀ: forces on the four clearance coordinates, and the momenta
+N q̇.
 """
 
 from __future__ import annotations
@@ -13,11 +14,14 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.collar import note_lift_off
 from tribodyn.kernels.joints.cylinder.joint import report, slide
-from tribodyn.kernels.joints.memory import note_peaks
+from tribodyn.kernels.joints.memory import fill_watched, note_extremes
 from tribodyn.kernels.joints.paper import fill_pose, from_report
 from tribodyn.kernels.ledger import LAST, MOMENTUM, NOW, POSITION, SPEED
 from tribodyn.kernels.ledger import add_part as add_works
 from tribodyn.kernels.ledger import begin as begin_works
+from tribodyn.kernels.peaks import begin as begin_peaks
+from tribodyn.kernels.peaks import note as note_peaks
+from tribodyn.kernels.vsv.closure import vane_angle
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
@@ -36,7 +40,7 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
-from tribodyn.kernels.vsv.quantities import Forces, Powers
+from tribodyn.kernels.vsv.quantities import Forces, Powers, Watched
 
 
 @kernel
@@ -115,12 +119,31 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
 
 
 @kernel
+def vane_angle_with_clearance(mechanism: Record, y: FloatArray, motion: FloatArray) -> float:
+    """Return θ_v [rad]; in ``paper`` it is read from the closure with the offsets e_x, e_y alone."""
+    if mechanism.exact > 0.0:
+        return motion[THETA_V, VALUE]
+    return vane_angle(mechanism, motion[THETA_A, VALUE], y[0], y[1], 0.0, 0.0)
+
+
+@kernel
+def _fill_watched(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
+    """Fill the sizes of this instant whose peaks are kept."""
+    motion, watched = memory.scratch.motion, memory.peaks.values[NOW].view(Watched)[0]
+    fill_watched(memory.joint.scratch.report, y, watched.joint)
+    ideal = vane_angle(mechanism, motion[THETA_A, VALUE], 0.0, 0.0, 0.0, 0.0)
+    watched.mechanism.drive_moment = abs(drive_moment(memory.scratch))
+    watched.mechanism.vane_angle_error = abs(vane_angle_with_clearance(mechanism, y, motion) - ideal)
+
+
+@kernel
 def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
-    """Enter the powers and forces of an instant in the books."""
+    """Enter the powers and forces of an instant, and what is watched, in the books."""
     scratch = memory.scratch
     scratch.f_cz = evaluate(data, t, y, memory)
     fill_powers(y, memory, memory.books.powers[NOW].view(Powers)[0])
     fill_clearance(data.mechanism, y, memory)
+    _fill_watched(data.mechanism, y, memory)
     scratch.marked = 1.0
 
 
@@ -129,6 +152,7 @@ def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
     _evaluate_mark(data, t, y, memory)
     begin_works(memory.books, t)
+    begin_peaks(memory.peaks, t)
 
 
 @kernel
@@ -137,7 +161,8 @@ def add_part(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     h = t - memory.books.times[LAST]
     slide(data.joint, memory.joint, 0.5 * h)
     _evaluate_mark(data, t, y, memory)
-    note_peaks(memory.joint, t, h)
+    note_peaks(memory.peaks, t)
+    note_extremes(memory.joint, h)
     note_lift_off(memory.collar, h, memory.scratch.f_cz)
     add_works(memory.books, t)
     slide(data.joint, memory.joint, 0.5 * h)

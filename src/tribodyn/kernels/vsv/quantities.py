@@ -6,6 +6,7 @@ from typing import Final
 
 from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together
 from tribodyn.kernels.joints.quantities import REPORTED, STATES
+from tribodyn.kernels.joints.quantities import WATCHED as OF_JOINT
 
 MOTION: Final = (
     Quantity("theta_a", "rad", "crank angle"),
@@ -71,6 +72,16 @@ FORCES: Final = (
 """Clearance motion: what is integrated from forces on its coordinates."""
 INERTIA: Final = (Quantity("work_clearance_inertia", "J", "clearance motion: what inertia has taken in"),)
 
+WATCHED_TABLES: Final = {
+    "joint": OF_JOINT,
+    "mechanism": (
+        Quantity("drive_moment", "N m", "drive moment"),
+        Quantity("vane_angle_error", "rad", "vane-angle error"),
+    ),
+}
+WATCHED: Final = together(WATCHED_TABLES)
+"""Sizes whose peaks are kept after each reversal, in the order of ``kernels/peaks.py``."""
+
 TABLES: Final = {
     "states": STATES,
     "motion": MOTION,
@@ -86,6 +97,7 @@ QUANTITIES: Final = together(TABLES)
 OBSERVED: Final = names(QUANTITIES)
 
 Row: Final = of_tables(TABLES)
+Watched: Final = of_tables(WATCHED_TABLES)
 Powers: Final = of_table(POWERS)
 Forces: Final = of_table(FORCES)
 States: Final = of_table(STATES)

@@ -10,7 +10,7 @@ from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_ste
 
 
 def warnings(
-    peaks: Record,
+    extremes: Record,
     joint: BushingJoint,
     *,
     residual: float,
@@ -22,7 +22,7 @@ def warnings(
 
     Parameters
     ----------
-    peaks
+    extremes
         Of the joint over all accepted steps.
     joint
         The bushing.
@@ -41,8 +41,8 @@ def warnings(
         else "",
         *of_contact(
             joint,
-            separation=float(peaks.separation_least),
-            clipped=float(peaks.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
+            separation=float(extremes.separation_least),
+            clipped=float(extremes.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,
         ),
         *of_steps(statistics),

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from tribodyn.results.headline import Headline
@@ -15,13 +13,6 @@ from tribodyn.results.headline import Headline
 def _one(name: str, scale: float = 1.0) -> Callable[[xr.Dataset], float]:
     """Return a reader of something a run has one of."""
     return lambda run: float(run[name].values) * scale
-
-
-def _eccentricity(run: xr.Dataset) -> float:
-    """Return the largest eccentricity [µm]."""
-    e = np.hypot(run["e_x"].values, run["e_y"].values)
-    finite = e[np.isfinite(e)]
-    return float(finite.max()) * 1e6 if finite.size else math.nan
 
 
 HEADLINES: Final[dict[str, Headline]] = {
@@ -69,7 +60,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "µm",
         "Impact",
         "How far the centre moves off the axis; beyond the clearance the mean planes overlap.",
-        _eccentricity,
+        _one("eccentricity_peak", 1e6),
     ),
     "friction_coefficient": Headline(
         "Friction coefficient at the end",

@@ -25,8 +25,9 @@ from tribodyn.kernels.journal.data import (
 )
 from tribodyn.kernels.journal.equations import place
 from tribodyn.kernels.journal.observe import observe
-from tribodyn.kernels.journal.quantities import FORCES, OBSERVED, Peaks
+from tribodyn.kernels.journal.quantities import FORCES, OBSERVED, WATCHED, Counts
 from tribodyn.kernels.ledger import new_books
+from tribodyn.kernels.peaks import new_peaks
 from tribodyn.mechanisms.journal.parameters import Journal
 
 FUNCTIONS: Final = CompiledFunctions(
@@ -57,7 +58,8 @@ def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
     return JournalMemory(
         joint=new_memory(data.joint),
         books=new_books(0, len(FORCES), N_COORDINATES),
-        peaks=new_record(Peaks),
+        peaks=new_peaks(len(WATCHED)),
+        counts=new_record(Counts),
         course=new_record(Course),
         film=None if journal.film is None else journal.film.memory(),
         scratch=new_record(Scratch),

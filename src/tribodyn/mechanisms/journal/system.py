@@ -14,7 +14,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.core.quantities import names
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.kernels.journal.quantities import FILM, OBSERVED
+from tribodyn.kernels.journal.quantities import FILM, OBSERVED, WATCHED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
 from tribodyn.mechanisms.base import Part, Run, Worn
 from tribodyn.mechanisms.bushing import (
@@ -24,13 +24,14 @@ from tribodyn.mechanisms.bushing import (
     grid_force_error,
     of_temperature,
 )
-from tribodyn.mechanisms.checks import peaks
+from tribodyn.mechanisms.checks import beyond_law, extremes
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
 from tribodyn.mechanisms.journal.ledger import ledger_columns, residual_fraction
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
 from tribodyn.mechanisms.journal.problem import journal_problem
+from tribodyn.mechanisms.peaks import of_run
 
 SETTLED: Final = 0.01
 """Distance from the static equilibrium, over the clearance, within which a journal has settled."""
@@ -127,7 +128,7 @@ class JournalSystem:
             warnings=[
                 *of_temperature(self.case),
                 *warnings(
-                    run.problem.memory.joint.peaks,
+                    run.problem.memory.joint.extremes,
                     self.journal.joint,
                     residual=residual,
                     grid_error=grid_error,
@@ -165,7 +166,8 @@ class JournalSystem:
         found = {
             "settling_time": self._settling_time(run, rows, balance),
             "contact_start": _contact_start(run, rows),
-            **peaks(run.problem.memory.joint.peaks, run.problem.memory.peaks),
+            **of_run(run.problem.memory.peaks, WATCHED),
+            **extremes(run.problem.memory.joint.extremes, run.problem.memory.counts),
             "e_x_balance": np.nan if balance is None else float(balance.attitude[0]),
             "e_y_balance": np.nan if balance is None else float(balance.attitude[1]),
         }
@@ -200,10 +202,7 @@ class JournalSystem:
             return run.solution.failure or ""
         memory, reason = run.problem.memory, str(run.solution.failure)
         if memory.course.beyond > 0.0:
-            return (
-                f"stopped at t = {run.solution.t_end:.6g} s: the surfaces came closer than the contact law "
-                f"reaches ({self.journal.joint.table.h_first:g} sigma); load or impact is too much for it"
-            )
+            return beyond_law(self.journal.joint, run.solution.t_end)
         if memory.scratch.film_status > 0.0:
             reason += f"; the film had no answer: {explain(int(memory.scratch.film_status))}"
         return reason

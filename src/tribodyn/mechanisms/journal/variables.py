@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.kernels.joints.quantities import PEAKS as JOINT_PEAKS
-from tribodyn.kernels.journal.quantities import ENERGIES, FILM, PEAKS
+from tribodyn.kernels.joints.quantities import EXTREMES
+from tribodyn.kernels.journal.quantities import COUNTS, ENERGIES, FILM, WATCHED
+from tribodyn.results.peaks import of_run_described
 from tribodyn.results.variables import Variable, described
 
 VARIABLES: Final[dict[str, Variable]] = {
-    **described(FILM, ENERGIES, JOINT_PEAKS, PEAKS),
+    **described(FILM, ENERGIES, EXTREMES, COUNTS),
+    **of_run_described(WATCHED),
     "energy_film": Variable("J", "heat of the oil film"),
     "settling_time": Variable(
         "s", "time after which the centre stays within 1 % of the clearance of its static equilibrium", ()

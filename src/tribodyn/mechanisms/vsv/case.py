@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import choice, number, quantity, text
+from tribodyn.cases.fields import choice, count, number, quantity, text
 from tribodyn.cases.groups import (
     PlainJoint,
     Solver,
@@ -123,9 +123,11 @@ class Run(Group):
     )
     output_interval: float = quantity("5 ms", "time between rows of the result", ASSUMED, gt=0)
     impact_window: float = quantity(
-        "50 ms", "time after each reversal in which rows are closer together", ASSUMED, ge=0
+        "50 ms", "time after each reversal in which rows follow the steps", ASSUMED, ge=0
     )
-    impact_interval: float = quantity("0.2 ms", "time between rows in that window", ASSUMED, gt=0)
+    impact_rows: int = count(
+        1000, "rows kept of each such window, at most: those with the peaks", ASSUMED, ge=50, le=1_000_000
+    )
 
 
 class VsvCase(BushingCase):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -10,7 +12,17 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.headline import Headline
-from tribodyn.results.reading import column, cycles, norm, peak, reached, rms, time_mean
+from tribodyn.results.reading import (
+    column,
+    cycles,
+    largest,
+    norm,
+    outside,
+    peak,
+    reversals_held,
+    rms,
+    time_mean,
+)
 
 
 def _angle_error(dataset: xr.Dataset) -> FloatArray:
@@ -32,14 +44,130 @@ def _wear_rate(dataset: xr.Dataset) -> float:
     return peak(column(dataset, "wear_depth")) * 1e9 * 1000.0 / held if whole else math.nan
 
 
-HEADLINES: Final[dict[str, Headline]] = {
-    "vane_angle_error_max_deg": Headline(
-        "Vane-angle error, largest",
-        "°",
-        "Accuracy",
-        "How far clearance lets the vane stray from where the drive puts it.",
-        lambda d: peak(_angle_error(d)),
+@dataclass(frozen=True)
+class _Peak:
+    """A maximum that is told twice: outside the impacts, and with them.
+
+    Attributes
+    ----------
+    names
+        Of the number outside and of the one with impacts.
+    label, unit, group, meaning
+        See :class:`~tribodyn.results.headline.Headline`.
+    quantity
+        Name of the quantity among those whose peaks results hold.
+    scale
+        The unit of the result over that of the number.
+    values
+        The quantity over time.
+    """
+
+    names: tuple[str, str]
+    label: str
+    unit: str
+    group: str
+    meaning: str
+    quantity: str
+    scale: float
+    values: Callable[[xr.Dataset], FloatArray]
+
+    @property
+    def headlines(self) -> dict[str, Headline]:
+        """Both numbers, by name."""
+        quiet, loud = self.names
+        return {
+            quiet: Headline(
+                f"{self.label} outside impacts",
+                self.unit,
+                self.group,
+                self.meaning,
+                lambda d: outside(d, self.quantity) * self.scale,
+            ),
+            loud: Headline(
+                f"{self.label}, peak",
+                self.unit,
+                self.group,
+                "The same, with the impacts. It grows with the number of reversals that are looked at.",
+                lambda d: largest(d, self.quantity, self.values(d)) * self.scale,
+                digits=2,
+                over="reversals",
+            ),
+        }
+
+
+_ANGLE_ERROR: Final = _Peak(
+    ("vane_angle_error_outside_deg", "vane_angle_error_max_deg"),
+    "Vane-angle error, largest",
+    "°",
+    "Accuracy",
+    "How far clearance lets the vane stray from where the drive puts it, once impacts have died away.",
+    "vane_angle_error",
+    math.degrees(1.0),
+    lambda d: np.deg2rad(_angle_error(d)),
+)
+_LOADS: Final = (
+    _Peak(
+        ("contact_force_outside_N", "contact_force_max_N"),
+        "Contact force, largest",
+        "N",
+        "Load",
+        "Load on the bushing while the vane moves smoothly.",
+        "contact_force",
+        1.0,
+        lambda d: norm(d, "F_cx", "F_cy"),
     ),
+    _Peak(
+        ("pressure_outside_MPa", "peak_pressure_MPa"),
+        "Contact pressure, largest",
+        "MPa",
+        "Load",
+        "Highest pressure anywhere in the bushing; compare it with the hardness.",
+        "pressure",
+        1e-6,
+        lambda d: column(d, "p_max"),
+    ),
+    _Peak(
+        ("tilt_outside_mrad", "tilt_max_mrad"),
+        "Tilt, largest",
+        "mrad",
+        "Load",
+        "How far the trunnion leans in the bushing: tilt loads the edges.",
+        "tilt",
+        1e3,
+        lambda d: norm(d, "phi_x", "phi_y"),
+    ),
+    _Peak(
+        ("eccentricity_outside_um", "eccentricity_max_um"),
+        "Eccentricity, largest",
+        "µm",
+        "Load",
+        "How far the trunnion centre moves off the bushing axis.",
+        "eccentricity",
+        1e6,
+        lambda d: norm(d, "e_x", "e_y"),
+    ),
+    _Peak(
+        ("drive_moment_outside_Nm", "drive_moment_max_Nm"),
+        "Drive moment, largest",
+        "N m",
+        "Load",
+        "What the actuator must deliver at the crank.",
+        "drive_moment",
+        1.0,
+        lambda d: column(d, "M_d"),
+    ),
+)
+
+HEADLINES: Final[dict[str, Headline]] = {
+    "reversals": Headline(
+        "Reversals held",
+        "",
+        "Accuracy",
+        "Reversals of the vane in this result with the impacts that follow them: what peaks were taken over.",
+        reversals_held,
+        count=True,
+    ),
+    **_ANGLE_ERROR.headlines,
     "vane_angle_error_rms_deg": Headline(
         "Vane-angle error, rms",
         "°",
@@ -51,15 +179,9 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Vane-speed error, rms",
         "°/s",
         "Accuracy",
-        "How unsteadily the vane turns compared with a tight joint.",
+        "How unsteadily the vane turns compared with a tight joint; impacts make most of it.",
         lambda d: rms(d, _speed_error(d)),
-    ),
-    "contact_force_max_N": Headline(
-        "Contact force, largest",
-        "N",
-        "Load",
-        "Peak load on the bushing, usually an impact after a reversal.",
-        lambda d: reached(d, "contact_force_peak", norm(d, "F_cx", "F_cy")),
+        digits=2,
     ),
     "contact_force_mean_N": Headline(
         "Contact force, mean",
@@ -68,34 +190,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Average load on the bushing: what wears it.",
         lambda d: time_mean(d, norm(d, "F_cx", "F_cy")),
     ),
-    "peak_pressure_MPa": Headline(
-        "Peak pressure",
-        "MPa",
-        "Load",
-        "Highest pressure anywhere in the bushing; compare it with the hardness.",
-        lambda d: reached(d, "pressure_peak", column(d, "p_max")) * 1e-6,
-    ),
-    "tilt_max_mrad": Headline(
-        "Tilt, largest",
-        "mrad",
-        "Load",
-        "How far the trunnion leans in the bushing: tilt loads the edges.",
-        lambda d: peak(norm(d, "phi_x", "phi_y")) * 1e3,
-    ),
-    "eccentricity_max_um": Headline(
-        "Eccentricity, largest",
-        "µm",
-        "Load",
-        "How far the trunnion centre moves off the bushing axis.",
-        lambda d: peak(norm(d, "e_x", "e_y")) * 1e6,
-    ),
-    "drive_moment_max_Nm": Headline(
-        "Drive moment, largest",
-        "N m",
-        "Load",
-        "What the actuator must deliver at the crank.",
-        lambda d: peak(column(d, "M_d")),
-    ),
+    **{name: headline for load in _LOADS for name, headline in load.headlines.items()},
     "wear_depth_max_nm": Headline(
         "Wear depth",
         "nm",
@@ -138,6 +233,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Trust",
         "What the energy ledger of everything that moves misses; below 1 % is sound.",
         lambda d: float(d.attrs["energy_residual"]) * 100.0,
+        digits=2,
     ),
     "clearance_energy_residual_percent": Headline(
         "Energy residual, clearance motion",
@@ -145,13 +241,15 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Trust",
         "The stricter ledger of the motion in the clearance alone.",
         lambda d: float(d.attrs["clearance_energy_residual"]) * 100.0,
+        digits=2,
     ),
 }
 """By name, in reading order."""
 
 KEY_NUMBERS: Final = (
-    "vane_angle_error_max_deg",
+    "vane_angle_error_outside_deg",
     "contact_force_mean_N",
+    "contact_force_outside_N",
     "contact_force_max_N",
     "peak_pressure_MPa",
     "wear_depth_rate_nm_per_1000_cycles",

@@ -10,6 +10,9 @@ from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 
 FORMULATIONS: Final = ("exact", "paper")
+IMPACT_SHARE: Final = 0.1
+"""Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
+the crank; the rest is smooth motion."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,11 @@ class Drive:
     def period(self) -> float:
         """Time of one drive cycle [s]."""
         return 2.0 * math.pi / self.angular_frequency
+
+    @property
+    def impact_time(self) -> float:
+        """How long impacts last after a reversal [s]."""
+        return IMPACT_SHARE * 0.5 * self.period
 
     @property
     def swing(self) -> float:

@@ -14,16 +14,17 @@ from tribodyn.core.quantities import names
 from tribodyn.joints.bushing import new_memory
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.collar import Collar
-from tribodyn.kernels.joints.collar import Peaks as CollarPeaks
+from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
 from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
 from tribodyn.kernels.joints.paper import fill_pose
-from tribodyn.kernels.joints.quantities import STATES
+from tribodyn.kernels.joints.quantities import SHARP, STATES
 from tribodyn.kernels.ledger import new_books
+from tribodyn.kernels.peaks import new_peaks
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.observe import observe
-from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS
+from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -120,12 +121,23 @@ def _row_weight(vsv: Vsv) -> FloatArray:
     return weight
 
 
-def vsv_memory(data: VsvData) -> VsvMemory:
-    """Return an empty memory: no contact, no work done yet, direction forward."""
+def vsv_memory(data: VsvData, *, reversals: int = 0, impact_time: float = 0.0) -> VsvMemory:
+    """Return an empty memory: no contact, no work done yet, direction forward.
+
+    Parameters
+    ----------
+    data
+        From :func:`vsv_data`.
+    reversals
+        How many reversals the run has.
+    impact_time
+        How long impacts last after each [s].
+    """
     return VsvMemory(
         joint=new_memory(data.joint),
-        collar=new_record(CollarPeaks),
-        regime=np.array([1.0, 0.0]),
+        collar=new_record(CollarExtremes),
+        regime=np.array([1.0, 0.0, 0.0]),
+        peaks=new_peaks(len(WATCHED), sharp=SHARP, reversals=reversals, impact_time=impact_time),
         books=new_books(len(POWERS), len(FORCES), layout.N_COORDINATES),
         scratch=new_record(Scratch),
     )
@@ -192,7 +204,8 @@ def vsv_problem(
         Where to go on from, at the beginning of a drive cycle, instead of ``start``.
     """
     data = vsv_data(vsv, wear, duration)
-    memory = vsv_memory(data)
+    turns = reversals(vsv, duration)
+    memory = vsv_memory(data, reversals=len(turns), impact_time=vsv.drive.impact_time)
     if carried is None:
         y0 = initial_state(data, memory, start)
     else:
@@ -208,7 +221,7 @@ def vsv_problem(
         memory=memory,
         y0=y0,
         t_span=(0.0, duration),
-        breakpoints=reversals(vsv, duration),
+        breakpoints=turns,
         atol=np.repeat(np.asarray(atol, dtype=np.float64), 2),
         state_names=names(STATES),
         n_observed=len(OBSERVED),

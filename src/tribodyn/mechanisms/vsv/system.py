@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
@@ -17,8 +17,8 @@ from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
-from tribodyn.kernels.vsv.functions import vane_direction
-from tribodyn.kernels.vsv.quantities import OBSERVED
+from tribodyn.kernels.vsv.functions import BEYOND, vane_direction
+from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
 from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
@@ -27,7 +27,8 @@ from tribodyn.mechanisms.bushing import (
     grid_force_error,
     of_temperature,
 )
-from tribodyn.mechanisms.checks import peaks
+from tribodyn.mechanisms.checks import beyond_law, extremes
+from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.checks import warnings
@@ -35,7 +36,8 @@ from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Inertias, Vsv
 from tribodyn.mechanisms.vsv.problem import reversals, vsv_problem
 from tribodyn.mechanisms.vsv.reach import at_limit, ideal_vane_angle
-from tribodyn.mechanisms.vsv.times import output_times, snapshots
+from tribodyn.mechanisms.vsv.times import following, output_times, snapshots
+from tribodyn.results.attributes import CARRIED
 
 
 def vsv_of(case: VsvCase) -> Vsv:
@@ -99,7 +101,7 @@ class VsvSystem:
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
-        return vsv_problem(
+        problem = vsv_problem(
             self.vsv,
             duration=duration,
             start=self.case.run.start,
@@ -107,6 +109,8 @@ class VsvSystem:
             wear=None if worn is None else worn.depth,
             carried=None if worn is None else worn.carried,
         )
+        wanted = problem.memory.peaks.risen
+        return replace(problem, following=following(self.case, self.vsv, duration, wanted))
 
     def output_times(self, duration: float) -> FloatArray:
         """Return the times of the rows [s]."""
@@ -142,7 +146,7 @@ class VsvSystem:
         t, rows = run.solution.t, run.rows(OBSERVED)
         error = rows["theta_v"] - rows["theta_v_ideal"]
         return {
-            "wear_pressure_max": float(run.problem.memory.joint.peaks.pressure_peak),
+            "wear_pressure_max": of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"],
             "wear_pressure_mean": _mean(t, rows["p_max"]),
             "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
             "wear_angle_error_max": float(np.abs(error).max()),
@@ -155,16 +159,19 @@ class VsvSystem:
         ledger = ledger_columns(rows)
         whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
         grid_error = grid_force_error(self.bushing, rows, run.problem.data.joint.wear)
-        found = peaks(run.problem.memory.joint.peaks, run.problem.memory.collar)
+        memory = run.problem.memory
+        found = extremes(memory.joint.extremes, memory.collar)
         return Part(
             coordinates=self._coordinates(run),
             columns=force_parts(rows) | ledger,
-            fields=self._fields(run),
+            fields=self._fields(run) | of_reversals(memory.peaks, WATCHED),
             attributes={
                 "formulation": self.vsv.formulation,
                 **bushing_facts(self.case),
                 "friction_coefficient": self.case.joint.friction_coefficient,
                 "cycle_period": self.period,
+                "start": CARRIED if run.carried else self.case.run.start,
+                "impact_time": self.vsv.drive.impact_time,
                 "energy_residual": whole,
                 "clearance_energy_residual": clearance,
                 "grid_force_error": grid_error,
@@ -182,7 +189,10 @@ class VsvSystem:
         times = pictures[self._is_snapshot(run)]
         frames = pictures[self._playback(run)]
         mechanism, memory = run.problem.data.mechanism, run.problem.memory
+        turns = np.array([0.0, *run.problem.breakpoints])[: int(memory.peaks.course.stretch) + 1]
         return {
+            "reversal": np.arange(turns.size, dtype=np.float64),
+            "reversal_time": turns,
             "snapshot": np.arange(times.size, dtype=np.float64),
             "snapshot_time": times,
             "frame": np.arange(frames.size, dtype=np.float64),
@@ -216,6 +226,8 @@ class VsvSystem:
     def _failure(self, run: Run) -> str:
         """Return why the run stopped before its end, empty if it did not."""
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
+        if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] > 0.0:
+            return beyond_law(self.bushing, t)
         if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, t, y):
             return reason
         angle = math.degrees(float(self._crank_angle(np.array([t]))[0]))

@@ -9,31 +9,43 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Following
+from tribodyn.kernels.vsv.quantities import OBSERVED
+from tribodyn.mechanisms.playback import distinct
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.parameters import Drive, Lengths, Vsv
 from tribodyn.mechanisms.vsv.problem import reversals
 from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
 
+_WATCHED: Final = tuple(
+    OBSERVED.index(name) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
+)
+"""What keeps its peaks where there are more steps than rows."""
 _END_SHARE: Final = 0.02
 """Share of the vane's range by which pictures near the reversals stand off their impacts."""
 
 
 def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:
-    """Return the times of the rows [s]: uniform, the reversals, and close together after each reversal.
+    """Return the times of the rows [s]: uniform, and the reversals.
 
-    The impacts after a reversal last milliseconds; ``run.impact_interval`` resolves them for the
-    length of ``run.impact_window``. ``duration`` is the time simulated in one go [s].
+    ``duration`` is the time simulated in one go [s].
+    """
+    uniform = np.append(np.arange(0.0, duration, case.run.output_interval), duration)
+    return distinct(np.concatenate([uniform, reversals(vsv, duration)]), duration)
+
+
+def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> Following | None:
+    """Return where rows follow the steps: after the start and each reversal, for ``run.impact_window``.
+
+    The impacts there last milliseconds, those of ``paper`` some 25 µs. Every other step shows them; a row of
+    each would take a tenth of the time of a run. Those where ``wanted`` is set by the kernels are the peaks.
     """
     run = case.run
-    uniform = np.append(np.arange(0.0, duration, run.output_interval), duration)
-    events = [uniform]
-    burst = np.arange(0.0, run.impact_window, run.impact_interval)
-    for reversal in reversals(vsv, duration):
-        events.append(reversal + burst)
-    times = np.unique(np.concatenate(events))
-    times = times[times <= duration]
-    distinct = np.append(np.diff(times) > 1.0e-9 * duration, True)
-    return np.asarray(times[distinct])
+    if run.impact_window == 0.0:
+        return None
+    begin = np.array([0.0, *reversals(vsv, duration)])
+    end = np.minimum(begin + run.impact_window, np.append(begin[1:], duration))
+    return Following(np.column_stack([begin, end]), run.impact_rows, _WATCHED, 2, wanted)
 
 
 def snapshots(vsv: Vsv, duration: float) -> FloatArray:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.kernels.vsv.quantities import AIR, COLLAR, ENERGIES, MOTION, REACTIONS
+from tribodyn.kernels.vsv.quantities import AIR, COLLAR, ENERGIES, MOTION, REACTIONS, WATCHED
+from tribodyn.results.peaks import of_reversals_described
 from tribodyn.results.variables import JUMP, SNAPSHOT, Variable, described
 
 OF_CYCLE: Final[dict[str, Variable]] = {
@@ -18,6 +19,7 @@ OF_CYCLE: Final[dict[str, Variable]] = {
 
 VARIABLES: Final[dict[str, Variable]] = {
     **described(MOTION, COLLAR, REACTIONS, AIR, ENERGIES),
+    **of_reversals_described(WATCHED),
     "snapshot_theta_v": Variable("rad", "vane angle of the snapshot", SNAPSHOT),
     "snapshot_direction": Variable("1", "direction of vane rotation at the snapshot, +1 or -1", SNAPSHOT),
     "energy_gravity": Variable("J", "gravity energy of all bodies, from the start"),

@@ -1,0 +1,89 @@
+"""Rows at accepted steps, where a problem asks for them: collected, and thinned where they are too many."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Following
+
+CHUNK: Final = 512
+"""Rows collected between two visits."""
+_UNTHINNED: Final = 4
+"""A stretch is thinned on the way when it holds this many times the rows that it may keep."""
+
+Rows = tuple[FloatArray, FloatArray]
+"""Times [s], shape (n,), and rows, shape (n, n_observed)."""
+
+
+class Followed:
+    """Rows of accepted steps of one integration.
+
+    Attributes
+    ----------
+    windows
+        Begin and end of the stretches [s], shape (n + 1, 2), the last one at infinity.
+    times, rows
+        Where the walk over the steps leaves what it has taken since the last :meth:`collect`.
+    """
+
+    def __init__(self, following: Following | None, n_observed: int) -> None:
+        self.following = following or Following(np.empty((0, 2)), 1, ())
+        self.windows = np.append(self.following.windows, [[np.inf, np.inf]], axis=0)
+        size = CHUNK if following else 1
+        self.times, self.rows = np.empty(size), np.empty((size, n_observed))
+        self._kept: dict[int, Rows] = {}
+
+    def collect(self, n: int) -> None:
+        """Take over the first ``n`` rows."""
+        window = np.searchsorted(self.windows[:, 1], self.times[:n])
+        for k in np.unique(window).tolist():
+            new = self.times[:n][window == k], self.rows[:n][window == k]
+            self._kept[k] = _joined(self._kept[k], new) if k in self._kept else new
+            if self._kept[k][0].size > _UNTHINNED * self.following.most:
+                self._kept[k] = self._thinned(self._kept[k])
+
+    def merged(self, times: FloatArray, rows: FloatArray) -> Rows:
+        """Return other rows and those kept, in the order of time."""
+        parts = [(times, rows), *map(self._thinned, self._kept.values())]
+        every = np.concatenate([part[0] for part in parts])
+        order = np.argsort(every)
+        return every[order], np.concatenate([part[1] for part in parts])[order]
+
+    def _thinned(self, rows: Rows) -> Rows:
+        """Return what is kept of the rows of a stretch."""
+        kept = thinning(rows[1][:, self.following.watched], self.following.most)
+        return rows[0][kept], rows[1][kept]
+
+
+def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
+    """Return which of many rows to keep, at most ``most``: increasing indices, shape (m,).
+
+    The rows are cut into pieces of equal number; of each the first is kept and, of every column, the smallest
+    and the largest value. So all peaks stay, also if rows are thinned again.
+
+    Parameters
+    ----------
+    values
+        What must keep its peaks, shape (n, n_columns).
+    most
+        At least one row more than two for each column.
+    """
+    n, columns = values.shape
+    if n <= most:
+        return np.arange(n)
+    edges = np.linspace(0, n, most // (2 * columns + 1) + 1).astype(np.intp)
+    pieces = [
+        begin + np.concatenate([[0], part.argmin(axis=0), part.argmax(axis=0)])
+        for begin, end in pairwise(edges.tolist())
+        for part in [values[begin:end]]
+    ]
+    return np.unique(np.concatenate(pieces))
+
+
+def _joined(first: Rows, second: Rows) -> Rows:
+    return np.append(first[0], second[0]), np.append(first[1], second[1], axis=0)
