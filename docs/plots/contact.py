@@ -140,8 +140,8 @@ def tell(label: str, result: xr.Dataset) -> None:
     pressure = float(smooth["p_max"].mean()) / 1e6
     print(
         f"{label}: error {error:.5f} deg, mean force {force:.2f} N, "
-        f"peak force {result.attrs['contact_force_peak']:.1f} N, "
-        f"pressure {pressure:.1f} MPa, at most {result.attrs['pressure_peak'] / 1e6:.1f} MPa, "
+        f"peak force {float(result['contact_force_impact'].max()):.1f} N, "
+        f"pressure {pressure:.1f} MPa, at most {float(result['pressure_impact'].max()) / 1e6:.1f} MPa, "
         f"least separation {result.attrs['separation_least'] / result.attrs['roughness']:.2f} sigma"
     )
 

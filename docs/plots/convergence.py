@@ -134,7 +134,7 @@ def draw_entry_velocity(target: Path) -> None:
     for result in results:
         moved = [np.interp(times, result["time"], result[name]) - at[name] for name in ("e_x", "e_y")]
         shift.append(1e6 * float(np.hypot(*moved).max()))
-    peak = [result.attrs["contact_force_peak"] for result in results]
+    peak = [float(result["contact_force_impact"].max()) for result in results]
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
     left.bar(floors, shift, color="#0072b2")
     left.set(ylabel="shift of the trunnion centre [µm]", title="smooth motion, against 1 mm/s")

@@ -42,7 +42,7 @@ def execute(args: Namespace) -> int:
         raise InputError(f"{as_given(args.output)}, a directory; allowed: a file to write", key="--output")
     target = Path(args.output)
     runs = _runs(args.directories, target)
-    from tribodyn.report import write_comparison
+    from tribodyn.report import compared, write_comparison
 
     try:
         write_comparison(runs, target)
@@ -52,9 +52,12 @@ def execute(args: Namespace) -> int:
             f"{as_given(args.output)}: it cannot be written ({reason})", key="--output"
         ) from None
     console = Console.of(args)
+    summaries, stretch = compared([run.dataset for run in runs])
+    if stretch:
+        console.say(stretch)
     console.say(f"look at {target}")
     if console.json:
-        show_json(_summaries(runs))
+        show_json({run.name: summary for run, summary in zip(runs, summaries, strict=True)})
     return 0
 
 
@@ -91,9 +94,3 @@ def _link(directory: Path, target: Path) -> str:
         return quote(Path(os.path.relpath(report, target.parent)).as_posix())
     except ValueError:  # on another drive
         return report.resolve().as_uri()
-
-
-def _summaries(runs: Sequence[Run]) -> dict[str, object]:
-    from tribodyn.mechanisms.results import summarise
-
-    return {run.name: summarise(run.dataset) for run in runs}

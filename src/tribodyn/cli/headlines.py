@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from tribodyn.views.numbers import rounded
+
 
 def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     """Give one line for each headline number, aligned, with its unit.
@@ -16,11 +18,12 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     from tribodyn.mechanisms.results import known
 
     headlines = known(summary, str(summary.get("kind", "")))
-    width = max((len(headline.label) for headline in headlines.values()), default=0)
+    labels = {name: headline.label_in(summary) for name, headline in headlines.items()}
+    width = max(map(len, labels.values()), default=0)
     for name, headline in headlines.items():
-        yield f"  {headline.label:<{width}}  {_number(summary[name])} {headline.unit}".rstrip()
+        yield f"  {labels[name]:<{width}}  {_number(summary[name], headline.digits)} {headline.unit}".rstrip()
 
 
-def _number(value: object) -> str:
-    """Write a number with four digits that mean something; counts in full."""
-    return f"{value:>9.4g}" if isinstance(value, float) else f"{value!s:>9}"
+def _number(value: object, digits: int) -> str:
+    """Write a number with the digits that hold; counts in full."""
+    return f"{rounded(value, digits):>9.4g}" if isinstance(value, float) else f"{value!s:>9}"

@@ -125,9 +125,11 @@ def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, arg
 
 
 def _tell(summary: dict[str, Any], console: Console) -> None:
-    """Print the headline numbers and the warnings."""
+    """Print the headline numbers, notes and warnings."""
     for line in ("", str(summary.get("title", "")), *in_words(summary), ""):
         console.say(line)
+    for note in summary["notes"]:
+        console.say(f"note: {note}")
     for warning in summary["warnings"]:
         complain(f"warning: {warning}")
     if console.json:

@@ -118,8 +118,8 @@ class Part:
         As :func:`tribodyn.results.build` takes them.
     attributes
         Facts about the run.
-    warnings
-        What a user should know before trusting the numbers, one sentence each.
+    warnings, notes
+        What a user should know before trusting the numbers, and what to read them with; one sentence each.
     failure
         Why the run stopped before its end, if it did and the mechanism knows more than the integrator.
     """
@@ -129,6 +129,7 @@ class Part:
     fields: Mapping[str, NDArray[np.floating[Any]]] = field(default_factory=dict)
     attributes: Mapping[str, object] = field(default_factory=dict)
     warnings: Sequence[str] = ()
+    notes: Sequence[str] = ()
     failure: str = ""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final, Protocol
@@ -12,7 +13,7 @@ from tribodyn.cases import groups
 from tribodyn.cases.temperature import Temperature
 from tribodyn.contact import HasSurfacePair
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid, contact_table
+from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.wear import resampled
 
@@ -86,6 +87,32 @@ def of_temperature(case: HasBushing) -> list[str]:
     if hot == cold:
         return []
     return [f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."]
+
+
+def loading(case: HasBushing, joint: BushingJoint, pressure: float, separation: float) -> dict[str, float]:
+    """Return how far the surfaces of a joint were loaded, by name; nothing where the contact is at points.
+
+    Parameters
+    ----------
+    case, joint
+        The case and its joint.
+    pressure
+        Largest contact pressure [Pa].
+    separation
+        Smallest gap [m].
+
+    Returns
+    -------
+    dict
+        ``hardness_share``, the pressure over the hardness of the bushing, and ``real_area_share``, the real
+        area of contact over the nominal one where the gap was smallest; NaN where the contact law has none.
+    """
+    if joint.contact != SURFACE:
+        return {"hardness_share": math.nan, "real_area_share": math.nan}
+    pair = case.surface_pair
+    closest = np.array([joint.asperity_separation(separation)])
+    area = case.contact.law_of(pair).real_area_fraction(closest)
+    return {"hardness_share": pressure / pair.hardness, "real_area_share": float(area[0])}
 
 
 def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

@@ -10,6 +10,14 @@ from tribodyn.joints import SURFACE, BushingJoint
 
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
+HARDNESS_LIMIT: Final = 1.0 / 3.0
+"""Peak pressure over hardness: a third of the hardness is about the yield stress of the bulk (D. Tabor, The
+hardness of metals, 1951)."""
+AREA_LIMIT: Final = 0.1
+"""Real area of contact over the nominal one: beyond a few per cent asperities no longer deform one by one,
+which every law here takes for granted."""
+LIFT_OFF_LIMIT: Final = 0.001
+"""Share of a run without the thrust collar; below it is only noted."""
 CLIP_LIMIT: Final = 0.02
 LINER_LIMIT: Final = 0.05
 REJECTED_LIMIT: Final = 0.2
@@ -31,6 +39,32 @@ def beyond_law(joint: BushingJoint, t_end: float) -> str:
         f"stopped at t = {t_end:.6g} s: the surfaces came closer than the contact law reaches "
         f"({joint.table.h_first:g} sigma); load or impact is too much for it"
     )
+
+
+def of_load(loading: Mapping[str, float]) -> list[str]:
+    """Return what is to be said of the load on the surfaces; empty texts where nothing is.
+
+    Parameters
+    ----------
+    loading
+        From :func:`tribodyn.mechanisms.bushing.loading`.
+    """
+    hardness, area = loading["hardness_share"], loading["real_area_share"]
+    return [
+        f"The contact pressure reached {100 * hardness:.2g} % of the hardness: above a third of it the bulk "
+        "yields, not asperities alone."
+        if hardness > HARDNESS_LIMIT
+        else "",
+        f"The real area of contact reached {100 * area:.2g} % of the nominal one where the surfaces came "
+        f"closest: above {100 * AREA_LIMIT:g} % asperities do not deform one by one, as contact laws have it."
+        if area > AREA_LIMIT
+        else "",
+    ]
+
+
+def of_lift_off(share: float) -> str:
+    """Return what is to be said of a thrust collar that carried nothing for a share of the run."""
+    return f"The thrust collar carried nothing for {100 * share:.2g} % of the run: lift-off is not modelled."
 
 
 def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_error: float) -> list[str]:

@@ -15,10 +15,13 @@ from tribodyn.mechanisms.results import known, summarise
 from tribodyn.report.beside import chapter_of
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
-from tribodyn.results import json_attribute
+from tribodyn.results import Headline, json_attribute
 from tribodyn.results.atomic import write_text
+from tribodyn.views.common import in_common
 from tribodyn.views.numbers import in_words
 
+OF_STRETCH: Final = ("Accuracy", "Load")
+"""Groups of headline numbers that hang on which stretch of the motion they are taken from."""
 NOTABLE: Final = 0.01
 """Relative difference from the first run above which a number stands out."""
 
@@ -67,18 +70,37 @@ def render(runs: Sequence[Run]) -> str:
     """Return the page as text."""
     planned = chapter_of({run.name: run.dataset for run in runs})
     shown, payloads = chapters(runs[0].dataset, [planned])
-    summaries = [summarise(run.dataset) for run in runs]
+    summaries, stretch = compared([run.dataset for run in runs])
     return page(
         "compare.html",
         payload={"clock": None, "figures": payloads} if payloads else None,
         title=f"Comparison of {len(runs)} runs",
         version=runs[0].dataset.attrs.get("tribodyn_version", ""),
         runs=[_about(run, summary) for run, summary in zip(runs, summaries, strict=True)],
+        stretch=stretch,
         groups=_numbers(summaries),
         keys=_different_keys([run.dataset for run in runs]),
         chapters=shown,
         reading=reading(()),
     )
+
+
+def compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]:
+    """Return summaries in which like stands beside like, and in a sentence what they were taken from.
+
+    Loads and accuracy are those of what all results hold; wear, trust and effort are those of each whole run.
+    """
+    alike, stretch = in_common(results)
+    summaries = []
+    for result, part in zip(results, alike, strict=True):
+        whole, cut = summarise(result), summarise(part)
+        known_here = known([*whole, *cut], str(whole["kind"]))
+        of_stretch = {name for name, headline in known_here.items() if headline.group in OF_STRETCH}
+        summaries.append(
+            {name: value for name, value in whole.items() if name not in of_stretch}
+            | {name: value for name, value in cut.items() if name in of_stretch}
+        )
+    return summaries, stretch
 
 
 def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -100,12 +122,10 @@ def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     kind = kinds.pop() if len(kinds) == 1 else ""
     rows = [
         {
-            "label": headline.label,
+            "label": _label(headline, summaries),
             "unit": headline.unit,
             "group": headline.group,
-            "cells": [
-                _cell(summary.get(name), summaries[0].get(name), headline.group) for summary in summaries
-            ],
+            "cells": [_cell(summary.get(name), summaries[0].get(name), headline) for summary in summaries],
         }
         for name, headline in known(names, kind).items()
     ]
@@ -114,19 +134,26 @@ def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def _cell(value: Any, first: Any, group: str) -> dict[str, Any]:
+def _label(headline: Headline, summaries: Sequence[Mapping[str, Any]]) -> str:
+    """Return the label of a row; after how many reversals a peak was looked for, where that is one number."""
+    labels = {headline.label_in(summary) for summary in summaries}
+    return labels.pop() if len(labels) == 1 else headline.label
+
+
+def _cell(value: Any, first: Any, headline: Headline) -> dict[str, Any]:
     """Return a number, and in percent how far it is from that of the first run."""
     if value is None:
         return {"value": "—", "change": "", "notable": False}
+    words = in_words(value, headline.digits)
     if first is None or not first or value == first:
-        return {"value": in_words(value), "change": "", "notable": False}
+        return {"value": words, "change": "", "notable": False}
     share = (value - first) / abs(first)
-    change = f"{100.0 * share:+.3g} %" if abs(share) < 10.0 else f"× {value / first:.3g}"
+    change = f"{100.0 * share:+.2g} %" if abs(share) < 10.0 else f"× {value / first:.2g}"
     return {
-        "value": in_words(value),
+        "value": words,
         "change": change.replace("-", "−"),
         # How much work it was depends on the machine: no result stands out by that.
-        "notable": abs(share) > NOTABLE and group != "Effort",
+        "notable": abs(share) > NOTABLE and headline.group != "Effort",
     }
 
 

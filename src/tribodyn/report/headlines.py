@@ -18,11 +18,11 @@ Number = dict[str, str]
 """A headline number with ``label``, ``value``, ``unit`` and ``meaning``."""
 
 
-def number(headline: Headline, value: object) -> Number:
-    """Return a headline number in words."""
+def number(headline: Headline, summary: Mapping[str, Any], name: str) -> Number:
+    """Return a headline number of a summary in words."""
     return {
-        "label": headline.label,
-        "value": in_words(value),
+        "label": headline.label_in(summary),
+        "value": in_words(summary[name], headline.digits),
         "unit": headline.unit,
         "meaning": headline.meaning,
     }
@@ -31,14 +31,14 @@ def number(headline: Headline, value: object) -> Number:
 def chosen(summary: Mapping[str, Any], names: Iterable[str]) -> list[Number]:
     """Return those of the named numbers that a summary holds."""
     found = known(summary, str(summary["kind"]))
-    return [number(found[name], summary[name]) for name in names if name in found]
+    return [number(found[name], summary, name) for name in names if name in found]
 
 
 def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return all headline numbers of a summary in their groups."""
     numbers = known(summary, str(summary["kind"])).items()
     return [
-        {"name": group, "numbers": [number(headline, summary[name]) for name, headline in members]}
+        {"name": group, "numbers": [number(headline, summary, name) for name, headline in members]}
         for group, members in groupby(numbers, key=lambda entry: entry[1].group)
     ]
 

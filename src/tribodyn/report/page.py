@@ -32,6 +32,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
         failure=summary["failure"],
         time_reached=in_words(summary.get("simulated_time_s", 0.0)),
         warnings=json_attribute(dataset, "warnings", []),
+        notes=json_attribute(dataset, "notes", []),
         facts=facts(dataset),
         key=chosen(summary, mechanism.key_numbers),
         groups=grouped(summary),

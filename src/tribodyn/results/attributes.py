@@ -36,6 +36,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     "sampling_method": TEXT,
     "solver": FACTS,
     "warnings": TEXTS,
+    "notes": TEXTS,
     "varied": TEXTS,
 }
 """Attributes of a dataset by name."""

@@ -91,7 +91,7 @@ def json_attribute(dataset: xr.Dataset, name: str, default: Any) -> Any:
     dataset
         A result.
     name
-        ``"solver"`` (mapping of statistics) or ``"warnings"`` (list of texts).
+        ``"solver"`` (mapping of statistics) or ``"warnings"`` or ``"notes"`` (lists of texts).
     default
         Returned when there is nothing to read.
     """

@@ -55,9 +55,14 @@ def reversals_held(dataset: xr.Dataset) -> int:
 
     Where a run goes on from another one, its start is a reversal; otherwise it is none.
     """
-    turns = column(dataset, "reversal_time") + float(dataset.attrs["impact_time"])
-    held = turns <= float(dataset.attrs["time_reached"])
-    return int(np.count_nonzero(held)) - int(held[0] and dataset.attrs["start"] != CARRIED)
+    turns = column(dataset, "reversal_time")
+    held = turns + float(dataset.attrs["impact_time"]) <= float(dataset.attrs["time_reached"])
+    for name in dataset.data_vars:
+        if str(name).endswith("_impact"):
+            held &= np.isfinite(column(dataset, str(name)))
+    if dataset.attrs["start"] != CARRIED:
+        held &= turns > 0.0
+    return int(np.count_nonzero(held))
 
 
 def time_mean(dataset: xr.Dataset, values: FloatArray) -> float:

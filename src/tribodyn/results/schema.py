@@ -33,6 +33,8 @@ LARGEST: Final = 1e60
 """Size of a number, at most: products and squares of numbers are numbers, too."""
 LONGEST: Final = 1_000_000
 """Length of a text, at most."""
+LISTS: Final = ("warnings", "notes")
+"""What a summary holds lists of."""
 MOST_VARIABLES: Final = 200
 """Variables of a sweep, at most: each is drawn."""
 
@@ -75,11 +77,11 @@ def is_summary(content: object) -> bool:
         isinstance(content, dict)
         and "status" in content
         and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure"))
-        and _are_texts(content.get("warnings", []))
+        and all(_are_texts(content.get(name, [])) for name in LISTS)
         and all(
             _of_form(value, TEXT) or _is_number(value, NUMBER)
             for name, value in content.items()
-            if name != "warnings"
+            if name not in LISTS
         )
     )
 

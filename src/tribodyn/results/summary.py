@@ -74,7 +74,7 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
     -------
     dict
         Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none), the
-        list of ``warnings``, then numbers by name.
+        lists of ``warnings`` and ``notes``, then numbers by name.
     """
     failure = str(dataset.attrs.get("failure", ""))
     summary: Summary = {
@@ -83,6 +83,7 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
         "status": "failed" if failure else "complete",
         "failure": failure,
         "warnings": json_attribute(dataset, "warnings", []),
+        "notes": json_attribute(dataset, "notes", []),
     }
     for name, headline in {**headlines, **EFFORT}.items():
         value = _number(headline, dataset)

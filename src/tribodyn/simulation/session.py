@@ -72,5 +72,6 @@ class Session:
                 "time_reached": float(run.solution.t_end),
                 "failure": part.failure,
                 "warnings": [*part.warnings, *more.warnings],
+                "notes": [*part.notes, *more.notes],
             },
         )

@@ -7,18 +7,25 @@ from typing import Final
 _RAISED: Final = str.maketrans("+-0123456789", " ⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def in_words(value: object) -> str:
-    """Return a value for the page: four significant digits, no computer notation, counts in groups of three.
+def rounded(value: float, digits: int) -> float:
+    """Return a number with as many significant digits."""
+    return float(f"{value:.{digits - 1}e}")
+
+
+def in_words(value: object, digits: int = 4) -> str:
+    """Return a value for the page: no computer notation, counts in groups of three.
 
     Parameters
     ----------
     value
         A number, or anything else, which is shown as its text.
+    digits
+        How many significant digits are shown, four at most.
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
         return str(value)
     if isinstance(value, int):
         return f"{value:,}".replace(",", "\N{NARROW NO-BREAK SPACE}")
-    digits, _, power = f"{value + 0.0:.4g}".partition("e")
-    text = digits.replace("-", "−")
+    mantissa, _, power = f"{rounded(value, digits) + 0.0:.4g}".partition("e")
+    text = mantissa.replace("-", "−")
     return f"{text} × 10{str(int(power)).translate(_RAISED)}" if power else text

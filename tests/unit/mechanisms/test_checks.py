@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.quantities import Extremes
-from tribodyn.mechanisms.checks import CLIP_LIMIT, ENERGY_LIMIT, GRID_LIMIT, REJECTED_LIMIT, RESTART_LIMIT
+from tribodyn.mechanisms.checks import (
+    AREA_LIMIT,
+    CLIP_LIMIT,
+    ENERGY_LIMIT,
+    GRID_LIMIT,
+    HARDNESS_LIMIT,
+    LIFT_OFF_LIMIT,
+    REJECTED_LIMIT,
+    RESTART_LIMIT,
+)
 from tribodyn.mechanisms.journal import checks as journal_checks
 from tribodyn.mechanisms.vsv import checks
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -23,22 +34,27 @@ SOUND = {
     "depth": 2.0,
     "clipped": 0.0,
     "lift_off": 0.0,
+    "hardness": 0.2,
+    "area": math.nan,
     "rejected": 30.0,
     "restarts": 3.0,
 }
-"""Of a run with nothing to say of; ``depth`` in σ, ``rejected`` and ``restarts`` beside a thousand steps."""
+"""Of a run with nothing to say of, by a law that knows no real area; ``depth`` in σ, ``rejected`` and
+``restarts`` beside a thousand steps."""
 
 CASES = [
     ("energy", ENERGY_LIMIT, 1.0, "Energy is missed"),
     ("grid", GRID_LIMIT, 1.0, "On the chosen grid"),
     ("depth", 0.0, -1.0, "mean planes of the surfaces"),
     ("clipped", CLIP_LIMIT, 1.0, "clip of tensile pressure"),
+    ("hardness", HARDNESS_LIMIT, 1.0, "of the hardness"),
+    ("area", AREA_LIMIT, 1.0, "real area of contact"),
     ("rejected", 1000.0 * REJECTED_LIMIT / (1.0 - REJECTED_LIMIT), 1.0, "integrator threw away"),
     ("restarts", 1000.0 * RESTART_LIMIT, 1.0, "started anew every"),
 ]
 ONLY_VSV = [
     ("clearance_energy", ENERGY_LIMIT, 1.0, "Energy is missed"),
-    ("lift_off", 0.0, 1.0, "thrust collar carried nothing"),
+    ("lift_off", LIFT_OFF_LIMIT, 1.0, "thrust collar carried nothing"),
 ]
 
 
@@ -46,14 +62,20 @@ def statistics(seen: dict[str, float]) -> dict[str, float]:
     return {"steps": 1000.0, "rejected": seen["rejected"], "restarts": seen["restarts"]}
 
 
+def loading(seen: dict[str, float]) -> dict[str, float]:
+    return {"hardness_share": seen["hardness"], "real_area_share": seen["area"]}
+
+
 def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
     found = {
         "separation_least": seen["depth"] * vsv.joint.roughness,
         "tensile_clip_time": seen["clipped"] * T_END,
-        "collar_lift_off_time": seen["lift_off"],
+        "collar_lift_off_time": seen["lift_off"] * T_END,
+        "grid_force_error": seen["grid"],
+        **loading(seen),
     }
     residuals = seen["energy"], seen["clearance_energy"]
-    return checks.warnings(vsv, found, *residuals, seen["grid"], T_END, cost)
+    return checks.warnings(vsv, found, *residuals, T_END, cost)
 
 
 def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
@@ -61,7 +83,7 @@ def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
     found.separation_least = seen["depth"] * vsv.joint.roughness
     found.tensile_clip_time = seen["clipped"] * T_END
     numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
-    return journal_checks.warnings(found, vsv.joint, **numbers, statistics=cost)
+    return journal_checks.warnings(found, vsv.joint, loading(seen), **numbers, statistics=cost)
 
 
 @pytest.mark.parametrize("told", [of_vsv, of_journal])
@@ -100,3 +122,38 @@ def test_points_of_contact_are_told_of_and_have_no_depth(make_vsv: Callable[...,
 def test_a_run_that_took_no_step_is_silent_about_steps() -> None:
     nothing: dict[str, Any] = {"steps": 0, "rejected": 0, "restarts": 0}
     assert not any(checks.of_steps(nothing))
+
+
+def notes(
+    vsv: Vsv, *, lift_off: float = 0.0, t_end: float = 4.0 * math.pi, carried: bool = False
+) -> list[str]:
+    turns = math.pi * np.arange(math.ceil(t_end / math.pi - 1e-9))
+    return checks.notes(vsv, {"collar_lift_off_time": lift_off * t_end}, t_end, turns, carried)
+
+
+def test_a_short_lift_off_is_noted_in_per_cent_of_the_run(make_vsv: Callable[..., Vsv]) -> None:
+    vsv = make_vsv()
+    assert notes(vsv) == []
+    (message,) = notes(vsv, lift_off=0.5 * LIFT_OFF_LIMIT)
+    assert "for 0.05 % of the run" in message
+    assert notes(vsv, lift_off=2.0 * LIFT_OFF_LIMIT) == []
+
+
+@pytest.mark.parametrize(
+    ("t_end", "carried", "held"),
+    [
+        (4.0 * math.pi, False, 2),
+        (2.0 * math.pi, False, 1),  # what follows the second reversal, at the end, is not there
+        (2.0 * math.pi + 0.32, False, 2),
+        (2.0 * math.pi + 0.30, False, 1),
+        (2.0 * math.pi, True, 2),  # the cycle of a campaign: its start is a reversal
+        (math.pi + 0.1, False, 0),
+        (3.0, False, 0),
+    ],
+)
+def test_a_run_says_which_reversals_it_does_not_hold(
+    make_vsv: Callable[..., Vsv], t_end: float, carried: bool, held: int
+) -> None:
+    told = notes(make_vsv(), t_end=t_end, carried=carried)
+    assert [message for message in told if f"holds {held} with" in message] == ([] if held == 2 else told)
+    assert len(told) == (held < 2)

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 
 from tribodyn.core.quantities import Record
 from tribodyn.joints import BushingJoint
-from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
+from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_load, of_steps
 
 
 def warnings(
     extremes: Record,
     joint: BushingJoint,
+    load: Mapping[str, float],
     *,
     residual: float,
     grid_error: float,
@@ -26,6 +27,8 @@ def warnings(
         Of the joint over all accepted steps.
     joint
         The bushing.
+    load
+        From :func:`tribodyn.mechanisms.bushing.loading`.
     residual
         Energy residual as a fraction.
     grid_error
@@ -45,6 +48,7 @@ def warnings(
             clipped=float(extremes.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,
         ),
+        *of_load(load),
         *of_steps(statistics),
     ]
     return [message for message in messages if message]

@@ -22,6 +22,7 @@ from tribodyn.mechanisms.bushing import (
     bushing_of,
     force_parts,
     grid_force_error,
+    loading,
     of_temperature,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes
@@ -121,15 +122,24 @@ class JournalSystem:
         columns = self._columns(rows)
         residual = residual_fraction(columns, self.journal)
         grid_error = grid_force_error(self.journal.joint, rows)
+        found = run.problem.memory.joint.extremes
+        pressure = of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"]
+        load = loading(self.case, self.journal.joint, pressure, float(found.separation_least))
         return Part(
             columns=columns,
             fields=self._numbers(run, rows, balance),
-            attributes={**self._facts(), "energy_residual": residual, "grid_force_error": grid_error},
+            attributes={
+                **self._facts(),
+                "energy_residual": residual,
+                "grid_force_error": grid_error,
+                **load,
+            },
             warnings=[
                 *of_temperature(self.case),
                 *warnings(
-                    run.problem.memory.joint.extremes,
+                    found,
                     self.journal.joint,
+                    load,
                     residual=residual,
                     grid_error=grid_error,
                     t_end=float(run.solution.t_end),

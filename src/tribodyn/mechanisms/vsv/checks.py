@@ -5,8 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_steps
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.checks import (
+    ENERGY_LIMIT,
+    LIFT_OFF_LIMIT,
+    TIGHTEN,
+    of_contact,
+    of_lift_off,
+    of_load,
+    of_steps,
+)
 from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.mechanisms.vsv.problem import reversals
 
 
 def warnings(
@@ -14,7 +26,6 @@ def warnings(
     found: Mapping[str, float],
     whole: float,
     clearance: float,
-    grid_error: float,
     t_end: float,
     statistics: Mapping[str, float],
 ) -> list[str]:
@@ -25,32 +36,68 @@ def warnings(
     vsv
         The mechanism.
     found
-        From :func:`peaks`.
+        Extremes, error of the grid and loading of the joint, by the names of attributes.
     whole, clearance
         Energy residuals as fractions.
-    grid_error
-        From :func:`tribodyn.mechanisms.bushing.grid_force_error`.
     t_end
         Simulated time reached [s].
     statistics
         Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`.
     """
-    lift_off = found["collar_lift_off_time"]
+    share = lift_off_share(found, t_end)
     messages = [
         _energy_message(vsv, whole, clearance),
         *of_contact(
             vsv.joint,
             separation=found["separation_least"],
             clipped=found["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
-            grid_error=grid_error,
+            grid_error=found["grid_force_error"],
         ),
-        f"The thrust collar carried nothing for {1e3 * lift_off:.3g} ms: "
-        "lift-off of the vane is not modelled."
-        if lift_off > 0.0
-        else "",
+        *of_load(found),
+        of_lift_off(share) if share > LIFT_OFF_LIMIT else "",
         *of_steps(statistics),
     ]
     return [message for message in messages if message]
+
+
+def notes(vsv: Vsv, found: Mapping[str, float], t_end: float, turns: FloatArray, carried: bool) -> list[str]:
+    """Return what a user should know of the numbers without doubting them, one sentence each.
+
+    Parameters
+    ----------
+    vsv, found, t_end
+        As for :func:`warnings`.
+    turns
+        Times of the start and of the reversals that were reached [s].
+    carried
+        Whether the start is a reversal, because the run goes on from another one.
+    """
+    share = lift_off_share(found, t_end)
+    messages = [
+        of_lift_off(share) if 0.0 < share <= LIFT_OFF_LIMIT else "",
+        _of_reversals(vsv, t_end, turns, carried),
+    ]
+    return [message for message in messages if message]
+
+
+def lift_off_share(found: Mapping[str, float], t_end: float) -> float:
+    """Return the share of the run during which the thrust collar carried nothing."""
+    return found["collar_lift_off_time"] / t_end if t_end > 0.0 else 0.0
+
+
+def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> str:
+    """Say which reversals of a drive cycle the run does not hold with what follows them."""
+    period, settling = vsv.drive.period, vsv.drive.impact_time
+    every = np.array([0.0, *reversals(vsv, period)])
+    held = turns[(turns + settling <= t_end) & ((turns > 0.0) | carried)]
+    phases = np.mod(held + 0.5 * settling, period) - 0.5 * settling
+    missing = [t for t in every if not np.any(np.abs(phases - t) < 0.5 * settling)]
+    if not missing:
+        return ""
+    return (
+        f"Of the {every.size} reversals of a drive cycle the run holds {every.size - len(missing)} with the "
+        "impacts that follow: peaks after the others may be larger."
+    )
 
 
 def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:

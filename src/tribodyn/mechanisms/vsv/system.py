@@ -25,13 +25,14 @@ from tribodyn.mechanisms.bushing import (
     bushing_of,
     force_parts,
     grid_force_error,
+    loading,
     of_temperature,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.checks import warnings
+from tribodyn.mechanisms.vsv.checks import notes, warnings
 from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Inertias, Vsv
 from tribodyn.mechanisms.vsv.problem import reversals, vsv_problem
@@ -160,7 +161,10 @@ class VsvSystem:
         whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
         grid_error = grid_force_error(self.bushing, rows, run.problem.data.joint.wear)
         memory = run.problem.memory
-        found = extremes(memory.joint.extremes, memory.collar)
+        found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
+        pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
+        found |= loading(self.case, self.bushing, pressure, found["separation_least"])
+        turns, t_end = self._turns(run), float(run.solution.t_end)
         return Part(
             coordinates=self._coordinates(run),
             columns=force_parts(rows) | ledger,
@@ -174,13 +178,13 @@ class VsvSystem:
                 "impact_time": self.vsv.drive.impact_time,
                 "energy_residual": whole,
                 "clearance_energy_residual": clearance,
-                "grid_force_error": grid_error,
                 **found,
             },
             warnings=[
                 *of_temperature(self.case),
-                *warnings(self.vsv, found, whole, clearance, grid_error, float(run.solution.t_end), run.cost),
+                *warnings(self.vsv, found, whole, clearance, t_end, run.cost),
             ],
+            notes=notes(self.vsv, found, t_end, turns, run.carried),
             failure=self._failure(run),
         )
 
@@ -189,7 +193,7 @@ class VsvSystem:
         times = pictures[self._is_snapshot(run)]
         frames = pictures[self._playback(run)]
         mechanism, memory = run.problem.data.mechanism, run.problem.memory
-        turns = np.array([0.0, *run.problem.breakpoints])[: int(memory.peaks.course.stretch) + 1]
+        turns = self._turns(run)
         return {
             "reversal": np.arange(turns.size, dtype=np.float64),
             "reversal_time": turns,
@@ -202,6 +206,11 @@ class VsvSystem:
             "theta": self.bushing.theta,
             "z": self.bushing.z,
         }
+
+    def _turns(self, run: Run) -> FloatArray:
+        """Return the times of the start and of the reversals that were reached [s]."""
+        reached = int(run.problem.memory.peaks.course.stretch) + 1
+        return np.array([0.0, *run.problem.breakpoints])[:reached]
 
     def _crank_angle(self, times: FloatArray) -> FloatArray:
         drive = self.vsv.drive

@@ -1,0 +1,114 @@
+"""What several results of one mechanism have in common, so that their peaks can be compared."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.results.attributes import CARRIED
+from tribodyn.views.series import series
+
+_SAME: Final = 1.0e-9
+"""Times closer than this share of a drive cycle are the same."""
+_NEEDED: Final = {"cycle_period", "impact_time", "time_reached", "start"}
+
+
+def in_common(results: Sequence[xr.Dataset]) -> tuple[list[xr.Dataset], str]:
+    """Return of each result what all of them hold, and in a sentence what that is, empty where they agree.
+
+    Runs that begin alike are cut to the time of the shortest. Where some go on from another run and others do
+    not, the last whole drive cycles are taken and the impacts after those reversals that all of them hold.
+
+    Parameters
+    ----------
+    results
+        Results, whole or partial.
+    """
+    whole = list(results)
+    known = all("reversal_time" in result and result.attrs.keys() >= _NEEDED for result in whole)
+    if not known or len(whole) < 2:
+        return whole, ""
+    periods = np.array([float(result.attrs["cycle_period"]) for result in whole])
+    ends = np.array([float(result.attrs["time_reached"]) for result in whole])
+    if np.ptp(periods) > _SAME * periods[0]:
+        return (
+            whole,
+            "Drive cycles of these runs last differently: peaks are of different numbers of reversals.",
+        )
+    carried = {result.attrs["start"] == CARRIED for result in whole}
+    if len(carried) == 1:
+        return _first(whole, ends, periods[0])
+    return _last(whole, ends, periods[0])
+
+
+def _first(results: list[xr.Dataset], ends: FloatArray, period: float) -> tuple[list[xr.Dataset], str]:
+    """Cut results that begin alike to the time of the shortest."""
+    end = float(ends.min())
+    if np.ptp(ends) <= _SAME * period:
+        return results, ""
+    cut = [_between(result, 0.0, end) for result in results]
+    return cut, f"Loads and accuracy are of the first {end:.4g} s, which all runs hold."
+
+
+def _last(results: list[xr.Dataset], ends: FloatArray, period: float) -> tuple[list[xr.Dataset], str]:
+    """Cut results to their last drive cycles, and to the reversals that all of them hold there."""
+    cycles = np.floor(ends / period + _SAME)
+    n = int(cycles.min())
+    if n == 0:
+        return results, "These runs begin differently: peaks are of different numbers of reversals."
+    cut = [_between(r, (c - n) * period, c * period) for r, c in zip(results, cycles, strict=True)]
+    phases = [_phases(r, (c - n) * period) for r, c in zip(cut, cycles, strict=True)]
+    shared = [t for t in phases[0] if all(_among(t, others, period) for others in phases[1:])]
+    alike = [
+        _without_impacts(r, (c - n) * period, np.array(shared), period)
+        for r, c in zip(cut, cycles, strict=True)
+    ]
+    held = f"{len(shared)} reversal" + ("" if len(shared) == 1 else "s")
+    what = "the last drive cycle" if n == 1 else f"the last {n} drive cycles"
+    return (
+        alike,
+        f"Loads and accuracy are of {what} of each run, with the {held} that all of them hold there.",
+    )
+
+
+def _between(result: xr.Dataset, begin: float, end: float) -> xr.Dataset:
+    """Return the rows and reversals of a stretch [s]."""
+    near = _SAME * float(result.attrs["cycle_period"])
+    time, turns = series(result, "time"), series(result, "reversal_time")
+    rows = np.flatnonzero((time >= begin - near) & (time <= end + near))
+    kept = np.flatnonzero((turns >= begin - near) & (turns < end - near))
+    start = result.attrs["start"] if begin == 0.0 else CARRIED
+    return result.isel(time=rows, reversal=kept).assign_attrs(time_reached=end, start=start)
+
+
+def _phases(result: xr.Dataset, begin: float) -> FloatArray:
+    """Return how long after ``begin`` [s] the reversals are that the stretch holds, shape (n,)."""
+    turns, settling = series(result, "reversal_time"), float(result.attrs["impact_time"])
+    held = turns + settling <= float(result.attrs["time_reached"])
+    if result.attrs["start"] != CARRIED:
+        held &= turns > 0.0
+    return np.asarray(turns[held] - begin)
+
+
+def _among(time: float, others: FloatArray, period: float) -> bool:
+    return bool(np.any(np.abs(others - time) <= _SAME * period))
+
+
+def _without_impacts(result: xr.Dataset, begin: float, shared: FloatArray, period: float) -> xr.Dataset:
+    """Return a result without the impacts after reversals that are not shared."""
+    turns, time = series(result, "reversal_time"), series(result, "time")
+    settling = float(result.attrs["impact_time"])
+    lost = np.array([not _among(turn - begin, shared, period) for turn in turns])
+    quiet = np.ones(time.size, dtype=bool)
+    for turn in turns[lost]:
+        quiet &= (time < turn) | (time > turn + settling)
+    without = result.isel(time=np.flatnonzero(quiet)).copy()
+    for name in without.data_vars:
+        if str(name).endswith(("_impact", "_impact_time")):
+            without[name] = without[name].where(~xr.DataArray(lost, dims="reversal"), math.nan)
+    return without
