@@ -14,7 +14,7 @@ from tribodyn.cases.temperature import Temperature
 from tribodyn.contact import HasSurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Friction, Grid, contact_table
-from tribodyn.joints.bushing import joint_wrench
+from tribodyn.joints.bushing import joint_report, joint_wrench
 from tribodyn.wear import resampled
 
 _NOT_STORED: Final = ("work_", "heat_")
@@ -115,6 +115,32 @@ def loading(case: HasBushing, joint: BushingJoint, pressure: float, separation: 
     return {"hardness_share": pressure / pair.hardness, "real_area_share": float(area[0])}
 
 
+def pressure_at_rest(
+    joint: BushingJoint, rows: Mapping[str, FloatArray], wear: FloatArray | None = None
+) -> float:
+    """Return the peak pressure of surfaces at rest where that of the run was largest [Pa]; 0 without rows.
+
+    Taken on a grid four times finer, which resolves the edge: what the peak of the run has more is damping.
+
+    Parameters
+    ----------
+    joint, rows, wear
+        As for :func:`grid_force_error`.
+    """
+    if not rows["e_x"].size:
+        return 0.0
+    finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
+    fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
+    return float(joint_report(fine, _attitude(rows, int(np.argmax(rows["p_max"]))))["p_max"])
+
+
+def _attitude(rows: Mapping[str, FloatArray], row: int) -> FloatArray:
+    """Return the state of a row without its velocities, shape (8,)."""
+    y = np.zeros(8)
+    y[:4] = [rows[name][row] for name in ("e_x", "e_y", "phi_x", "phi_y")]
+    return y
+
+
 def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return the observed columns that are stored, each of shape (n_t,), with the damping force [N]."""
     stored = {name: values for name, values in rows.items() if not name.startswith(_NOT_STORED)}
@@ -149,8 +175,7 @@ def grid_force_error(
     coarse = joint.data(wear)
     largest = error = 0.0
     for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
-        y = np.zeros(8)
-        y[:4] = [rows[name][i] for name in ("e_x", "e_y", "phi_x", "phi_y")]
+        y = _attitude(rows, int(i))
         exact = joint_wrench(fine, y)[:2]
         largest = max(largest, float(np.hypot(*exact)))
         error = max(error, float(np.hypot(*(joint_wrench(coarse, y)[:2] - exact))))

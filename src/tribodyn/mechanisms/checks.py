@@ -16,6 +16,8 @@ hardness of metals, 1951)."""
 AREA_LIMIT: Final = 0.1
 """Real area of contact over the nominal one: beyond a few per cent asperities no longer deform one by one,
 which every law here takes for granted."""
+_DAMPING: Final = 0.05
+"""Share of the peak pressure that is damping; below it the grid hardly matters."""
 LIFT_OFF_LIMIT: Final = 0.001
 """Share of a run without the thrust collar; below it is only noted."""
 CLIP_LIMIT: Final = 0.02
@@ -60,6 +62,16 @@ def of_load(loading: Mapping[str, float]) -> list[str]:
         if area > AREA_LIMIT
         else "",
     ]
+
+
+def of_damping_pressure(pressure: float, at_rest: float) -> str:
+    """Return what is to be said of a peak pressure where surfaces at rest would carry ``at_rest`` [Pa]."""
+    if not 0.0 < at_rest < (1.0 - _DAMPING) * pressure:
+        return ""
+    return (
+        f"Surfaces at rest would carry {at_rest * 1e-6:.3g} MPa where the pressure was largest: the rest of "
+        f"{pressure * 1e-6:.3g} MPa is damping at single points, and more on a finer grid."
+    )
 
 
 def of_lift_off(share: float) -> str:

@@ -32,6 +32,7 @@ EFFORT: Final[dict[str, Headline]] = {
         "Effort",
         "How much of the motion this result holds.",
         lambda d: float(np.ptp(column(d, "time"))),
+        digits=4,
     ),
     "steps": Headline(
         "Steps", "", "Effort", "Accepted steps of the integrator.", statistic("steps"), count=True

@@ -125,10 +125,23 @@ def test_a_run_that_took_no_step_is_silent_about_steps() -> None:
 
 
 def notes(
-    vsv: Vsv, *, lift_off: float = 0.0, t_end: float = 4.0 * math.pi, carried: bool = False
+    vsv: Vsv,
+    *,
+    lift_off: float = 0.0,
+    at_rest: float = 199e6,
+    t_end: float = 4.0 * math.pi,
+    carried: bool = False,
 ) -> list[str]:
     turns = math.pi * np.arange(math.ceil(t_end / math.pi - 1e-9))
-    return checks.notes(vsv, {"collar_lift_off_time": lift_off * t_end}, t_end, turns, carried)
+    found = {"collar_lift_off_time": lift_off * t_end, "pressure_at_rest": at_rest}
+    return checks.notes(vsv, found, 200e6, t_end, turns, carried)
+
+
+def test_damping_in_the_peak_pressure_is_noted(make_vsv: Callable[..., Vsv]) -> None:
+    (message,) = notes(make_vsv(), at_rest=150e6)
+    assert "would carry 150 MPa" in message
+    assert "200 MPa is damping" in message
+    assert notes(make_vsv(), at_rest=0.0) == []  # no row, or contact at points
 
 
 def test_a_short_lift_off_is_noted_in_per_cent_of_the_run(make_vsv: Callable[..., Vsv]) -> None:

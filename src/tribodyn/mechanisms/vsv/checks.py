@@ -13,6 +13,7 @@ from tribodyn.mechanisms.checks import (
     LIFT_OFF_LIMIT,
     TIGHTEN,
     of_contact,
+    of_damping_pressure,
     of_lift_off,
     of_load,
     of_steps,
@@ -60,13 +61,22 @@ def warnings(
     return [message for message in messages if message]
 
 
-def notes(vsv: Vsv, found: Mapping[str, float], t_end: float, turns: FloatArray, carried: bool) -> list[str]:
+def notes(
+    vsv: Vsv,
+    found: Mapping[str, float],
+    pressure: float,
+    t_end: float,
+    turns: FloatArray,
+    carried: bool,
+) -> list[str]:
     """Return what a user should know of the numbers without doubting them, one sentence each.
 
     Parameters
     ----------
     vsv, found, t_end
         As for :func:`warnings`.
+    pressure
+        Largest contact pressure [Pa].
     turns
         Times of the start and of the reversals that were reached [s].
     carried
@@ -75,6 +85,7 @@ def notes(vsv: Vsv, found: Mapping[str, float], t_end: float, turns: FloatArray,
     share = lift_off_share(found, t_end)
     messages = [
         of_lift_off(share) if 0.0 < share <= LIFT_OFF_LIMIT else "",
+        of_damping_pressure(pressure, found["pressure_at_rest"]),
         _of_reversals(vsv, t_end, turns, carried),
     ]
     return [message for message in messages if message]

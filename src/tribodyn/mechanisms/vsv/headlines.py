@@ -60,6 +60,8 @@ class _Peak:
         The unit of the result over that of the number.
     values
         The quantity over time.
+    digits
+        How many digits of the peak hold.
     """
 
     names: tuple[str, str]
@@ -70,6 +72,7 @@ class _Peak:
     quantity: str
     scale: float
     values: Callable[[xr.Dataset], FloatArray]
+    digits: int = 2
 
     @property
     def headlines(self) -> dict[str, Headline]:
@@ -77,11 +80,12 @@ class _Peak:
         quiet, loud = self.names
         return {
             quiet: Headline(
-                f"{self.label} outside impacts",
+                f"{self.label}, largest outside impacts",
                 self.unit,
                 self.group,
                 self.meaning,
                 lambda d: outside(d, self.quantity) * self.scale,
+                digits=4,
             ),
             loud: Headline(
                 f"{self.label}, peak",
@@ -89,7 +93,7 @@ class _Peak:
                 self.group,
                 "The same, with the impacts. It grows with the number of reversals that are looked at.",
                 lambda d: largest(d, self.quantity, self.values(d)) * self.scale,
-                digits=2,
+                digits=self.digits,
                 over="reversals",
             ),
         }
@@ -97,18 +101,19 @@ class _Peak:
 
 _ANGLE_ERROR: Final = _Peak(
     ("vane_angle_error_outside_deg", "vane_angle_error_max_deg"),
-    "Vane-angle error, largest",
+    "Vane-angle error",
     "°",
     "Accuracy",
     "How far clearance lets the vane stray from where the drive puts it, once impacts have died away.",
     "vane_angle_error",
     math.degrees(1.0),
     lambda d: np.deg2rad(_angle_error(d)),
+    digits=3,
 )
 _LOADS: Final = (
     _Peak(
         ("contact_force_outside_N", "contact_force_max_N"),
-        "Contact force, largest",
+        "Contact force",
         "N",
         "Load",
         "Load on the bushing while the vane moves smoothly.",
@@ -118,7 +123,7 @@ _LOADS: Final = (
     ),
     _Peak(
         ("pressure_outside_MPa", "peak_pressure_MPa"),
-        "Contact pressure, largest",
+        "Contact pressure",
         "MPa",
         "Load",
         "Highest pressure anywhere in the bushing; compare it with the hardness.",
@@ -128,27 +133,29 @@ _LOADS: Final = (
     ),
     _Peak(
         ("tilt_outside_mrad", "tilt_max_mrad"),
-        "Tilt, largest",
+        "Tilt",
         "mrad",
         "Load",
         "How far the trunnion leans in the bushing: tilt loads the edges.",
         "tilt",
         1e3,
         lambda d: norm(d, "phi_x", "phi_y"),
+        digits=3,
     ),
     _Peak(
         ("eccentricity_outside_um", "eccentricity_max_um"),
-        "Eccentricity, largest",
+        "Eccentricity",
         "µm",
         "Load",
         "How far the trunnion centre moves off the bushing axis.",
         "eccentricity",
         1e6,
         lambda d: norm(d, "e_x", "e_y"),
+        digits=3,
     ),
     _Peak(
         ("drive_moment_outside_Nm", "drive_moment_max_Nm"),
-        "Drive moment, largest",
+        "Drive moment",
         "N m",
         "Load",
         "What the actuator must deliver at the crank.",
@@ -189,6 +196,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Load",
         "Average load on the bushing: what wears it.",
         lambda d: time_mean(d, norm(d, "F_cx", "F_cy")),
+        digits=4,
     ),
     **{name: headline for load in _LOADS for name, headline in load.headlines.items()},
     "wear_depth_max_nm": Headline(

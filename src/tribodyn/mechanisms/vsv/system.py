@@ -27,6 +27,7 @@ from tribodyn.mechanisms.bushing import (
     grid_force_error,
     loading,
     of_temperature,
+    pressure_at_rest,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes
 from tribodyn.mechanisms.peaks import of_reversals, of_run
@@ -164,6 +165,7 @@ class VsvSystem:
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
         found |= loading(self.case, self.bushing, pressure, found["separation_least"])
+        found["pressure_at_rest"] = pressure_at_rest(self.bushing, rows, run.problem.data.joint.wear)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         return Part(
             coordinates=self._coordinates(run),
@@ -184,7 +186,7 @@ class VsvSystem:
                 *of_temperature(self.case),
                 *warnings(self.vsv, found, whole, clearance, t_end, run.cost),
             ],
-            notes=notes(self.vsv, found, t_end, turns, run.carried),
+            notes=notes(self.vsv, found, pressure, t_end, turns, run.carried),
             failure=self._failure(run),
         )
 

@@ -21,6 +21,7 @@ _WATCHED: Final = tuple(
     OBSERVED.index(name) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
 )
 """What keeps its peaks where there are more steps than rows."""
+_STRIDE: Final = 3
 _END_SHARE: Final = 0.02
 """Share of the vane's range by which pictures near the reversals stand off their impacts."""
 
@@ -37,7 +38,7 @@ def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:
 def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> Following | None:
     """Return where rows follow the steps: after the start and each reversal, for ``run.impact_window``.
 
-    The impacts there last milliseconds, those of ``paper`` some 25 µs. Every other step shows them; a row of
+    The impacts there last milliseconds, those of ``paper`` some 25 µs. Every third step shows them; a row of
     each would take a tenth of the time of a run. Those where ``wanted`` is set by the kernels are the peaks.
     """
     run = case.run
@@ -45,7 +46,7 @@ def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> F
         return None
     begin = np.array([0.0, *reversals(vsv, duration)])
     end = np.minimum(begin + run.impact_window, np.append(begin[1:], duration))
-    return Following(np.column_stack([begin, end]), run.impact_rows, _WATCHED, 2, wanted)
+    return Following(np.column_stack([begin, end]), run.impact_rows, _WATCHED, _STRIDE, wanted)
 
 
 def snapshots(vsv: Vsv, duration: float) -> FloatArray:
