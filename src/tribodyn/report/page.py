@@ -11,6 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from tribodyn.mechanisms.results import mechanism_of, summarise
 from tribodyn.report import assets
+from tribodyn.report.bands import bands
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.report.headlines import chosen, facts, grouped, versions
@@ -20,8 +21,8 @@ from tribodyn.views.numbers import in_words
 from tribodyn.views.playback import clock
 
 
-def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
-    """Return the page of a result as text."""
+def render(dataset: xr.Dataset, stills: Sequence[Path], folder: Path) -> str:
+    """Return the page of a result as text; what assumptions do stands in its folder."""
     summary = summarise(dataset)
     mechanism = mechanism_of(dataset)
     shown, payloads = chapters(dataset, mechanism.chapters, stills, figures_of(dataset))
@@ -36,6 +37,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path]) -> str:
         facts=facts(dataset),
         key=chosen(summary, mechanism.key_numbers),
         groups=grouped(summary),
+        bands=bands(dataset, summary, folder),
         chapters=shown,
         solver=_solver(dataset),
         versions=versions(dataset),

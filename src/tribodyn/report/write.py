@@ -40,7 +40,9 @@ def write(dataset: xr.Dataset, target: str | Path, figures: Sequence[str | Path]
     path.parent.mkdir(parents=True, exist_ok=True)
     stills = _beside(path, dataset) if figures is None else [Path(figure) for figure in figures]
     sweep = dataset.attrs.get("kind") == SWEEP
-    write_text(path, render_sweep(dataset, stills, path.parent) if sweep else render(dataset, stills))
+    write_text(
+        path, render_sweep(dataset, stills, path.parent) if sweep else render(dataset, stills, path.parent)
+    )
     return path
 
 

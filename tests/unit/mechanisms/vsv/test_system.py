@@ -65,7 +65,8 @@ def test_rows_are_uniform_and_follow_the_steps_after_each_reversal(result: xr.Da
     reversal = np.abs(times - np.pi).min()
     assert reversal < 1e-9
     after = times[(times > np.pi + 1e-9) & (times < np.pi + 0.01)]
-    assert np.diff(after).max() < 0.1e-3
+    # Uniform rows alone would be two here; every third of some 450 steps gives one.
+    assert after.size > 75
 
 
 def test_the_largest_rows_are_the_peaks(result: xr.Dataset) -> None:
