@@ -10,9 +10,10 @@ PLOTS := $(filter-out docs/plots/demo.py,$(wildcard docs/plots/*.py))
 PYTEST := $(BIN)/python -m pytest -n 2
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-long golden lint format docs bench lock clean
+.PHONY: help demo assumptions test test-long golden lint format docs bench lock clean
 
 help:
+	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make test-long   those too"
@@ -26,6 +27,12 @@ help:
 
 demo: $(VENV)/.run
 	$(BIN)/tribodyn run vsv -o $(DEMO)
+
+assumptions: demo
+	$(BIN)/tribodyn sweep $(DEMO)/case.toml --vary joint.friction_coefficient=0.05,0.1,0.2 \
+		--vary "contact.minimum_entry_velocity=0.1 mm/s,1 mm/s,5 mm/s" \
+		--vary contact.onset_separation=3.5,4,4.5 --summary-only -o $(DEMO)/assumptions
+	$(BIN)/tribodyn report $(DEMO)
 
 test: $(VENV)/.dev
 	@tools/ensure-browser

@@ -102,7 +102,7 @@ def test_samples_print_statistics(capsys: pytest.CaptureFixture[str]) -> None:
     vary = ["--vary", "joint.friction_coefficient=uniform(0.1, 0.2)", "--vary", "contact.law=ke,rsdc"]
     assert main(["sweep", "vsv", "--workers", "0", *vary, "--samples", "3"]) == 0
     out = capsys.readouterr().out
-    assert out.count("Contact force, largest N") == 2
+    assert out.count("Contact force, peak N") == 2
     assert "contact.law = ke" in out
     assert "median" in out
 

@@ -58,7 +58,7 @@ def test_every_sweep_is_drawn(name: str, lost: str) -> None:
     figure = family.draw(dataset)
     figure.savefig(io.BytesIO(), format="png", dpi=30)
     texts = " ".join(text.get_text() for text in figure.texts)
-    assert "Contact force, largest" in texts
+    assert "Contact force, peak" in texts
     assert ("without a result" in texts) == (dataset.attrs["points_failed"] > 0)
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert any("[N]" in label for label in labels)
