@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import PrivateAttr
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, file, number, quantity, switch, text
@@ -151,6 +153,8 @@ class Contact(Group):
     )
     tensile_clip: bool = switch(True, "whether the total pressure is kept from becoming tensile", ASSUMED)
 
+    _own_law: Any = PrivateAttr(None)
+
     @staticmethod
     def resolve(given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the damping factor of a law that has no restitution of its own, or that needs none."""
@@ -175,19 +179,25 @@ class Contact(Group):
 
         A law that has no restitution of its own and is given none is left undamped.
         """
-        from tribodyn.contact import LAWS, law
+        from tribodyn.contact import LAWS, made
 
-        damped = self.restitution is not None or LAWS[self.law].knows_restitution
-        return law(
-            self.law,
-            surfaces,
-            damping_factor=self.damping_factor if damped else "none",
-            restitution=self.restitution,
-            loss_coefficient=self.loss_coefficient,
-            design_pressure=self.design_pressure,
-            separation_from=self.separation_from,
-            penalty_stiffness=self.penalty_stiffness,
-        )
+        kind = self._own_law or LAWS[self.law]
+        damped = self.restitution is not None or kind.knows_restitution
+        options = {
+            "damping_factor": self.damping_factor if damped else "none",
+            "restitution": self.restitution,
+            "loss_coefficient": self.loss_coefficient,
+            "design_pressure": self.design_pressure,
+            "separation_from": self.separation_from,
+            "penalty_stiffness": self.penalty_stiffness,
+        }
+        return made(kind, surfaces, options)
+
+    def with_own(self, kind: type[ContactLaw]) -> Contact:
+        """Return a copy with a law that no list holds, under its name."""
+        copied = self.model_copy(update={"law": kind.name})
+        copied._own_law = kind
+        return copied
 
     @property
     def least_entry_velocity(self) -> float:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from importlib import import_module
+from importlib.metadata import entry_points
 from typing import Any, Protocol, cast
 
 from tribodyn.contact.asperities import SEPARATIONS
@@ -11,6 +14,7 @@ from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.liner import Liner, lined
+from tribodyn.contact.own import OwnLaw, check_law, law_of_user
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.contact.table import tabulate
@@ -33,8 +37,28 @@ def _member(line: str) -> type[ContactLaw]:
     return cast("type[ContactLaw]", getattr(import_module(f"{__name__}.{module}"), name))
 
 
-LAWS: dict[str, type[ContactLaw]] = {kind.name: kind for kind in map(_member, _MEMBERS)}
-"""All contact laws by name."""
+def _of_packages() -> Iterator[type[ContactLaw]]:
+    """Yield the laws that installed packages have under the entry points ``tribodyn.laws``.
+
+    One that cannot be imported, is no law or takes the name of another is left out with a warning: it must
+    not keep a user from the others.
+    """
+    taken = {kind.name for kind in map(_member, _MEMBERS)}
+    for entry in entry_points(group="tribodyn.laws"):
+        try:
+            kind = entry.load()
+            check_law(kind)
+            if kind.name in taken:
+                raise ValueError(f"there is a law {kind.name!r} already")
+        except Exception as error:
+            warnings.warn(f"the contact law {entry.value} was left out: {error}", stacklevel=2)
+            continue
+        taken.add(kind.name)
+        yield kind
+
+
+LAWS: dict[str, type[ContactLaw]] = {kind.name: kind for kind in (*map(_member, _MEMBERS), *_of_packages())}
+"""All contact laws by name: our own, and those of installed packages."""
 
 
 class HasSurfacePair(Protocol):
@@ -54,11 +78,16 @@ def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> Co
     if name not in LAWS:
         raise InputError(f"no contact law {name!r}; there is {', '.join(LAWS)}", key="contact.law")
     pair = surfaces if isinstance(surfaces, SurfacePair) else surfaces.surface_pair
-    own = _options_of(LAWS[name])
     unknown = options.keys() - set().union(*map(_options_of, LAWS.values()))
     if unknown:
         raise InputError(f"no contact law has the option {', '.join(sorted(unknown))}", key="contact")
-    return LAWS[name](pair, **{key: value for key, value in options.items() if key in own})
+    return made(LAWS[name], pair, options)
+
+
+def made(kind: type[ContactLaw], pair: SurfacePair, options: Mapping[str, Any]) -> ContactLaw:
+    """Return a law of a kind for a pair of surfaces, with those of the options that it has."""
+    own = _options_of(kind)
+    return kind(pair, **{key: value for key, value in options.items() if key in own})
 
 
 def _options_of(kind: type[ContactLaw]) -> set[str]:
@@ -73,8 +102,11 @@ __all__ = [
     "ContactLaw",
     "KogutEtsion",
     "Liner",
+    "OwnLaw",
     "SurfacePair",
     "law",
+    "law_of_user",
     "lined",
+    "made",
     "tabulate",
 ]

@@ -7,6 +7,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from tribodyn.cases.groups import Contact
+from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.base import Part, SystemCase
@@ -27,6 +29,7 @@ def simulate(
     progress: Callable[[float], None] | None = None,
     stop: Callable[[], bool] | None = None,
     checkpoint: str | PathLike[str] | None = None,
+    law: OwnLaw | None = None,
 ) -> xr.Dataset:
     """Simulate a case.
 
@@ -43,6 +46,10 @@ def simulate(
     checkpoint
         File in which a wear campaign is kept after every jump, and from which it goes on if the file is
         there. It stays when the campaign is over. Other runs do not use it.
+    law
+        A contact law instead of the one that the case names: a subclass of
+        :class:`tribodyn.contact.ContactLaw`, or a function that returns the pressure [Pa] at an array of
+        separations h* = h/σ [1]. Damping follows from the case.
 
     Returns
     -------
@@ -57,8 +64,18 @@ def simulate(
     Stopped
         If ``stop`` was true before anything was computed.
     """
+    # Equations do not depend on the law, and who compiles them could not import it.
     prepare(case, stop)
-    return _simulated(case, progress, stop, None if checkpoint is None else Path(checkpoint))
+    chosen = case if law is None else _with_law(case, law)
+    return _simulated(chosen, progress, stop, None if checkpoint is None else Path(checkpoint))
+
+
+def _with_law(case: Case, law: OwnLaw) -> Case:
+    """Return a case with a law that no list holds."""
+    contact = getattr(case, "contact", None)
+    if not isinstance(contact, Contact):
+        raise InputError(f'a case of the kind "{case.kind()}" has no table [contact]', key="law")
+    return case.model_copy(update={"contact": contact.with_own(law_of_user(law))})
 
 
 def _simulated(

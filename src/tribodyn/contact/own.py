@@ -1,0 +1,76 @@
+"""Laws from outside of this package: a class, or a function of the separation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeAlias
+
+import numpy as np
+
+from tribodyn.contact.base import ContactLaw
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+
+OwnLaw: TypeAlias = type[ContactLaw] | Callable[[FloatArray], Any]
+"""What a user may give as a law: a class, or a function that returns the pressure [Pa] at an array of h*."""
+
+_FACTS = ("name", "title", "source", "validity")
+
+
+def law_of_user(given: OwnLaw) -> type[ContactLaw]:
+    """Return the class of a law that a user gives.
+
+    Parameters
+    ----------
+    given
+        A subclass of :class:`ContactLaw`, or a function of h* = h/σ that returns the pressure in Pa, which
+        the law is named after.
+
+    Raises
+    ------
+    InputError
+        It is neither.
+    """
+    if isinstance(given, type):
+        check_law(given)
+        return given
+    if not callable(given):
+        raise InputError(
+            f"given {type(given).__name__}; allowed: a class of a contact law, or a function of h/sigma",
+            key="law",
+        )
+    return _of_function(given)
+
+
+def check_law(kind: object) -> None:
+    """Refuse what is no class of a contact law, or does not say what it is."""
+    if not (isinstance(kind, type) and issubclass(kind, ContactLaw)):
+        raise InputError("a contact law is a subclass of tribodyn.contact.ContactLaw", key="law")
+    missing = [fact for fact in _FACTS if not isinstance(getattr(kind, fact, None), str)]
+    if missing:
+        raise InputError(f"the contact law {kind.__name__} lacks {', '.join(missing)}", key="law")
+
+
+def _of_function(pressure: Callable[[FloatArray], Any]) -> type[ContactLaw]:
+    called = getattr(pressure, "__name__", "own").strip("<>")
+
+    @dataclass(frozen=True)
+    class Own(ContactLaw):
+        name: ClassVar[str] = called
+        title: ClassVar[str] = f"function {called}"
+        source: ClassVar[str] = "a function of one's own"
+        validity: ClassVar[str] = "known to whoever wrote it"
+
+        def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
+            h_star = np.asarray(h_star, dtype=np.float64)
+            found = np.asarray(pressure(h_star), dtype=np.float64)
+            if found.shape != h_star.shape or not np.isfinite(found).all() or (found < 0.0).any():
+                raise InputError(
+                    f"{called} must return a finite pressure >= 0 for each separation it is given, here from "
+                    f"{h_star.min():g} to {h_star.max():g}",
+                    key="law",
+                )
+            return found
+
+    return Own
