@@ -63,7 +63,7 @@ def test_depth_is_given_in_a_readable_unit(depth, unit):
 
 
 def test_centres_of_a_tilted_trunnion():
-    # Section 1 of the model: the axis at height z lies at (e_x - z tan phi_y, e_y - z tan phi_x).
+    # The axis at height z lies at (e_x - z tan phi_y, e_y - z tan phi_x).
     result = build(
         coordinates={"time": [0.0]},
         columns={"e_x": [1e-6], "e_y": [2e-6], "phi_x": [1e-3], "phi_y": [-5e-4]},

@@ -13,12 +13,12 @@ from tribodyn.papers.cheng_2022.runs import Runs
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """One figure of the paper, made from our own runs.
+    """One figure of the paper, made from our own runs, or one that it should have.
 
     Attributes
     ----------
-    number
-        Its number in the paper.
+    name
+        Name on the command line and of the files: ``fig12``, or what it shows where the paper has none.
     title
         What it shows.
     data
@@ -27,12 +27,7 @@ class PaperFigure:
         Draws it from its data, with the panels of the original.
     """
 
-    number: int
+    name: str
     title: str
     data: Callable[[Runs, str], xr.Dataset]
     draw: Callable[[xr.Dataset], Figure]
-
-    @property
-    def name(self) -> str:
-        """Name on the command line and of the files, such as ``fig12``."""
-        return f"fig{self.number}"

@@ -7,13 +7,12 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import DASHED, GREY, SMALL, Curves, caption, finish, lines, sheet
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
-from tribodyn.papers.cheng_2022.runs import SETTLING, Runs
+from tribodyn.papers.cheng_2022.runs import Runs, is_smooth
 from tribodyn.views.series import series
 
 DEGREES: Final = float(np.rad2deg(1.0))
@@ -48,12 +47,6 @@ def _ideal(dataset: xr.Dataset, name: str) -> FloatArray:
     return series(dataset.isel(clearance=0), f"{name}_ideal", DEGREES)
 
 
-def _quiet(dataset: xr.Dataset) -> NDArray[np.bool_]:
-    """Return which rows are clear of impacts, shape (n_t,)."""
-    phase = np.mod(dataset["time"].values, 0.5 * float(dataset.attrs["cycle_period"]))
-    return np.asarray(phase > SETTLING)
-
-
 def _legend(figure: Figure, curves: Curves) -> None:
     axes = figure.axes[0]
     handles = [
@@ -70,7 +63,8 @@ def draw_motion(dataset: xr.Dataset) -> Figure:
     """
     figure = sheet(dataset, "Fig. 16  Motion of the vane with different clearances", 5.4)
     panels = figure.subplots(2, 2, sharex=True, height_ratios=(1.0, 1.3))
-    time, quiet = series(dataset, "time"), _quiet(dataset)
+    time = series(dataset, "time")
+    quiet = is_smooth(dataset, time)
     for column, (name, unit, what) in enumerate(
         (("theta_v", "°", "rotation angle"), ("omega_v", "°/s", "rotation velocity"))
     ):
@@ -93,7 +87,8 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
     """Draw Figure 17: contact, damping and rigid forces along X and Y, the reversal enlarged."""
     figure = sheet(dataset, "Fig. 17  Forces with different clearances", 8.6)
     panels = figure.subplots(3, 2, sharex=True)
-    time, quiet = series(dataset, "time"), _quiet(dataset)
+    time = series(dataset, "time")
+    quiet = is_smooth(dataset, time)
     turn = 0.5 * float(dataset.attrs["cycle_period"])
     letters = iter("abcdef")
     for row, (part, what) in zip(panels, (("c", "contact"), ("d", "damping"), ("k", "rigid")), strict=True):
@@ -101,7 +96,7 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
             curves = by_clearance(dataset, f"F_{part}{axis}")
             lines(axes, time, curves, width=0.9)
             limits(axes, curves, quiet, above=1.1)
-            enlarge(axes, time, curves, (turn - 0.001, turn + 0.012), (0.6, 0.64, 0.39, 0.34))
+            enlarge(axes, time, curves, (turn - 0.001, turn + 0.012), (0.65, 0.64, 0.34, 0.34))
             caption(axes, f"({next(letters)}) {what}, {axis.upper()}")
             finish(axes, y_label="force [N]")
     for axes in panels[-1]:
@@ -130,6 +125,6 @@ def draw_attitude(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-MOTION: Final = PaperFigure(16, "motion of the vane with different clearances", motion_data, draw_motion)
-FORCES: Final = PaperFigure(17, "forces with different clearances", force_data, draw_forces)
-ATTITUDE: Final = PaperFigure(18, "attitude with different clearances", attitude_data, draw_attitude)
+MOTION: Final = PaperFigure("fig16", "motion of the vane with different clearances", motion_data, draw_motion)
+FORCES: Final = PaperFigure("fig17", "forces with different clearances", force_data, draw_forces)
+ATTITUDE: Final = PaperFigure("fig18", "attitude with different clearances", attitude_data, draw_attitude)

@@ -55,5 +55,5 @@ def draw_vane(dataset: xr.Dataset) -> Figure:
     )
 
 
-CRANK: Final = PaperFigure(10, "driving angle and speed of the crank", crank_data, draw_crank)
-VANE: Final = PaperFigure(11, "rotation angle and speed of the vane", vane_data, draw_vane)
+CRANK: Final = PaperFigure("fig10", "driving angle and speed of the crank", crank_data, draw_crank)
+VANE: Final = PaperFigure("fig11", "rotation angle and speed of the vane", vane_data, draw_vane)

@@ -79,5 +79,5 @@ def draw_oil(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-DRY: Final = PaperFigure(8, "dry journal: deviations and contact forces", dry_data, draw_dry)
-OIL: Final = PaperFigure(9, "oiled journal: deviations, film and contact forces", oil_data, draw_oil)
+DRY: Final = PaperFigure("fig8", "dry journal: deviations and contact forces", dry_data, draw_dry)
+OIL: Final = PaperFigure("fig9", "oiled journal: deviations, film and contact forces", oil_data, draw_oil)

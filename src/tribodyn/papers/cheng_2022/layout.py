@@ -69,7 +69,7 @@ def enlarge(axes: Axes, x: FloatArray, curves: Curves, span: tuple[float, float]
     """
     left, bottom, width, height = place
     # A sheet below the inset keeps the curves from running through its labels.
-    box = ((left - 0.1, bottom - 0.1), width + 0.11, height + 0.12)
+    box = ((left - 0.14, bottom - 0.1), width + 0.15, height + 0.12)
     axes.add_patch(Rectangle(*box, transform=axes.transAxes, facecolor="white", zorder=4))
     inset = axes.inset_axes((left, bottom, width, height), zorder=5)
     inside = (x >= span[0]) & (x <= span[1])

@@ -4,23 +4,74 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from tribodyn.figures.pressure import FAMILY
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.pressure import draw as draw_pictures
+from tribodyn.joints.bushing import new_memory, pose_at
+from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field
+from tribodyn.mechanisms.vsv.equilibrium import equilibrium
+from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.mechanisms.vsv.places import case_of
+from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
+from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
+from tribodyn.mechanisms.vsv.system import vsv_of
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import keep
 from tribodyn.papers.cheng_2022.runs import Runs
 
+ANGLES: Final = (60.0, 90.0, 120.0)
+"""Vane angles of the pictures [deg]; the smallest that the mechanism reaches, 61.0°, stands for the first."""
+
+
+def instants(vsv: Vsv) -> tuple[FloatArray, FloatArray]:
+    """Return times [s] and vane angles [rad] of the six pictures, without clearance: there and back."""
+    drive = vsv.drive
+    crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
+    vane = ideal_vane_angle(vsv.lengths, crank)
+    angles = np.clip(np.radians(ANGLES), vane[0], vane[-1])
+    swung = (np.interp(angles, vane, crank) - drive.start_angle) / (0.5 * drive.swing)
+    there = np.arccos(1.0 - swung) / drive.angular_frequency
+    return np.append(there, drive.period - there[::-1]), np.append(angles, angles[::-1])
+
+
+def balanced(vsv: Vsv, times: FloatArray) -> FloatArray:
+    """Return the contact pressure [Pa] in kinetostatic equilibrium, shape (n, n_theta, n_z).
+
+    There the trunnion lies in smooth motion once nothing rings any more; at a reversal the direction is
+    that of the stroke that the time belongs to, the first half of ``times`` forward.
+    """
+    data = vsv_data(vsv)
+    memory, joint = vsv_memory(data), new_memory(data.joint)
+    pictures = np.empty((times.size, *vsv.joint.field_shape))
+    for k, (time, picture) in enumerate(zip(times.tolist(), pictures, strict=True)):
+        attitude = equilibrium(data, memory, time, direction=1.0 if 2 * k < times.size else -1.0)
+        pressure_field(data.joint, joint, pose_at(np.append(attitude, np.zeros(4))), picture)
+    return pictures.transpose(0, 2, 1)
+
 
 def data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return the pressure [Pa] at the six positions."""
-    return keep(runs.vsv(formulation, 20e-6), "pressure")
+    run = runs.vsv(formulation, 20e-6)
+    case = case_of(run)
+    assert case is not None
+    times, angles = instants(vsv_of(case))
+    pictures = keep(run, "pressure").copy()
+    pictures["pressure"].values[:] = balanced(vsv_of(case), times)
+    found = {"time": times, "theta_v": angles, "direction": np.repeat([1.0, -1.0], len(ANGLES))}
+    return pictures.assign_coords(
+        {
+            f"snapshot_{name}": ("snapshot", values, pictures[f"snapshot_{name}"].attrs)
+            for name, values in found.items()
+        }
+    )
 
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw the six maps on the unrolled bushing."""
-    return FAMILY.draw(dataset)
+    return draw_pictures(dataset, "Fig. 15  Contact pressure at six positions of the vane")
 
 
-PRESSURE: Final = PaperFigure(15, "contact pressure at six positions of the vane", data, draw)
+PRESSURE: Final = PaperFigure("fig15", "contact pressure at six positions of the vane", data, draw)

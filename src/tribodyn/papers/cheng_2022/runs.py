@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
 
@@ -18,10 +19,6 @@ CLEARANCES: Final = (20e-6, 25e-6, 30e-6, 35e-6, 40e-6)
 LAWS: Final = ("rsdc", "ke")
 """Contact laws that section 4 compares."""
 FORMULATIONS: Final = ("paper", "exact")
-FRICTION: Final = (0.05, 0.1, 0.2)
-"""Coefficients of friction that are tried, because the paper does not give its own."""
-SETTLING: Final = 0.3
-"""What follows a reversal within this time [s] is impact; the rest is smooth motion."""
 
 
 def _silent(text: str) -> None:
@@ -60,7 +57,9 @@ class Runs:
     def over_laws(self, name: str) -> xr.Dataset:
         """Return the runs of a journal with both laws of section 4 along a dimension ``law``."""
         index = xr.Variable("law", np.array(LAWS), {"units": "1", "long_name": "contact law"})
-        return joined([self.run(name, {"contact.law": law}) for law in LAWS], index)
+        whole = joined([self.run(name, {"contact.law": law}) for law in LAWS], index)
+        whole.attrs.pop("contact_law", None)
+        return whole
 
     def over_clearance(self, formulation: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return the runs with all clearances of the paper along a dimension ``clearance`` [m]."""
@@ -80,7 +79,13 @@ def over_clearances(runs: list[xr.Dataset]) -> xr.Dataset:
 
 
 def joined(runs: list[xr.Dataset], index: xr.Variable) -> xr.Dataset:
-    """Return results with the same times side by side along the dimension of ``index``."""
+    """Return results side by side along the dimension of ``index``, at the times of all of them.
+
+    In the impacts the rows of each run follow its own steps; between two rows values are on a straight line.
+    """
+    if "time" in runs[0].dims:
+        times = np.unique(np.concatenate([run["time"].values for run in runs]))
+        runs = [at_times(run, times) for run in runs]
     whole = xr.concat(
         runs,
         dim=index,
@@ -93,10 +98,29 @@ def joined(runs: list[xr.Dataset], index: xr.Variable) -> xr.Dataset:
     return whole.assign_coords({str(index.dims[0]): index})
 
 
+def at_times(run: xr.Dataset, times: FloatArray) -> xr.Dataset:
+    """Return a result at other times [s], values on straight lines between its rows."""
+    old = run["time"].values
+    if np.array_equal(old, times):
+        return run
+    over_time = {
+        name: (("time",), np.interp(times, old, values.values), values.attrs)
+        for name, values in run.data_vars.items()
+        if values.dims == ("time",)
+    }
+    rest = run.drop_vars([*over_time, "time"])
+    return rest.assign(over_time).assign_coords(time=("time", times, run["time"].attrs))
+
+
+def is_smooth(dataset: xr.Dataset, time: FloatArray) -> NDArray[np.bool_]:
+    """Return which times [s] are outside the impacts that follow the start and each reversal."""
+    half, impact = 0.5 * float(dataset.attrs["cycle_period"]), float(dataset.attrs["impact_time"])
+    return np.asarray(np.mod(time, half) > impact)
+
+
 def smooth(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the rows outside the time :data:`SETTLING` after the start and after each reversal."""
-    half = 0.5 * float(dataset.attrs["cycle_period"])
-    return dataset.sel(time=np.mod(dataset["time"].values, half) > SETTLING)
+    """Return the rows in smooth motion, see :func:`is_smooth`."""
+    return dataset.sel(time=is_smooth(dataset, dataset["time"].values))
 
 
 def forward(dataset: xr.Dataset) -> NDArray[np.bool_]:

@@ -28,7 +28,7 @@ from tribodyn.figures.style import (
 )
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import enlarge, keep, limits
-from tribodyn.papers.cheng_2022.runs import SETTLING, Runs
+from tribodyn.papers.cheng_2022.runs import Runs, is_smooth
 from tribodyn.views.series import series
 
 CLEARANCE: Final = 20e-6
@@ -59,7 +59,7 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
     figure = sheet(dataset, "Fig. 12  Contact, rigid and damping forces on the trunnion", 5.8)
     time = series(dataset, "time")
     turn = 0.5 * float(dataset.attrs["cycle_period"])
-    quiet = np.mod(time, turn) > SETTLING
+    quiet = is_smooth(dataset, time)
     for axes, axis, letter in zip(figure.subplots(2, 1, sharex=True), "xy", "ab", strict=True):
         curves: Curves = [
             (series(dataset, f"F_c{axis}"), "contact", "#b4b4b4", SOLID),
@@ -98,7 +98,7 @@ def centre_velocity(dataset: xr.Dataset, height: float) -> tuple[FloatArray, Flo
 
 def draw_path(dataset: xr.Dataset) -> Figure:
     """Draw Figure 13: the paths of the three centres in the clearance circle."""
-    figure = sheet(dataset, "Fig. 13  Trajectory of the trunnion", 4.6, width=5.2)
+    figure = sheet(dataset, "Fig. 13  Trajectory of the trunnion", 4.6)
     axes = figure.subplots()
     clearance = float(dataset.attrs["clearance"]) * 1e6
     axes.add_patch(
@@ -135,6 +135,6 @@ def draw_velocities(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-FORCES: Final = PaperFigure(12, "contact, rigid and damping forces", force_data, draw_forces)
-PATH: Final = PaperFigure(13, "trajectory of the trunnion", attitude_data, draw_path)
-VELOCITIES: Final = PaperFigure(14, "velocity of the three centres", attitude_data, draw_velocities)
+FORCES: Final = PaperFigure("fig12", "contact, rigid and damping forces", force_data, draw_forces)
+PATH: Final = PaperFigure("fig13", "trajectory of the trunnion", attitude_data, draw_path)
+VELOCITIES: Final = PaperFigure("fig14", "velocity of the three centres", attitude_data, draw_velocities)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
@@ -24,13 +25,15 @@ _PICOMETRE: Final = 1e-12
 
 
 def worn(
-    runs: Runs, formulation: str, clearance: float, cycles: int, friction: float | None = None
+    runs: Runs,
+    formulation: str,
+    clearance: float,
+    cycles: int,
+    changes: Mapping[str, object] | None = None,
 ) -> xr.Dataset:
-    """Return a wear campaign in the paper's convention."""
-    changes: dict[str, object] = {"wear.cycles": cycles, "wear.paper_hardness_divisor": DIVISOR}
-    if friction is not None:
-        changes["joint.friction_coefficient"] = friction
-    return runs.vsv(formulation, clearance, changes)
+    """Return a wear campaign in the paper's convention, with some keys of the case changed."""
+    campaign = {"wear.cycles": cycles, "wear.paper_hardness_divisor": DIVISOR}
+    return runs.vsv(formulation, clearance, {**campaign, **(changes or {})})
 
 
 def data(runs: Runs, formulation: str) -> xr.Dataset:
@@ -77,4 +80,4 @@ def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) ->
     finish(axes, y_label="depth [pm]")
 
 
-WEAR: Final = PaperFigure(19, "wear depth with different clearances", data, draw)
+WEAR: Final = PaperFigure("fig19", "wear depth with different clearances", data, draw)

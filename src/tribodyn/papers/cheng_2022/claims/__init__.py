@@ -4,11 +4,29 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.papers.cheng_2022.claims import clearance, journal, trunnion, wear
-from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, verdict
+from tribodyn.papers.cheng_2022.claims import (
+    attitude,
+    clearance,
+    errors,
+    forces,
+    journal,
+    pressure,
+    undamped,
+    wear,
+)
+from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, as_text, judge
 
-CLAIMS: Final[tuple[Claim, ...]] = (*journal.CLAIMS, *trunnion.CLAIMS, *clearance.CLAIMS, *wear.CLAIMS)
-"""In the order of the paper."""
+CLAIMS: Final[tuple[Claim, ...]] = (
+    *undamped.CLAIMS,
+    *journal.CLAIMS,
+    *forces.CLAIMS,
+    *attitude.CLAIMS,
+    *pressure.CLAIMS,
+    *errors.CLAIMS,
+    *clearance.CLAIMS,
+    *wear.CLAIMS,
+)
+"""The conclusion that matters most, then in the order of the paper."""
 
-__all__ = ["CLAIMS", "Claim", "Finding", "Row", "as_json", "as_markdown", "as_text", "judge", "verdict"]
+__all__ = ["CLAIMS", "Claim", "Finding", "Row", "Trial", "as_json", "as_markdown", "as_text", "judge"]

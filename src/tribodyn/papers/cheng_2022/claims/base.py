@@ -1,24 +1,76 @@
-"""What a claim is, what we find, and how the two are judged."""
+"""What a claim is, and what it is measured on."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Final
 
-from tribodyn.papers.cheng_2022.runs import Runs
+import numpy as np
+import xarray as xr
 
-Verdict: TypeAlias = Literal["reproduced", "differs", "contradicted"]
+from tribodyn.core.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims.bounds import Bound
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs
 
-CLOSE: Final = 1.25
-"""A number is reproduced when ours is within this factor of the paper's, which are read off figures."""
-NEAR: Final = 2.0
-"""It differs within this factor, and contradicts beyond."""
-MOSTLY: Final = 0.95
-"""A statement about a motion is reproduced when it holds for this share of the smooth motion."""
-SELDOM: Final = 0.5
-"""It is contradicted when it holds for less than this share."""
+NARROW: Final = CLEARANCES[0]
+"""Clearance of section 5.2 [m]."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What a claim is measured on: runs of one formulation, with some assumptions changed.
+
+    Attributes
+    ----------
+    runs
+        The runs, each computed once.
+    formulation
+        ``paper`` or ``exact``.
+    changes
+        Keys of the case that are changed, with their values.
+    """
+
+    runs: Runs
+    formulation: str
+    changes: Mapping[str, object] = field(default_factory=dict)
+
+    def vsv(self, clearance: float = NARROW, more: Mapping[str, object] | None = None) -> xr.Dataset:
+        """Return two cycles of the mechanism, with ``more`` changes where given."""
+        return self.runs.vsv(self.formulation, clearance, {**self.changes, **(more or {})})
+
+    def every_clearance(self, more: Mapping[str, object] | None = None) -> list[xr.Dataset]:
+        """Return the mechanism with each clearance of the paper."""
+        return [self.vsv(clearance, more) for clearance in CLEARANCES]
+
+
+@dataclass(frozen=True)
+class Assumption:
+    """Something the paper does not give, and what is tried in its place.
+
+    Attributes
+    ----------
+    symbol
+        How the table calls it.
+    key
+        Its key in the case.
+    values
+        Values of the key that are tried.
+    """
+
+    symbol: str
+    key: str
+    values: tuple[object, ...]
+
+    def __str__(self) -> str:
+        """Return the symbol with all its values."""
+        return f"{self.symbol} = {', '.join(str(value) for value in self.values)}"
+
+
+FRICTION: Final = Assumption("μ_f", "joint.friction_coefficient", (0.05, 0.1, 0.2))
+ENTRY_VELOCITY: Final = Assumption(
+    "v_min", "contact.minimum_entry_velocity", ("0.1 mm/s", "1 mm/s", "5 mm/s")
+)
 
 
 @dataclass(frozen=True)
@@ -29,15 +81,12 @@ class Finding:
     ----------
     text
         What was measured, with its unit.
-    score
-        How well the claim holds: 1 fully, 0 not at all.
     value
-        The number itself, where the claim is one; NaN otherwise.
+        The number that is judged, in the unit of the bound.
     """
 
     text: str
-    score: float
-    value: float = math.nan
+    value: float
 
 
 @dataclass(frozen=True)
@@ -52,51 +101,36 @@ class Claim:
         Section or figure of the paper.
     says
         What the paper says.
+    bound
+        How the number is judged.
     measure
-        Returns the finding of a formulation.
+        Returns the finding of a trial; none where the claim is not tested.
     reason
         Why the finding is what it is, where it is not simply the paper's.
-    depends_on_friction
-        Whether the finding is measured with other coefficients of friction too: the paper does not give one.
+    condition
+        What must be assumed for the claim to hold at all.
+    varies
+        Assumptions that the finding is measured with, too.
+    mechanism
+        Whether it is about the mechanism, so that the two formulations can differ.
     """
 
     name: str
     where: str
     says: str
-    measure: Callable[[Runs, str, float | None], Finding]
+    bound: Bound
+    measure: Callable[[Trial], Finding] | None = None
     reason: str = ""
-    depends_on_friction: bool = False
+    condition: str = ""
+    varies: tuple[Assumption, ...] = ()
+    mechanism: bool = True
 
 
-def verdict(finding: Finding) -> Verdict:
-    """Return what a finding makes of its claim."""
-    if finding.score >= MOSTLY:
-        return "reproduced"
-    return "differs" if finding.score >= SELDOM else "contradicted"
+def listed(values: FloatArray, unit: str) -> str:
+    """Return numbers and their unit, with three digits each, or all before the point."""
+    return f"{', '.join(f'{value:.0f}' if abs(value) >= 1e3 else f'{value:.3g}' for value in values)} {unit}"
 
 
-def number(value: float, paper: float, unit: str) -> Finding:
-    """Return the finding of a claimed number.
-
-    The score is 1 within the factor :data:`CLOSE`, and falls to :data:`SELDOM` at the factor :data:`NEAR`.
-    """
-    if not (value > 0.0 and math.isfinite(value)):
-        return Finding(f"{value:.3g} {unit}", 0.0, value)
-    off = abs(math.log(value / paper))
-    if off <= math.log(CLOSE):
-        score = 1.0
-    elif off <= math.log(NEAR):
-        score = 0.5 * (MOSTLY + SELDOM)
-    else:
-        score = 0.0
-    return Finding(f"{value:.3g} {unit}", score, value)
-
-
-def share(value: float, what: str) -> Finding:
-    """Return the finding of a statement that holds for a share of the motion."""
-    return Finding(f"{what} in {100.0 * value:.3g} % of the smooth motion", value, value)
-
-
-def truth(holds: bool, text: str, *, partly: bool = False) -> Finding:
-    """Return the finding of a statement that holds, holds partly, or does not."""
-    return Finding(text, 1.0 if holds else (0.5 * (MOSTLY + SELDOM) if partly else 0.0))
+def least_growth(values: FloatArray) -> float:
+    """Return the smallest growth from one number to the next [%]."""
+    return float(100.0 * np.min(np.diff(values) / np.abs(values[:-1])))

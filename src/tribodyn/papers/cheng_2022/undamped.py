@@ -1,0 +1,154 @@
+"""The mechanism without damping: the paper's first conclusion, in both formulations, with both frictions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import product
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.style import (
+    BLUE,
+    DASHED,
+    DOTTED,
+    GREEN,
+    SMALL,
+    SOLID,
+    VERMILION,
+    caption,
+    finish,
+    sheet,
+)
+from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.runs import FORMULATIONS, Runs
+
+FRICTIONS: Final = ("moment", "traction")
+"""Models of friction: the paper's, and the one of ``exact``."""
+TOLERANCES: Final = (1e-3, 1e-4, 1e-5)
+"""Relative tolerances; the absolute ones shrink alike."""
+_ATOL: Final = {
+    "position": (2e-10, "m"),
+    "tilt": (2e-8, "rad"),
+    "velocity": (2e-6, "m/s"),
+    "tilt_rate": (2e-4, "rad/s"),
+}
+"""Absolute tolerances at the loosest relative one."""
+_SHOWN: Final = 0.3
+"""How long after the first reversal a run goes on [s]."""
+_ROWS: Final = 20_000
+"""Rows kept of that time: every step, unless a run takes more."""
+_BINS: Final = np.geomspace(1e-4, _SHOWN, 90)
+"""Times after the reversal between which the largest force is drawn [s]."""
+_LOOKS: Final = ((GREEN, SOLID), (BLUE, DASHED), (VERMILION, DOTTED))
+
+
+def undamped(
+    runs: Runs, formulation: str, friction: str, rtol: float, more: Mapping[str, object] | None = None
+) -> xr.Dataset:
+    """Return the mechanism with the law of Kogut and Etsion alone, to 0.3 s after the first reversal.
+
+    Parameters
+    ----------
+    runs
+        The runs.
+    formulation, friction
+        ``paper`` or ``exact``, ``moment`` or ``traction``.
+    rtol
+        Relative tolerance.
+    more
+        Other keys of the table ``run``; by default every run starts in equilibrium.
+    """
+    scale = rtol / TOLERANCES[0]
+    settings = {
+        "start": "equilibrium",
+        "duration": f"{math.pi + _SHOWN} s",
+        "impact_window": f"{_SHOWN} s",
+        "impact_rows": _ROWS,
+        **(more or {}),
+    }
+    changes: dict[str, object] = {
+        "mechanism.formulation": formulation,
+        "contact.law": "ke",
+        "joint.friction": friction,
+        "solver.rtol": rtol,
+        **{f"solver.atol.{name}": f"{scale * value:.6g} {unit}" for name, (value, unit) in _ATOL.items()},
+        **{f"run.{name}": value for name, value in settings.items()},
+    }
+    return runs.run("vsv", changes)
+
+
+def data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return the contact force [N] after the first reversal of all runs, whatever the formulation."""
+    combinations = list(product(FORMULATIONS, FRICTIONS, TOLERANCES))
+    results = [undamped(runs, *combination) for combination in combinations]
+    parts = [one.sel(time=one["time"].values >= math.pi) for one in results]
+    longest = max(part.sizes["time"] for part in parts)
+    shape = (len(FORMULATIONS), len(FRICTIONS), len(TOLERANCES), longest)
+    time, force = np.full((2, len(parts), longest), np.nan)
+    for k, part in enumerate(parts):
+        time[k, : part.sizes["time"]] = part["time"].values - math.pi
+        force[k, : part.sizes["time"]] = np.hypot(part["F_cx"].values, part["F_cy"].values)
+    axes = ("formulation", "friction", "rtol", "row")
+    return xr.Dataset(
+        {
+            "time": (axes, time.reshape(shape), {"units": "s", "long_name": "time after the first reversal"}),
+            "force": (axes, force.reshape(shape), {"units": "N", "long_name": "contact force"}),
+            "ended": (
+                axes[:3],
+                np.array([bool(one.attrs["failure"]) for one in results]).reshape(shape[:3]),
+                {"units": "1", "long_name": "whether the run ended where the contact law ends"},
+            ),
+        },
+        coords={"formulation": list(FORMULATIONS), "friction": list(FRICTIONS), "rtol": list(TOLERANCES)},
+        attrs={name: results[0].attrs[name] for name in ("title", "clearance", "contact_law")},
+    )
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw how large the contact force is after the reversal: a panel a combination, a curve a tolerance."""
+    figure = sheet(dataset, "The dry mechanism without damping, after its first reversal", 5.0)
+    panels = figure.subplots(2, 2, sharex=True, sharey=True)
+    for axes, (formulation, friction) in zip(panels.flat, product(FORMULATIONS, FRICTIONS), strict=True):
+        _panel(axes, dataset.sel(formulation=formulation, friction=friction))
+        caption(axes, f"formulation {formulation}, friction as a {friction}")
+    for axes in panels[-1]:
+        axes.set_xlabel("time after the reversal [ms]", size=SMALL)
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    return figure
+
+
+def envelope(time: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the largest force between the times :data:`_BINS`, where there are rows, and the middle time."""
+    bins = np.digitize(time, _BINS)
+    held = [k for k in range(1, _BINS.size) if np.isfinite(force[bins == k]).any()]
+    middle = np.sqrt(_BINS[:-1] * _BINS[1:])
+    return middle[np.array(held) - 1], np.array([np.nanmax(force[bins == k]) for k in held])
+
+
+def _panel(axes: Axes, runs: xr.Dataset) -> None:
+    """Draw the runs of one combination; a cross marks where one left the range of the contact law."""
+    for rtol, (colour, dash) in zip(runs["rtol"].values, _LOOKS, strict=True):
+        one = runs.sel(rtol=rtol)
+        time, force = envelope(one["time"].values, one["force"].values)
+        axes.loglog(
+            time * 1e3,
+            force,
+            color=colour,
+            linestyle=dash,
+            linewidth=0.8,
+            label=f"relative tolerance {rtol:.0e}",
+        )
+        if bool(one["ended"]):
+            axes.plot(time[-1] * 1e3, force[-1], "x", color=colour, markersize=6)
+    axes.set_ylim(1.0, 2e6)
+    finish(axes, y_label="largest force [N]")
+
+
+UNDAMPED: Final = PaperFigure("undamped", "the mechanism without damping", data, draw)

@@ -1,0 +1,45 @@
+"""The mechanism without damping: the paper's first conclusion, and what it hangs on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tribodyn.papers.cheng_2022.runs import Runs
+from tribodyn.papers.cheng_2022.undamped import envelope, undamped
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return Runs()
+
+
+@pytest.mark.parametrize("friction", ["moment", "traction"])
+def test_the_printed_equations_leave_the_law_at_every_tolerance(runs, friction):
+    ends = []
+    for rtol in (1e-3, 1e-4):
+        run = undamped(runs, "paper", friction, rtol)
+        assert "closer than the contact law reaches" in run.attrs["failure"]
+        ends.append(float(run.attrs["time_reached"]))
+    # It is the equations that diverge: within milliseconds of the reversal, and both runs at one time.
+    assert np.pi < ends[0] < np.pi + 0.01
+    assert ends[1] == pytest.approx(ends[0], abs=2e-4)
+
+
+def test_consistent_equations_do_not(runs):
+    run = undamped(runs, "exact", "traction", 1e-3)
+    assert not run.attrs["failure"]
+    late = run["time"].values > np.pi + 0.2
+    force = np.hypot(run["F_cx"].values, run["F_cy"].values)[late]
+    # Smooth again 0.2 s after the reversal: the load, 19.6 N, and no ripple of one newton.
+    assert force.min() > 19.0
+    assert force.max() < 20.5
+
+
+def test_the_envelope_holds_the_largest_force():
+    time = np.geomspace(1e-5, 0.2, 4000)
+    force = np.where(np.arange(4000) % 7 == 3, 5.0, 1.0)
+    force[-200:] = np.nan
+    middle, largest = envelope(time, force)
+    assert np.all(largest == 5.0)
+    assert 1e-4 < middle[0] < middle[-1] < time[-200]
