@@ -148,7 +148,10 @@ def _cell(value: Any, first: Any, headline: Headline) -> dict[str, Any]:
     if first is None or not first or value == first:
         return {"value": words, "change": "", "notable": False}
     share = (value - first) / abs(first)
-    change = f"{100.0 * share:+.2g} %" if abs(share) < 10.0 else f"× {value / first:.2g}"
+    way = "+" if share > 0.0 else ""
+    change = (
+        f"{way}{in_words(100.0 * share, 2)} %" if abs(share) < 10.0 else f"× {in_words(value / first, 2)}"
+    )
     return {
         "value": words,
         "change": change.replace("-", "−"),

@@ -256,7 +256,6 @@ HEADLINES: Final[dict[str, Headline]] = {
 
 KEY_NUMBERS: Final = (
     "vane_angle_error_outside_deg",
-    "contact_force_mean_N",
     "contact_force_outside_N",
     "contact_force_max_N",
     "peak_pressure_MPa",
