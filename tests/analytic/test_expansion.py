@@ -70,7 +70,7 @@ def test_a_hot_run_is_the_cold_run_of_its_clearance() -> None:
         }
     )
     run = td.simulate(hot)
-    assert "not 50 um" in run.attrs["warnings"]
+    assert "not 50 um" in run.attrs["notes"]
     assert run.attrs["assembly_clearance"] == 50e-6
     same = td.simulate(
         hot.replace(

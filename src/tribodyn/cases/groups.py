@@ -13,6 +13,7 @@ from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, Liner, SurfacePair
+    from tribodyn.joints import Form
 
 TABLE_1 = "paper, Table 1"
 MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
@@ -243,6 +244,34 @@ class LinerKeys(Group):
         return Liner(self.thickness, modulus, ratio)
 
 
+class FormKeys(Group):
+    """What trunnion and bushing stand back from cylinders; the clearance is that in the middle."""
+
+    crown: float = quantity(
+        "0 um", "drop of a parabola at the ends, of both surfaces together", ASSUMED, ge=0
+    )
+    chamfer_length: float | None = quantity(
+        None, "straight run-out at both ends", ASSUMED, gt=0, example="0.5 mm"
+    )
+    chamfer_depth: float | None = quantity(
+        None, "depth of the run-out at the end", ASSUMED, gt=0, example="20 um"
+    )
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that a chamfer is whole."""
+        demand(
+            (self.chamfer_length is None) == (self.chamfer_depth is None),
+            "joint.form.chamfer_depth",
+            "a chamfer has a length and a depth: give both or neither",
+        )
+
+    def form(self) -> Form:
+        """Return the form of the joint."""
+        from tribodyn.joints import Form
+
+        return Form(self.crown, self.chamfer_length or 0.0, self.chamfer_depth or 0.0)
+
+
 class PlainJoint(Group):
     """The clearance joint: a shaft in a bushing."""
 
@@ -263,6 +292,7 @@ class PlainJoint(Group):
     )
     slip_velocity: float = quantity("10 um/s", "slip at which traction is fully developed u_s", ASSUMED, gt=0)
     liner: LinerKeys = LinerKeys()
+    form: FormKeys = FormKeys()
 
     def model_post_init(self, context: object, /) -> None:
         """Check that the clearance is small against the radius."""
@@ -275,6 +305,16 @@ class PlainJoint(Group):
             self.contact == "surface" or self.liner.thickness is None,
             "joint.liner.thickness",
             'a contact at points stands on no liner: joint.contact = "surface" is needed',
+        )
+        demand(
+            self.contact == "surface" or self.form == FormKeys(),
+            "joint.form",
+            'a contact at points has no form: joint.contact = "surface" is needed',
+        )
+        demand(
+            (self.form.chamfer_length or 0.0) <= 0.4 * self.length,
+            "joint.form.chamfer_length",
+            "two chamfers leave too little of joint.length: at most 0.4 of it each",
         )
 
 

@@ -74,6 +74,11 @@ class Temperature(Group):
             for key, values in columns.items()
         }
 
+    @property
+    def changes(self) -> bool:
+        """Whether a part has a temperature of its own."""
+        return (self.trunnion, self.bushing, self.casing) != (None, None, None)
+
     def dimensions(self, joint: PlainJoint, surfaces: Surfaces) -> BushingGeometry:
         """Return the dimensions of the joint at these temperatures.
 
@@ -87,7 +92,7 @@ class Temperature(Group):
         from tribodyn.joints.expansion import expanded
 
         cold = BushingGeometry(joint.clearance, joint.radius, joint.length)
-        if self.trunnion is None and self.bushing is None and self.casing is None:
+        if not self.changes:
             return cold
         key = "surfaces.{}.thermal_expansion".format
         return expanded(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.joints.bushing import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import CONTACTS, SURFACE, contact_table, point_table
 
 __all__ = [
@@ -11,6 +12,7 @@ __all__ = [
     "BushingGeometry",
     "BushingJoint",
     "EntryMemory",
+    "Form",
     "Friction",
     "Grid",
     "contact_table",

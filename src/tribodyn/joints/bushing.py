@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -13,6 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record, names
 from tribodyn.core.tables import ContactTable
+from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.cylinder.data import BushingData
@@ -121,6 +122,8 @@ class BushingJoint:
         One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
     liner
         What the asperities stand on, which the table allows for; None where that is rigid.
+    form
+        What the surfaces stand back from cylinders.
     """
 
     geometry: BushingGeometry
@@ -131,6 +134,7 @@ class BushingJoint:
     table: ContactTable
     contact: str = SURFACE
     liner: Liner | None = None
+    form: Form = field(default_factory=Form)
 
     @property
     def theta(self) -> FloatArray:
@@ -140,16 +144,21 @@ class BushingJoint:
     @property
     def z(self) -> FloatArray:
         """Axial positions of the rows of nodes, both edges included [m], shape (n_z + 2,)."""
-        points, _ = np.polynomial.legendre.leggauss(self.grid.z)
+        points, _ = self.form.quadrature(self.grid.z, self.geometry.length)
         half = 0.5 * self.geometry.length
-        return np.concatenate([[-half], half * points, [half]])
+        return np.concatenate([[-half], points, [half]])
 
     @property
     def node_area(self) -> FloatArray:
         """Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges."""
-        _, weights = np.polynomial.legendre.leggauss(self.grid.z)
+        _, weights = self.form.quadrature(self.grid.z, self.geometry.length)
         arc = 2.0 * np.pi / self.grid.theta * self.geometry.bore_radius
-        return np.concatenate([[0.0], 0.5 * self.geometry.length * weights * arc, [0.0]])
+        return np.concatenate([[0.0], weights * arc, [0.0]])
+
+    @property
+    def form_gap(self) -> FloatArray:
+        """What the form adds to the gap at the nodes [m], shape (n_z + 2, 1)."""
+        return self.form.gap(self.z, self.geometry.length)[:, None]
 
     @property
     def field_shape(self) -> tuple[int, int]:
@@ -205,7 +214,7 @@ class BushingJoint:
             sin_theta=np.sin(self.theta),
             z=self.z,
             area=self.node_area,
-            wear=depth,
+            wear=depth + self.form_gap,
         )
 
 

@@ -66,6 +66,7 @@ def bushing_of(case: HasBushing) -> BushingJoint:
         ),
         contact=case.joint.contact,
         liner=liner,
+        form=case.joint.form.form(),
     )
 
 

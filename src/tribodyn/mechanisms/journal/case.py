@@ -10,6 +10,7 @@ from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, number, quantity, switch, text
 from tribodyn.cases.film import Film
 from tribodyn.cases.groups import (
+    FormKeys,
     PlainJoint,
     Solver,
     Tolerances,
@@ -115,10 +116,19 @@ class JournalCase(BushingCase):
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return what checks keys against each other."""
-        return (*super().checks(), self._check_run)
+        return (*super().checks(), self._check_run, self._check_form)
+
+    def _check_form(self) -> None:
+        demand(
+            not self.film.lubricated or self.joint.form == FormKeys(),
+            "joint.form",
+            "the oil film knows no form: film.lubricated = false is needed",
+        )
 
     def _check_run(self) -> None:
         run, clearance = self.run, self.joint.clearance
+        if self.temperature.changes:
+            clearance = self.temperature.dimensions(self.joint, self.surfaces).clearance
         e = math.hypot(run.start_x, run.start_y)
         demand(
             run.start == "equilibrium" or e < clearance,

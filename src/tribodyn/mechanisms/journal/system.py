@@ -134,18 +134,16 @@ class JournalSystem:
                 "grid_force_error": grid_error,
                 **load,
             },
-            warnings=[
-                *of_temperature(self.case),
-                *warnings(
-                    found,
-                    self.journal.joint,
-                    load,
-                    residual=residual,
-                    grid_error=grid_error,
-                    t_end=float(run.solution.t_end),
-                    statistics=run.cost,
-                ),
-            ],
+            warnings=warnings(
+                found,
+                self.journal.joint,
+                load,
+                residual=residual,
+                grid_error=grid_error,
+                t_end=float(run.solution.t_end),
+                statistics=run.cost,
+            ),
+            notes=of_temperature(self.case),
             failure=self._failure(run),
         )
 

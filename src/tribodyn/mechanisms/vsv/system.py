@@ -160,12 +160,13 @@ class VsvSystem:
         rows = run.rows(OBSERVED)
         ledger = ledger_columns(rows)
         whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
-        grid_error = grid_force_error(self.bushing, rows, run.problem.data.joint.wear)
+        worn = run.problem.data.joint.wear - self.bushing.form_gap
+        grid_error = grid_force_error(self.bushing, rows, worn)
         memory = run.problem.memory
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
         found |= loading(self.case, self.bushing, pressure, found["separation_least"])
-        found["pressure_at_rest"] = pressure_at_rest(self.bushing, rows, run.problem.data.joint.wear)
+        found["pressure_at_rest"] = pressure_at_rest(self.bushing, rows, worn)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         return Part(
             coordinates=self._coordinates(run),
@@ -182,11 +183,11 @@ class VsvSystem:
                 "clearance_energy_residual": clearance,
                 **found,
             },
-            warnings=[
+            warnings=warnings(self.vsv, found, whole, clearance, t_end, run.cost),
+            notes=[
                 *of_temperature(self.case),
-                *warnings(self.vsv, found, whole, clearance, t_end, run.cost),
+                *notes(self.vsv, found, pressure, t_end, turns, run.carried),
             ],
-            notes=notes(self.vsv, found, pressure, t_end, turns, run.carried),
             failure=self._failure(run),
         )
 
