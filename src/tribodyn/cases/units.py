@@ -25,11 +25,18 @@ _REGISTRY: Final[pint.UnitRegistry[Decimal]] = pint.UnitRegistry(
 )
 # pint reads Nm as the number metric of yarns; an engineer means the moment.
 _REGISTRY.define("newton_meter = newton * meter = Nm")
+# Hardness numbers of Vickers and Brinell are kilogrammes-force per square millimetre.
+_REGISTRY.define("vickers_hardness = 9.80665 * megapascal = HV")
+_REGISTRY.define("brinell_hardness = 9.80665 * megapascal = HB")
 
 _LONGEST: Final = 100
 _NUMBER: Final = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 _FACTOR: Final = r"(?:1|[A-Za-z][A-Za-z_]*(?:(?:\^|\*\*)-?[1-9](?![0-9]))?)"
-_UNIT: Final = rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*"
+_PRODUCT: Final = rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*"
+_PART: Final = rf"(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\))"
+_UNIT: Final = rf"{_PART}(?:\s*[*/]\s*{_PART}|\s+{_PART})*"
+_BARE_POWER: Final = re.compile(r"(?<=[A-Za-z])([2-4])(?![0-9A-Za-z_])")
+"""A power without its sign, as in mm3."""
 _QUANTITY_PATTERN: Final = re.compile(rf"({_NUMBER})\s*(.*)", re.ASCII | re.DOTALL)
 _UNIT_PATTERN: Final = re.compile(_UNIT, re.ASCII)
 _NOT_FINITE: Final = re.compile(r"[+-]?(nan|inf|infinity)\b.*", re.IGNORECASE | re.DOTALL)
@@ -112,11 +119,22 @@ def to_si(text: str, like: str) -> float:
     number, unit = _split(text)
     scale = _known(unit)
     if scale.base != _scale(like).base:
-        raise UnitProblem(f"{brief(unit)!r} is not a unit of {dimension(like)}")
+        raise UnitProblem(
+            f"{brief(unit)!r} is not a unit of {dimension(like)}{_kinematic(scale, number, like)}"
+        )
     value = scale.si(number)
     if not math.isfinite(value):
         raise UnitProblem("the number is too large")
     return value
+
+
+def _kinematic(scale: _Scale, number: Decimal, like: str) -> str:
+    """Return what to do where a kinematic viscosity was given for a dynamic one, else nothing."""
+    if dimension(like) != "viscosity" or scale.base != _scale("m^2/s").base:
+        return ""
+    density = 870.0
+    viscosity = f"{1e3 * density * scale.si(number):.3g} mPa s"
+    return f": this one is kinematic; times the density, with {density:g} kg/m^3 of an oil, it is {viscosity}"
 
 
 def from_si(value: float, unit: str) -> str:
@@ -221,6 +239,7 @@ class _Scale(NamedTuple):
 
 def _known(unit: str) -> _Scale:
     """Return what a unit is that a user wrote."""
+    unit = _BARE_POWER.sub(r"^\1", unit)
     if not _UNIT_PATTERN.fullmatch(unit):
         raise UnitProblem(
             f"{brief(unit)!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)"

@@ -258,8 +258,7 @@ def _read(key: Key, text: str) -> float:
 def limit(text: str, kind: str, option: str) -> Limit:
     """Return a limit that is written ``NAME=NUMBER``, the number in the unit of the headline number.
 
-    A part of the name will do: ``vane_angle_error_deg`` is ``vane_angle_error_max_deg``, the first that has
-    all its words.
+    A part of the name will do: ``contact_max_N`` is ``contact_force_max_N``, the first with all its words.
 
     Raises
     ------

@@ -34,6 +34,13 @@ UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N"
         ("6.22e-4 kg·m²", "kg m^2", 6.22e-4),
         ("60 rpm", "rad/s", 2 * math.pi),
         ("5 ms", "s", 5e-3),
+        ("200 HV", "Pa", 200 * 9.80665e6),
+        ("60 HB", "Pa", 60 * 9.80665e6),
+        ("1e-6 mm^3/(N m)", "m^2/N", 1e-15),
+        ("1e-6 mm3/Nm", "m^2/N", 1e-15),
+        ("1e-6 mm³/(N·m)", "m^2/N", 1e-15),
+        ("10 mPa s", "Pa s", 0.01),
+        ("10 cP", "Pa s", 0.01),
     ],
 )
 def test_quantities_are_read(text: str, like: str, value: float) -> None:
@@ -73,7 +80,11 @@ def test_micrometres_are_the_float_a_person_expects() -> None:
         ("1 percent", "rad", "not a unit of angle"),
         ("1 dB", "rad", "a unit"),
         ("1 Hz", "rad/s", "not a unit of angular speed"),
-        ("20 degC", "m", "offset"),
+        ("20 degC", "m", "not a unit of length"),
+        ("10 cSt", "Pa s", "kinematic; times the density, with 870 kg/m.3 of an oil, it is 8.7 mPa s"),
+        ("1 m/((s))", "m/s", "not a unit"),
+        ("1 m/(s", "m/s", "not a unit"),
+        ("1 ()", "m", "not a unit"),
     ],
 )
 def test_other_text_is_refused_with_the_reason(text: str, like: str, reason: str) -> None:

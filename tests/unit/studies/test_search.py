@@ -60,9 +60,9 @@ def test_the_command_prints_the_answer(
     simulated: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main([*FIND, "contact_force_N=2250"]) == 0  # a part of the name will do
+    assert main([*FIND, "contact_max_N=2250"]) == 0  # a part of the name will do
     out = capsys.readouterr().out
-    assert "Contact force, largest reaches 2250 N at joint.clearance = 22." in out
+    assert "Contact force, peak reaches 2250 N at joint.clearance = 22." in out
     low, high = (
         float(word) for word in out.split("between ")[1].replace(" um", "").split(";")[0].split(" and ")
     )
@@ -116,7 +116,7 @@ def test_a_sweep_for_sensitivities(
     assert main([*command, "--samples", "8"]) == 0
     assert len(simulated) == 8 * 4
     out = capsys.readouterr().out
-    assert "Contact force, largest: at most 2000 N at " in out
+    assert "Contact force, peak: at most 2000 N at " in out
     assert " of 32 points, " in out
     (clearance,) = (line for line in out.splitlines() if line.startswith("  joint.clearance "))
     (radius,) = (line for line in out.splitlines() if line.startswith("  joint.radius "))
