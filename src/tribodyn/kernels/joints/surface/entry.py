@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.joints.surface.data import NORMAL, POSITION, SurfaceData, table_of
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import node_gap, window
 
 
-@kernel
+@inlined
 def node_approach(nodes: FloatArray, i: int, v: FloatArray, rate: FloatArray) -> float:
     """Return the approach speed δ̇ at node ``i`` [m/s]."""
     x, y, z = nodes[POSITION, i], nodes[POSITION + 1, i], nodes[POSITION + 2, i]
@@ -39,22 +41,45 @@ def update_entry_velocity(
     """
     tilt, entry_velocity = memory.scratch.tilt, memory.entry_velocity
     onset, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0
+    law = (onset, surface.minimum_entry_velocity, heed)
     for r in range(surface.first_row, surface.last_row):
         row = data.rows[r]
         first, count = window(row, pose.d, tilt.phi, onset)
         if count == 0 and memory.remembering[r] == 0.0:
             continue
-        for k in range(row.count):
-            i = row.first + k
-            inside = k - first if k >= first else k - first + row.count
-            if inside < count and node_gap(data.nodes, i, pose.d, tilt.phi) < onset:
-                approach = heed * node_approach(data.nodes, i, pose.v, tilt.rate)
-                entry_velocity[i] = reference_velocity(
-                    entry_velocity[i], approach, surface.minimum_entry_velocity
-                )
-            else:
-                entry_velocity[i] = 0.0
+        until = min(first + count, row.count)
+        again = first + count - until
+        _update(data.nodes, row.first + first, row.first + until, pose, tilt, law, entry_velocity)
+        _update(data.nodes, row.first, row.first + again, pose, tilt, law, entry_velocity)
+        _forget(row.first + again, row.first + first, entry_velocity)
+        _forget(row.first + until, row.first + row.count, entry_velocity)
         memory.remembering[r] = 1.0 if count > 0 else 0.0
+
+
+@kernel
+def _update(
+    nodes: FloatArray,
+    first: int,
+    until: int,
+    pose: Record,
+    tilt: Record,
+    law: tuple[float, float, float],
+    entry_velocity: FloatArray,
+) -> None:
+    """Update nodes ``first`` to ``until`` by onset [m], v_min and whether to heed the approach."""
+    onset, v_min, heed = law
+    for i in range(np.uint64(first), np.uint64(until)):
+        known = reference_velocity(
+            entry_velocity[i], heed * node_approach(nodes, i, pose.v, tilt.rate), v_min
+        )
+        entry_velocity[i] = known if node_gap(nodes, i, pose.d, tilt.phi) < onset else 0.0
+
+
+@kernel
+def _forget(first: int, until: int, entry_velocity: FloatArray) -> None:
+    """Clear nodes ``first`` to ``until``."""
+    for i in range(np.uint64(first), np.uint64(until)):
+        entry_velocity[i] = 0.0
 
 
 @kernel

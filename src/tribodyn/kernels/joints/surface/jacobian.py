@@ -49,8 +49,8 @@ def wrench_and_derivatives(data: SurfaceData, surface: Record, memory: SurfaceMe
     rewind(surface, memory)
     n = gather(data, surface, memory, pose, 0.0)
     while n > 0:
-        look_up(cubics, memory, n)
-        look_up_slopes(cubics, memory, n)
+        look_up(cubics, work, n)
+        look_up_slopes(cubics, work, n)
         _fill_columns(surface, work, pose, n)
         _add_columns(work, NORMAL, n, -1.0, scratch.normal)
         _add_outer(work, STIFFNESS, NORMAL, NORMAL, n, 1.0, scratch.normal_place)

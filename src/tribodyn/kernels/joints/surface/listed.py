@@ -6,8 +6,8 @@ from typing import Final
 
 from tribodyn.core.quantities import record_type
 
-PART: Final = 128
-"""Nodes in a part: what their columns hold stays in the nearest cache."""
+PART: Final = 256
+"""Nodes in a part: its columns stay in the near caches, and few parts are begun."""
 PITCH: Final = PART + 8
 """Distance between columns: columns a power of two apart would compete for the same places in the cache."""
 

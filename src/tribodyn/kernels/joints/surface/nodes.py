@@ -66,10 +66,11 @@ def node_gap(nodes: FloatArray, i: int, d: FloatArray, phi: FloatArray) -> float
     return nodes[GAP, i] - (near + nodes[NODE_NORMAL + 2, i] * along_z)
 
 
-@kernel
+@inlined
 def _load(
     nodes: FloatArray,
-    memory: SurfaceMemory,
+    entry_velocity: FloatArray,
+    scratch: Record,
     scale: float,
     shift: float,
     last: float,
@@ -79,8 +80,8 @@ def _load(
     at: int,
 ) -> None:
     """Write ``size`` nodes from ``first`` on into the list, from place ``at`` on."""
-    work, node = memory.scratch.listed.work, memory.scratch.listed.node
-    phi, rate, entry_velocity = memory.scratch.tilt.phi, memory.scratch.tilt.rate, memory.entry_velocity
+    work, node = scratch.listed.work, scratch.listed.node
+    phi, rate = scratch.tilt.phi, scratch.tilt.rate
     d_x, d_y, d_z = pose.d[0], pose.d[1], pose.d[2]
     v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
     phi_x, phi_y, phi_z = phi[0], phi[1], phi[2]
@@ -129,7 +130,8 @@ def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Reco
     with_edges
         1 if rows that stand for no area are wanted too, 0 otherwise.
     """
-    cursor, phi = memory.scratch.listed.cursor, memory.scratch.tilt.phi
+    nodes, entry_velocity, scratch = data.nodes, memory.entry_velocity, memory.scratch
+    cursor, phi = scratch.listed.cursor, scratch.tilt.phi
     limit = surface.h_last * surface.roughness
     last = float(surface.last_interval - surface.first_interval - 1)
     scale = surface.inverse_step / surface.roughness
@@ -143,7 +145,7 @@ def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Reco
             while left > 0 and n < PART:
                 start = first + taken if first + taken < row.count else first + taken - row.count
                 size = min(left, row.count - start, PART - n)
-                _load(data.nodes, memory, scale, shift, last, pose, row.first + start, size, n)
+                _load(nodes, entry_velocity, scratch, scale, shift, last, pose, row.first + start, size, n)
                 n, left, taken = n + size, left - size, taken + size
         if left <= 0:
             r, taken = r + 1, 0
@@ -152,12 +154,11 @@ def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Reco
 
 
 @kernel
-def look_up(cubics: FloatArray, memory: SurfaceMemory, n: int) -> None:
+def look_up(cubics: FloatArray, work: FloatArray, n: int) -> None:
     """Fill in the pressures of the contact table, for loops that write as well as read.
 
     Such a loop could not take four nodes at once if it read the table, whose places it cannot foresee.
     """
-    work = memory.scratch.listed.work
     for k in range(min(n, PART)):
         first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
         work[RIGID + k] = cubic(cubics, first, x)
@@ -165,9 +166,8 @@ def look_up(cubics: FloatArray, memory: SurfaceMemory, n: int) -> None:
 
 
 @kernel
-def look_up_slopes(cubics: FloatArray, memory: SurfaceMemory, n: int) -> None:
+def look_up_slopes(cubics: FloatArray, work: FloatArray, n: int) -> None:
     """Fill in the slopes of these pressures within their intervals."""
-    work = memory.scratch.listed.work
     for k in range(min(n, PART)):
         first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
         work[RIGID_SLOPE + k] = cubic_slope(cubics, first, x)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel, summing
@@ -26,13 +27,13 @@ def report(data: SurfaceData, s: int, memory: SurfaceMemory, pose: Record) -> No
     surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
     for k in range(6):
         scratch.normal[k] = scratch.rigid[k] = scratch.friction[k] = 0.0
-    cubics, kept = table_of(data, surface).cubics, 0
+    cubics, work, kept = table_of(data, surface).cubics, scratch.listed.work, 0
     nearest, out.p_max = math.inf, 0.0
     rewind(surface, memory)
     n = gather(data, surface, memory, pose, 1.0)
     while n > 0:
-        look_up(cubics, memory, n)
-        nearest = min(nearest, _add_nodes(surface, memory, pose, n, out))
+        look_up(cubics, work, n)
+        nearest = min(nearest, _add_nodes(surface, scratch, pose, n, out))
         _keep(memory, surface.first_node + kept, n)
         kept += n
         n = gather(data, surface, memory, pose, 1.0)
@@ -41,7 +42,7 @@ def report(data: SurfaceData, s: int, memory: SurfaceMemory, pose: Record) -> No
         h_star = surface.h_first + (nearest - 1.0) / surface.inverse_step
         out.separation_min = surface.roughness * h_star
     else:
-        out.separation_min = _far_separation(data, surface, memory, pose)
+        out.separation_min = _far_separation(data, surface, pose.d, scratch.tilt.phi)
     contact = out.contact_fraction
     out.contact_fraction = contact / surface.area
     if contact > 0.0:
@@ -66,18 +67,24 @@ def slide(data: SurfaceData, s: int, memory: SurfaceMemory, h: float) -> None:
 
 
 @kernel
-def _far_separation(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record) -> float:
-    """Return the least gap [m] of a shaft out of reach of contact."""
+def _far_separation(data: SurfaceData, surface: Record, d: FloatArray, phi: FloatArray) -> float:
+    """Return the least gap [m] of a shaft out of reach of contact: around rings, and at nodes of patches."""
     least = math.inf
-    for i in range(surface.first_node, surface.last_node):
-        least = min(least, node_gap(data.nodes, i, pose.d, memory.scratch.tilt.phi))
+    for r in range(surface.first_row, surface.last_row):
+        row = data.rows[r]
+        if row.whole > 0.0:
+            for i in range(row.first, row.first + row.count):
+                least = min(least, node_gap(data.nodes, i, d, phi))
+        else:
+            a, b = row.normal[0] * d[0] + row.arm * phi[1], row.normal[0] * d[1] - row.arm * phi[0]
+            least = min(least, row.least - row.normal[2] * d[2] - math.sqrt(a * a + b * b))
     return least
 
 
 @summing
-def _add_nodes(surface: Record, memory: SurfaceMemory, pose: Record, n: int, out: Record) -> float:
+def _add_nodes(surface: Record, scratch: Record, pose: Record, n: int, out: Record) -> float:
     """Add the sums over the ``n`` nodes in the list and return the least place in the contact table."""
-    work, scratch = memory.scratch.listed.work, memory.scratch
+    work = scratch.listed.work
     v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
     square, onset = slip_square(surface), (surface.onset - surface.h_first) * surface.inverse_step + 1.0
     v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
