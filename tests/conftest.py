@@ -80,9 +80,12 @@ SIZES = {
     "flanged": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3, "axial": 15e-6, "flange": 9e-3},
     "annulus": {"inner": 6e-3, "outer": 9e-3, "axial": 20e-6, "height": 10e-3},
     "sphere": {"radius": 8e-3, "radial": 20e-6, "band": 0.8},
+    "ball": {"radius": 8e-3, "radial": 20e-6, "band": 0.1},
     "mesh": {"gap": 20e-6, "edge": 4e-3},
+    "guide": {"gap": 20e-6, "edge": 4e-3, "slides": 1.0},
 }
-"""Sizes of a clearance joint of each shape [m]; ``flanged`` is a cylinder with end faces."""
+"""Sizes of a clearance joint of each shape [m]; ``flanged`` has end faces, ``guide`` is square."""
+VARIANTS = {"flanged": "cylinder", "guide": "mesh"}
 
 
 def square_tube(half: float) -> FloatArray:
@@ -109,7 +112,7 @@ def make_clearance(contact_table: ContactTable, table_1_pair: SurfacePair) -> Ca
         **sizes: float,
     ) -> Clearance:
         return Clearance(
-            shape="cylinder" if shape == "flanged" else shape,
+            shape=VARIANTS.get(shape, shape),
             sizes=SIZES[shape] | sizes,
             socket=0,
             grid=grid,
@@ -121,7 +124,7 @@ def make_clearance(contact_table: ContactTable, table_1_pair: SurfacePair) -> Ca
             minimum_velocity=1e-3,
             tensile_clip=clip,
             contact=contact,
-            facets=square_tube(8e-3) if shape == "mesh" else np.zeros((0, 3, 3)),
+            facets=square_tube(8e-3) if shape in ("mesh", "guide") else np.zeros((0, 3, 3)),
         )
 
     return make

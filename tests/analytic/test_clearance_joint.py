@@ -33,8 +33,10 @@ from tribodyn.mechanisms.general.description import Clearance
 
 MakeClearance = Callable[..., Clearance]
 POINT = "point-lankarani-nikravesh"
-KINDS = ("cylinder", "flanged", "annulus", "sphere", "mesh", "cylinder at points", "sphere at a point")
+SHAPES = ("cylinder", "flanged", "annulus", "sphere", "ball", "mesh", "guide")
+KINDS = (*SHAPES, "cylinder at points", "sphere at a point")
 
+BALLS = ("sphere", "ball", "sphere at a point")
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 STEP = np.repeat([1.6e-11, 1.6e-9, 1e-7, 1e-5], 3)
@@ -44,9 +46,9 @@ STEP = np.repeat([1.6e-11, 1.6e-9, 1e-7, 1e-5], 3)
 @pytest.fixture(scope="module")
 def kinds(make_clearance: MakeClearance, table_1_pair: SurfacePair) -> dict[str, Clearance]:
     """One clearance of each kind, on a coarse grid: identities hold for any."""
-    made = {kind: make_clearance(kind, grid=(24, 6)) for kind in KINDS[:5]}
+    made = {kind: make_clearance(kind, grid=(24, 6)) for kind in SHAPES}
     chosen = law("rsdc", table_1_pair)
-    for kind in KINDS[5:]:
+    for kind in KINDS[len(SHAPES) :]:
         shape = kind.split(maxsplit=1)[0]
         table = table_of(POINT, chosen, shape_of(made[shape]), onset=4.0, smoothing_width=1.0)
         made[kind] = make_clearance(shape, contact=POINT, table=table, grid=(24, 6))
@@ -71,8 +73,12 @@ def draw(kind: str, seed: int) -> tuple[FloatArray, FloatArray, FloatArray, Floa
     if kind in ("annulus", "flanged"):
         d[2] = -16e-6 if kind == "annulus" else -12e-6
     # A ball has no tilt, a square journal is held in its tube.
-    lean = random.uniform(-1.0, 1.0, 2) * (0.5 if "sphere" in kind else 1e-3)
-    rotation = tilted(*lean, spin=1e-3 if kind == "mesh" else 1.0)
+    lean = random.uniform(-1.0, 1.0, 2) * (0.5 if kind in BALLS else 1e-3)
+    rotation = tilted(*lean, spin=1e-3 if kind in ("mesh", "guide") else 1.0)
+    if "cylinder" in kind or kind == "guide":  # which may have slid along their axis
+        d += 5e-3 * random.normal() * rotation[:, 2] / rotation[2, 2]
+    if kind == "ball":
+        d[2] = 5e-3 * random.normal()
     slow = 1e-3 if seed % 2 else 1.0  # slip of the order of the slip velocity
     return d, rotation, slow * 2e-3 * random.normal(size=3), slow * 0.3 * random.normal(size=3)
 
@@ -155,7 +161,7 @@ def test_the_report_adds_up_to_the_wrench(kind: str, kinds: dict[str, Clearance]
         np.testing.assert_allclose(total, out, rtol=0.0, atol=1e-13 * np.abs(out).max())
 
 
-@pytest.mark.parametrize("kind", ["cylinder", "flanged", "annulus", "sphere", "cylinder at points"])
+@pytest.mark.parametrize("kind", ["cylinder", "flanged", "annulus", "sphere", "ball", "cylinder at points"])
 def test_a_journal_of_revolution_spins_freely_without_friction(
     kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
 ) -> None:
@@ -176,6 +182,37 @@ def test_a_journal_of_revolution_spins_freely_without_friction(
         # Rounding of φ̇: 40 rad/s over the entry velocity of 1e-3 m/s, with arms of 1e-2 m.
         np.testing.assert_allclose(out, still, rtol=0.0, atol=1e-10 * np.abs(still).max())
         assert out[3:] @ axis == pytest.approx(0.0, abs=1e-14 * np.abs(out).max())
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "ball", "guide", "cylinder at points"])
+def test_what_slides_is_free_to(
+    kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
+) -> None:
+    # However far along its axis, a shaft has the same gaps: no force on it along its axis, and the same
+    # forces on the socket. A ball slides along the bore.
+    shape = kind.split(maxsplit=1)[0]
+    frictionless = make_clearance(
+        shape, coefficient=0.0, grid=(24, 6), contact=kinds[kind].contact, table=kinds[kind].table
+    )
+    data = assemble([frictionless])
+    memory, out, far = remembering(data), np.empty(6), np.empty(6)
+    for seed in range(6):
+        d, rotation, v, w = draw(kind, seed)
+        along = np.array([0.0, 0.0, 1.0]) if kind == "ball" else rotation[:, 2] / rotation[2, 2]
+        slid = d + 30e-3 * along
+        wrench(data, memory, 0, pose_at(d, rotation, v, w), out)
+        v_there = v if kind == "ball" else v + np.cross(w, slid - d)
+        wrench(data, memory, 0, pose_at(slid, rotation, v_there, w), far)
+        size = np.abs(out).max()
+        assert size > 0.0
+        assert out[:3] @ along == pytest.approx(0.0, abs=1e-13 * size)
+        if kind == "ball":
+            np.testing.assert_allclose(far, out, rtol=0.0, atol=1e-12 * size)
+        else:
+            on_socket = [f[3:] + np.cross(place, f[:3]) for f, place in ((out, d), (far, slid))]
+            # Positions of 30 mm and gaps of a micrometre: rounding is 1e-11 of σ.
+            np.testing.assert_allclose(far[:3], out[:3], rtol=0.0, atol=1e-9 * size)
+            np.testing.assert_allclose(on_socket[1], on_socket[0], rtol=0.0, atol=1e-9 * size)
 
 
 BUSHING_GRID = (48, 8)
@@ -247,7 +284,7 @@ def test_joints_of_a_mechanism_do_not_disturb_each_other(kinds: dict[str, Cleara
     assert places(list(kinds.values()))[-1].nodes.stop == memory.entry_velocity.size
 
 
-@pytest.mark.parametrize("kind", KINDS[:5])
+@pytest.mark.parametrize("kind", SHAPES)
 def test_no_node_in_reach_is_left_out(kind: str, kinds: dict[str, Clearance]) -> None:
     # The field looks at every node, the report at those inside the windows.
     random = np.random.default_rng(1)

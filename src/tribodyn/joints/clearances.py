@@ -146,6 +146,7 @@ def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) ->
         first_row = record["last_row"]
         record["first_node"], record["last_node"] = place.nodes.start, place.nodes.stop
         record["tilt"], record["area"] = place.surface.tilt, place.surface.area.sum()
+        record["slides"] = 1.0 if place.surface.slides else 0.0
         tables.fill(record, clearance.table)
         _fill_law(record, clearance)
     nodes = _nodes(where, wear)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.shapes import SHAPES, Annulus, Cylinder, Mesh, Sphere
+from tribodyn.joints.shapes import SHAPES, Annulus, Ball, Cylinder, Mesh, Sphere
 from tribodyn.joints.shapes.mesh import PATCH, nearby, split
 
 CUBE_FACE = np.array([[[0.0, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [1, 0, 0]]]) * 1e-2
@@ -17,6 +17,7 @@ MADE = {
     "cylinder": Cylinder(6e-3, 20e-6, 20e-3),
     "annulus": Annulus(6e-3, 9e-3),
     "sphere": Sphere(8e-3, 20e-6, 0.8),
+    "ball": Ball(8e-3, 20e-6, 0.1),
     "mesh": Mesh(CUBE_FACE, 20e-6, 3e-3),
 }
 
@@ -106,6 +107,8 @@ def test_neighbours_lie_together() -> None:
         (lambda: Annulus(1e-3, 2e-3, direction=0.5), "direction"),
         (lambda: Annulus(1e-3, 2e-3).points(), "contact"),
         (lambda: Sphere(1e-3, 1e-5, 2.0), "band"),
+        (lambda: Ball(1e-3, 1e-5, 1.6), "band"),
+        (lambda: Ball(1e-3, 1e-5, 0.1).points(), "contact"),
         (lambda: Mesh(np.zeros((0, 3, 3)), 1e-5, 1e-3), "facets"),
         (lambda: Mesh(np.zeros((2, 3, 3)), 1e-5, 1e-3).surfaces((1, 1)), "facets"),
         (lambda: Mesh(np.full((1, 3, 3), math.inf), 1e-5, 1e-3), "facets"),

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Final
 
 from tribodyn.joints.shapes.annulus import Annulus
+from tribodyn.joints.shapes.ball import Ball
 from tribodyn.joints.shapes.base import Points, Shape, Surface
 from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.mesh import Mesh
@@ -15,8 +16,9 @@ SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "cylinder": Cylinder,
     "annulus": Annulus,
     "sphere": Sphere,
+    "ball": Ball,
     "mesh": Mesh,
 }
 """Made with their sizes by name."""
 
-__all__ = ["SHAPES", "Annulus", "Cylinder", "Mesh", "Points", "Shape", "Sphere", "Surface"]
+__all__ = ["SHAPES", "Annulus", "Ball", "Cylinder", "Mesh", "Points", "Shape", "Sphere", "Surface"]

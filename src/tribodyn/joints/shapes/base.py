@@ -34,6 +34,8 @@ class Surface:
         What turning does to the gaps, see ``kernels/joints/surface/tilt.py``.
     axes
         Names and values of the two coordinates of a map of the nodes, row by row; one for nodes in no order.
+    slides
+        Whether the nodes stay where they are on the socket while the shaft slides through it.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Surface:
     rows: NDArray[np.void]
     tilt: float
     axes: dict[str, FloatArray]
+    slides: bool = False
 
     @property
     def field_shape(self) -> tuple[int, ...]:

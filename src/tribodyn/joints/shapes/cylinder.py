@@ -6,7 +6,7 @@ outside the ends of the bore and rest on them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -68,7 +68,7 @@ class Cylinder:
         z, weight = across(-0.5 * self.length, 0.5 * self.length, n_z)
         ones = np.ones(z.size)
         rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.radial) * weight)
-        barrel = rings.surface("barrel", ("z", z), self.radial, n_theta, AXIS)
+        barrel = replace(rings.surface("barrel", ("z", z), self.radial, n_theta, AXIS), slides=True)
         return (
             barrel,
             *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self._faces.items()),

@@ -35,11 +35,14 @@ class Mesh:
         As drawn, everywhere [m].
     edge
         Longest edge that a triangle may have [m]; longer ones are split.
+    slides
+        1 for a guide, along whose axis the shaft slides any way; all triangles then stand along the axis.
     """
 
     facets: FloatArray
     gap: float
     edge: float
+    slides: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse what is no mesh."""
@@ -72,6 +75,7 @@ class Mesh:
                 gap=np.full(area.size, self.gap),
                 rows=patches(position, normal, area),
                 tilt=WHOLE,
+                slides=bool(self.slides),
                 axes={"node": np.arange(area.size, dtype=np.float64)},
             ),
         )

@@ -43,7 +43,7 @@ class Rings:
     strip: FloatArray
 
     def surface(
-        self, name: str, along: tuple[str, FloatArray], gap: float, n_theta: int, tilt: float
+        self, name: str, along: tuple[str, FloatArray], gap: float | FloatArray, n_theta: int, tilt: float
     ) -> Surface:
         """Return the surface.
 
@@ -54,7 +54,7 @@ class Rings:
         along
             Name and values of the coordinate across the rings, shape (n,).
         gap
-            As drawn [m], everywhere.
+            As drawn [m], everywhere or of each ring, shape (n,).
         n_theta
             Nodes of a ring; theirs are the angles 2π i/n_theta about the axis.
         tilt
@@ -76,7 +76,7 @@ class Rings:
             position=spread(self.radius, self.height),
             normal=spread(self.radial, self.axial),
             area=np.outer(area, ones).ravel(),
-            gap=np.full(area.size * n_theta, gap),
+            gap=np.outer(gap * np.ones(area.size), ones).ravel(),
             rows=self._rows(n_theta, area),
             tilt=tilt,
             axes={along[0]: along[1], "theta": theta},

@@ -25,7 +25,7 @@ Surface: Final = record_type(
     *((name, "f8") for name in ("h_first", "h_last", "inverse_step")),
     *((name, "f8") for name in ("roughness", "friction_coefficient", "slip_velocity")),
     *((name, "f8") for name in ("onset", "minimum_entry_velocity", "tensile_clip")),
-    *((name, "f8") for name in ("tilt", "area")),
+    *((name, "f8") for name in ("tilt", "slides", "area")),
     *((name, "f8") for name in ("points", "radius", "clearance")),
     ("heights", "f8", (N_POINTS,)),
 )
@@ -44,6 +44,8 @@ onset, minimum_entry_velocity, tensile_clip
     As in ``BushingData``.
 tilt
     What turning does to its gaps, see ``tilt``.
+slides
+    1 if nodes stay where they are on the socket while the shaft slides along its axis, see ``station``.
 area
     Of all nodes [m²].
 points, radius, clearance, heights

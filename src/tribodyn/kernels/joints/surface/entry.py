@@ -25,7 +25,7 @@ def node_approach(nodes: FloatArray, i: int, v: FloatArray, rate: FloatArray) ->
 
 @kernel
 def update_entry_velocity(
-    data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, at_start: float
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, at_start: float
 ) -> None:
     """Let nodes enter and leave contact at the end of an accepted step.
 
@@ -34,7 +34,7 @@ def update_entry_velocity(
 
     Parameters
     ----------
-    data, surface, memory, pose
+    data, surface, memory, station
         As for ``wrench``; the entry velocities are changed in place.
     at_start
         1 at the start of a run, 0 otherwise.
@@ -44,13 +44,13 @@ def update_entry_velocity(
     law = (onset, surface.minimum_entry_velocity, heed)
     for r in range(surface.first_row, surface.last_row):
         row = data.rows[r]
-        first, count = window(row, pose.d, tilt.phi, onset)
+        first, count = window(row, station.d, tilt.phi, onset)
         if count == 0 and memory.remembering[r] == 0.0:
             continue
         until = min(first + count, row.count)
         again = first + count - until
-        _update(data.nodes, row.first + first, row.first + until, pose, tilt, law, entry_velocity)
-        _update(data.nodes, row.first, row.first + again, pose, tilt, law, entry_velocity)
+        _update(data.nodes, row.first + first, row.first + until, station, tilt, law, entry_velocity)
+        _update(data.nodes, row.first, row.first + again, station, tilt, law, entry_velocity)
         _forget(row.first + again, row.first + first, entry_velocity)
         _forget(row.first + until, row.first + row.count, entry_velocity)
         memory.remembering[r] = 1.0 if count > 0 else 0.0
@@ -61,7 +61,7 @@ def _update(
     nodes: FloatArray,
     first: int,
     until: int,
-    pose: Record,
+    station: Record,
     tilt: Record,
     law: tuple[float, float, float],
     entry_velocity: FloatArray,
@@ -70,9 +70,9 @@ def _update(
     onset, v_min, heed = law
     for i in range(np.uint64(first), np.uint64(until)):
         known = reference_velocity(
-            entry_velocity[i], heed * node_approach(nodes, i, pose.v, tilt.rate), v_min
+            entry_velocity[i], heed * node_approach(nodes, i, station.v, tilt.rate), v_min
         )
-        entry_velocity[i] = known if node_gap(nodes, i, pose.d, tilt.phi) < onset else 0.0
+        entry_velocity[i] = known if node_gap(nodes, i, station.d, tilt.phi) < onset else 0.0
 
 
 @kernel
@@ -84,13 +84,13 @@ def _forget(first: int, until: int, entry_velocity: FloatArray) -> None:
 
 @kernel
 def pressure_field(
-    data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, pressure: FloatArray
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, pressure: FloatArray
 ) -> None:
     """Fill the nodes of a surface in ``pressure`` (n_nodes,) with the contact pressure P_c [Pa]."""
     tilt, table = memory.scratch.tilt, table_of(data, surface)
     limit = surface.h_last * surface.roughness
     for i in range(surface.first_node, surface.last_node):
-        gap = node_gap(data.nodes, i, pose.d, tilt.phi)
+        gap = node_gap(data.nodes, i, station.d, tilt.phi)
         pressure[i] = 0.0
         if gap < limit:
             _, pressure[i], _, _ = node_pressure(
@@ -99,6 +99,6 @@ def pressure_field(
                 surface.minimum_entry_velocity,
                 surface.tensile_clip,
                 gap,
-                node_approach(data.nodes, i, pose.v, tilt.rate),
+                node_approach(data.nodes, i, station.v, tilt.rate),
                 memory.entry_velocity[i],
             )

@@ -41,17 +41,19 @@ from tribodyn.kernels.joints.surface.wrench import slip_square
 
 
 @kernel
-def wrench_and_derivatives(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record) -> None:
+def wrench_and_derivatives(
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record
+) -> None:
     """Fill ``normal``, ``friction`` and their derivatives in the scratch; arguments as for ``wrench``."""
     scratch = memory.scratch
     work, cubics, mu = scratch.listed.work, table_of(data, surface).cubics, surface.friction_coefficient
     clear_sums(scratch)
     rewind(surface, memory)
-    n = gather(data, surface, memory, pose, 0.0)
+    n = gather(data, surface, memory, station, 0.0)
     while n > 0:
         look_up(cubics, work, n)
         look_up_slopes(cubics, work, n)
-        _fill_columns(surface, work, pose, n)
+        _fill_columns(surface, work, station, n)
         _add_columns(work, NORMAL, n, -1.0, scratch.normal)
         _add_outer(work, STIFFNESS, NORMAL, NORMAL, n, 1.0, scratch.normal_place)
         _add_outer(work, RESISTANCE, NORMAL, NORMAL, n, -1.0, scratch.normal_rate)
@@ -62,7 +64,7 @@ def wrench_and_derivatives(data: SurfaceData, surface: Record, memory: SurfaceMe
             _add_outer(work, TRACTION, NORMAL, NORMAL, n, 1.0, scratch.friction_slip)
             _add_outer(work, TRACTION, SLIP, SLIP, n, 1.0, scratch.friction_slip)
             _add_motion(work, n, scratch.friction_slip)
-        n = gather(data, surface, memory, pose, 0.0)
+        n = gather(data, surface, memory, station, 0.0)
 
 
 @kernel
@@ -78,12 +80,12 @@ def clear_sums(scratch: Record) -> None:
 
 
 @kernel
-def _fill_columns(surface: Record, work: FloatArray, pose: Record, n: int) -> None:
+def _fill_columns(surface: Record, work: FloatArray, station: Record, n: int) -> None:
     """Fill slips and weights of the ``n`` nodes in the list; ``AREA`` becomes the force A P."""
     v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
     square, slope = slip_square(surface), surface.inverse_step / surface.roughness
-    v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
-    w_x, w_y, w_z = pose.w[0], pose.w[1], pose.w[2]
+    v_x, v_y, v_z = station.slip[0], station.slip[1], station.slip[2]
+    w_x, w_y, w_z = station.w[0], station.w[1], station.w[2]
     for k in range(min(n, PART)):
         approach, entry = work[APPROACH + k], work[ENTRY + k]
         reference = reference_velocity(entry, approach, v_min)

@@ -17,20 +17,29 @@ from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import TURN
+from tribodyn.kernels.joints.surface.station import (
+    derivatives_at_origin,
+    fill_station,
+    friction_at_origin,
+    pressure_at_origin,
+)
 from tribodyn.kernels.joints.surface.tilt import fill_derivatives, fill_tilt, moment_of
 from tribodyn.kernels.joints.surface.wrench import wrench as surface_wrench
 
 
 @kernel
-def _tilt(surface: Record, memory: SurfaceMemory, pose: Record) -> None:
-    """Fill the tilt of the scratch."""
-    fill_tilt(surface.tilt, pose.rotation, pose.w, memory.scratch.tilt)
+def _look(surface: Record, scratch: Record, pose: Record) -> None:
+    """Fill tilt and station of the scratch."""
+    fill_tilt(surface.tilt, pose.rotation, pose.w, scratch.tilt)
+    fill_station(surface.slides, pose, scratch.tilt, scratch.station)
 
 
 @kernel
 def _add_wrench(memory: SurfaceMemory, out: FloatArray) -> None:
     """Add normal and friction of the scratch to ``out`` (6,)."""
     scratch = memory.scratch
+    pressure_at_origin(scratch.station, scratch.normal)
+    friction_at_origin(scratch.station, scratch.friction)
     for k in range(3):
         out[k] += scratch.normal[k] + scratch.friction[k]
         out[3 + k] += scratch.friction[3 + k]
@@ -44,11 +53,11 @@ def wrench(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: 
         out[k] = 0.0
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
-        _tilt(surface, memory, pose)
+        _look(surface, memory.scratch, pose)
         if surface.points > 0.0:
-            point.add_points(data, s, memory, pose, 0.0, 0.0)
+            point.add_points(data, s, memory, memory.scratch.station, 0.0, 0.0)
         else:
-            surface_wrench(data, surface, memory, pose)
+            surface_wrench(data, surface, memory, memory.scratch.station)
         _add_wrench(memory, out)
 
 
@@ -62,11 +71,13 @@ def wrench_and_jacobian(
     clear(jacobian)
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
-        _tilt(surface, memory, pose)
+        _look(surface, memory.scratch, pose)
         if surface.points > 0.0:
-            point.add_points(data, s, memory, pose, 1.0, 0.0)
+            point.add_points(data, s, memory, memory.scratch.station, 1.0, 0.0)
         else:
-            wrench_and_derivatives(data, surface, memory, pose)
+            wrench_and_derivatives(data, surface, memory, memory.scratch.station)
+        if surface.slides > 0.0:
+            derivatives_at_origin(memory.scratch, pose)
         _add_wrench(memory, out)
         _add_derivatives(surface, memory.scratch, pose, jacobian)
 
@@ -105,6 +116,9 @@ def _add_derivatives(surface: Record, scratch: Record, pose: Record, jacobian: F
 def _fill_parts(memory: SurfaceMemory, out: Record) -> None:
     """Fill the forces and moments of a report from the sums of the scratch."""
     scratch = memory.scratch
+    pressure_at_origin(scratch.station, scratch.normal)
+    pressure_at_origin(scratch.station, scratch.rigid)
+    friction_at_origin(scratch.station, scratch.friction)
     for k in range(3):
         scratch.moment[k] = scratch.rigid_moment[k] = 0.0
     moment_of(scratch.tilt, scratch.normal[3:], scratch.moment)
@@ -123,11 +137,11 @@ def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> No
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
         memory.reports[s] = memory.scratch.blank
-        _tilt(surface, memory, pose)
+        _look(surface, memory.scratch, pose)
         if surface.points > 0.0:
-            point.add_points(data, s, memory, pose, 0.0, 1.0)
+            point.add_points(data, s, memory, memory.scratch.station, 0.0, 1.0)
         else:
-            over_surface.report(data, s, memory, pose)
+            over_surface.report(data, s, memory, memory.scratch.station)
         _fill_parts(memory, memory.reports[s])
 
 
@@ -144,11 +158,11 @@ def stored(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> fl
     total = 0.0
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
-        _tilt(surface, memory, pose)
+        _look(surface, memory.scratch, pose)
         if surface.points > 0.0:
-            energy = point.stored(data, surface, memory, pose)
+            energy = point.stored(data, surface, memory, memory.scratch.station)
         else:
-            energy = over_surface.stored(data, surface, memory, pose)
+            energy = over_surface.stored(data, surface, memory, memory.scratch.station)
         memory.reports[s].energy_contact = energy
         total += energy
     return total
@@ -161,12 +175,12 @@ def pressure_field(
     """Fill the nodes of joint ``j`` in ``pressure`` (n_nodes,) with P_c [Pa]; points have none."""
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
-        _tilt(surface, memory, pose)
+        _look(surface, memory.scratch, pose)
         if surface.points > 0.0:
             for i in range(surface.first_node, surface.last_node):
                 pressure[i] = 0.0
         else:
-            entry.pressure_field(data, surface, memory, pose, pressure)
+            entry.pressure_field(data, surface, memory, memory.scratch.station, pressure)
 
 
 @kernel
@@ -176,8 +190,8 @@ def update_entry_velocity(
     """Let contact of joint ``j`` begin and end at the end of an accepted step."""
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
-        _tilt(surface, memory, pose)
+        _look(surface, memory.scratch, pose)
         if surface.points > 0.0:
-            point.update_entry_velocity(data, surface, memory, pose, at_start)
+            point.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
         else:
-            entry.update_entry_velocity(data, surface, memory, pose, at_start)
+            entry.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)

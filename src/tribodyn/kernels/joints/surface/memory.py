@@ -15,11 +15,14 @@ from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.listed import Listed
 from tribodyn.kernels.joints.surface.pose import Pose
 from tribodyn.kernels.joints.surface.quantities import Peaks, Report
+from tribodyn.kernels.joints.surface.station import Maps, Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
 
 Scratch: Final = record_type(
     ("pose", Pose),
     ("tilt", Tilt),
+    ("station", Station),
+    ("maps", Maps),
     ("normal", "f8", (6,)),
     ("rigid", "f8", (6,)),
     ("friction", "f8", (6,)),

@@ -49,7 +49,7 @@ def window(row: Record, d: FloatArray, phi: FloatArray, limit: float) -> tuple[i
         near += row.moment[0] * phi[0] + row.moment[1] * phi[1] + row.moment[2] * phi[2]
         near += row.spread[0] * math.sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
         near += row.spread[1] * math.sqrt(phi[0] ** 2 + phi[1] ** 2 + phi[2] ** 2)
-        return 0, row.count if row.least - near < limit else 0
+        return 0, 0 if row.least - near >= limit else row.count  # this way round for NaN
     a = -(row.normal[0] * d[0] + row.arm * phi[1])
     b = -(row.normal[0] * d[1] - row.arm * phi[0])
     return contact_window(row.least - row.normal[2] * d[2], a, b, limit, row.count)
@@ -74,7 +74,7 @@ def _load(
     scale: float,
     shift: float,
     last: float,
-    pose: Record,
+    station: Record,
     first: int,
     size: int,
     at: int,
@@ -82,8 +82,8 @@ def _load(
     """Write ``size`` nodes from ``first`` on into the list, from place ``at`` on."""
     work, node = scratch.listed.work, scratch.listed.node
     phi, rate = scratch.tilt.phi, scratch.tilt.rate
-    d_x, d_y, d_z = pose.d[0], pose.d[1], pose.d[2]
-    v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
+    d_x, d_y, d_z = station.d[0], station.d[1], station.d[2]
+    v_x, v_y, v_z = station.v[0], station.v[1], station.v[2]
     phi_x, phi_y, phi_z = phi[0], phi[1], phi[2]
     rate_x, rate_y, rate_z = rate[0], rate[1], rate[2]
     source = np.uint64(first)  # unsigned, so that no index is taken from the end
@@ -120,13 +120,15 @@ def rewind(surface: Record, memory: SurfaceMemory) -> None:
 
 
 @kernel
-def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, with_edges: float) -> int:
+def gather(
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, with_edges: float
+) -> int:
     """Fill the next part of the list and return the number of its nodes, 0 after the last one.
 
     Parameters
     ----------
-    data, surface, memory, pose
-        As for ``wrench``; the tilt in ``memory.scratch`` belongs to the pose.
+    data, surface, memory, station
+        As for ``wrench``; the tilt in ``memory.scratch`` is that of the shaft.
     with_edges
         1 if rows that stand for no area are wanted too, 0 otherwise.
     """
@@ -140,12 +142,12 @@ def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Reco
     while r < surface.last_row and n < PART:
         row, left = data.rows[r], 0
         if with_edges > 0.0 or row.area > 0.0:
-            first, count = window(row, pose.d, phi, limit)
+            first, count = window(row, station.d, phi, limit)
             left = count - taken
             while left > 0 and n < PART:
                 start = first + taken if first + taken < row.count else first + taken - row.count
                 size = min(left, row.count - start, PART - n)
-                _load(nodes, entry_velocity, scratch, scale, shift, last, pose, row.first + start, size, n)
+                _load(nodes, entry_velocity, scratch, scale, shift, last, station, row.first + start, size, n)
                 n, left, taken = n + size, left - size, taken + size
         if left <= 0:
             r, taken = r + 1, 0

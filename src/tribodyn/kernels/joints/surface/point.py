@@ -59,7 +59,7 @@ def _offset(surface: Record, z: float, d: Vector, phi: Vector) -> Vector:
 
 @kernel
 def add_points(
-    data: SurfaceData, s: int, memory: SurfaceMemory, pose: Record, derivatives: float, told: float
+    data: SurfaceData, s: int, memory: SurfaceMemory, station: Record, derivatives: float, told: float
 ) -> None:
     """Fill ``normal`` and ``friction`` of the scratch; their derivatives, the report where these are 1."""
     surface, scratch = data.surfaces[s], memory.scratch
@@ -69,13 +69,13 @@ def add_points(
         memory.reports[s].separation_min = surface.clearance
     for k in range(int(surface.points)):
         z = surface.heights[k]
-        e = _offset(surface, z, _vector(pose.d), _vector(scratch.tilt.phi))
+        e = _offset(surface, z, _vector(station.d), _vector(scratch.tilt.phi))
         rho = math.sqrt(_dot(e, e))
         if told > 0.0:
             out = memory.reports[s]
             out.separation_min = min(out.separation_min, surface.clearance - rho)
         if rho > surface.clearance:
-            _add_point(data, s, memory, pose, k, e, rho, derivatives, told)
+            _add_point(data, s, memory, station, k, e, rho, derivatives, told)
     if told > 0.0:
         out = memory.reports[s]
         out.tensile_clip_share /= max(out.contact_fraction, 1.0)
@@ -103,7 +103,7 @@ def _add_point(
     data: SurfaceData,
     s: int,
     memory: SurfaceMemory,
-    pose: Record,
+    station: Record,
     k: int,
     e: Vector,
     rho: float,
@@ -113,12 +113,12 @@ def _add_point(
     """Add the point ``k`` that is off its centre by ``e``."""
     surface, scratch, z = data.surfaces[s], memory.scratch, data.surfaces[s].heights[k]
     n = (e[0] / rho, e[1] / rho, e[2] / rho)
-    e_dot = _offset(surface, z, _vector(pose.v), _vector(scratch.tilt.rate))
+    e_dot = _offset(surface, z, _vector(station.v), _vector(scratch.tilt.rate))
     approach = _dot(n, e_dot)
     rigid, force, d_gap, d_approach = _force(data, surface, memory, k, surface.clearance - rho, approach)
     height = (0.0, 0.0, z)
     x = _sum(height, surface.radius, n)
-    moving = _sum(_vector(pose.v), 1.0, _cross(_vector(pose.w), x))
+    moving = _sum(_vector(station.slip), 1.0, _cross(_vector(station.w), x))
     slip = _sum(moving, -_dot(n, moving), n)
     norm = math.sqrt(_dot(slip, slip) + slip_square(surface))
     unit = (slip[0] / norm, slip[1] / norm, slip[2] / norm)
@@ -142,7 +142,7 @@ def _add_point(
             _add_column(
                 surface,
                 scratch,
-                pose,
+                station,
                 m,
                 (z, rho, norm, force, d_gap, d_approach),
                 (n, e_dot, x, moving, unit),
@@ -153,7 +153,7 @@ def _add_point(
 def _add_column(
     surface: Record,
     scratch: Record,
-    pose: Record,
+    station: Record,
     m: int,
     numbers: tuple[float, float, float, float, float, float],
     vectors: tuple[Vector, Vector, Vector, Vector, Vector],
@@ -171,7 +171,7 @@ def _add_column(
     d_x = _sum(zero, surface.radius, d_n)
     d_force = d_approach * (_dot(d_n, e_dot) + rated * along) - d_gap * placed * along
     own = _sum(first, 1.0, _cross(second, x))
-    d_moving = _sum(_cross(_vector(pose.w), d_x), slipped, own)
+    d_moving = _sum(_cross(_vector(station.w), d_x), slipped, own)
     d_slip = _sum(d_moving, -(_dot(d_n, moving) + _dot(n, d_moving)), n)
     d_slip = _sum(d_slip, -_dot(n, moving), d_n)
     d_unit = _sum(zero, 1.0 / norm, _sum(d_slip, -_dot(unit, d_slip), unit))
@@ -196,11 +196,11 @@ def _add_column(
 
 
 @kernel
-def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record) -> float:
+def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> float:
     """Return the stored energy of all points [J]."""
     total = 0.0
     for k in range(int(surface.points)):
-        e = _offset(surface, surface.heights[k], _vector(pose.d), _vector(memory.scratch.tilt.phi))
+        e = _offset(surface, surface.heights[k], _vector(station.d), _vector(memory.scratch.tilt.phi))
         gap = surface.clearance - math.sqrt(_dot(e, e))
         if gap < 0.0:
             total += surface.roughness * stored_energy(table_of(data, surface), gap / surface.roughness)
@@ -209,17 +209,17 @@ def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Reco
 
 @kernel
 def update_entry_velocity(
-    data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record, at_start: float
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, at_start: float
 ) -> None:
     """Let points enter and leave contact at the end of an accepted step, where the surfaces meet."""
     entry_velocity, tilt = memory.entry_velocity, memory.scratch.tilt
     for k in range(int(surface.points)):
         z, i = surface.heights[k], surface.first_node + k
-        e = _offset(surface, z, _vector(pose.d), _vector(tilt.phi))
+        e = _offset(surface, z, _vector(station.d), _vector(tilt.phi))
         rho = math.sqrt(_dot(e, e))
         if rho <= surface.clearance:
             entry_velocity[i] = 0.0
         elif entry_velocity[i] == 0.0:
-            closing = _dot(e, _offset(surface, z, _vector(pose.v), _vector(tilt.rate))) / rho
+            closing = _dot(e, _offset(surface, z, _vector(station.v), _vector(tilt.rate))) / rho
             heed = 0.0 if at_start > 0.0 else closing
             entry_velocity[i] = reference_velocity(0.0, heed, surface.minimum_entry_velocity)

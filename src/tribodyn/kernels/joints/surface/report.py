@@ -19,7 +19,7 @@ from tribodyn.kernels.lookup import stored_energy
 
 
 @kernel
-def report(data: SurfaceData, s: int, memory: SurfaceMemory, pose: Record) -> None:
+def report(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) -> None:
     """Fill the report of surface ``s`` but for its forces, left in the scratch, and the stored energy.
 
     What slides is kept in ``memory`` until the next report, for ``slide``.
@@ -30,19 +30,19 @@ def report(data: SurfaceData, s: int, memory: SurfaceMemory, pose: Record) -> No
     cubics, work, kept = table_of(data, surface).cubics, scratch.listed.work, 0
     nearest, out.p_max = math.inf, 0.0
     rewind(surface, memory)
-    n = gather(data, surface, memory, pose, 1.0)
+    n = gather(data, surface, memory, station, 1.0)
     while n > 0:
         look_up(cubics, work, n)
-        nearest = min(nearest, _add_nodes(surface, scratch, pose, n, out))
+        nearest = min(nearest, _add_nodes(surface, scratch, station, n, out))
         _keep(memory, surface.first_node + kept, n)
         kept += n
-        n = gather(data, surface, memory, pose, 1.0)
+        n = gather(data, surface, memory, station, 1.0)
     memory.n_touched[s] = kept
     if nearest < float(surface.last_interval - surface.first_interval - 1):
         h_star = surface.h_first + (nearest - 1.0) / surface.inverse_step
         out.separation_min = surface.roughness * h_star
     else:
-        out.separation_min = _far_separation(data, surface, pose.d, scratch.tilt.phi)
+        out.separation_min = _far_separation(data, surface, station.d, scratch.tilt.phi)
     contact = out.contact_fraction
     out.contact_fraction = contact / surface.area
     if contact > 0.0:
@@ -82,13 +82,13 @@ def _far_separation(data: SurfaceData, surface: Record, d: FloatArray, phi: Floa
 
 
 @summing
-def _add_nodes(surface: Record, scratch: Record, pose: Record, n: int, out: Record) -> float:
+def _add_nodes(surface: Record, scratch: Record, station: Record, n: int, out: Record) -> float:
     """Add the sums over the ``n`` nodes in the list and return the least place in the contact table."""
     work = scratch.listed.work
     v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
     square, onset = slip_square(surface), (surface.onset - surface.h_first) * surface.inverse_step + 1.0
-    v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
-    w_x, w_y, w_z = pose.w[0], pose.w[1], pose.w[2]
+    v_x, v_y, v_z = station.slip[0], station.slip[1], station.slip[2]
+    w_x, w_y, w_z = station.w[0], station.w[1], station.w[2]
     g_x = g_y = g_z = l_x = l_y = l_z = 0.0
     heat = power = contact = clipped = 0.0
     highest, nearest = out.p_max, math.inf
@@ -144,15 +144,15 @@ def _add_nodes(surface: Record, scratch: Record, pose: Record, n: int, out: Reco
 
 
 @kernel
-def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record) -> float:
+def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> float:
     """Return the energy stored in the contact of a surface [J]."""
     table, work, total = table_of(data, surface), memory.scratch.listed.work, 0.0
     rewind(surface, memory)
-    n = gather(data, surface, memory, pose, 0.0)
+    n = gather(data, surface, memory, station, 0.0)
     while n > 0:
         for k in range(n):
             place = work[listed.INTERVAL + k] + work[listed.FRACTION + k]
             h_star = surface.h_first + (place - 1.0) / surface.inverse_step
             total += work[listed.AREA + k] * stored_energy(table, h_star)
-        n = gather(data, surface, memory, pose, 0.0)
+        n = gather(data, surface, memory, station, 0.0)
     return surface.roughness * total

@@ -6,9 +6,9 @@ the moment on the shaft is M = Gᵀ m, and approach speeds are taken with φ̇. 
 tilted shaft that spins about its own axis would do work against frictionless walls: by Ω (m_y φ_x − m_x
 φ_y), first order in the tilt.
 
-Three kinds of surfaces: a sphere has no tilt. On a surface of revolution only the axis a of the shaft
-counts, φ = (−a_y/a_z, a_x/a_z, 0). Any other surface is held against all turning, φ = ½ (R − Rᵀ) as a vector,
-which is the rotation vector to second order.
+Three kinds of surfaces: a sphere has no tilt. On a surface of revolution only the axis a of the shaft counts,
+φ = (−a_y/a_z, a_x/a_z, 0), so that it passes the height z where gaps say it does. Any other surface is held
+against turning about Z, too, with φ_z = ½ (R_yx − R_xy), the sine of a small twist.
 """
 
 from __future__ import annotations
@@ -50,20 +50,15 @@ def fill_tilt(kind: float, rotation: FloatArray, w: FloatArray, tilt: Record) ->
     clear(matrix)
     for i in range(3):
         phi[i] = rate[i] = 0.0
-    if kind == AXIS:
+    if kind != NO_TILT:
         x, y = -rotation[1, 2] / rotation[2, 2], rotation[0, 2] / rotation[2, 2]
         phi[0], phi[1] = x, y
         matrix[0, 0], matrix[0, 1], matrix[0, 2] = 1.0 + x * x, x * y, -y
         matrix[1, 0], matrix[1, 1], matrix[1, 2] = x * y, 1.0 + y * y, x
-    elif kind == WHOLE:
-        phi[0] = 0.5 * (rotation[2, 1] - rotation[1, 2])
-        phi[1] = 0.5 * (rotation[0, 2] - rotation[2, 0])
+    if kind == WHOLE:
         phi[2] = 0.5 * (rotation[1, 0] - rotation[0, 1])
-        trace = rotation[0, 0] + rotation[1, 1] + rotation[2, 2]
-        for i in range(3):
-            for k in range(3):
-                matrix[i, k] = -0.5 * rotation[i, k]
-            matrix[i, i] += 0.5 * trace
+        matrix[2, 0], matrix[2, 1] = -0.5 * rotation[2, 0], -0.5 * rotation[2, 1]
+        matrix[2, 2] = 0.5 * (rotation[0, 0] + rotation[1, 1])
     for i in range(3):
         for k in range(3):
             rate[i] += matrix[i, k] * w[k]
@@ -85,7 +80,7 @@ def fill_derivatives(
     """Fill ``tilt.rate_turn`` and add ∂(Gᵀ m)/∂ϑ with m held fixed to the columns of ``out`` (3, 3)."""
     rate_turn, matrix = tilt.rate_turn, tilt.to_rate
     clear(rate_turn)
-    if kind == AXIS:
+    if kind != NO_TILT:
         x, y = tilt.phi[0], tilt.phi[1]
         # G as a function of φ; φ turns with G ϑ.
         by_x = (2.0 * x * w[0] + y * w[1], y * w[0] + w[2])
@@ -98,12 +93,14 @@ def fill_derivatives(
                 rate_turn[i, k] = by_x[i] * turn_x + by_y[i] * turn_y
             for i in range(3):
                 out[i, k] += m_by_x[i] * turn_x + m_by_y[i] * turn_y
-    elif kind == WHOLE:
-        # G = ½ (tr R − R) with dR = ϑ × R column by column and d tr R = −2 φ·ϑ.
+    if kind == WHOLE:
+        # G_z = ½ (tr R ẑ − R_z) with dR = ϑ × R column by column, and d tr R = −(R − Rᵀ)·ϑ as a vector.
         for k in range(3):
             a, b = (k + 1) % 3, (k + 2) % 3
-            for i in range(3):
-                rate_turn[i, k] -= tilt.phi[k] * w[i]
-                rate_turn[a, k] += 0.5 * rotation[b, i] * w[i]
-                rate_turn[b, k] -= 0.5 * rotation[a, i] * w[i]
-                out[i, k] += 0.5 * (rotation[b, i] * m[a] - rotation[a, i] * m[b]) - tilt.phi[k] * m[i]
+            trace = 0.5 * (rotation[b, a] - rotation[a, b])
+            rate_turn[2, k] -= trace * w[2]
+            out[2, k] -= trace * m[2]
+            rate_turn[2, 0] -= 0.5 * rotation[1, k] * w[k]
+            rate_turn[2, 1] += 0.5 * rotation[0, k] * w[k]
+            out[k, 0] -= 0.5 * rotation[1, k] * m[2]
+            out[k, 1] += 0.5 * rotation[0, k] * m[2]

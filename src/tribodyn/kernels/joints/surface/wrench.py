@@ -39,7 +39,7 @@ def slip_square(surface: Record) -> float:
 
 
 @kernel
-def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Record) -> None:
+def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> None:
     """Fill ``normal`` and ``friction`` of the scratch.
 
     Parameters
@@ -49,19 +49,19 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, pose: Reco
     surface
         One of their surfaces.
     memory
-        Their memory, of which the scratch alone is changed; its tilt belongs to the pose.
-    pose
-        Of the shaft, see ``pose``.
+        Their memory, of which the scratch alone is changed; its tilt is that of the shaft.
+    station
+        Of the shaft, see ``station``.
     """
     normal, friction = memory.scratch.normal, memory.scratch.friction
     for k in range(6):
         normal[k] = friction[k] = 0.0
     cubics = table_of(data, surface).cubics
     rewind(surface, memory)
-    n = gather(data, surface, memory, pose, 0.0)
+    n = gather(data, surface, memory, station, 0.0)
     while n > 0:
-        _add_nodes(cubics, surface, memory.scratch.listed.work, pose, n, normal, friction)
-        n = gather(data, surface, memory, pose, 0.0)
+        _add_nodes(cubics, surface, memory.scratch.listed.work, station, n, normal, friction)
+        n = gather(data, surface, memory, station, 0.0)
 
 
 @summing
@@ -69,7 +69,7 @@ def _add_nodes(
     cubics: FloatArray,
     surface: Record,
     work: FloatArray,
-    pose: Record,
+    station: Record,
     n: int,
     normal: FloatArray,
     friction: FloatArray,
@@ -77,8 +77,8 @@ def _add_nodes(
     """Add the wrench of the ``n`` nodes in the list."""
     v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
     square = slip_square(surface)
-    v_x, v_y, v_z = pose.v[0], pose.v[1], pose.v[2]
-    w_x, w_y, w_z = pose.w[0], pose.w[1], pose.w[2]
+    v_x, v_y, v_z = station.slip[0], station.slip[1], station.slip[2]
+    w_x, w_y, w_z = station.w[0], station.w[1], station.w[2]
     f_x = f_y = f_z = m_x = m_y = m_z = 0.0
     g_x = g_y = g_z = l_x = l_y = l_z = 0.0
     for k in range(min(n, PART)):
