@@ -252,6 +252,8 @@ class _Start:
         rounding = CERTAIN * np.abs(residual - self.derivative(self._y, order, 0.5)[rows])
         residual[np.abs(residual) <= rounding] = 0.0
         slopes = self.slopes(self._y, order, np.eye(self._y.size))[rows]
+        if not np.all(np.isfinite(slopes)) or not np.all(np.isfinite(residual)):
+            raise ValueError(f"{self._broken} and the equations are not finite near by.")
         change = scale * lstsq(slopes * scale, -residual)[0]
         worst = int(np.argmax(np.abs(change) / scale))
         if np.abs(change[worst]) <= scale[worst]:

@@ -62,6 +62,8 @@ def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
         matrix[row, state.places[n + 1 :]] += state.mass
     else:
         matrix += np.eye(n)
+    if not np.isfinite(matrix).all() or not matrix.any():
+        return ": the equations do not determine all states"
     direction = np.linalg.svd(matrix / np.abs(matrix).max())[2][-1]
     name = names[int(np.argmax(np.abs(direction)))]
     return f": the equations do not determine {name}; see to them, the mass matrix and the index"

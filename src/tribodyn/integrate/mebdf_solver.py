@@ -180,7 +180,7 @@ class MEBDF(OdeSolver):
                 break
             t, y = self._inside(float(state.real[entry.T_EVAL])), state.rows[entry.Y].copy()
             if request == NEED_F:
-                state.rows[entry.F] = self.fun(t, y)
+                state.rows[entry.F] = self._rates(t, y)
             elif self._algebra is None:
                 state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
             else:
@@ -196,6 +196,15 @@ class MEBDF(OdeSolver):
         """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
         counts = self._state.counts
         return bool(counts[entry.N_LU] > RENEWED * counts[entry.STEPS])
+
+    def _rates(self, t: float, y: FloatArray) -> FloatArray:
+        """Return the right-hand side; one number will do for one equation, but not for several."""
+        f: FloatArray = self.fun(t, y)
+        if f.size != self.n:
+            raise ValueError(
+                f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
+            )
+        return f
 
     def _inside(self, t: float) -> float:
         """Return a time of evaluation on the near side of the next breakpoint."""

@@ -235,3 +235,11 @@ def test_a_wrong_jacobian_never_costs_digits(index, factor, rows):
         np.testing.assert_allclose(solution.y[:4, -1], right.y[:4, -1], atol=1e-4)
     else:
         assert "component" in solution.message
+
+
+@pytest.mark.parametrize("value", [[1.0], [1.0, 2.0, 3.0], None])
+def test_a_right_hand_side_of_the_wrong_shape(value):
+    with pytest.raises(
+        ValueError, match=r"`fun` is expected to return shape \(2,\), but returned .* at t = 0\."
+    ):
+        solve(lambda t, y: value, (0.0, 1.0), [1.0, 0.0])

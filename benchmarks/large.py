@@ -1,0 +1,159 @@
+"""Large systems: sparse ones beside SciPy's BDF, dense ones without a Jacobian beside CVODE.
+
+python -m benchmarks.large
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.sparse import csc_array, diags_array, eye_array, kron
+
+from tribodyn.integrate import MEBDF
+
+FloatArray = NDArray[np.float64]
+EXACT = {"rtol": 1e-8, "atol": 1e-10}
+
+
+class Large(NamedTuple):
+    """A system of many equations."""
+
+    name: str
+    fun: Callable[[float, FloatArray], FloatArray]
+    y0: FloatArray
+    t_end: float
+    pattern: Any
+
+
+def second_differences(n: int) -> Any:
+    """Return the matrix of second differences between walls at zero."""
+    return csc_array(diags_array([np.ones(n - 1), np.full(n, -2.0), np.ones(n - 1)], offsets=[-1, 0, 1]))
+
+
+def brusselator(n: int, square: bool) -> Large:
+    """Return two species, one after the other at each point of a line or a square."""
+    m = round(np.sqrt(n / 2)) if square else n // 2
+    line = second_differences(m)
+    if square:
+        diffusion = 0.002 * m**2 * (kron(line, eye_array(m)) + kron(eye_array(m), line)).tocsr()
+    else:
+        diffusion = 0.02 * (m + 1) ** 2 * line.tocsr()
+    rest = np.array([1.0, 3.0])
+
+    def fun(t: float, y: FloatArray) -> FloatArray:
+        u, v = y[0::2], y[1::2]
+        f = np.empty_like(y)
+        f[0::2] = 1.0 + u * u * v - 4.0 * u + diffusion @ (u - rest[0])
+        f[1::2] = 3.0 * u - u * u * v + diffusion @ (v - rest[1])
+        return f
+
+    points = diffusion.shape[0]
+    y0 = np.tile(rest, points)
+    y0[0::2] += np.sin(2.0 * np.pi * np.arange(1, points + 1) / (points + 1))
+    pattern = kron(diffusion != 0, eye_array(2)) + kron(eye_array(points), np.ones((2, 2)))
+    return Large(
+        f"Brusselator, {'square' if square else 'line'}, {2 * points}", fun, y0, 10.0, csc_array(pattern)
+    )
+
+
+def heat(n: int) -> Large:
+    """Return heat conduction along a bar with a reaction."""
+    matrix = (n + 1) ** 2 / np.pi**2 * second_differences(n)
+
+    def fun(t: float, y: FloatArray) -> FloatArray:
+        f: FloatArray = matrix @ y + 50.0 * y * (1.0 - y)
+        return f
+
+    return Large(f"heat, {n}", fun, 0.1 * np.sin(np.pi * np.arange(1, n + 1) / (n + 1)), 1.0, matrix)
+
+
+def solve(
+    problem: Large, method: Any, tolerance: float, reference: FloatArray, **options: Any
+) -> dict[str, Any]:
+    """Return digits, calls of the right-hand side and time of the processor [s]."""
+    calls = 0
+
+    def counted(t: float, y: FloatArray) -> FloatArray:
+        nonlocal calls
+        calls += 1
+        return problem.fun(t, y)
+
+    begin = time.process_time()
+    span = (0.0, problem.t_end)
+    run = solve_ivp(
+        counted, span, problem.y0, method=method, rtol=tolerance, atol=0.01 * tolerance, **options
+    )
+    seconds = time.process_time() - begin
+    return {"digits": digits(run.y[:, -1], reference), "calls": calls, "seconds": seconds}
+
+
+def digits(y: FloatArray, reference: FloatArray) -> float:
+    """Return the number of correct digits, relative to |y| + 1."""
+    return float(-np.log10(np.max(np.abs(y - reference) / (1.0 + np.abs(reference)))))
+
+
+def with_cvode(problem: Large, tolerance: float, reference: FloatArray) -> dict[str, Any]:
+    """Run CVODE with a dense Jacobian by differences."""
+    from sksundae.cvode import CVODE
+
+    calls = 0
+
+    def counted(t: float, y: FloatArray, f: FloatArray) -> None:
+        nonlocal calls
+        calls += 1
+        f[:] = problem.fun(t, y)
+
+    solver = CVODE(counted, rtol=tolerance, atol=0.01 * tolerance, method="BDF", max_num_steps=100_000)
+    begin = time.process_time()
+    found = np.asarray(solver.solve(np.array([0.0, problem.t_end]), problem.y0).y)[-1]
+    seconds = time.process_time() - begin
+    return {"digits": digits(found, reference), "calls": calls, "seconds": seconds}
+
+
+def tell(name: str, tolerance: float, runs: dict[str, dict[str, Any]]) -> None:
+    """Print runs side by side."""
+    texts = [
+        f"{who} {run['digits']:5.1f} digits {run['calls']:6d} calls {run['seconds']:7.3f} s"
+        for who, run in runs.items()
+    ]
+    print(f"{name:26s} {tolerance:.0e}", *texts, sep="  ", flush=True)
+
+
+def run(quick: bool = False) -> None:
+    """Print what all problems took; ``quick``: up to a thousand equations."""
+    sizes = (1000,) if quick else (1000, 10_000)
+    sparse = [
+        make(n)
+        for make in (lambda n: brusselator(n, False), lambda n: brusselator(n, True), heat)
+        for n in sizes
+    ]
+    for problem in sparse:
+        given = {"jac_sparsity": problem.pattern}
+        reference = solve_ivp(
+            problem.fun, (0.0, problem.t_end), problem.y0, method=MEBDF, **EXACT, **given
+        ).y[:, -1]
+        for tolerance in (1e-3, 1e-5):
+            runs = {name: solve(problem, name, tolerance, reference, **given) for name in ("BDF",)}
+            tell(
+                problem.name,
+                tolerance,
+                {**runs, "MEBDF": solve(problem, MEBDF, tolerance, reference, **given)},
+            )
+    for problem in (brusselator(100, False), heat(100)):
+        reference = solve_ivp(problem.fun, (0.0, problem.t_end), problem.y0, method="Radau", **EXACT).y[:, -1]
+        for tolerance in (1e-3, 1e-5, 1e-7):
+            theirs = with_cvode(problem, tolerance, reference)
+            tell(
+                problem.name,
+                tolerance,
+                {"CVODE": theirs, "MEBDF": solve(problem, MEBDF, tolerance, reference)},
+            )
+
+
+if __name__ == "__main__":
+    run()
