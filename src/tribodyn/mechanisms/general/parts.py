@@ -102,7 +102,7 @@ class ClearanceKeys(NamedGroup):
         "40 deg", "half the width of the race of a ball, as latitude", "assumed", gt=0, le="90 deg"
     )
     shape: Literal["cylinder", "sphere", "mesh"] | None = choice(
-        None, "if it is not that of the type: a pin in a pin-slot, or a mesh", "", example="cylinder"
+        None, "if it is not that of the type: a mesh", "", example="mesh"
     )
     mesh: str | None = file("STL file of the socket in the drawing, outsides anticlockwise", "socket.stl")
     mesh_unit: float = quantity("1 mm", "what a unit of that file is", "assumed", gt=0)

@@ -89,6 +89,8 @@ class MechanismSystem:
             duration=duration,
             rtol=self.case.solver.rtol,
             carried=None if worn is None else worn.carried,
+            # Of all integrators one knows the structure of these equations.
+            dense=self.case.solver.name != "mebdf",
         )
 
     def output_times(self, duration: float) -> FloatArray:
