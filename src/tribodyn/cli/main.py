@@ -23,6 +23,7 @@ class Command(Protocol):
     """A module that is one sub-command."""
 
     HELP: str
+    EXAMPLE: str
 
     def add_arguments(self, parser: argparse.ArgumentParser, /) -> None:
         """Declare what follows the name of the command."""
@@ -103,7 +104,13 @@ def _parser() -> _Parser:
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
-        below = commands.add_parser(name, help=command.HELP, description=command.HELP, allow_abbrev=False)
+        below = commands.add_parser(
+            name,
+            help=command.HELP,
+            description=command.HELP,
+            epilog=f"example: {command.EXAMPLE}",
+            allow_abbrev=False,
+        )
         below.set_defaults(parser=below)
         command.add_arguments(below)
         below.add_argument("--quiet", action="store_true", help="print errors and warnings only")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import subprocess
 import sys
 import time
@@ -55,6 +56,19 @@ def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixtu
         main([*([command] if command else []), "--help"])
     assert caught.value.code == 0
     assert "usage: tribodyn" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_of_a_command_ends_with_an_example_that_is_understood(
+    command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    example = " ".join(capsys.readouterr().out.split()).partition("example: ")[2]
+    name, *arguments = shlex.split(example.partition(" > ")[0])[1:]
+    assert name == command
+    monkeypatch.setattr(COMMANDS[command], "execute", lambda args: 0)
+    assert main([name, *arguments]) == 0
 
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:
