@@ -1,7 +1,8 @@
 """The command under watch: each one in a process of its own, with its memory and time measured.
 
 A program that is started for each of thousands of files would mostly import. Run as a script this module
-imports once, reads command lines as JSON, one a line, forks for each, and answers with what came of it.
+imports once what a command needs, reads command lines as JSON, one a line, forks for each, and answers with
+what came of it.
 """
 
 from __future__ import annotations
@@ -41,37 +42,54 @@ class Outcome:
     megabytes: float
 
 
+PICTURES = ("figures", "report", "results.store")
+NEEDED = {
+    "surface": ("cases", "figures", "surfaces"),
+    "report": PICTURES,
+    "compare": PICTURES,
+    **dict.fromkeys(("check", "show", "run"), (*PICTURES, "simulation")),
+}
+"""What a command imports."""
+
+
 class Watched:
-    """A process that runs commands."""
+    """Processes that run commands, one for each sort of them."""
 
     def __init__(self) -> None:
-        command = [sys.executable, __file__]
-        self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-        )
+        self._processes: dict[str, subprocess.Popen[str]] = {}
 
     def run(self, arguments: Sequence[str]) -> Outcome:
         """Run a command; a process that did not survive it answers nothing, which is an error."""
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        print(json.dumps(list(arguments)), file=self._process.stdin, flush=True)
-        answer = self._process.stdout.readline()
+        process = self._process(arguments[0])
+        assert process.stdin is not None
+        assert process.stdout is not None
+        print(json.dumps(list(arguments)), file=process.stdin, flush=True)
+        answer = process.stdout.readline()
         assert answer, f"the process did not survive {arguments}"
         return Outcome(**json.loads(answer))
 
+    def _process(self, word: str) -> subprocess.Popen[str]:
+        if word not in self._processes:
+            command = [sys.executable, __file__, word]
+            self._processes[word] = subprocess.Popen(
+                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+            )
+        return self._processes[word]
+
     def close(self) -> None:
-        """End the process."""
-        self._process.communicate()
+        """End the processes."""
+        for process in self._processes.values():
+            process.communicate()
 
 
 @contextlib.contextmanager
 def watched() -> Iterator[Watched]:
-    """Have a process that runs commands while the block runs."""
-    process = Watched()
+    """Have processes that run commands while the block runs."""
+    processes = Watched()
     try:
-        yield process
+        yield processes
     finally:
-        process.close()
+        processes.close()
 
 
 def tolerable(outcome: Outcome) -> bool:
@@ -119,19 +137,25 @@ def _from_status(name: str) -> int:
     return int(found[1]) * 1024
 
 
-def _serve() -> None:
-    # What commands would import and load, each one again; their files are not to be blamed for it.
-    for name in ("figures", "report", "results.store", "simulation", "studies", "surfaces"):
-        importlib.import_module(f"tribodyn.{name}")
-    with contextlib.suppress(ImportError):
-        importlib.import_module("SurfaceTopography.IO")
-    with contextlib.redirect_stdout(io.StringIO()):
-        main(["check", "vsv", "--deep", "--quiet"])
+def _serve(word: str) -> None:
+    _load(word)
     limit = _from_status("VmData") + _SPARE * MEGABYTES * 1024**2
     resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
     for line in sys.stdin:
         print(_answer(json.loads(line)), flush=True)
 
 
+def _load(word: str) -> None:
+    """Load what a command would each time; its files are not to be blamed for it."""
+    for name in NEEDED[word]:
+        importlib.import_module(f"tribodyn.{name}")
+    if word == "surface":
+        with contextlib.suppress(ImportError):
+            importlib.import_module("SurfaceTopography.IO")
+    if word == "run":
+        with contextlib.redirect_stdout(io.StringIO()):
+            main(["check", "vsv", "--deep", "--quiet"])
+
+
 if __name__ == "__main__":
-    _serve()
+    _serve(sys.argv[1])

@@ -1,4 +1,4 @@
-"""A Jacobian that was given, compared with the right-hand side where the method makes no way with it."""
+"""A Jacobian that was given, compared with the right-hand side at the start and where no way is made."""
 
 from __future__ import annotations
 
@@ -13,18 +13,20 @@ from tribodyn.core.arrays import FloatArray
 Dense = Callable[[float, FloatArray], FloatArray]
 
 FIRST: Final = 32
-"""Evaluation at which the Jacobian is compared, then at twice as many, and so on: next to no cost."""
+"""Evaluation at which it is compared after the start, then at twice as many, and so on: next to no cost."""
 CHANGE: Final = 1e-6
 """Relative change of the state along which it is compared."""
-WRONG: Final = 0.5
-"""Difference of the derivatives, relative to the larger one, of a Jacobian that is wrong."""
+WRONG: Final = 0.9
+"""Difference of the derivatives, relative to the larger one, of a Jacobian that is wrong, not rough."""
+NOISE: Final = 1e-12
+"""Difference, relative to the right-hand side, that its rounding may be."""
 
 
 class Doubted:
     """The Jacobian given, until it turns out to be wrong; differences from then on.
 
     Newton's iteration with −J contracts only for steps below a third of the fastest time constant, so
-    a wrong sign would cost steps by the ten thousand.
+    a wrong sign would cost steps by the ten thousand. One that is too large makes all corrections tiny.
 
     Parameters
     ----------
@@ -55,9 +57,9 @@ class Doubted:
         """Return the Jacobian."""
         self._count += 1
         matrix = self._jacobian(t, y)
-        if self._count < self._next or not self._in_trouble():
+        if self._count > 1 and (self._count < self._next or not self._in_trouble()):
             return matrix
-        self._next = 2.0 * self._count
+        self._next = max(self._next, 2.0 * self._count)
         if not self._is_wrong(matrix, t, y):
             return matrix
         warn(
@@ -77,4 +79,4 @@ class Doubted:
         change = side * self._signs * (np.abs(y) + self._threshold)
         found, expected = self._fun(t, y + change) - f, matrix @ change
         larger = max(np.linalg.norm(found), np.linalg.norm(expected))
-        return bool(np.linalg.norm(found - expected) > WRONG * larger)
+        return bool(np.linalg.norm(found - expected) > max(WRONG * larger, NOISE * np.linalg.norm(f)))
