@@ -75,6 +75,13 @@ def test_one_face_alone() -> None:
     assert names == ["barrel", "upper face"]
 
 
+def test_a_ball_in_a_bore_has_its_nodes_where_it_can_touch() -> None:
+    (band,) = Ball(8e-3, 20e-6).surfaces((12, 8))
+    assert band.gap.min() < 22e-6
+    assert band.gap.max() == pytest.approx(40e-6, rel=1e-12)  # at the edges
+    np.testing.assert_allclose(np.linalg.norm(band.position, axis=1), 8e-3, rtol=1e-14)
+
+
 def test_long_triangles_are_split() -> None:
     small = split(CUBE_FACE, 3e-3)
     sides = np.linalg.norm(small - np.roll(small, 1, axis=1), axis=2)

@@ -28,24 +28,25 @@ class Ball:
     radial
         Radial clearance [m].
     band
-        Latitude up to which there are nodes on both sides of the equator [rad]; within it lies what can
-        touch.
+        Latitude up to which there are nodes on both sides of the equator [rad]; what can touch must lie
+        within. By default that at which the gap has opened by once the clearance.
     """
 
     radius: float
     radial: float
-    band: float
+    band: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
         check_positive("ball", radius=self.radius, radial=self.radial)
-        if not 0.0 < self.band < 0.5 * math.pi:
+        if self.band is not None and not 0.0 < self.band < 0.5 * math.pi:
             raise InputError(f"must lie between 0 and 90°, not at {self.band:g} rad", key="band")
 
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the band, weighed by the area of the bore."""
         n_theta, n_z = grid
-        edge = self.radius * math.sin(self.band)
+        band = math.acos(1.0 - self.radial / self.radius) if self.band is None else self.band
+        edge = self.radius * math.sin(band)
         z, weight = across(-edge, edge, n_z)
         ones, latitude = np.ones(z.size), np.arcsin(z / self.radius)
         rings = Rings(
