@@ -29,7 +29,7 @@ ENERGY_LIMIT = 0.01
 """Largest energy residual of a sound run: above it a run warns."""
 ATOL = {"position": "m", "tilt": "rad", "velocity": "m/s", "tilt_rate": "rad/s"}
 DEEPEST = -4.0
-"""Separation over σ at which the journal stops, because contact laws reach no further."""
+"""Separation over σ at which a run stops, because contact laws reach no further."""
 NEAR = math.radians(2.0)
 """Crank angle by which clearance can shift the limit of reach; the widest here turns the vane by 1°."""
 PATIENCE = 120.0
@@ -254,7 +254,11 @@ def not_finite(result: xr.Dataset) -> str:
 def true_reason(result: xr.Dataset) -> bool:
     """Tell whether a run that stopped did so for the reason it gives."""
     if "closer than the contact law reaches" in result.attrs["failure"]:
-        return bool((result["separation_least"] / result.attrs["roughness"] < 0.9 * DEEPEST).all())
+        # A variable of a journal's result, an attribute of a mechanism's.
+        least = (
+            result["separation_least"] if "separation_least" in result else result.attrs["separation_least"]
+        )
+        return float(least) / result.attrs["roughness"] < 0.9 * DEEPEST
     if "limit of its reach" in result.attrs["failure"]:
         case = parse_case(result.attrs["case"], "result")
         drive, t = case.crank, result.attrs["time_reached"]
