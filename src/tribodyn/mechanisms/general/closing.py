@@ -212,11 +212,13 @@ class System:
             coupling, now = self.parts.couplings[k], self.now.couplings[k]
             row = np.zeros(6 * (self.n + 1))
             entry = 5 if coordinate == "angle" else 2
+            clearance = self.description.joints[k].clearance
+            given = -value if clearance is not None and clearance.socket == 1 else value
             for side, body in enumerate((coupling.socket, coupling.shaft)):
                 row[6 * body : 6 * body + 6] += now.H[entry, 6 * side : 6 * side + 6]
             over = row[: 6 * self.n] @ root
             matrices.append(over[None] / max(float(np.linalg.norm(over)), 1e-300))
-            wanted.append(np.array([value / max(float(np.linalg.norm(over)), 1e-300)]))
+            wanted.append(np.array([given / max(float(np.linalg.norm(over)), 1e-300)]))
         if not wanted:
             return []
         matrix, target = np.vstack(matrices), np.concatenate(wanted)
@@ -226,10 +228,10 @@ class System:
         self.refresh()
         left = float(np.max(np.abs(matrix @ solution - target)))
         if left > DEPENDENT * float(np.max(np.abs(target), initial=1.0e-300)):
-            given = [self.description.joints[k].name for k, _, _ in speeds]
+            asked = [self.description.joints[k].name for k, _, _ in speeds]
             text = "no motion has the speeds at the start that drives and joints ask for"
-            key = f"joints.{given[0]}" if given else "drives"
-            return [Finding(key, f"{text}; given are those of {', '.join(given)}" if given else text)]
+            key = f"joints.{asked[0]}" if asked else "drives"
+            return [Finding(key, f"{text}; given are those of {', '.join(asked)}" if asked else text)]
         return []
 
 

@@ -47,8 +47,7 @@ class Clearance:
     ----------
     shape
         A name of ``joints.SHAPES``: ``cylinder``, ``annulus``, ``sphere`` or ``mesh``; a revolute joint with
-        end
-        faces is a ``cylinder`` and two faces.
+        end faces is a ``cylinder`` and two faces.
     sizes
         Its dimensions by name [m], for example ``radius``, ``radial``, ``length``, ``axial``.
     socket
@@ -94,25 +93,21 @@ class Joint:
         Its name, unique.
     kind
         ``fixed``, ``revolute``, ``spherical``, ``cylindrical``, ``prismatic``, ``universal``, ``pin-slot``,
-        ``planar``
-        or ``spring-damper``.
+        ``planar`` or ``spring-damper``.
     bodies
         Numbers of the two bodies, ``GROUND`` for the ground.
     points
         Where the joint is, as drawn on the first and on the second body [m], shape (2, 3): the same point
-        unless
-        the drawing has a gap that assembly is to close.
+        unless the drawing has a gap that assembly is to close.
     axes
         Unit vectors in the drawing, shape (2, 3): the axis of a revolute, cylindrical, prismatic joint or
-        slot, the normal of a
-        planar one; the second is the other axis of a universal joint, fixed to the second body, and a
-        direction of angle zero elsewhere.
+        slot, the normal of a planar one; the second is the other axis of a universal joint, fixed to the
+        second body, and a direction of angle zero elsewhere.
     clearance
         None for an ideal joint.
     stiffness, damping
         Of a ``spring-damper``, along and about (axis, second axis, their cross product): [N/m] and [N m/rad],
-        [N s/m] and [N m s/rad],
-        shape (6,); of no length for others.
+        [N s/m] and [N m s/rad], shape (6,); of no length for others.
     """
 
     name: str

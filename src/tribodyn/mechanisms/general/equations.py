@@ -25,7 +25,7 @@ from tribodyn.mechanisms.general.inspection import sound_drives
 from tribodyn.mechanisms.general.joints import ROWS, frame
 from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
-from tribodyn.mechanisms.general.signals import Pieces, integral_of, pieces_of
+from tribodyn.mechanisms.general.signals import Pieces, integral_of, negated, pieces_of
 
 _LOADS: Final = {"ground": kinds.LOAD_GROUND, "body": kinds.LOAD_BODY, "motion": kinds.LOAD_MOTION}
 _COORDINATES: Final = ("angle", "position")
@@ -157,7 +157,7 @@ def _couplings(description: Description, signals: _Signals) -> Any:
             record.force, record.contact = kinds.CONTACT, real
             real += 1
     for drive in sound_drives(description):
-        _add_drive(records[drive.joint], drive, signals)
+        _add_drive(records[drive.joint], description.joints[drive.joint], drive, signals)
     for record, spring in zip(records[len(joints) :], springs, strict=False):
         _fill_spring(record, description, spring)
     for record, load in zip(records[len(joints) + len(springs) :], loads, strict=True):
@@ -217,9 +217,14 @@ def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) 
     record.n_rows = m + 1
 
 
-def _add_drive(record: Any, drive: Drive, signals: _Signals) -> None:
-    """Add a drive: a row for motion, an effort for torque or force."""
+def _add_drive(record: Any, joint: Joint, drive: Drive, signals: _Signals) -> None:
+    """Add a drive: a row for motion, an effort for torque or force.
+
+    It moves the second body against the first; where that carries the socket, the shaft goes the other way.
+    """
     pieces = pieces_of(drive.signal)
+    if joint.clearance is not None and joint.clearance.socket == 1:
+        pieces = negated(pieces)
     number = signals.add(integral_of(pieces) if drive.level == 1 else pieces, drive.signal.kinks)
     which = _COORDINATES.index(drive.coordinate)
     if drive.level == 2:

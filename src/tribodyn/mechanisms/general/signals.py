@@ -59,6 +59,12 @@ def integral_of(pieces: Pieces) -> Pieces:
     return Pieces(pieces.until, pieces.left, polynomial, sine)
 
 
+def negated(pieces: Pieces) -> Pieces:
+    """Return the same with the other sign."""
+    amplitude, frequency, phase = pieces.sine
+    return Pieces(pieces.until, pieces.left, -pieces.polynomial, (-amplitude, frequency, phase))
+
+
 def _padded(polynomial: FloatArray) -> FloatArray:
     """Return polynomials with five coefficients."""
     return np.pad(polynomial, ((0, 0), (0, 5 - polynomial.shape[1])))
