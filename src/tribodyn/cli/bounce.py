@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from tribodyn.mechanisms.bushing import HasBushing
 
 HELP = "drop the shaft on every contact law and damping factor, and show which restitution comes out"
-EXAMPLE = "tribodyn bounce vsv --law rsdc"
 _COLUMNS = ("wanted", "point", "plate", "shaft")
 
 

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from tribodyn.cases import Case
 
 HELP = "validate a case file without running it"
-EXAMPLE = "tribodyn check vsv --deep"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

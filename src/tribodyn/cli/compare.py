@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from tribodyn.report import Run
 
 HELP = "several runs in one report: what differs, and their curves over each other"
-EXAMPLE = "tribodyn compare results-vsv wide"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from tribodyn.studies.sweep import Arrival
 
 HELP = "find the value of a parameter at which a headline number reaches a limit"
-EXAMPLE = "tribodyn find vsv --vary joint.clearance=10..60um --until vane_angle_error_max_deg=0.03"
 _STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 

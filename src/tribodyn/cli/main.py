@@ -23,7 +23,6 @@ class Command(Protocol):
     """A module that is one sub-command."""
 
     HELP: str
-    EXAMPLE: str
 
     def add_arguments(self, parser: argparse.ArgumentParser, /) -> None:
         """Declare what follows the name of the command."""
@@ -47,6 +46,20 @@ COMMANDS: Final[dict[str, Command]] = {
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
 
+_EXAMPLES: Final = {
+    "run": "tribodyn run vsv --set joint.clearance='25 um' -o wide",
+    "cases": "tribodyn cases",
+    "show": "tribodyn show vsv > mine.toml",
+    "check": "tribodyn check vsv --deep",
+    "sweep": "tribodyn sweep vsv --vary joint.clearance='20 um:40 um:5 um' --workers 2",
+    "find": "tribodyn find vsv --vary joint.clearance=10..60um --until vane_angle_error_max_deg=0.03",
+    "report": "tribodyn report results-vsv",
+    "compare": "tribodyn compare results-vsv wide",
+    "reproduce": "tribodyn reproduce fig9 claims",
+    "surface": "tribodyn surface scan.csv --unit um --spacing '0.5 um'",
+    "bounce": "tribodyn bounce vsv --law rsdc",
+}
+"""How the help of each command ends."""
 _EPILOG: Final = """\
 examples:
   tribodyn run vsv
@@ -108,7 +121,7 @@ def _parser() -> _Parser:
             name,
             help=command.HELP,
             description=command.HELP,
-            epilog=f"example: {command.EXAMPLE}",
+            epilog=f"example: {_EXAMPLES[name]}",
             allow_abbrev=False,
         )
         below.set_defaults(parser=below)

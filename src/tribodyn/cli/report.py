@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 HELP = "build figures and the HTML report again from stored results"
-EXAMPLE = "tribodyn report results-vsv"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022 import PaperFigure, Runs
 
 HELP = "make the figures of the source paper, and judge its claims"
-EXAMPLE = "tribodyn reproduce fig9 claims"
 CLAIMS: Final = "claims"
 ALL: Final = "all"
 

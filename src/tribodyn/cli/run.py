@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from tribodyn.cases import Case
 
 HELP = "simulate a case; results, figures and a report go to a directory"
-EXAMPLE = "tribodyn run vsv --set joint.clearance='25 um' -o wide"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

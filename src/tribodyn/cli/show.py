@@ -8,7 +8,6 @@ from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import show_json
 
 HELP = "print a case with every key explained, as TOML: copy it, edit it, run it"
-EXAMPLE = "tribodyn show vsv > mine.toml"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from tribodyn.studies import Arrival, Means, Plan, Tls
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
-EXAMPLE = "tribodyn sweep vsv --vary joint.clearance='20 um:40 um:5 um' --workers 2"
-
 _STOPPING: Final = "stopping; finished points are kept; interrupt again to leave at once"
 
 
