@@ -133,8 +133,10 @@ def both() -> tuple[xr.Dataset, xr.Dataset]:
 
 def test_every_variable_of_a_run_is_mirrored(both: tuple[xr.Dataset, xr.Dataset]) -> None:
     here, there = both
-    t = here["time"].values
-    np.testing.assert_array_equal(there["time"].values, t)
+    # Rows in impacts follow the steps, which fall otherwise; all other rows are at the same times.
+    t, mine, other = np.intersect1d(here["time"].values, there["time"].values, return_indices=True)
+    assert t.size > 0.9 * t[-1] / load_case("vsv").run.output_interval
+    here, there = here.isel(time=mine), there.isel(time=other)
     # In impacts and the ringing after them rounding grows; it dies away with the ringing.
     quiet = ((t > 0.4) & (t < math.pi)) | (t > math.pi + 0.35)
     names = [name for name, values in here.data_vars.items() if values.dims == ("time",)]
