@@ -23,12 +23,14 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.mechanisms.checks import TIGHTEN
 from tribodyn.mechanisms.vsv.reach import reachable
+from tribodyn.results.peaks import PARTS
 from tribodyn.simulation import simulate
 
 ENERGY_LIMIT = 0.01
 """Largest energy residual of a sound run: above it a run warns."""
 ATOL = {"position": "m", "tilt": "rad", "velocity": "m/s", "tilt_rate": "rad/s"}
 DEEPEST = -4.0
+ENDINGS = tuple(f"_{part}" for part in PARTS)
 """Separation over σ at which a run stops, because contact laws reach no further."""
 NEAR = math.radians(2.0)
 """Crank angle by which clearance can shift the limit of reach; the widest here turns the vane by 1°."""
@@ -245,6 +247,8 @@ def not_finite(result: xr.Dataset) -> str:
     """Name the variables that hold anything but finite numbers without a reason."""
     numbers = [name for name in result.variables if result[name].dtype.kind == "f"]
     bad = {str(name) for name in numbers if not np.isfinite(result[name].values).all()}
+    # Peaks of a part of the motion that the run did not reach.
+    bad = {name for name in bad if not name.removesuffix("_time").endswith(ENDINGS)}
     if result.attrs["kind"] == "journal":
         # Never in contact, not settled at the end, without an equilibrium: the journal says so with NaN.
         bad -= {"contact_start", "settling_time", "e_x_balance", "e_y_balance"}
@@ -288,10 +292,10 @@ def test_mechanisms(seeds: range) -> None:
 def test_what_a_run_advises_that_misses_energy_helps() -> None:
     # Hardly any slip: the work of friction hangs on velocities as small as their absolute tolerance. Rounding
     # decides what a run misses, within a factor of two up or down; so runs at tolerances near by are asked.
-    # Means over seventeen of them are 0.144 to 0.155, and 0.0007 to 0.0008 with tolerances a hundredth.
-    case = MECHANISM.case(57)
+    # Loosened some sixtyfold they miss 0.019 to 0.052, and 0.0003 to 0.0007 with tolerances a hundredth.
+    case = load_case("vsv").replace({"joint.slip_velocity": "1e-4 um/s", "run.cycles": 0.6})
     missed = []
-    for near in 10.0 ** np.linspace(-0.2, 0.2, 7):
+    for near in 60.0 * 10.0 ** np.linspace(-0.2, 0.2, 7):
         loose = case.replace(tightened(case, near))
         first = run(loose)
         assert TIGHTEN in first.attrs["warnings"]
@@ -299,8 +303,8 @@ def test_what_a_run_advises_that_misses_energy_helps() -> None:
         assert max(residuals(second)) < ENERGY_LIMIT
         missed.append([residuals(first)[1], residuals(second)[1]])
     before, after = np.exp(np.log(missed).mean(axis=0))
-    # Each scatters by a quarter.
-    assert before > 5.0 * ENERGY_LIMIT
+    # The means are 0.027 and 0.0004; each scatters by a quarter.
+    assert before > ENERGY_LIMIT
     assert after < before / 30.0
 
 

@@ -14,7 +14,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import built_in
-from tribodyn.mechanisms.results import headlines_of, summarise
+from tribodyn.mechanisms.results import known, summarise
 
 STORED: Final = Path(__file__).with_name("headlines.json")
 OF_THE_MACHINE: Final = ("Trust", "Ledger", "Effort")
@@ -29,10 +29,11 @@ OF_IMPACTS: Final = ("_max_", "peak_", "rebounds", "settling", "speed_error")
 def numbers(name: str) -> dict[str, float]:
     """Return the headline numbers of a built-in case that the physics decides, not the machine."""
     result = td.simulate(td.load_case(name))
-    groups = {key: headline.group for key, headline in headlines_of(result.attrs["kind"]).items()}
+    summary = summarise(result)
+    groups = {key: headline.group for key, headline in known(summary, result.attrs["kind"]).items()}
     return {
         key: float(f"{value:.6g}")
-        for key, value in summarise(result).items()
+        for key, value in summary.items()
         if not isinstance(value, str | list) and groups[key] not in OF_THE_MACHINE
     }
 
