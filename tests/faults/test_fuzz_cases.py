@@ -108,7 +108,9 @@ def hold(status, message):
     assert status in (0, 2), message
     if status == 2:
         assert message.startswith("tribodyn: ")
-        assert message.count("\n") == 1
+        lines = message.splitlines()
+    assert 1 <= len(lines) <= 22
+    assert all(line.startswith("tribodyn: ") for line in lines)
         assert message[:-1].isprintable()
         assert "internal error" not in message
         assert len(message) < 3000

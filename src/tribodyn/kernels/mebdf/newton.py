@@ -1,4 +1,7 @@
-"""Newton's iteration of the three stages, all on one iteration matrix."""
+"""Newton's iteration of the three stages, all on one iteration matrix.
+
+One file because the phases of one iteration read and leave the same state, in the order in which they stand.
+"""
 
 from __future__ import annotations
 

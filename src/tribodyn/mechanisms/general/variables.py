@@ -152,9 +152,9 @@ VARIABLES: Final[dict[str, Variable]] = {
         for quantity in PEAKS
     },
     **described(WHOLE),
-    "energy_in": Variable("J", "work of drives and loads"),
+    "energy_in": Variable("J", "work of drives and loads since the start"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
-    "energy_friction": Variable("J", "heat of friction"),
+    "energy_friction": Variable("J", "heat of friction since the start"),
     "energy_residual": Variable("J", "what the energy ledger misses"),
     "pressure_cycle": Variable("Pa", "contact pressure over one cycle", (*FRAME, *_MAP)),
     "wear_depth": Variable("m", "wear depth, after the campaign or, estimated, after this run", _MAP),
