@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import io
-import math
 import time
 
 import pytest
@@ -19,7 +18,7 @@ from tribodyn.cases import keys_of
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import built_in, kinds, load_case
-from tribodyn.simulation import simulate
+from tribodyn.simulation import prepare, simulate
 
 FEW, MANY = 40, 4000
 """Examples of each test in ``make test`` and, five tests of them, in ``make test-long``."""
@@ -85,9 +84,9 @@ def tried(count, *strategies):
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
-    """Simulate each case once, since the first time may take minutes."""
+    """Have the equations of each case compiled, which may take minutes the first time."""
     for name in built_in():
-        run_for_a_moment(load_case(name), limit=math.inf)
+        prepare(load_case(name))
 
 
 def outcome(*arguments):
