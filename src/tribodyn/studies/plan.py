@@ -139,7 +139,7 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
     """
     if not vary:
         raise InputError("nothing varies; give PATH=VALUES at least once", key=SOURCE)
-    wanted = [variation(_key(case, path), asked) for path, asked in vary.items()]
+    wanted = [variation(varied_key(case, path), asked) for path, asked in vary.items()]
     levels = [entry for entry in wanted if isinstance(entry, Levels)]
     scatters = [entry for entry in wanted if isinstance(entry, Scatter)]
     axes = [Axis(entry.key.path, {entry.key: entry.values}) for entry in levels]
@@ -152,11 +152,17 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
     return Plan(case, tuple(axes), _points(case, axes, n_points), sampling)
 
 
-def _key(case: Case, path: str) -> Key:
+def varied_key(case: Case, path: str) -> Key:
+    """Return the key of a case that shall vary: of a vector, a component.
+
+    Raises
+    ------
+    InputError
+        The case has no such key; the message names the nearest one.
+    """
     keys = with_components(keys_in(case))
     path = plain_path(path, keys)
     if path not in keys:
-        # Raises, and the message names the nearest valid key.
         case.replace({path: ""}, source=SOURCE)
     return keys[path]
 

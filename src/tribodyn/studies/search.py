@@ -12,7 +12,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.cases import Case, Key, keys_in
+from tribodyn.cases import Case, Key
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.keys import Value
 from tribodyn.cases.units import with_shared_unit
@@ -21,7 +21,7 @@ from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import headlines_of
 from tribodyn.results.headline import Headline
-from tribodyn.studies.plan import make_plan
+from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written
 
@@ -233,19 +233,17 @@ def question(case: Case, vary: str, values: str, until: Limit) -> Question:
     InputError
         There is no such key, it cannot vary over a range, or the range is none.
     """
-    keys = keys_in(case)
-    if vary not in keys:
-        # Raises, and the message names the nearest valid key.
-        case.replace({vary: ""}, source=SOURCE)
-    key = keys[vary]
+    key = varied_key(case, vary)
     ends = values.split("..")
     if key.kind not in ("quantity", "number") or len(ends) != 2:
         raise InputError(
-            f"{as_given(values)}; allowed: a range of {key.allowed}, as in 10..60 um", key=vary, source=SOURCE
+            f"{as_given(values)}; allowed: a range of {key.allowed}, as in 10..60 um",
+            key=key.path,
+            source=SOURCE,
         )
     low, high = (_read(key, text) for text in with_shared_unit([end.strip() for end in ends]))
     if not low < high:
-        raise InputError(f"{as_given(values)}; the range must go upwards", key=vary, source=SOURCE)
+        raise InputError(f"{as_given(values)}; the range must go upwards", key=key.path, source=SOURCE)
     return Question(case, key, low, high, until)
 
 

@@ -11,6 +11,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.studies.search import Limit, question
 
 FIND = ["find", "vsv", "--vary", "joint.clearance=10..29 um", "--until"]
 
@@ -54,6 +55,13 @@ def test_a_limit_outside_the_range_says_what_is_there(simulated: list[Any]) -> N
 def test_wrong_questions_are_refused(path: str, between: str, until: str, hint: str) -> None:
     with pytest.raises(InputError, match=hint):
         td.studies.find("vsv", path, between, until)
+
+
+def test_a_component_of_a_vector_is_asked_for_by_its_name() -> None:
+    asked = question(
+        td.load_case("slider-crank"), "gravity.z", "-10..-9 m/s^2", Limit("energy_residual", 0.1)
+    )
+    assert (asked.key.path, asked.low, asked.high) == ("gravity.z", -10.0, -9.0)
 
 
 def test_the_command_prints_the_answer(
