@@ -52,5 +52,9 @@ class BushingCase(RoughCase):
         return super().resolve(given) | at_temperature
 
     def checks(self) -> tuple[Callable[[], object], ...]:
-        """Return the checks of contact law and liner."""
-        return (*super().checks(), lambda: self.joint.liner.layer(self.surfaces.bushing))
+        """Return the checks of contact law, liner and clearance."""
+        return (*super().checks(), lambda: self.joint.liner.layer(self.surfaces.bushing), self._check_clearance)
+
+    def _check_clearance(self) -> None:
+        if self.temperature.changes:
+            self.temperature.dimensions(self.joint, self.surfaces)

@@ -72,7 +72,7 @@ def together(faults: Sequence[InputError]) -> InputError:
 
 
 class Faults:
-    """Gathers what is wrong with several entries, so that a user hears of all of it at once.
+    """Gathers what is wrong with several entries, so that a user hears of all of it at once, and once only.
 
     Attributes
     ----------
@@ -89,7 +89,8 @@ class Faults:
         try:
             yield
         except InputError as error:
-            self.found += error.faults
+            told = {str(fault) for fault in self.found}
+            self.found += [fault for fault in error.faults if str(fault) not in told]
             if len(self.found) >= MOST_FAULTS:
                 self.raise_any()
 

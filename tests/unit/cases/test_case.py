@@ -82,6 +82,7 @@ def test_keys_that_need_each_other_read_back() -> None:
             "joint.form.chamfer_length": "0.5 mm",
             "joint.form.chamfer_depth": "20 um",
             "temperature.bushing": "300 degC",
+            "surfaces.bushing.thermal_expansion": "50e-6 1/K",
             "temperature.properties.temperatures": "20, 400 degC",
             "temperature.properties.hardness": "492, 300 MPa",
             "contact.loss_coefficient": "0.2 s/m",

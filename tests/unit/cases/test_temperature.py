@@ -18,8 +18,9 @@ TABLE = {
 
 
 def refusal(changes: dict[str, object], kind: str = "vsv") -> InputError:
+    """Return what is said when the case is read, long before it runs."""
     with pytest.raises(InputError) as caught:
-        td.simulate(td.load_case(kind).replace(changes))
+        td.load_case(kind).replace(changes)
     return caught.value
 
 
@@ -29,6 +30,13 @@ def test_temperatures_are_read_in_degrees_and_kelvin() -> None:
     assert case.temperature.assembly == 293.15
     assert case.replace({"temperature.bushing": "573.15 K"}).temperature.bushing == 573.15
     assert 'bushing = "300 degC"' in case.to_toml()
+
+
+@pytest.mark.parametrize("kind", ["vsv", "journal-dry"])
+def test_what_is_missing_is_said_once_and_with_its_place(kind: str) -> None:
+    said = str(refusal({"temperature.bushing": "300 degC"}, kind))
+    assert said.startswith("replace: surfaces.bushing.thermal_expansion: needed")
+    assert said.count("needed") == 1
 
 
 def test_a_cold_case_is_as_it_was() -> None:
