@@ -53,7 +53,10 @@ class BushingCase(RoughCase):
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return the checks of contact law, liner and clearance."""
-        return (*super().checks(), lambda: self.joint.liner.layer(self.surfaces.bushing), self._check_clearance)
+        return (*super().checks(), self._check_liner, self._check_clearance)
+
+    def _check_liner(self) -> None:
+        self.joint.liner.layer(self.surfaces.bushing)
 
     def _check_clearance(self) -> None:
         if self.temperature.changes:
