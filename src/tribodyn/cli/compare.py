@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import REPORT
+from tribodyn.cli.tables import LEFT_OUT
 from tribodyn.core.errors import InputError
-from tribodyn.core.quoting import as_given
+from tribodyn.core.quoting import as_given, brief, on_one_line
 
 if TYPE_CHECKING:
-    from tribodyn.report import Run
+    from tribodyn.report import Differences, Run
 
 HELP = "several runs in one report: what differs, and their curves over each other"
 
@@ -42,7 +43,7 @@ def execute(args: Namespace) -> int:
         raise InputError(f"{as_given(args.output)}, a directory; allowed: a file to write", key="--output")
     target = Path(args.output)
     runs = _runs(args.directories, target)
-    from tribodyn.report import compared, write_comparison
+    from tribodyn.report import differences, write_comparison
 
     try:
         write_comparison(runs, target)
@@ -52,13 +53,35 @@ def execute(args: Namespace) -> int:
             f"{as_given(args.output)}: it cannot be written ({reason})", key="--output"
         ) from None
     console = Console.of(args)
-    summaries, stretch = compared([run.dataset for run in runs])
-    if stretch:
-        console.say(stretch)
+    found = differences([run.dataset for run in runs])
+    for line in _in_words([run.name for run in runs], found):
+        console.say(line)
     console.say(f"look at {target}")
     if console.json:
-        show_json({run.name: summary for run, summary in zip(runs, summaries, strict=True)})
+        show_json({run.name: summary for run, summary in zip(runs, found.summaries, strict=True)})
     return 0
+
+
+def _in_words(names: Sequence[str], found: Differences) -> Iterator[str]:
+    """Give a table of what differs in the cases, and of what came of it."""
+    rows = [[brief(on_one_line(text)) for text in (row["path"], *row["values"])] for row in found.keys]
+    for group in found.groups:
+        if group["name"] not in LEFT_OUT:
+            rows += [_row(row) for row in group["rows"]]
+    widths = [max(map(len, column)) for column in zip(["", *names], *rows, strict=True)]
+    for first, *others in [["", *names], *rows]:
+        cells = (f"{text:>{width}}" for text, width in zip(others, widths[1:], strict=True))
+        yield "  ".join([f"{first:<{widths[0]}}", *cells]).rstrip()
+    if found.stretch:
+        yield found.stretch
+
+
+def _row(row: Mapping[str, Any]) -> list[str]:
+    """Return label and numbers of a row, each with its difference from the first."""
+    cells = (
+        f"{cell['value']}  ({cell['change']})" if cell["change"] else cell["value"] for cell in row["cells"]
+    )
+    return [f"{row['label']} {row['unit']}".rstrip(), *cells]
 
 
 def _runs(directories: Sequence[str], target: Path) -> list[Run]:

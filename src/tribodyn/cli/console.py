@@ -9,6 +9,8 @@ from argparse import Namespace
 from dataclasses import dataclass
 from typing import Any, TextIO
 
+from tribodyn.core.quoting import on_one_line
+
 
 @dataclass(frozen=True)
 class Console:
@@ -50,8 +52,7 @@ def show_json(document: Any) -> None:
 
 def complain(text: str) -> None:
     """Print one error or warning on stderr, on one line, whatever it quotes."""
-    one_line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
-    _on_stderr(f"tribodyn: {one_line}")
+    _on_stderr(f"tribodyn: {on_one_line(text)}")
 
 
 def _on_stderr(text: str) -> None:

@@ -10,7 +10,7 @@ from typing import Any, Final
 _COLUMN: Final = 13
 _LONGEST: Final = 22
 _MOST_ROWS: Final = 40
-_LEFT_OUT: Final = ("Trust", "Effort")
+LEFT_OUT: Final = ("Trust", "Effort")
 """Groups of headline numbers that say nothing about the machine."""
 
 
@@ -84,7 +84,7 @@ def _headlines(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str
     wanted = (
         {name: found[name] for name in given if name in found}
         if every
-        else {name: entry for name, entry in found.items() if entry.group not in _LEFT_OUT}
+        else {name: entry for name, entry in found.items() if entry.group not in LEFT_OUT}
     )
     return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}
 

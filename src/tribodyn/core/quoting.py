@@ -32,6 +32,11 @@ def brief(text: object, most: int = LONGEST) -> str:
     return words if len(words) <= most else f"{words[:end]}...{words[-end:]}"
 
 
+def on_one_line(text: str) -> str:
+    """Return a text with codes for characters that are not printed, such as those that move a cursor."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
 def as_given(text: str) -> str:
     """Return how a message about a wrong text begins."""
     return f'given "{brief(text)}"'

@@ -45,6 +45,35 @@ class Run:
     link: str = ""
 
 
+@dataclass(frozen=True)
+class Differences:
+    """What differs between runs, the first of which the others are compared with.
+
+    Attributes
+    ----------
+    keys
+        Keys of the cases that are not the same in all runs: ``path`` and ``values``.
+    groups
+        Headline numbers in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each
+        run, a cell of ``value``, ``change`` and whether that is ``notable``, in words.
+    stretch
+        What loads and accuracy were taken from, in a sentence; empty where that is the whole of each run.
+    summaries
+        The numbers themselves, for each run.
+    """
+
+    keys: Sequence[Mapping[str, Any]]
+    groups: Sequence[Mapping[str, Any]]
+    stretch: str
+    summaries: Sequence[Mapping[str, Any]]
+
+
+def differences(results: Sequence[xr.Dataset]) -> Differences:
+    """Return what differs between results, like beside like."""
+    summaries, stretch = _compared(results)
+    return Differences(_different_keys(results), _numbers(summaries), stretch, summaries)
+
+
 def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
     """Write the page that compares runs.
 
@@ -70,22 +99,22 @@ def render(runs: Sequence[Run]) -> str:
     """Return the page as text."""
     planned = chapter_of({run.name: run.dataset for run in runs})
     shown, payloads = chapters(runs[0].dataset, [planned])
-    summaries, stretch = compared([run.dataset for run in runs])
+    found = differences([run.dataset for run in runs])
     return page(
         "compare.html",
         payload={"clock": None, "figures": payloads} if payloads else None,
         title=f"Comparison of {len(runs)} runs",
         version=runs[0].dataset.attrs.get("tribodyn_version", ""),
-        runs=[_about(run, summary) for run, summary in zip(runs, summaries, strict=True)],
-        stretch=stretch,
-        groups=_numbers(summaries),
-        keys=_different_keys([run.dataset for run in runs]),
+        runs=[_about(run, summary) for run, summary in zip(runs, found.summaries, strict=True)],
+        stretch=found.stretch,
+        groups=found.groups,
+        keys=found.keys,
         chapters=shown,
         reading=reading(()),
     )
 
 
-def compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]:
+def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]:
     """Return summaries in which like stands beside like, and in a sentence what they were taken from.
 
     Loads and accuracy are those of what all results hold; wear, trust and effort are those of each whole run.

@@ -57,6 +57,32 @@ def test_the_command_writes_it_and_names_equal_directories_apart(make_result, tm
     assert "b/run" in text
 
 
+def test_the_command_prints_what_differs(runs, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for name, run in zip(("narrow", "wide"), runs, strict=True):
+        write_run(run.dataset, tmp_path / name)
+    assert main(["compare", "narrow", "wide"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["narrow", "wide"]
+    assert next(line for line in lines if "joint.clearance" in line).split() == [
+        *("joint.clearance", "20", "um", "40", "um")
+    ]
+    force = next(line for line in lines if line.startswith("Contact force, mean N"))
+    assert force.endswith("%)")
+    assert "(" not in next(line for line in lines if line.startswith("Tilt, largest"))
+    assert not any("Steps" in line for line in lines)
+
+
+def test_no_result_moves_the_cursor(make_result, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    write_run(make_result(0.2, case='title = "\\u001b[2J"'), tmp_path / "a")
+    write_run(make_result(0.2, case='title = "b"'), tmp_path / "b")
+    assert main(["compare", "a", "b"]) == 0
+    out = capsys.readouterr().out
+    assert "\x1b" not in out
+    assert "\\x1b[2J" in out
+
+
 @pytest.mark.parametrize("arguments", [["out"], ["out", "absent"], ["out", "out", "-o", "."]])
 def test_bad_arguments_write_nothing(arguments, make_result, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
