@@ -29,6 +29,7 @@ extensions = [
     "numpydoc",
     "case_keys",
     "contact_laws",
+    "materials",
     "benchmark_tables",
 ]
 exclude_patterns = ["_build"]

@@ -14,18 +14,30 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
+    from tribodyn.cases.materials import MATERIALS as materials
     from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanisms.general.builder import Mechanism
     from tribodyn.mechanisms.results import read
     from tribodyn.simulation import simulate
 
-__all__ = ["Mechanism", "__version__", "contact", "integrate", "load_case", "read", "simulate", "studies"]
+__all__ = [
+    "Mechanism",
+    "__version__",
+    "contact",
+    "integrate",
+    "load_case",
+    "materials",
+    "read",
+    "simulate",
+    "studies",
+]
 
 _HOME = {
-    "Mechanism": "tribodyn.mechanisms.general.builder",
-    "load_case": "tribodyn.mechanisms.catalogue",
-    "read": "tribodyn.mechanisms.results",
-    "simulate": "tribodyn.simulation",
+    "Mechanism": "tribodyn.mechanisms.general.builder:Mechanism",
+    "load_case": "tribodyn.mechanisms.catalogue:load_case",
+    "materials": "tribodyn.cases.materials:MATERIALS",
+    "read": "tribodyn.mechanisms.results:read",
+    "simulate": "tribodyn.simulation:simulate",
 }
 
 
@@ -34,7 +46,8 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         return importlib.import_module("importlib.metadata").version("tribodyn")
     if name in _HOME:
-        value = getattr(importlib.import_module(_HOME[name]), name)
+        module, _, attribute = _HOME[name].partition(":")
+        value = getattr(importlib.import_module(module), attribute)
         globals()[name] = value
         return value
     if name in __all__:
@@ -43,4 +56,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    return sorted(__all__)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
 from pydantic import (
@@ -41,6 +42,14 @@ from tribodyn.core.errors import Faults, InputError, together
 
 _T = TypeVar("_T")
 AnyCase = TypeVar("AnyCase", bound="Case")
+
+
+@dataclass(frozen=True)
+class Remarks:
+    """What a case says of itself, one sentence each: what to doubt, and what to read its numbers with."""
+
+    warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 class Group(BaseModel):
@@ -151,10 +160,18 @@ class Case(Group):
         """Drive cycles of a wear campaign; 0 where the case asks for none."""
         return 0
 
+    def remarks(self) -> Remarks:
+        """Return what a user should know of values that do not contradict each other; by default nothing."""
+        return Remarks()
+
     def at(self, path: str) -> Value | None:
         """Return the value at a dotted path, such as ``joint.clearance``."""
         found: Value | None = value_at(self, path)
         return found
+
+    def given(self, path: str) -> object:
+        """Return what was written for a key; None where nothing was."""
+        return self._given[path].value if path in self._given else None
 
     def replace(self, changes: Mapping[str, object], *, source: str = "replace") -> Self:
         """Return a copy with some keys changed; defaults that depend on them follow.

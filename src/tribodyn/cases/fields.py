@@ -32,8 +32,12 @@ def quantity(
     le: Bound = None,
     example: str | None = None,
     required: bool = False,
+    profile: bool = False,
 ) -> Any:
-    """Declare a key that carries a unit; default and bounds are written with it."""
+    """Declare a key that carries a unit; default and bounds are written with it.
+
+    A root mean square height of a ``profile`` may be given by another measure, as in ``Ra 0.8 um``.
+    """
     shown = example or default or ""
     unit = unit or unit_of(shown)
     bounds = {"gt": gt, "ge": ge, "lt": lt, "le": le}
@@ -48,6 +52,7 @@ def quantity(
         required=required,
         unit=unit,
         example=shown,
+        profile=profile,
     )
 
 

@@ -24,9 +24,18 @@ _MOST_OUTPUT_TIMES = 2_000_000
 class Trunnion(Group):
     """Surface of the trunnion (element 1)."""
 
+    material: str | None = choice(
+        None,
+        "of the library; keys beside it go before what it gives",
+        "",
+        family="tribodyn.cases.materials:MATERIALS",
+        example="steel-17-4ph",
+    )
     young_modulus: float = quantity("203 GPa", "Young's modulus E_1", TABLE_1, gt=0)
     poisson_ratio: float = number(0.27, "Poisson's ratio nu_1", TABLE_1, gt=0, le=0.5)
-    roughness: float = quantity("0.392 um", "root mean square roughness sigma_1", TABLE_1, ge=0)
+    roughness: float = quantity(
+        "0.392 um", "root mean square roughness sigma_1; Ra or Rz as well", TABLE_1, ge=0, profile=True
+    )
     thermal_expansion: float | None = quantity(
         None, "linear; needed with temperature.trunnion", "", ge=0, example="11e-6 1/K"
     )
@@ -36,9 +45,18 @@ class Trunnion(Group):
 class Bushing(Group):
     """Surface of the bushing (element 2), the softer one."""
 
+    material: str | None = choice(
+        None,
+        "of the library; keys beside it go before what it gives",
+        "",
+        family="tribodyn.cases.materials:MATERIALS",
+        example="bronze-c93200",
+    )
     young_modulus: float = quantity("7.17 GPa", "Young's modulus E_2", TABLE_1, gt=0)
     poisson_ratio: float = number(0.34, "Poisson's ratio nu_2", TABLE_1, gt=0, le=0.5)
-    roughness: float = quantity("1.586 um", "root mean square roughness sigma_2", TABLE_1, ge=0)
+    roughness: float = quantity(
+        "1.586 um", "root mean square roughness sigma_2; Ra or Rz as well", TABLE_1, ge=0, profile=True
+    )
     hardness: float = quantity("492 MPa", "hardness H", TABLE_1, gt=0)
     thermal_expansion: float | None = quantity(
         None, "linear; needed with temperature.bushing", "", ge=0, example="50e-6 1/K"

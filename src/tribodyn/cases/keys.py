@@ -24,6 +24,7 @@ from tribodyn.cases.units import (
     dimension,
     from_si,
     likely_quantity,
+    rms_roughness,
     si_unit,
     to_si,
 )
@@ -75,6 +76,8 @@ class Key:
         How many values it holds; 0 for one, or for any number.
     required
         Whether it must be given.
+    profile
+        Whether it is a root mean square height, for which other measures are understood.
     """
 
     path: str
@@ -88,6 +91,7 @@ class Key:
     choices: tuple[str, ...]
     length: int = 0
     required: bool = False
+    profile: bool = False
 
     @property
     def table(self) -> str:
@@ -170,7 +174,7 @@ class Key:
         if not isinstance(value, str):
             raise ValueProblem("")
         try:
-            return _not_tiny(to_si(value, self.unit))
+            return _not_tiny(rms_roughness(value) if self.profile else to_si(value, self.unit))
         except MissingUnit:
             raise ValueProblem(_without_unit(self, value)) from None
         except UnitProblem as problem:
@@ -260,6 +264,7 @@ def _key(path: str, info: FieldInfo) -> Key:
         choices=family_names(family) if family else _literal_names(info.annotation),
         length=int(notes.get("length", "0")),
         required=info.is_required(),
+        profile=bool(extra.get("profile")),
     )
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from tribodyn.cases.case import Case, demand
+from tribodyn.cases import materials
+from tribodyn.cases.case import Case, Remarks, demand
 from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Surfaces
 from tribodyn.cases.keys import Value, keys_of
+from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.temperature import Temperature
 
 if TYPE_CHECKING:
@@ -23,8 +25,12 @@ class RoughCase(Case):
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the defaults that follow from the contact law."""
-        return Contact.resolve(given)
+        """Return the defaults that follow from the materials and from the contact law."""
+        return materials.resolve(given, keys_of(cls)) | Contact.resolve(given)
+
+    def remarks(self) -> Remarks:
+        """Return what is to be said of the two surfaces."""
+        return of_surfaces(self)
 
     @property
     def surface_pair(self) -> SurfacePair:
@@ -44,7 +50,7 @@ class BushingCase(RoughCase):
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the defaults that follow from the contact law and from temperatures."""
+        """Return the defaults that follow from materials, the contact law and temperatures."""
         at_temperature = Temperature.resolve(given)
         for path in at_temperature.keys() - keys_of(cls).keys():
             key = f"temperature.properties.{path.rpartition('.')[2]}"

@@ -10,6 +10,7 @@ from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Numbers, choice, quantity, series
 from tribodyn.cases.groups import Bushing, PlainJoint, Surfaces
 from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.materials import between
 
 if TYPE_CHECKING:
     from tribodyn.joints import BushingGeometry
@@ -124,17 +125,14 @@ def _between(places: Numbers, values: Numbers, at: float, key: str) -> float:
     """Return the value of a table at a temperature [K]."""
     path = f"temperature.properties.{key}"
     demand(len(values) == len(places), path, f"there are {len(values)} values for {len(places)} temperatures")
-    rows = list(zip(places, values, strict=True))
-    steps = list(itertools.pairwise(rows))
     demand(
-        bool(steps) and all(a[0] < b[0] for a, b in steps),
+        len(places) > 1 and all(a < b for a, b in itertools.pairwise(places)),
         "temperature.properties.temperatures",
         "two temperatures at least, each above the one before it",
     )
     demand(
-        rows[0][0] <= at <= rows[-1][0],
+        places[0] <= at <= places[-1],
         path,
-        f"the table ends at {rows[0][0]:g} K and {rows[-1][0]:g} K, the bushing has {at:g} K",
+        f"the table ends at {places[0]:g} K and {places[-1]:g} K, the bushing has {at:g} K",
     )
-    low, high = next((a, b) for a, b in steps if at <= b[0])
-    return low[1] + (high[1] - low[1]) * (at - low[0]) / (high[0] - low[0])
+    return between(places, values, at)

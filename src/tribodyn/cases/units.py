@@ -63,12 +63,27 @@ _DIMENSIONS: Final = {
     "1/m^2": "number per area",
     "m^2/N": "wear volume per work",
     "Pa s": "viscosity",
+    "m^2/s": "kinematic viscosity",
+    "kg/m^3": "density",
     "Pa/m": "pressure per length",
     "s/m": "loss per speed",
     "K": "temperature",
     "1/K": "thermal expansion",
 }
 """The SI units that tribodyn works in, and what each of them measures."""
+
+
+RZ_OVER_RA: Final = 5.6
+"""No constant: tables for workshops have 4 (firgelliauto.com) to 7.2 (frictioncalculator.com)."""
+_GAUSSIAN: Final = math.sqrt(math.pi / 2.0)
+AMPLITUDES: Final = {
+    "Rq": 1.0,
+    "Sq": 1.0,
+    "Ra": _GAUSSIAN,
+    "Sa": _GAUSSIAN,
+    "Rz": _GAUSSIAN / RZ_OVER_RA,
+}
+"""Root mean square roughness over other measures of height, for Gaussian heights: σ = √(π/2) Ra."""
 
 
 class UnitProblem(ValueError):
@@ -107,7 +122,8 @@ def to_si(text: str, like: str) -> float:
     Parameters
     ----------
     text
-        Number and unit, such as ``"20 um"``.
+        Number and unit, such as ``"20 um"``; a viscosity also as a kinematic one with the density,
+        ``"32 cSt at 870 kg/m^3"``.
     like
         A unit of the wanted dimension; angles and plain ratios are told apart.
 
@@ -116,11 +132,14 @@ def to_si(text: str, like: str) -> float:
     UnitProblem
         The text is no quantity, has no unit, or has one of another dimension.
     """
+    kinematic, at, density = text.partition(" at ")
+    if at and dimension(like) == "viscosity":
+        return to_si(kinematic, "m^2/s") * to_si(density, "kg/m^3")
     number, unit = _split(text)
     scale = _known(unit)
     if scale.base != _scale(like).base:
         raise UnitProblem(
-            f"{brief(unit)!r} is not a unit of {dimension(like)}{_kinematic(scale, number, like)}"
+            f"{brief(unit)!r} is not a unit of {dimension(like)}{_kinematic(scale, number, unit, like)}"
         )
     value = scale.si(number)
     if not math.isfinite(value):
@@ -128,13 +147,24 @@ def to_si(text: str, like: str) -> float:
     return value
 
 
-def _kinematic(scale: _Scale, number: Decimal, like: str) -> str:
+def rms_roughness(text: str) -> float:
+    """Convert a root mean square roughness to metres; ``Ra 0.8 um`` and the like are understood, too.
+
+    Parameters
+    ----------
+    text
+        A length, after the name of one of :data:`AMPLITUDES` if it is another measure.
+    """
+    name, _, length = text.strip().partition(" ")
+    factor = AMPLITUDES.get(name.rstrip("="))
+    return to_si(text, "m") if factor is None else factor * to_si(length.lstrip("= "), "m")
+
+
+def _kinematic(scale: _Scale, number: Decimal, unit: str, like: str) -> str:
     """Return what to do where a kinematic viscosity was given for a dynamic one, else nothing."""
     if dimension(like) != "viscosity" or scale.base != _scale("m^2/s").base:
         return ""
-    density = 870.0
-    viscosity = f"{1e3 * density * scale.si(number):.3g} mPa s"
-    return f": this one is kinematic; times the density, with {density:g} kg/m^3 of an oil, it is {viscosity}"
+    return f': this one is kinematic; say the density, as in "{number:f} {unit} at 870 kg/m^3"'
 
 
 def from_si(value: float, unit: str) -> str:

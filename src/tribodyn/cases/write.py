@@ -64,7 +64,8 @@ def _lines(case: BaseModel, key: Key, own: Collection[str], comments: bool) -> I
     if not comments:
         yield from [] if value is None else [line]
     else:
-        yield from _commented(line, key, own=key.path in own)
+        changed = key.default is not None and value != key.default
+        yield from _commented(line, key, own=changed or key.path in own)
 
 
 def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator[str]:

@@ -10,7 +10,20 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn, Protocol
 
-from tribodyn.cli import bounce, cases, check, compare, find, report, reproduce, run, show, surface, sweep
+from tribodyn.cli import (
+    bounce,
+    cases,
+    check,
+    compare,
+    find,
+    materials,
+    report,
+    reproduce,
+    run,
+    show,
+    surface,
+    sweep,
+)
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
@@ -42,6 +55,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "compare": compare,
     "reproduce": reproduce,
     "surface": surface,
+    "materials": materials,
     "bounce": bounce,
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
@@ -57,6 +71,7 @@ _EXAMPLES: Final = {
     "compare": "tribodyn compare results-vsv wide",
     "reproduce": "tribodyn reproduce fig9 claims",
     "surface": "tribodyn surface scan.csv --unit um --spacing '0.5 um'",
+    "materials": "tribodyn materials ptfe-liner bronze-c93200",
     "bounce": "tribodyn bounce vsv --law rsdc",
 }
 """How the help of each command ends."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tribodyn.cases.case import Case
+from tribodyn.cases.case import Case, Remarks
 from tribodyn.cases.groups import Wear
 from tribodyn.cases.load import BuiltIn
 from tribodyn.core.arrays import FloatArray
@@ -163,6 +163,10 @@ class SystemCase(Protocol):
     @property
     def solver(self) -> Steps:
         """Its table ``[solver]``."""
+        ...
+
+    def remarks(self) -> Remarks:
+        """Return what a user should know of its values."""
         ...
 
     def to_toml(self) -> str:

@@ -123,7 +123,7 @@ def check(case: Case, *, deep: bool = False) -> Sequence[str]:
     Returns
     -------
     sequence of str
-        What a user should know of the mechanism before it runs, one sentence each.
+        What a user should know of case and mechanism before it runs, one sentence each.
 
     Raises
     ------
@@ -132,7 +132,8 @@ def check(case: Case, *, deep: bool = False) -> Sequence[str]:
     TribodynError
         If the run would fail at its first step.
     """
-    remarks = _session(case).system.check()
+    said = case.remarks()
+    remarks = (*said.warnings, *said.notes, *_session(case).system.check())
     if not deep:
         return remarks
     prepare(case)

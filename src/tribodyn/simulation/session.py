@@ -55,7 +55,7 @@ class Session:
     def dataset(self, run: Run, more: Part) -> xr.Dataset:
         """Return the result of a run, with what was added to it."""
         part = self.system.gather(run)
-        solver = self.case.solver
+        solver, said = self.case.solver, self.case.remarks()
         return build(
             variables=self.mechanism.variables,
             coordinates={"time": run.solution.t, **part.coordinates, **more.coordinates},
@@ -71,7 +71,7 @@ class Session:
                 **more.attributes,
                 "time_reached": float(run.solution.t_end),
                 "failure": part.failure,
-                "warnings": [*part.warnings, *more.warnings],
-                "notes": [*part.notes, *more.notes],
+                "warnings": [*said.warnings, *part.warnings, *more.warnings],
+                "notes": [*said.notes, *part.notes, *more.notes],
             },
         )

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tribodyn.cases.units import UnitProblem, dimension, from_si, si_unit, to_si
+from tribodyn.cases.units import UnitProblem, dimension, from_si, rms_roughness, si_unit, to_si
 
 UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N", "kg m^2", "ms", "um/s")
 
@@ -81,7 +81,7 @@ def test_micrometres_are_the_float_a_person_expects() -> None:
         ("1 dB", "rad", "a unit"),
         ("1 Hz", "rad/s", "not a unit of angular speed"),
         ("20 degC", "m", "not a unit of length"),
-        ("10 cSt", "Pa s", "kinematic; times the density, with 870 kg/m.3 of an oil, it is 8.7 mPa s"),
+        ("10 cSt", "Pa s", "kinematic; say the density, as in .10 cSt at 870 kg/m"),
         ("1 m/((s))", "m/s", "not a unit"),
         ("1 m/(s", "m/s", "not a unit"),
         ("1 ()", "m", "not a unit"),
@@ -117,3 +117,22 @@ def test_what_is_written_is_what_a_person_would_write() -> None:
 def test_every_unit_has_an_si_unit_of_factor_one(unit: str) -> None:
     assert to_si(f"1.5 {si_unit(unit)}", unit) == 1.5
     assert dimension(unit) == dimension(si_unit(unit))
+
+
+def test_other_measures_of_height_become_the_root_mean_square() -> None:
+    # Of Gaussian heights the mean magnitude is √(2/π) σ.
+    assert rms_roughness("Ra 0.8 um") == pytest.approx(0.8e-6 * math.sqrt(math.pi / 2.0), rel=1e-12)
+    assert rms_roughness("Rz = 5.6 um") == pytest.approx(rms_roughness("Ra 1 um"), rel=1e-12)
+    assert rms_roughness("Rq 1 um") == rms_roughness("1 um") == 1e-6
+    with pytest.raises(UnitProblem):
+        rms_roughness("Rk 1 um")
+
+
+def test_a_kinematic_viscosity_comes_with_its_density() -> None:
+    assert to_si("32 cSt at 870 kg/m^3", "Pa s") == pytest.approx(0.02784, rel=1e-12)
+    with pytest.raises(UnitProblem, match="say the density"):
+        to_si("32 cSt", "Pa s")
+    with pytest.raises(UnitProblem, match="density"):
+        to_si("32 cSt at 870 kg", "Pa s")
+    with pytest.raises(UnitProblem):
+        to_si("32 um at 870 kg/m^3", "m")

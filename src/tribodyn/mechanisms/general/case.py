@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
-from tribodyn.cases.case import Group, NamedGroup, demand
+from tribodyn.cases import materials
+from tribodyn.cases.case import Group, NamedGroup, Remarks, demand
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
 from tribodyn.cases.groups import Asperities, Contact, Surfaces, Wear, check_output_interval
-from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.keys import ASSUMED, Value, keys_of
+from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.core.quoting import meant
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
@@ -102,15 +104,24 @@ class MechanismCase(RoughCase):
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the defaults that follow from contact laws, those of named pairs among them."""
+        """Return the defaults that follow from materials and contact laws, also those of named pairs."""
         found = super().resolve(given)
         for name in {path.split(".")[1] for path in given if path.startswith(f"{_PAIRS}.")}:
             prefix = f"{_PAIRS}.{name}."
             own = {
                 path.removeprefix(prefix): value for path, value in given.items() if path.startswith(prefix)
             }
+            found |= materials.resolve(given, keys_of(PairKeys, prefix), prefix)
             found |= {prefix + path: value for path, value in Contact.resolve(own).items()}
         return found
+
+    def remarks(self) -> Remarks:
+        """Return what is to be said of the surfaces of all joints."""
+        own = [of_surfaces(self), *(of_surfaces(self, f"{_PAIRS}.{name}.") for name in self.pairs)]
+        return Remarks(
+            tuple(text for one in own for text in one.warnings),
+            tuple(text for one in own for text in one.notes),
+        )
 
     @property
     def period(self) -> float | None:

@@ -20,6 +20,7 @@ from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 
 SECTION_4 = "paper, section 4"
+_FRICTION = "joint.friction_coefficient"
 _LUBRICATED: dict[str, Value] = {
     "title": "Journal bearing, rough contact in oil",
     "run.duration": 0.05,
@@ -107,7 +108,11 @@ class JournalCase(BushingCase):
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from the contact law, and from whether there is oil."""
-        return super().resolve(given) | (_LUBRICATED if given.get("film.lubricated") else {})
+        found = super().resolve(given)
+        if not given.get("film.lubricated"):
+            return found
+        # What the library has is dry friction.
+        return {path: value for path, value in found.items() if path != _FRICTION} | _LUBRICATED
 
     @property
     def duration(self) -> float:

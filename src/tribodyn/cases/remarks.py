@@ -1,0 +1,110 @@
+"""What is said of surfaces whose values do not contradict each other, and yet may not belong together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tribodyn.cases.case import Case, Remarks
+from tribodyn.cases.keys import Key
+from tribodyn.cases.materials import MATERIAL, MATERIALS, SURFACES, Property, taken, warmth, written
+from tribodyn.cases.tables import keys_in
+from tribodyn.cases.units import RZ_OVER_RA
+
+_WEAR = "wear.specific_wear_rate"
+
+
+def of_surfaces(case: Case, prefix: str = "") -> Remarks:
+    """Return what is to be said of a set of surfaces.
+
+    Parameters
+    ----------
+    case
+        Any case that has one.
+    prefix
+        What stands before the paths of its keys.
+    """
+    keys = keys_in(case)
+    used = [one for surface in SURFACES for one in _used(case, keys, surface, prefix)]
+    warnings = [*_of_asperities(case, keys, prefix), *([] if prefix else _of_wear(case, keys))]
+    return Remarks(
+        tuple(warnings + [text for one in used for text in one.doubts()]),
+        tuple([text for one in used for text in one.notes()] + list(_of_heights(case, prefix))),
+    )
+
+
+@dataclass(frozen=True)
+class _Used:
+    """A key that takes its value from a material: what the case holds there, and what the material has."""
+
+    key: Key
+    value: object
+    material: str
+    known: Property | None
+    temperature: float
+
+    def doubts(self) -> Iterator[str]:
+        path, name = self.key.path, self.material
+        if self.known is None:
+            if self.value is not None and self.value == self.key.default:
+                kept = self._shown(self.value)
+                yield f"The library has no {self.key.name} of {name}: {path} stays at {kept}."
+        elif self.known.at(self.temperature) == self.value and self.known.is_far(self.temperature):
+            yield f"{path} of {name} is known at other temperatures only: {self.known.validity}."
+
+    def notes(self) -> Iterator[str]:
+        if self.known is None:
+            return
+        given, of_material = self._shown(self.value), self._shown(self.known.at(self.temperature))
+        if self.known.at(self.temperature) != self.value:
+            yield f"{self.key.path} = {given} goes before {of_material} of {self.material}."
+        elif self.known.spread is not None:
+            ends = written(self.key.name, self.known)
+            yield f"{self.key.path} = {given} is the middle of a range that {self.material} has: {ends}."
+
+    def _shown(self, value: object) -> str:
+        assert isinstance(value, float)
+        return self.key.write(float(f"{value:.4g}")).strip('"')
+
+
+def _used(case: Case, keys: dict[str, Key], surface: str, prefix: str) -> Iterator[_Used]:
+    name = case.at(f"{prefix}surfaces.{surface}.{MATERIAL}")
+    if name is None:
+        return
+    for property_name, path in taken(surface, prefix):
+        if path in keys:
+            known = MATERIALS[str(name)].properties.get(property_name)
+            there = {key: case.at(key) for key in keys if key.startswith("temperature.")}
+            yield _Used(keys[path], case.at(path), str(name), known, warmth(there, surface))
+
+
+def _of_asperities(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
+    rough = [f"{prefix}surfaces.{surface}.roughness" for surface in SURFACES]
+    left = [f"{prefix}asperities.{name}" for name in ("density", "radius")]
+    if not _as_built_in(case, keys, rough) and _as_built_in(case, keys, left):
+        yield (
+            "The roughness is another one, the asperities are still those of the paper's surfaces: "
+            f"give {left[0]} and {left[1]}, or a scan."
+        )
+
+
+def _of_wear(case: Case, keys: dict[str, Key]) -> Iterator[str]:
+    bushing = [f"surfaces.bushing.{name}" for name in ("young_modulus", "poisson_ratio", "hardness")]
+    if _WEAR not in keys or case.at(f"surfaces.bushing.{MATERIAL}") is not None:
+        return
+    if not _as_built_in(case, keys, bushing) and _as_built_in(case, keys, [_WEAR]):
+        yield f"The bushing is another one, and wears as that of the paper: give {_WEAR} of its material."
+
+
+def _of_heights(case: Case, prefix: str) -> Iterator[str]:
+    for surface in SURFACES:
+        given = case.given(f"{prefix}surfaces.{surface}.roughness")
+        if isinstance(given, str) and given.strip().startswith("Rz"):
+            yield (
+                f"{given.strip()} of the {surface} was taken for {RZ_OVER_RA:g} Ra of Gaussian heights; "
+                "surfaces have 4 to 7 Ra."
+            )
+
+
+def _as_built_in(case: Case, keys: dict[str, Key], paths: list[str]) -> bool:
+    return all(case.at(path) == keys[path].default for path in paths)

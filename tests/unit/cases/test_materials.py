@@ -1,0 +1,128 @@
+"""The library of materials, and what a case takes from it."""
+
+from __future__ import annotations
+
+import pytest
+
+import tribodyn as td
+from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import parse_case
+from tribodyn.mechanisms.results import summarise
+from tribodyn.simulation import check
+
+LINER = {"surfaces.bushing.material": "ptfe-liner"}
+BRONZE = {"surfaces.bushing.material": "bronze-c93200"}
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_every_property_has_a_source_and_could_be_one(name: str) -> None:
+    material = td.materials[name]
+    assert material.title
+    for key, known in material.properties.items():
+        assert key in OF_SURFACE | OF_PAIR
+        assert known.source
+        assert known.validity
+        assert len(known.values) == max(1, len(known.temperatures))
+        assert list(known.temperatures) == sorted(known.temperatures)
+    # Bounds that no solid of a bearing leaves: a slip of a power of ten shows.
+    bounds = {
+        "poisson_ratio": (0.2, 0.5),
+        "hardness": (1e7, 1e10),
+        "thermal_expansion": (5e-6, 2e-4),
+        "friction_coefficient": (0.01, 1.0),
+        "specific_wear_rate": (1e-18, 1e-12),
+    }
+    for key, known in material.properties.items():
+        least, largest = bounds.get(key, (1e8, 3e11))
+        assert all(least < known.at(warmth) < largest for warmth in (200.0, 293.15, 900.0))
+
+
+def test_a_material_gives_all_that_it_has() -> None:
+    case = td.load_case("vsv").replace(LINER | {"surfaces.trunnion.material": "titanium-6al-4v"})
+    assert case.at("surfaces.bushing.young_modulus") == 3.1e9
+    assert case.at("surfaces.trunnion.young_modulus") == 113.8e9
+    assert case.at("joint.friction_coefficient") == pytest.approx(0.06, rel=1e-12)
+    # The geometric mean of 0.07e-6 and 5.52e-6 mm³/(N m), by hand.
+    assert case.at("wear.specific_wear_rate") == pytest.approx(0.6216e-15, rel=1e-4)
+    assert case.replace({"surfaces.bushing.material": "bronze-c93200"}).at("surfaces.bushing.hardness") == (
+        pytest.approx(65 * 9.80665e6, rel=1e-12)
+    )
+
+
+def test_what_it_does_not_have_stays_and_is_told() -> None:
+    case = td.load_case("vsv").replace(BRONZE)
+    assert case.at("wear.specific_wear_rate") == 1.1e-15
+    told = " ".join(case.remarks().warnings)
+    assert "wear.specific_wear_rate stays at 1.1e-15 m^2/N" in told
+    assert "hardness" not in told
+    given = case.replace({"wear.specific_wear_rate": "3e-14 m^2/N", "joint.friction_coefficient": "0.2"})
+    assert given.remarks().warnings == ()
+
+
+def test_a_value_beside_it_goes_first_and_is_told() -> None:
+    case = td.load_case("vsv").replace(BRONZE | {"surfaces.bushing.hardness": "90 HB"})
+    assert case.at("surfaces.bushing.hardness") == pytest.approx(90 * 9.80665e6)
+    told = " ".join(case.remarks().notes)
+    assert "surfaces.bushing.hardness = 882.6 MPa goes before 637.4 MPa of bronze-c93200" in told
+
+
+def test_a_stored_case_says_nothing_new() -> None:
+    case = td.load_case("vsv").replace(LINER)
+    again = parse_case(case.to_toml(), "stored")
+    assert again.remarks() == case.remarks()
+    assert all("goes before" not in note for note in case.remarks().notes)
+
+
+def test_a_material_is_as_warm_as_its_part() -> None:
+    hot = {"surfaces.trunnion.material": "inconel-718", "temperature.trunnion": "427 degC"}
+    case = td.load_case("vsv").replace(hot)
+    assert case.at("surfaces.trunnion.young_modulus") == 186e9
+    assert case.at("surfaces.trunnion.thermal_expansion") == pytest.approx(14.2e-6, rel=1e-12)
+    table = {
+        "temperature.properties.temperatures": "20, 400 degC",
+        "temperature.properties.young_modulus": "7, 5 GPa",
+        "temperature.bushing": "400 degC",
+    }
+    assert case.replace(BRONZE | table).at("surfaces.bushing.young_modulus") == 5e9
+    far = td.load_case("vsv").replace(BRONZE | {"temperature.bushing": "300 degC"})
+    assert "surfaces.bushing.hardness of bronze-c93200 is known" in " ".join(far.remarks().warnings)
+
+
+def test_oil_needs_no_dry_friction() -> None:
+    assert td.load_case("journal-oil").replace(LINER).at("joint.friction_coefficient") == 0.0
+    assert td.load_case("journal-dry").replace(LINER).at("joint.friction_coefficient") > 0.0
+
+
+def test_pairs_of_a_mechanism_have_materials_of_their_own() -> None:
+    pair = '[pairs.pin.surfaces.bushing]\nmaterial = "bronze-c95400"\n'
+    case = parse_case(f"{td.load_case('slider-crank').to_toml()}\n{pair}", "test")
+    assert case.at("pairs.pin.surfaces.bushing.young_modulus") == 110e9
+    assert case.at("surfaces.bushing.young_modulus") == 7.17e9
+    told = case.replace({"pairs.pin.surfaces.bushing.hardness": "1 GPa"}).remarks().notes
+    assert any("pairs.pin.surfaces.bushing.hardness = 1000 MPa goes before" in text for text in told)
+
+
+def test_an_unknown_material_names_the_nearest() -> None:
+    with pytest.raises(InputError, match='did you mean "ptfe-liner"'):
+        td.load_case("vsv").replace({"surfaces.bushing.material": "ptfe-lner"})
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"surfaces.bushing.roughness": "2 um"}, "asperities are still those"),
+        ({"surfaces.bushing.young_modulus": "3 GPa"}, "wears as that of the paper"),
+    ],
+)
+def test_surfaces_that_leave_the_paper_behind_are_told(changes: dict[str, str], words: str) -> None:
+    case = td.load_case("vsv")
+    assert case.remarks().warnings == ()
+    assert any(words in text for text in case.replace(changes).remarks().warnings)
+
+
+def test_a_run_tells_it_too() -> None:
+    short = {"surfaces.bushing.roughness": "2 um", "run.duration": "1 ms", "run.output_interval": "1 ms"}
+    case = td.load_case("vsv").replace(short)
+    assert "asperities are still those" in " ".join(summarise(td.simulate(case))["warnings"])
+    assert "asperities are still those" in " ".join(check(case))
