@@ -45,7 +45,7 @@ def test_a_command_answers_as_shown(
 def alike(line: str, other: str) -> bool:
     """Tell whether two lines have the same words and nearly the same numbers.
 
-    Peaks of impacts move with the rounding of a processor, by 0.05 % here; 2 % leave room, and no other answer.
+    Peaks of impacts move with the rounding of a processor, by 0.05 % here; 2 % leave room.
     """
     (words, numbers), (other_words, other_numbers) = map(_parts, (line, other))
     return words == other_words and numbers == pytest.approx(other_numbers, rel=0.02)
