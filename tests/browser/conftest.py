@@ -24,6 +24,10 @@ from tribodyn.report import write
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # WebGL in software: there is no graphics card where tests run.
 OPTIONS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+NO_WEBGL = """const all = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+  return kind.startsWith('webgl') ? null : all.call(this, kind, ...more);
+};"""
 SCREENSHOTS = Path(os.environ.get("TRIBODYN_SCREENSHOTS", Path(__file__).parents[2] / "out" / "screenshots"))
 STILLS = ("motion", "trajectory")
 
@@ -86,7 +90,7 @@ class Reader:
         for name in page.locator("[data-widget]").evaluate_all("all => all.map(one => one.dataset.name)"):
             page.locator(f"#{name}").scroll_into_view_if_needed()
             page.wait_for_function(
-                "name => document.querySelector(`#${name} .plot`)?.data", arg=name, timeout=30_000
+                "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=30_000
             )
         page.evaluate("scrollTo(0, 0)")
         self.settle()
@@ -95,7 +99,7 @@ class Reader:
         """Scroll to a figure and wait until it is drawn."""
         self.page.locator(f"#{name}").scroll_into_view_if_needed()
         self.page.wait_for_function(
-            "name => document.querySelector(`#${name} .plot`)?.data", arg=name, timeout=30_000
+            "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=30_000
         )
 
     def go_to_frame(self, frame: int) -> None:
@@ -109,9 +113,28 @@ class Reader:
         self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => setTimeout(done, 200)))")
 
     def plot(self, name: str, path: str) -> Any:
-        """Return what a plot holds: a JavaScript path below the element of the figure."""
+        """Return an expression of `plot`, the element of a figure, whose `plotted` says what is drawn."""
         text = f"name => {{ const plot = document.querySelector(`#${{name}} .plot`); return {path}; }}"
         return self.page.evaluate(text, name)
+
+    def colours(self, name: str, places: str) -> list[list[int]]:
+        """Return red, green and blue at places of a figure: an expression of `plot`, [[x, y], ...] in px."""
+        text = """name => {
+          const plot = document.querySelector(`#${name} .plot`);
+          const sheet = document.createElement('canvas');
+          [sheet.width, sheet.height] = [plot.clientWidth, plot.clientHeight];
+          const pen = sheet.getContext('2d', {willReadFrequently: true});
+          pen.fillStyle = getComputedStyle(plot.closest('figure')).backgroundColor;
+          pen.fillRect(0, 0, sheet.width, sheet.height);
+          // A graphics card forgets its picture after the moment in which it was drawn.
+          if (plot.plotted.draw) plot.plotted.draw();
+          const {width, height} = sheet;
+          for (const one of plot.querySelectorAll('canvas')) pen.drawImage(one, 0, 0, width, height);
+          const colour = (x, y) => [...pen.getImageData(Math.round(x), Math.round(y), 1, 1).data];
+          return PLACES.map(place => colour(...place).slice(0, 3));
+        }""".replace("PLACES", places)
+        found: list[list[int]] = self.page.evaluate(text, name)
+        return found
 
     def overflow(self) -> int:
         """Return by how many pixels the page is wider than the window."""
@@ -130,7 +153,13 @@ def opened(browser: Browser) -> Iterator[Callable[..., Reader]]:
     contexts, watched = [], []
 
     def open_page(
-        path: Path, *, width: int = 1280, dark: bool = False, phone: bool = False, elsewhere: bool = False
+        path: Path,
+        *,
+        width: int = 1280,
+        dark: bool = False,
+        phone: bool = False,
+        elsewhere: bool = False,
+        webgl: bool = True,
     ) -> Reader:
         context = browser.new_context(
             viewport={"width": width, "height": 800},
@@ -140,6 +169,8 @@ def opened(browser: Browser) -> Iterator[Callable[..., Reader]]:
         )
         contexts.append(context)
         page = context.new_page()
+        if not webgl:
+            page.add_init_script(NO_WEBGL)
         watched.append((path, Watched(page), elsewhere))
         page.goto(path.as_uri())
         return Reader(page)

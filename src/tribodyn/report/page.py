@@ -68,10 +68,8 @@ def page(template: str = "page.html", *, payload: Mapping[str, Any] | None, **co
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    scripts = assets.scripts() if payload else assets.NONE
     return environment.get_template(template).render(
-        scripts=scripts,
-        style=assets.style(),
+        inside=assets.inside(bool(payload)),
         payload=safe_json(payload) if payload else "",
         **content,
     )

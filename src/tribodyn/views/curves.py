@@ -33,7 +33,7 @@ class Curve:
     colour
         Name of a colour of the page's style sheet.
     dash
-        Dash pattern as Plotly names it.
+        Dash pattern: solid, dash, dashdot, dot or longdash.
     width
         Line width [px].
     x

@@ -26,6 +26,14 @@ def reversal_times(dataset: xr.Dataset) -> FloatArray:
     return np.asarray(time[turn] + share * (time[turn + 1] - time[turn]), dtype=np.float64)
 
 
+def impact_windows(dataset: xr.Dataset) -> FloatArray:
+    """Return begin and end [s] of the impacts after the start and each reversal, shape (n, 2)."""
+    time, lasting = series(dataset, "time"), impact_time(dataset)
+    begins = np.concatenate([[0.0], reversal_times(dataset)])
+    windows = np.column_stack([begins, begins + lasting])
+    return np.asarray(windows[(lasting > 0.0) & (windows[:, 1] > time[0]) & (windows[:, 0] < time[-1])])
+
+
 def direction(dataset: xr.Dataset) -> FloatArray:
     """Return +1 while the ideal vane angle grows and -1 while it falls, shape (n_t,)."""
     return np.where(series(dataset, "omega_v_ideal") >= 0.0, 1.0, -1.0)

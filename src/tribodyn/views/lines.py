@@ -11,7 +11,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.curves import Curve, Panel
 from tribodyn.views.encode import packed
-from tribodyn.views.events import impact_time, reversal_times, smooth_limits
+from tribodyn.views.events import impact_time, impact_windows, reversal_times, smooth_limits
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import peak, series
 from tribodyn.views.thinning import thinned
@@ -30,6 +30,7 @@ def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | 
         "unit": unit,
         "scale": scale,
         "turns": [float(turn * scale) for turn in turns],
+        "windows": [[float(end * scale) for end in window] for window in impact_windows(dataset)],
         "x": packed(time * scale, "float64"),
         "panels": [_panel(panel, time, turns, impact_time(dataset)) for panel in panels],
     }
@@ -42,6 +43,7 @@ def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]
         "x_label": x_label,
         "time": False,
         "turns": [],
+        "windows": [],
         "x": packed(x, "float64"),
         "panels": [_panel(panel, x, none, 0.0) for panel in panels],
     }

@@ -1,10 +1,10 @@
-"""Scripts and style sheet of the page, and the policy that lets only them run."""
+"""Scripts and style sheet of the page, and the policy that lets only them in."""
 
 from __future__ import annotations
 
 import base64
-import gzip
 import hashlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -14,70 +14,65 @@ SCRIPTS: Final = (
     "start.js",
     "theme.js",
     "plots.js",
+    "axes.js",
     "clock.js",
     "lines.js",
+    "hover.js",
     "orbit.js",
     "field.js",
     "solid.js",
+    "camera.js",
+    "stage.js",
     "scene.js",
     "linkage.js",
     "choice.js",
-    "parallel.js",
-    "run.js",
 )
-"""Our scripts, in the order in which they run."""
+"""What draws, in the order in which it runs: the same in every page."""
+OF_REPORT: Final = ("parallel.js", "run.js")
+"""What only a report has."""
 
 _POLICY: Final = (
-    "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; "
-    "base-uri 'none'; form-action 'none'"
+    "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'"
 )
-
-
-def style() -> str:
-    """Return the style sheet."""
-    return _text("page.css")
 
 
 @dataclass(frozen=True)
-class Scripts:
-    """What runs in a page.
+class Inside:
+    """What stands inside a page.
 
     Attributes
     ----------
-    ours
-        Our own scripts as one text.
-    library
-        The plotting library, compressed, as base64.
+    script
+        Our scripts as one text; empty on a page without live figures.
+    style
+        The style sheet.
     policy
-        Content security policy of the page: these two run, and nothing is fetched.
+        Content security policy of the page: these two are let in, and nothing is fetched.
     """
 
-    ours: str
-    library: str
+    script: str
+    style: str
     policy: str
 
 
-NONE: Final = Scripts("", "", _POLICY.format("'none'"))
-"""A page without scripts."""
-
-
 @cache
-def scripts() -> Scripts:
-    """Return the scripts of a page with live figures."""
-    from plotly.offline import get_plotlyjs
-
-    library = get_plotlyjs()
-    ours = "\n".join(_text(name) for name in SCRIPTS)
-    wrapped = f'"use strict";\n(() => {{\n{ours}\n}})();'
-    packed = base64.b64encode(gzip.compress(library.encode("utf-8"), 6, mtime=0)).decode("ascii")
-    return Scripts(
-        wrapped, packed, _POLICY.format(f"'sha256-{_digest(wrapped)}' 'sha256-{_digest(library)}'")
-    )
+def inside(live: bool) -> Inside:
+    """Return what stands inside a report, with live figures or without."""
+    script, style = joined((*SCRIPTS, *OF_REPORT)) if live else "", text("page.css")
+    return Inside(script, style, _POLICY.format(_named(script) if live else "'none'", _named(style)))
 
 
-def _digest(text: str) -> str:
-    return base64.b64encode(hashlib.sha256(text.encode("utf-8")).digest()).decode("ascii")
+def joined(names: Iterable[str]) -> str:
+    """Return scripts of this folder as one that leaves no names behind."""
+    ours = "\n".join(text(name) for name in names)
+    return f'"use strict";\n(() => {{\n{ours}\n}})();'
 
 
-def _text(name: str) -> str:
+def text(name: str) -> str:
+    """Return a file of this folder."""
     return files(__name__).joinpath(name).read_text(encoding="utf-8")
+
+
+def _named(content: str) -> str:
+    """Return how a policy names a text: by its hash."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(content.encode('utf-8')).digest()).decode('ascii')}'"

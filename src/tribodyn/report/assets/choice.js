@@ -1,23 +1,35 @@
 // One of several figures of the same kind; which one, a reader chooses.
 
-widgets.choice = (box, data) => {
+widgets.choice = (box) => {
   const holder = element("div", {});
-  const options = data.names.map((name, k) => element("option", { value: k }, name));
-  const select = element("select", {}, ...options);
-  let inner = null;
+  const select = element("select", {});
+  const label = element("span", {});
+  const chooser = element("label", { class: "chooser" }, label, select);
+  const state = { inner: null, data: null, ghosts: [] };
+  tools(box, chooser);
+  box.append(holder);
+
+  const part = (data) => data.parts[Math.min(Number(select.value), data.parts.length - 1)];
+  const give = () => state.inner.take(part(state.data), state.ghosts.map((one) => ({ ...one, data: part(one.data) })));
   const make = () => {
     holder.replaceChildren();
-    inner = widgets[data.widget](holder, data.parts[Number(select.value)]);
+    state.inner = widgets[state.data.widget](holder);
+    give();
   };
   select.addEventListener("change", () => {
     make();
-    inner.paint();
-    if (inner.show && clock.frames) inner.show(clock.frame);
+    state.inner.paint();
+    if (clock.frames) state.inner.show?.(clock.frame);
   });
-  const label = data.label[0].toUpperCase() + data.label.slice(1);
-  if (data.names.length > 1) tools(box, element("label", { class: "chooser" }, label, select));
-  else tools(box, element("span", { class: "key" }, `${label}: ${data.names[0]}`));
-  box.append(holder);
-  make();
-  return { paint: () => inner.paint(), show: (frame) => inner.show && inner.show(frame) };
+  const take = (data, ghosts) => {
+    Object.assign(state, { data, ghosts });
+    const names = data.names.join("\n");
+    if (names === state.named) return give();
+    state.named = names;
+    label.textContent = data.label[0].toUpperCase() + data.label.slice(1);
+    select.replaceChildren(...data.names.map((name, k) => element("option", { value: k }, name)));
+    select.disabled = data.names.length < 2;
+    return make();
+  };
+  return { take, paint: () => state.inner.paint(), show: (frame) => state.inner.show?.(frame) };
 };

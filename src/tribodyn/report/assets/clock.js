@@ -7,7 +7,7 @@ const SLOW = 0.25;
 
 const clock = {
   frame: 0,
-  frames: page.clock ? page.clock.time.length : 0,
+  frames: 0,
   playing: false,
   due: false,
   longest: 0,
@@ -73,7 +73,8 @@ const clock = {
   /** Connect the slider of the page, where there is one. */
   start() {
     const bar = document.querySelector(".clock");
-    if (!bar || !clock.frames) return;
+    if (!bar || !page.clock) return;
+    clock.frames = page.clock.time.length;
     clock.slider = bar.querySelector("input");
     clock.output = bar.querySelector("output");
     clock.button = bar.querySelector("button");

@@ -1,85 +1,233 @@
 // Curves in panels above each other, with a common abscissa that zooms.
 
-const PANEL = { first: 190, more: 150, frame: 64 };
+const PANEL = { first: 190, more: 150, alone: 300, frame: 64 };
+const ROOM = { left: 52, right: 12, top: 26, below: 42, between: 34 };
+/** Least width of a hatched window [px]: a few milliseconds of a long run are to be seen. */
+const LEAST_WINDOW = 3;
+const DASHES = { solid: [], dash: [7, 3], dashdot: [8, 3, 2, 3], dot: [2, 3], longdash: [11, 4] };
 
-widgets.lines = (box, data) => {
-  for (const curve of data.panels.flatMap((panel) => panel.curves)) curve.x ??= data.x;
-  const hidden = new Set();
-  const count = data.panels.length;
-  const height = count === 1 ? 300 : PANEL.frame + PANEL.first + PANEL.more * (count - 1);
-  const span = wholeSpan(data);
-  let view = [...span];
-
-  const zoom = (factor, shift = 0) => {
-    const width = Math.min((view[1] - view[0]) * factor, span[1] - span[0]);
-    let begin = 0.5 * (view[0] + view[1]) - 0.5 * width + shift * width;
-    begin = Math.max(span[0], Math.min(span[1] - width, begin));
-    Plotly.relayout(area, { "xaxis.range": [begin, begin + width] });
-  };
-  const whole = () => {
-    const change = { "xaxis.range": [...span] };
-    for (let k = 0; k < count; k++) change[`${axisName("yaxis", k)}.autorange`] = true;
-    Plotly.relayout(area, change);
-  };
-  const keys = {
-    "+": () => zoom(0.5),
-    "=": () => zoom(0.5),
-    "-": () => zoom(2),
-    ArrowLeft: () => zoom(1, -0.25),
-    ArrowRight: () => zoom(1, 0.25),
-    0: whole,
-  };
-  const area = plotArea(box, height, keys, "Keys: plus and minus zoom, arrows move, 0 shows the whole.");
-  const entries = legendEntries(data);
-  tools(
-    box,
-    ...entries.map((entry) => legendButton(entry, hidden, () => paint())),
-    element("span", { class: "gap" }),
-    button("Zoom in", () => zoom(0.5)),
-    button("Zoom out", () => zoom(2)),
-    button("Whole", whole),
-  );
-  const notes = data.panels.filter((panel) => panel.note).map((panel) => `${panel.label}: ${panel.note}`);
-  if (notes.length) box.append(element("p", { class: "readout" }, notes.join(" · ")));
-
-  const paint = () => {
-    const first = !area.data;
-    const done = react(area, lineTraces(data, hidden), linesLayout(data, area, span, height, first));
-    if (!first) return;
-    done.then(() => {
-      area.on("plotly_relayout", () => {
-        view = [...area.layout.xaxis.range];
-      });
-      area.on("plotly_click", (event) => {
-        if (data.time && clock.frames) clock.goTo(event.points[0].x / data.scale);
-      });
-    });
-  };
-  const show = data.time
-    ? () => {
-        const last = data.turns.length;
-        const now = clock.now() * data.scale;
-        Plotly.relayout(area, { [`shapes[${last}].x0`]: now, [`shapes[${last}].x1`]: now });
-      }
-    : null;
-  return { paint, show };
+widgets.lines = (box) => {
+  const lines = new Lines(box);
+  return { take: lines.take.bind(lines), paint: () => lines.paint(), show: () => lines.overlay() };
 };
 
-/** Return smallest and largest abscissa of all curves. */
-function wholeSpan(data) {
+class Lines {
+  constructor(box) {
+    this.box = box;
+    this.hidden = new Set();
+    this.view = null;
+    this.limits = [];
+    this.cut = true;
+    this.pointer = null;
+    const keys = {
+      "+": () => this.zoom(0.5),
+      "=": () => this.zoom(0.5),
+      "-": () => this.zoom(2),
+      ArrowLeft: () => this.zoom(1, -0.25),
+      ArrowRight: () => this.zoom(1, 0.25),
+      0: () => this.whole(),
+    };
+    const hint = "Keys: plus and minus zoom, arrows move, 0 shows the whole.";
+    this.area = plotArea(box, PANEL.alone, keys, hint);
+    this.ground = new Sheet(this.area);
+    this.above = new Sheet(this.area);
+    this.hover = element("div", { class: "hover", "aria-hidden": "true", hidden: "" });
+    this.area.append(this.hover);
+    this.legend = element("span", { class: "legends" });
+    tools(
+      box,
+      this.legend,
+      element("span", { class: "gap" }),
+      button("Zoom in", () => this.zoom(0.5)),
+      button("Zoom out", () => this.zoom(2)),
+      button("Whole", () => this.whole()),
+    );
+    this.note = element("p", { class: "readout" });
+    box.append(this.note);
+    followPointer(this);
+  }
+
+  /** Take curves to draw, and those of other runs that show through; zoom and hidden curves stay. */
+  take(data, ghosts) {
+    for (const { panels, x } of [data, ...ghosts.map((ghost) => ghost.data)]) {
+      for (const curve of panels.flatMap((panel) => panel.curves)) curve.x ??= x;
+    }
+    const wasWhole = !this.view || same(this.view, this.span);
+    Object.assign(this, { data, ghosts, span: wholeSpan(data) });
+    if (wasWhole) this.view = [...this.span];
+    const count = data.panels.length;
+    const height = count === 1 ? PANEL.alone : PANEL.frame + PANEL.first + PANEL.more * (count - 1);
+    this.area.style.height = `${height}px`;
+    this.nameCurves();
+    const notes = data.panels.filter((panel) => panel.note).map((panel) => `${panel.label}: ${panel.note}`);
+    this.note.textContent = notes.join(" · ");
+    this.note.hidden = !notes.length;
+  }
+
+  /** Write the legend anew where the names of the curves have changed. */
+  nameCurves() {
+    const entries = legendEntries(this.data);
+    const names = entries.map((entry) => entry.name).join("\n");
+    if (names === this.named) return;
+    this.named = names;
+    this.legend.replaceChildren(...entries.map((entry) => legendButton(entry, this.hidden, () => this.paint())));
+  }
+
+  /** Make the abscissa wider by a factor, or move it by a share of its width. */
+  zoom(factor, shift = 0) {
+    const [low, high] = this.view;
+    const width = Math.min((high - low) * factor, this.span[1] - this.span[0]);
+    let begin = 0.5 * (low + high) - 0.5 * width + shift * width;
+    begin = Math.max(this.span[0], Math.min(this.span[1] - width, begin));
+    this.view = [begin, begin + width];
+    this.paint();
+  }
+
+  /** Show everything; where that is shown already, the ordinate of the smooth motion, and back. */
+  whole() {
+    const shown = same(this.view, this.span) && !this.limits.some(Boolean);
+    this.cut = shown ? !this.cut : this.cut;
+    this.view = [...this.span];
+    this.limits = [];
+    this.paint();
+  }
+
+  /** Return the frames of the panels from top to bottom. */
+  frames() {
+    const count = this.data.panels.length;
+    const room = this.area.clientHeight - ROOM.top - ROOM.below - ROOM.between * (count - 1);
+    return this.data.panels.map((_, k) => {
+      const top = ROOM.top + k * (room / count + ROOM.between);
+      return { left: ROOM.left, right: this.area.clientWidth - ROOM.right, top, bottom: top + room / count };
+    });
+  }
+
+  paint() {
+    const pen = this.ground.fresh();
+    const frames = this.frames();
+    this.x = scaleOf(...this.view, frames[0].left, frames[0].right);
+    const marks = roundMarks(...this.view, Math.max(2, (frames[0].right - frames[0].left) / 90));
+    this.panels = this.data.panels.map((panel, k) => {
+      const frame = frames[k];
+      const y = scaleOf(...this.ordinate(panel, k), frame.bottom, frame.top);
+      this.drawPanel(pen, panel, frame, y, marks);
+      return { panel, frame, y };
+    });
+    drawBelow(pen, frames[frames.length - 1], marks, this.x, this.data.x_label);
+    this.overlay();
+    this.area.plotted = this;
+  }
+
+  /** Return the ends of a panel's ordinate: zoomed, of the smooth motion, or of all that is not hidden. */
+  ordinate(panel, k) {
+    if (this.limits[k]) return this.limits[k];
+    if (this.cut && panel.limits.length) return panel.limits;
+    const others = this.ghosts.map((ghost) => ghost.data.panels[k]).filter(Boolean);
+    const curves = [panel, ...others].flatMap((one) => one.curves).filter(({ name }) => !this.hidden.has(name));
+    const [low, high] = ends(curves.map((curve) => curve.y));
+    const room = high > low ? 0.06 * (high - low) : Math.abs(low) || 1;
+    return [low - room, high + room];
+  }
+
+  drawPanel(pen, panel, frame, y, marks) {
+    const own = roundMarks(y.low, y.high, Math.max(2, (frame.bottom - frame.top) / 32));
+    drawGrid(pen, frame, marks, this.x, true);
+    drawGrid(pen, frame, own, y, false);
+    inside(pen, frame, () => {
+      this.data.windows.forEach((window) => hatch(pen, frame, this.x, window));
+      this.drawCurves(pen, panel, frame, y);
+      this.data.turns.forEach((turn) => upright(pen, frame, this.x.at(turn), "quiet", [2, 3]));
+    });
+    drawLeft(pen, frame, own, y, "");
+    pen.fillStyle = theme.colour("ink");
+    pen.font = theme.font();
+    pen.textAlign = "left";
+    pen.textBaseline = "bottom";
+    pen.fillText(panel.label, frame.left, frame.top - 5);
+  }
+
+  /** Draw the curves of a panel over those of other runs. */
+  drawCurves(pen, panel, frame, y) {
+    const k = this.data.panels.indexOf(panel);
+    const draw = (curve, strength) => {
+      if (this.hidden.has(curve.name)) return;
+      pen.strokeStyle = theme.colour(curve.colour);
+      pen.lineWidth = strength < 1 ? 1 : curve.width;
+      pen.globalAlpha = strength;
+      pen.setLineDash(DASHES[curve.dash]);
+      drawCurve(pen, curve.x, curve.y, this.x, y);
+    };
+    pen.lineJoin = "round";
+    for (const { data, strength } of this.ghosts) data.panels[k]?.curves.forEach((curve) => draw(curve, strength));
+    panel.curves.forEach((curve) => draw(curve, 1));
+    pen.globalAlpha = 1;
+    pen.setLineDash([]);
+  }
+
+  /** Draw what moves without the curves: time now, where the pointer is, what a drag has reached. */
+  overlay() {
+    const pen = this.above.fresh();
+    this.cursor = this.data.time && clock.frames ? clock.now() * this.data.scale : null;
+    for (const { frame } of this.panels) {
+      if (this.cursor !== null) {
+        inside(pen, frame, () => upright(pen, frame, this.x.at(this.cursor), "accent", [], 1.5));
+      }
+    }
+    if (this.drag) shadeDrag(pen, this.drag);
+    tellValues(this, pen);
+  }
+}
+
+/** Tell whether two stretches are the same. */
+function same(a, b) {
+  return a[0] === b[0] && a[1] === b[1];
+}
+
+/** Return smallest and largest of all numbers in some arrays. */
+function ends(arrays) {
   let [low, high] = [Infinity, -Infinity];
-  for (const { x } of data.panels.flatMap((panel) => panel.curves)) {
-    for (const value of x) {
+  for (const values of arrays) {
+    for (const value of values) {
       if (value < low) low = value;
       if (value > high) high = value;
     }
   }
-  return [low, high];
+  return low <= high ? [low, high] : [0, 1];
 }
 
-/** Name the k-th axis as the plotting library does. */
-function axisName(kind, k) {
-  return k === 0 ? kind : `${kind}${k + 1}`;
+/** Return smallest and largest abscissa of all curves. */
+function wholeSpan(data) {
+  return ends(data.panels.flatMap((panel) => panel.curves).map((curve) => curve.x));
+}
+
+/** Draw a line through a frame at an abscissa [px]. */
+function upright(pen, frame, at, colour, dash, width = 1) {
+  pen.strokeStyle = theme.colour(colour);
+  pen.lineWidth = width;
+  pen.setLineDash(dash);
+  pen.beginPath();
+  pen.moveTo(at, frame.top);
+  pen.lineTo(at, frame.bottom);
+  pen.stroke();
+  pen.setLineDash([]);
+}
+
+/** Hatch a window of impacts: what happens there depends on what was before. */
+function hatch(pen, frame, x, [begin, end]) {
+  const from = x.at(begin);
+  const to = Math.max(x.at(end), from + LEAST_WINDOW);
+  if (to < frame.left || from > frame.right) return;
+  inside(pen, { ...frame, left: Math.max(from, frame.left), right: Math.min(to, frame.right) }, () => {
+    pen.strokeStyle = theme.colour("pale");
+    pen.lineWidth = 1;
+    pen.beginPath();
+    const height = frame.bottom - frame.top;
+    for (let at = Math.max(from, frame.left) - height; at < Math.min(to, frame.right); at += 5) {
+      pen.moveTo(at, frame.bottom);
+      pen.lineTo(at + height, frame.top);
+    }
+    pen.stroke();
+  });
 }
 
 /** Return each name of a curve once, with its look; a curve alone in its panel is named by the panel. */
@@ -92,8 +240,6 @@ function legendEntries(data) {
   return [...entries.values()];
 }
 
-const DASHES = { solid: "", dash: "7 3", dashdot: "8 3 2 3", dot: "2 3", longdash: "11 4" };
-
 /** Make the button that shows or hides a curve. */
 function legendButton(curve, hidden, changed) {
   const space = "http://www.w3.org/2000/svg";
@@ -105,7 +251,7 @@ function legendButton(curve, hidden, changed) {
   const look = { x1: 0, x2: 26, y1: 5, y2: 5, "stroke-width": Math.max(curve.width, 2) };
   for (const [name, value] of Object.entries(look)) line.setAttribute(name, value);
   line.style.stroke = `var(--${curve.colour})`;
-  line.setAttribute("stroke-dasharray", DASHES[curve.dash]);
+  line.setAttribute("stroke-dasharray", DASHES[curve.dash].join(" "));
   swatch.append(line);
   const made = button(
     "",
@@ -118,83 +264,4 @@ function legendButton(curve, hidden, changed) {
   );
   made.append(swatch, curve.name);
   return made;
-}
-
-/** Return the traces of all panels. */
-function lineTraces(data, hidden) {
-  return data.panels.flatMap((panel, k) =>
-    panel.curves.map((curve) => ({
-      type: "scatter",
-      mode: "lines",
-      name: literal(curve.name),
-      x: curve.x,
-      y: curve.y,
-      xaxis: "x",
-      yaxis: k === 0 ? "y" : `y${k + 1}`,
-      visible: !hidden.has(curve.name),
-      line: { color: theme.colour(curve.colour), dash: curve.dash, width: curve.width },
-      hovertemplate: data.time ? "%{y:.4~g}" : "%{x:.4~g}, %{y:.4~g}",
-      connectgaps: false,
-    })),
-  );
-}
-
-/** Return the layout: panels from top to bottom, their quantity written above each. */
-function linesLayout(data, area, span, height, first) {
-  const count = data.panels.length;
-  const gap = count === 1 ? 0 : 34 / (height - PANEL.frame);
-  const share = (1 - gap * (count - 1)) / count;
-  const layout = {
-    height,
-    hovermode: data.time ? "x unified" : "closest",
-    xaxis: {
-      ...theme.axis(data.x_label),
-      anchor: axisName("y", count - 1),
-      range: first ? [...span] : [...area.layout.xaxis.range],
-      hoverformat: ".4f",
-      unifiedhovertitle: { text: `t = %{x} ${data.unit}` },
-    },
-    annotations: [],
-    shapes: [...data.turns.map(turnLine), cursorLine(data)],
-    margin: { l: 48, r: 12, t: 26, b: 42 },
-  };
-  data.panels.forEach((panel, k) => {
-    const top = 1 - k * (share + gap);
-    const name = axisName("yaxis", k);
-    layout[name] = { ...theme.axis(""), domain: [Math.max(0, top - share), top], nticks: 6 };
-    const old = first ? null : area.layout[name];
-    const limits = old ? (old.autorange ? [] : [...old.range]) : panel.limits;
-    if (limits.length) layout[name].range = limits;
-    layout.annotations.push(heading(panel.label, top));
-  });
-  return layout;
-}
-
-/** Return the text above a panel. */
-function heading(text, y) {
-  return {
-    text: literal(text),
-    x: 0,
-    y,
-    xref: "paper",
-    yref: "paper",
-    xanchor: "left",
-    yanchor: "bottom",
-    yshift: 3,
-    showarrow: false,
-  };
-}
-
-/** Return the fine line at a reversal. */
-function turnLine(time) {
-  const line = { color: theme.colour("quiet"), width: 1, dash: "dot" };
-  return { type: "line", x0: time, x1: time, y0: 0, y1: 1, yref: "paper", line };
-}
-
-/** Return the line at the time of the slider. */
-function cursorLine(data) {
-  const time = data.time && clock.frames ? clock.now() * data.scale : 0;
-  const line = { color: theme.colour("accent"), width: 1.5 };
-  const visible = data.time && clock.frames > 0;
-  return { type: "line", x0: time, x1: time, y0: 0, y1: 1, yref: "paper", line, visible };
 }

@@ -1,86 +1,137 @@
 // Points of one or several axes seen along the bushing, in the clearance circle.
 
-const AT_ONCE = { mode: "immediate", transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
+const ORBIT = { left: 56, right: 10, top: 10, below: 42 };
+const MARK = 6;
 
-widgets.orbit = (box, data) => {
+widgets.orbit = (box) => {
   const area = plotArea(box, isNarrow() ? 310 : 380, {}, "Follows the time slider.");
-  const moving = data.at.length;
-  tools(box, ...data.places.map((place, k) => element("span", { class: "key" }, swatch(data.looks[k]), place)));
+  const ground = new Sheet(area);
+  const above = new Sheet(area);
+  const key = tools(box);
   const readout = element("p", { class: "readout" });
   box.append(readout);
-  const paint = () => react(area, orbitTraces(data), orbitLayout(data));
-  const show = (frame) => {
-    const x = data.at.map((path) => path.x[frame]);
-    const y = data.at.map((path) => path.y[frame]);
-    // Not restyle, which draws all paths again.
-    Plotly.animate(area, { data: [{ x, y }], traces: [moving] }, AT_ONCE);
-    const at = data.places.map((place, k) => `${place}: X ${number(x[k])} µm, Y ${number(y[k])} µm`);
-    readout.textContent = (data.joined ? at.slice(1, 2) : at).join(" · ");
+  const state = { data: null, ghosts: [] };
+
+  const take = (data, ghosts) => {
+    Object.assign(state, { data, ghosts });
+    key.replaceChildren(
+      ...data.places.map((place, k) => element("span", { class: "key" }, swatch(data.looks[k]), place)),
+    );
   };
-  return { paint, show };
+  const paint = () => {
+    Object.assign(state, orbitScales(area, [state.data, ...state.ghosts.map((ghost) => ghost.data)]));
+    const pen = ground.fresh();
+    drawOrbitAxes(pen, state);
+    inside(pen, state.frame, () => drawPaths(pen, state));
+    area.plotted = state;
+  };
+  const show = (frame) => {
+    const pen = above.fresh();
+    state.now = placesAt(state.data, frame);
+    inside(pen, state.frame, () => {
+      for (const { data, strength } of state.ghosts) drawPlaces(pen, state, data, placesAt(data, frame), strength);
+      drawPlaces(pen, state, state.data, state.now, 1);
+    });
+    const at = state.data.places.map((place, k) => `${place}: X ${number(state.now[k][0])} µm, Y ${number(state.now[k][1])} µm`);
+    readout.textContent = (state.data.joined ? at.slice(1, 2) : at).join(" · ");
+  };
+  return { take, paint, show };
 };
 
-/** Return a mark as in the plot, for the key below it. */
+/** Make a mark as in the plot, for the key below it. */
 function swatch({ colour, symbol }) {
   return element("span", { class: `mark ${symbol}`, style: `background: var(--${colour})` });
 }
 
-/** Return the paths, and where the points are now: marks, on a line where they belong to one body. */
-function orbitTraces(data) {
-  const paths = data.paths.map((path, k) => ({
-    type: "scatter",
-    mode: "lines",
-    x: path.x,
-    y: path.y,
-    line: { color: theme.colour(data.looks[k].colour), dash: data.looks[k].dash, width: 1 },
-    opacity: 0.55,
-    hoverinfo: "skip",
-  }));
-  const now = {
-    type: "scatter",
-    mode: data.joined ? "lines+markers" : "markers",
-    x: data.at.map((path) => path.x[clock.frame]),
-    y: data.at.map((path) => path.y[clock.frame]),
-    line: { color: theme.colour("ink"), width: 2.5 },
-    marker: {
-      size: 12,
-      color: data.at.map((_, k) => theme.colour(data.looks[k].colour)),
-      symbol: data.at.map((_, k) => data.looks[k].symbol),
-      line: { color: theme.colour("card"), width: 1.5 },
-    },
-    text: data.places.map(literal),
-    hovertemplate: "%{text}<br>X %{x:.2f} µm, Y %{y:.2f} µm<extra></extra>",
-  };
-  return [...paths, now];
+/** Return where the points of each place are at a frame [µm]; another run may have fewer frames. */
+function placesAt(data, frame) {
+  return data.at.map(({ x, y }) => [x[Math.min(frame, x.length - 1)], y[Math.min(frame, y.length - 1)]]);
 }
 
-/** Return equal axes, the circle, and the angles at the wall. */
-function orbitLayout(data) {
-  const range = [-data.reach, data.reach];
-  const c = data.clearance;
-  const circle = {
-    type: "circle",
-    x0: -c,
-    x1: c,
-    y0: -c,
-    y1: c,
-    line: { color: theme.colour("quiet"), width: 1.5 },
-    fillcolor: theme.colour("fill"),
-    layer: "below",
-  };
-  const angles = [0, 90, 180, 270].map((theta) => ({
-    x: data.wall * 1.12 * c * Math.cos((theta * Math.PI) / 180),
-    y: data.wall * 1.12 * c * Math.sin((theta * Math.PI) / 180),
-    text: `${theta}°`,
-    showarrow: false,
-    font: { size: 11, color: theme.colour("quiet") },
-  }));
+/** Return the frame and equal scales along both axes that show all of some runs. */
+function orbitScales(area, runs) {
+  const reach = Math.max(...runs.map((data) => data.reach));
+  const [width, height] = [area.clientWidth, area.clientHeight];
+  const side = Math.max(Math.min(width - ORBIT.left - ORBIT.right, height - ORBIT.top - ORBIT.below), 10);
+  const left = ORBIT.left + 0.5 * (width - ORBIT.left - ORBIT.right - side);
+  const frame = { left, right: left + side, top: ORBIT.top, bottom: ORBIT.top + side };
   return {
-    xaxis: { ...theme.axis("X [µm]"), range, constrain: "domain" },
-    yaxis: { ...theme.axis("Y [µm]"), range, scaleanchor: "x", constrain: "domain" },
-    shapes: c > 0 ? [circle] : [],
-    annotations: c > 0 ? angles : [],
-    dragmode: false,
-    margin: { l: 52, r: 8, t: 8, b: 40 },
+    frame,
+    x: scaleOf(-reach, reach, frame.left, frame.right),
+    y: scaleOf(-reach, reach, frame.bottom, frame.top),
   };
+}
+
+/** Draw axes, the clearance circle, and the angles at the wall. */
+function drawOrbitAxes(pen, { data, ghosts, frame, x, y }) {
+  const marks = roundMarks(x.low, x.high, Math.max(3, (frame.right - frame.left) / 60));
+  drawGrid(pen, frame, marks, x, true);
+  drawGrid(pen, frame, marks, y, false);
+  inside(pen, frame, () => {
+    for (const ghost of ghosts) drawClearance(pen, ghost.data.clearance, x, y, ghost.strength, [4, 3]);
+    drawClearance(pen, data.clearance, x, y, 1, []);
+    if (data.clearance > 0) nameAngles(pen, data, x, y);
+  });
+  drawBelow(pen, frame, marks, x, "X [µm]");
+  pen.save();
+  pen.translate(frame.left - ORBIT.left, 0);
+  drawLeft(pen, { ...frame, left: ORBIT.left }, marks, y, "Y [µm]");
+  pen.restore();
+}
+
+/** Draw a clearance circle; that of the run itself is filled. */
+function drawClearance(pen, clearance, x, y, strength, dash) {
+  if (!(clearance > 0)) return;
+  pen.beginPath();
+  pen.arc(x.at(0), y.at(0), x.at(clearance) - x.at(0), 0, 2 * Math.PI);
+  pen.fillStyle = theme.colour("fill");
+  if (strength === 1) pen.fill();
+  Object.assign(pen, { strokeStyle: theme.colour("quiet"), lineWidth: 1.5, globalAlpha: strength });
+  pen.setLineDash(dash);
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.globalAlpha = 1;
+}
+
+/** Write the angles that name points of the wall. */
+function nameAngles(pen, data, x, y) {
+  Object.assign(pen, { fillStyle: theme.colour("quiet"), textAlign: "center", textBaseline: "middle" });
+  pen.font = theme.font(TEXT);
+  for (const theta of [0, 90, 180, 270]) {
+    const far = data.wall * 1.12 * data.clearance;
+    const angle = (theta * Math.PI) / 180;
+    pen.fillText(`${theta}°`, x.at(far * Math.cos(angle)), y.at(far * Math.sin(angle)));
+  }
+}
+
+/** Draw the paths, those of other runs fainter. */
+function drawPaths(pen, { data, ghosts, x, y }) {
+  const draw = (run, strength) =>
+    run.paths.forEach((path, k) => {
+      const { colour, dash } = run.looks[k];
+      Object.assign(pen, { strokeStyle: theme.colour(colour), lineWidth: 1, globalAlpha: 0.6 * strength });
+      pen.setLineDash(DASHES[dash]);
+      drawCurve(pen, path.x, path.y, x, y);
+    });
+  ghosts.forEach((ghost) => draw(ghost.data, ghost.strength));
+  draw(data, 1);
+  pen.globalAlpha = 1;
+  pen.setLineDash([]);
+}
+
+/** Draw where the points are now: marks, on a line where they belong to one body. */
+function drawPlaces(pen, { x, y }, data, places, strength) {
+  pen.globalAlpha = strength;
+  if (data.joined) {
+    Object.assign(pen, { strokeStyle: theme.colour("ink"), lineWidth: 2.5 });
+    pen.beginPath();
+    for (const [a, b] of places) pen.lineTo(x.at(a), y.at(b));
+    pen.stroke();
+  }
+  places.forEach(([a, b], k) => {
+    const { colour, symbol } = data.looks[k];
+    Object.assign(pen, { fillStyle: theme.colour(colour), strokeStyle: theme.colour("card"), lineWidth: 1.5 });
+    drawMark(pen, symbol, x.at(a), y.at(b), MARK);
+  });
+  pen.globalAlpha = 1;
 }

@@ -3,46 +3,72 @@
 const SHADES = 6;
 /** Least distance of axes [px]: on a narrow screen the figure scrolls sideways. */
 const AXIS_WIDTH = 84;
+/** How near the pointer must come to where a line meets an axis [px]. */
+const NEAR = 30;
+const LOWEST = -0.12;
+const HIGHEST_TEXT = 1.32;
 
-widgets.parallel = (box, data) => {
-  const shown = new Set(data.shown);
+widgets.parallel = (box) => {
   const area = plotArea(scroller(box), 420, {}, "The table of points below holds the same and the links.");
+  const sheet = new Sheet(area);
   const readout = element("p", { class: "readout", "aria-live": "polite" }, "Point at a line to see its numbers.");
-  const choices = data.axes.map((axis) => {
-    const choice = button(
-      axis.label,
-      () => {
-        if (!shown.delete(axis.name)) shown.add(axis.name);
-        choice.setAttribute("aria-pressed", String(shown.has(axis.name)));
-        paint();
-      },
-      { "aria-pressed": String(shown.has(axis.name)) },
-    );
-    return choice;
-  });
   box.append(readout);
-  tools(box, ...choices);
+  const choices = tools(box);
+  const state = { data: null, axes: [], pointed: -1 };
 
-  const axes = () => data.axes.filter((axis) => shown.has(axis.name)).map((axis) => ({ ...axis, span: spanOf(axis) }));
-  const pointOf = (event) => event.points[0].customdata;
-  const paint = () => {
-    const first = !area.data;
-    area.style.minWidth = `${AXIS_WIDTH * axes().length}px`;
-    const done = react(area, parallelTraces(data, axes()), parallelLayout(axes()));
-    if (!first) return;
-    done.then(() => {
-      area.on("plotly_hover", (event) => {
-        readout.textContent = inWords(data, axes(), pointOf(event));
-      });
-      area.on("plotly_click", (event) => {
-        const point = data.points[pointOf(event)];
-        if (point.link) location.assign(point.link);
-        else readout.textContent = `${point.name}: no report yet; tribodyn report DIR --points makes it`;
-      });
-    });
+  const take = (data) => {
+    state.data = data;
+    const shown = new Set(data.shown);
+    const choose = () => {
+      state.axes = data.axes.filter(({ name }) => shown.has(name)).map((axis) => ({ ...axis, span: spanOf(axis) }));
+    };
+    choose();
+    const changed = () => {
+      choose();
+      paint();
+    };
+    choices.replaceChildren(...data.axes.map((axis) => axisButton(axis, shown, changed)));
   };
-  return { paint, show: null };
+  const paint = () => {
+    area.style.minWidth = `${AXIS_WIDTH * state.axes.length}px`;
+    const pen = sheet.fresh();
+    const { clientWidth: width, clientHeight: height } = area;
+    state.x = scaleOf(-0.5, state.axes.length - 0.5, 8, width - 8);
+    state.y = scaleOf(LOWEST, HIGHEST_TEXT, height - 8, 8);
+    drawUprights(pen, state);
+    drawPoints(pen, state);
+    area.plotted = state;
+  };
+  area.addEventListener("pointermove", (event) => {
+    const pointed = pointNear(state, pointerAt(area, event));
+    if (pointed === state.pointed) return;
+    state.pointed = pointed;
+    if (pointed >= 0) readout.textContent = inWords(state.data, state.axes, pointed);
+    paint();
+  });
+  area.addEventListener("click", (event) => {
+    const pointed = pointNear(state, pointerAt(area, event));
+    if (pointed < 0) return;
+    const point = state.data.points[pointed];
+    if (point.link) location.assign(point.link);
+    else readout.textContent = `${point.name}: no report yet; tribodyn report DIR --points makes it`;
+  });
+  return { take, paint };
 };
+
+/** Make the button that shows or hides an axis. */
+function axisButton(axis, shown, changed) {
+  const made = button(
+    axis.label,
+    () => {
+      if (!shown.delete(axis.name)) shown.add(axis.name);
+      made.setAttribute("aria-pressed", String(shown.has(axis.name)));
+      changed();
+    },
+    { "aria-pressed": String(shown.has(axis.name)) },
+  );
+  return made;
+}
 
 /** Return a part of a box that scrolls sideways. */
 function scroller(box) {
@@ -58,85 +84,69 @@ function spanOf(axis) {
   return high > low ? [low, high] : [low - 0.5, low + 0.5];
 }
 
+/** Return where a point lies on each axis, 0 to 1; NaN where it has no number. */
+function placesOf({ axes }, point) {
+  return axes.map(({ values, span }) => (values[point] - span[0]) / (span[1] - span[0]));
+}
+
+/** Return the point whose line meets an axis near a place [px], or −1. */
+function pointNear(state, [x, y]) {
+  let [best, least] = [-1, NEAR];
+  state.data.points.forEach((_, point) => {
+    placesOf(state, point).forEach((place, k) => {
+      const far = Math.hypot(state.x.at(k) - x, state.y.at(place) - y);
+      if (far < least) [best, least] = [point, far];
+    });
+  });
+  return best;
+}
+
 /** Return a point in words: its place on every axis shown. */
 function inWords(data, axes, point) {
   const parts = axes.map((axis) => `${axis.label} = ${axis.texts[point]}`);
   return `${data.points[point].name}: ${parts.join(", ")}`;
 }
 
-/** Return the points in shades of the first axis, each shade one trace with a gap after every point. */
-function parallelTraces(data, axes) {
-  const groups = Array.from({ length: SHADES }, () => ({ x: [], y: [], customdata: [] }));
-  data.points.forEach((_, point) => {
-    const places = axes.map(({ values, span }) => (values[point] - span[0]) / (span[1] - span[0]));
-    if (!places.some(Number.isFinite)) return;
-    const group = groups[Math.min(SHADES - 1, Math.floor(SHADES * (places[0] || 0)))];
+/** Draw the lines of all points in shades of the first axis, the one pointed at last and wider. */
+function drawPoints(pen, state) {
+  const order = state.data.points.map((_, point) => point);
+  if (state.pointed >= 0) order.push(state.pointed);
+  order.forEach((point, n) => {
+    const places = placesOf(state, point);
+    const colour = shade(Math.min(SHADES - 1, Math.floor(SHADES * (places[0] || 0))));
+    const wide = n === state.data.points.length;
+    Object.assign(pen, { strokeStyle: colour, fillStyle: colour, lineWidth: wide ? 4 : 1.6, globalAlpha: wide ? 1 : 0.85 });
+    drawCurve(pen, places.map((_, k) => k), places, state.x, state.y);
     places.forEach((place, k) => {
-      group.x.push(k);
-      group.y.push(Number.isFinite(place) ? place : null);
-      group.customdata.push(point);
+      if (Number.isFinite(place)) drawMark(pen, "circle", state.x.at(k), state.y.at(place), 2.4);
     });
-    group.x.push(null);
-    group.y.push(null);
-    group.customdata.push(null);
   });
-  return groups.map((group, k) => ({
-    ...group,
-    type: "scatter",
-    mode: "lines+markers",
-    line: { color: shade(k), width: 1.6 },
-    marker: { size: 6, color: shade(k) },
-    opacity: 0.85,
-    hoverinfo: "none",
-    connectgaps: false,
-  }));
+  pen.globalAlpha = 1;
 }
 
 /** Return the colour of a shade, light or dark enough to be seen on the page. */
 function shade(k) {
-  const stops = theme.scale();
-  return stops[2 + Math.round((k * (stops.length - 3)) / (SHADES - 1))][1];
+  const stops = theme.loads();
+  return stops[2 + Math.round((k * (stops.length - 3)) / (SHADES - 1))];
 }
 
-/** Return upright axes with their ends, or their names, written beside them. */
-function parallelLayout(axes) {
-  const upright = axes.map((_, k) => ({
-    type: "line",
-    x0: k,
-    x1: k,
-    y0: 0,
-    y1: 1,
-    layer: "below",
-    line: { color: theme.colour("quiet"), width: 1 },
-  }));
-  const texts = axes.flatMap((axis, k) => [
-    { x: k, y: 1.09, text: wrapped(axis.label), yanchor: "bottom", size: 11, colour: "ink" },
-    ...marksOf(axis).map(([place, text]) => ({
-      x: k,
-      y: place === 0 ? -0.03 : place === 1 ? 1.03 : place,
-      text: literal(text),
-      yanchor: place === 0 ? "top" : place === 1 ? "bottom" : "middle",
-      size: 11,
-      colour: "quiet",
-    })),
-  ]);
-  return {
-    xaxis: { visible: false, range: [-0.5, axes.length - 0.5], fixedrange: true },
-    yaxis: { visible: false, range: [-0.12, 1.32], fixedrange: true },
-    hovermode: "closest",
-    hoverdistance: 30,
-    dragmode: false,
-    shapes: upright,
-    annotations: texts.map(({ x, y, text, yanchor, size, colour }) => ({
-      x,
-      y,
-      text,
-      yanchor,
-      showarrow: false,
-      font: { size, color: theme.colour(colour) },
-    })),
-    margin: { l: 8, r: 8, t: 8, b: 8 },
+/** Draw upright axes with their names and their ends, or what they name, written beside them. */
+function drawUprights(pen, { axes, x, y }) {
+  const write = (text, k, place, base, colour, down = 0) => {
+    Object.assign(pen, { textBaseline: base, fillStyle: theme.colour(colour) });
+    pen.fillText(text, x.at(k), y.at(place) + down);
   };
+  Object.assign(pen, { font: theme.font(TEXT), textAlign: "center" });
+  axes.forEach((axis, k) => {
+    upright(pen, { top: y.at(1), bottom: y.at(0) }, x.at(k), "quiet", []);
+    const lines = wrapped(axis.label);
+    lines.forEach((line, n) => write(line, k, 1.09, "bottom", "ink", -13 * (lines.length - 1 - n)));
+    for (const [place, text] of marksOf(axis)) {
+      if (place === 0) write(text, k, -0.03, "top", "quiet");
+      else if (place === 1) write(text, k, 1.03, "bottom", "quiet");
+      else write(text, k, place, "middle", "quiet");
+    }
+  });
 }
 
 /** Return the marks of an axis: names, or the two ends. */
@@ -156,5 +166,5 @@ function wrapped(label) {
     if ((lines[lines.length - 1] + word).length > 15 && lines[lines.length - 1]) lines.push("");
     lines[lines.length - 1] += lines[lines.length - 1] && !lines[lines.length - 1].endsWith(".") ? ` ${word}` : word;
   }
-  return lines.map(literal).join("<br>");
+  return lines;
 }

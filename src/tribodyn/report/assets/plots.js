@@ -1,4 +1,4 @@
-// Plots in their boxes: made when they come near the screen, repainted when the theme changes.
+// Figures in their boxes: made when they come near the screen, repainted when size or theme change.
 
 const figures = [];
 
@@ -16,42 +16,76 @@ function plotArea(box, height, keys, hint) {
     const action = keys[event.key];
     if (!action || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
+    event.stopPropagation();
     action();
   });
   box.append(area);
   return area;
 }
 
-/** Draw a plot, or draw it again. */
-function react(area, traces, layout) {
-  return Plotly.react(area, traces, { ...theme.layout(), ...layout }, {
-    displayModeBar: false,
-    responsive: true,
-    doubleClick: "reset+autosize",
-  });
+/** A canvas over the whole of a plot area, measured in the pixels of the style sheet. */
+class Sheet {
+  constructor(area) {
+    this.area = area;
+    this.canvas = element("canvas", { "aria-hidden": "true" });
+    this.width = 0;
+    this.height = 0;
+    area.append(this.canvas);
+  }
+
+  /** Fit the canvas to its area and the screen; tell whether there is room to draw. */
+  fit() {
+    const ratio = devicePixelRatio || 1;
+    [this.width, this.height] = [this.area.clientWidth, this.area.clientHeight];
+    const [width, height] = [Math.round(this.width * ratio), Math.round(this.height * ratio)];
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      Object.assign(this.canvas, { width, height });
+    }
+    return width > 0 && height > 0;
+  }
+
+  /** Return a pen for an empty sheet. */
+  fresh() {
+    this.fit();
+    const pen = this.canvas.getContext("2d");
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    pen.scale(this.canvas.width / (this.width || 1), this.canvas.height / (this.height || 1));
+    return pen;
+  }
 }
 
-/** Put buttons below a plot. */
+/** Return where a pointer is in an area [px]. */
+function pointerAt(area, event) {
+  const { left, top } = area.getBoundingClientRect();
+  return [event.clientX - left, event.clientY - top];
+}
+
+/** Put buttons below a plot; return their row. */
 function tools(box, ...parts) {
-  box.append(element("div", { class: "tools" }, ...parts));
+  const row = element("div", { class: "tools" }, ...parts);
+  box.append(row);
+  return row;
 }
 
-/** A figure of the page: draws itself when it is near, and follows time and theme while it is. */
+/** A figure of the page: draws itself when it is near, and follows time, size and theme while it is. */
 class Figure {
   constructor(box, data) {
-    this.box = box;
-    this.data = data;
-    this.near = false;
-    this.stale = false;
-    this.widget = null;
+    Object.assign(this, { box, data, ghosts: [], near: false, stale: true, given: false, widget: null });
+  }
+
+  /** Take what is to be drawn, and what of other runs shows through. */
+  take(data, ghosts) {
+    Object.assign(this, { data, ghosts, given: false });
+    this.repaint();
   }
 
   come() {
     this.near = true;
     if (!this.widget) {
-      this.widget = widgets[this.box.dataset.widget](this.box, this.data);
+      this.widget = widgets[this.box.dataset.widget](this.box);
       this.box.classList.add("drawn");
-      this.stale = true;
+      new ResizeObserver(() => this.repaint()).observe(this.box);
     }
     if (this.stale) this.repaint();
     else this.show(clock.frame);
@@ -59,13 +93,15 @@ class Figure {
 
   repaint() {
     this.stale = !this.near;
-    if (!this.near || !this.widget) return;
+    if (!this.near || !this.widget || !this.data) return;
+    if (!this.given) this.widget.take(this.data, this.ghosts);
+    this.given = true;
     this.widget.paint();
     this.show(clock.frame);
   }
 
   show(frame) {
-    if (this.near && this.widget && this.widget.show && clock.frames) this.widget.show(frame);
+    if (this.near && this.given && this.widget.show && clock.frames) this.widget.show(frame);
   }
 }
 
@@ -86,5 +122,9 @@ function watchFigures() {
     figures.push(figure);
     watcher.observe(box);
   }
-  theme.dark.addEventListener("change", () => figures.forEach((figure) => figure.repaint()));
 }
+
+theme.dark.addEventListener("change", () => {
+  theme.forget();
+  figures.forEach((figure) => figure.repaint());
+});

@@ -3,16 +3,16 @@
 const RING = { before: 0.3, after: 0.22, half: 5, parts: 64 };
 const BLADE = { chord: 34, thick: 6 };
 
-widgets.scene = (box, data) => {
-  const area = plotArea(
-    box,
-    isNarrow() ? 320 : 430,
-    cameraKeys(() => area),
-    "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.",
-  );
-  const state = { view: "whole", magnification: data.magnification.value };
-
-  const camera = () => area.layout.scene.camera;
+widgets.scene = (box) => {
+  const moved = (change) => {
+    change(stage.camera);
+    stage.draw();
+  };
+  const hint = "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.";
+  const area = plotArea(box, isNarrow() ? 320 : 430, cameraKeys(moved), hint);
+  const stage = new Stage(area);
+  cameraPointer(area, moved);
+  const state = { view: "whole", magnification: 0, data: null, ghosts: [] };
 
   const views = Object.keys(VIEWS).map((name) =>
     button(
@@ -20,35 +20,53 @@ widgets.scene = (box, data) => {
       () => {
         state.view = name;
         views.forEach((one, k) => one.setAttribute("aria-pressed", String(Object.keys(VIEWS)[k] === name)));
-        paint(true);
+        stage.camera = null;
+        show(clock.frame);
       },
       { "aria-pressed": String(name === state.view) },
     ),
   );
-  tools(box, ...views, element("span", { class: "gap" }), magnifier(data, state, () => paint()));
+  const magnifier = sceneMagnifier(state, () => show(clock.frame));
+  tools(box, ...views, element("span", { class: "gap" }), magnifier.label);
 
-  const paint = (fresh = false) => {
-    const kept = !fresh && area.layout ? camera() : cameraOf(data, state, area);
-    react(area, sceneTraces(data, state), sceneLayout(data, state, kept));
+  const take = (data, ghosts) => {
+    Object.assign(state, { data, ghosts });
+    magnifier.take(data.magnification);
   };
   const show = (frame) => {
-    const { x, y, z } = movingParts(data, frame, state.magnification);
-    Plotly.restyle(area, { x: [x], y: [y], z: [z] }, [0]);
+    const { data } = state;
+    const view = VIEWS[state.view];
+    stage.camera ??= new Camera(view.ranges(data), view.from, [0, 0, 1], stage.wide());
+    const load = loadOn(data, page.figures.pressure, frame, state.magnification);
+    stage.set([movingParts(data, frame, state.magnification), clearParts(state, frame), load], names(data, state));
+    area.plotted = stage;
   };
-  return { paint, show };
+  return { take, paint: () => clock.frames || show(0), show };
 };
 
-/** Make the slider of the magnification. */
-function magnifier(data, state, changed) {
-  const { value, most } = data.magnification;
-  const output = element("output", {}, `${value}×`);
-  const slider = element("input", { type: "range", min: 1, max: most, step: 1, value });
+/** Make the slider of the magnification; it begins where the run says and stays where it is put. */
+function sceneMagnifier(state, changed) {
+  const output = element("output");
+  const slider = element("input", { type: "range", min: 1, step: 1 });
+  const tell = () => {
+    output.textContent = `${state.magnification}×`;
+    slider.setAttribute("aria-valuetext", output.textContent);
+  };
+  const put = (value) => {
+    slider.value = value;
+    state.magnification = Number(slider.value);
+    tell();
+  };
   slider.addEventListener("input", () => {
     state.magnification = Number(slider.value);
-    output.textContent = `${slider.value}×`;
+    tell();
     changed();
   });
-  return element("label", { class: "magnifier" }, "Clearance motion magnified", slider, output);
+  const take = ({ value, most }) => {
+    slider.max = Math.max(most, state.magnification);
+    if (!state.magnification) put(value);
+  };
+  return { label: element("label", { class: "magnifier" }, "Clearance motion magnified", slider, output), take };
 }
 
 /** Return what carries a point of the trunnion (its own axes, mm from O_j) to where it is. */
@@ -75,7 +93,25 @@ function movingParts(data, frame, magnification) {
   const solid = new Solid();
   addRods(solid, data, frame);
   addRing(solid, data, frame);
-  addVane(solid, data, trunnionAt(data, frame, magnification));
+  addVane(solid, data, trunnionAt(data, frame, magnification), {
+    lever: theme.rgb("part-lever"),
+    trunnion: theme.rgb("part-trunnion"),
+    collar: theme.rgb("part-collar"),
+    vane: theme.rgb("part-vane"),
+  });
+  return solid;
+}
+
+/** Return what is seen through: the bushing, and where other runs have the trunnion. */
+function clearParts({ data, ghosts, magnification }, frame) {
+  const solid = new Solid();
+  for (const { data: other, strength } of ghosts) {
+    const faint = [...theme.rgb("quiet"), 255 * strength];
+    const at = Math.min(frame, other.theta_v.length - 1);
+    const place = trunnionAt(other, at, magnification);
+    addVane(solid, other, place, { lever: faint, trunnion: faint, collar: faint, vane: faint });
+  }
+  addBushing(solid, data, magnification);
   return solid;
 }
 
@@ -85,11 +121,11 @@ function addRods(solid, data, frame) {
   const [pivot, end] = [data.pivot, [...tip]];
   const joint = ringPoint(data, frame, data.size.ring_angle, data.size.ring_radius);
   const aside = ([x, y, z], by) => [x, y + by, z];
-  solid.rod(aside(pivot, -16), aside(pivot, 16), 7, theme.colour("quiet"));
-  solid.bar(pivot, end, [0, 1, 0], 14, 9, theme.colour("part-crank"));
-  solid.rod(aside(end, -8), aside(end, 8), 5, theme.colour("quiet"));
-  solid.rod(end, joint, 4, theme.colour("part-link"));
-  solid.rod(aside(joint, -8), aside(joint, 8), 5, theme.colour("quiet"));
+  solid.rod(aside(pivot, -16), aside(pivot, 16), 7, theme.rgb("quiet"));
+  solid.bar(pivot, end, [0, 1, 0], 14, 9, theme.rgb("part-crank"));
+  solid.rod(aside(end, -8), aside(end, 8), 5, theme.rgb("quiet"));
+  solid.rod(end, joint, 4, theme.rgb("part-link"));
+  solid.rod(aside(joint, -8), aside(joint, 8), 5, theme.rgb("quiet"));
 }
 
 /** Add the stretch of the unison ring that matters, and its radial pin. */
@@ -104,13 +140,13 @@ function addRing(solid, data, frame) {
       return [x, y + RING.half * b, z];
     });
   });
-  solid.loft(loops, theme.colour("part-ring"));
+  solid.loft(loops, theme.rgb("part-ring"));
   const pin = [-14, 14].map((by) => ringPoint(data, frame, 0, ring_radius + by));
-  solid.rod(...pin, 3, theme.colour("quiet"), 12);
+  solid.rod(...pin, 3, theme.rgb("quiet"), 12);
 }
 
 /** Add lever, trunnion, collar and blade, which are one body. */
-function addVane(solid, data, place) {
+function addVane(solid, data, place, colours) {
   const { lever, vane, radius, length, collar } = data.size;
   const top = 0.5 * length;
   const bottom = top - vane;
@@ -119,11 +155,11 @@ function addVane(solid, data, place) {
     solid.loft([loop(height), loop(height + thick)], colour);
   };
   const box = [[0, -4.5], [lever + 5, -4.5], [lever + 5, 4.5], [0, 4.5]];
-  solid.loft([top + 1, top + 6].map((z) => box.map(([a, b]) => place([a, b, z]))), theme.colour("part-lever"));
-  round(-top - 1, radius, theme.colour("part-trunnion"), length + 4);
-  round(-top - 4, collar, theme.colour("part-collar"), 3);
+  solid.loft([top + 1, top + 6].map((z) => box.map(([a, b]) => place([a, b, z]))), colours.lever);
+  round(-top - 1, radius, colours.trunnion, length + 4);
+  round(-top - 4, collar, colours.collar, 3);
   const blade = (z) => bladeSection().map(([a, b]) => place([a, b, z]));
-  solid.loft([blade(-top - 4), blade(bottom)], theme.colour("part-vane"));
+  solid.loft([blade(-top - 4), blade(bottom)], colours.vane);
 }
 
 /** Return the section of the blade: a slim lens along the lever. */
@@ -134,47 +170,46 @@ function bladeSection() {
   ]);
 }
 
-/** Return the bushing: a sleeve whose bore shows the magnified clearance. */
-function bushing(data, magnification) {
+/** Add the bushing: a sleeve whose bore shows the magnified clearance. */
+function addBushing(solid, data, magnification) {
   const { radius, length, clearance, ring_radius } = data.size;
   const bore = radius + magnification * clearance;
-  const wall = radius + data.magnification.most * clearance + 4;
-  const solid = new Solid();
+  const wall = wallOf(data, magnification);
   const loop = (r, z) => circle(40).map(([c, s]) => [r * c, r * s, z]);
   const [low, high] = [ring_radius - length, ring_radius];
   const skin = [loop(bore, low), loop(bore, high), loop(wall, high), loop(wall, low), loop(bore, low)];
-  solid.loft(skin, theme.colour("part-bushing"), false);
+  solid.loft(skin, [...theme.rgb("part-bushing"), 56], false);
+}
+
+/** Return the outer radius of the bushing as it is drawn [mm]. */
+function wallOf({ size, magnification: { most } }, magnification) {
+  return size.radius + Math.max(most, magnification) * size.clearance + 4;
+}
+
+/** Return the load in its colours, on the outside of the bushing, where the trunnion does not hide it. */
+function loadOn(data, load, frame, magnification) {
+  const solid = new Solid();
+  if (!load || load.stages.length > 1) return solid;
+  const wall = wallOf(data, magnification);
+  const middle = data.size.ring_radius - 0.5 * data.size.length;
+  const shown = Math.min(frame, load.peaks.length - 1);
+  const [columns, rows] = [load.angle.length, load.z.length];
+  const factor = load.peaks[shown] / 255 / (load.usual || 1);
+  const ramp = theme.ramp();
+  for (let n = 0; n < columns * rows; n++) {
+    const share = Math.min(1, factor * load.steps[shown * columns * rows + n]);
+    const angle = (load.angle[n % columns] * Math.PI) / 180;
+    const at = 3 * Math.round(share * (SHADES_OF_LOAD - 1));
+    // The point of the bushing named theta lies at -(cos theta, sin theta).
+    const point = [-wall * Math.cos(angle), -wall * Math.sin(angle), middle + load.z[Math.floor(n / columns)]];
+    solid.corner(point, [ramp[at], ramp[at + 1], ramp[at + 2], 255 * Math.min(0.9, 3 * share)]);
+  }
+  const loaded = (corner) => solid.colours[4 * corner + 3] > 0;
+  for (let n = 0; n < columns * (rows - 1); n++) {
+    const four = [n, n + 1, n + columns + 1, n + columns];
+    if (n % columns < columns - 1 && four.some(loaded)) solid.face(...four);
+  }
   return solid;
-}
-
-/** Return the traces: what moves, the bushing, the directions. */
-function sceneTraces(data, state) {
-  const light = { ambient: 0.72, diffuse: 0.55, specular: 0.08, roughness: 0.8, fresnel: 0.02 };
-  const common = { type: "mesh3d", hoverinfo: "skip", flatshading: true, lighting: light };
-  const moving = movingParts(data, clock.frame, state.magnification);
-  return [
-    { ...common, ...moving, lightposition: { x: 3000, y: -9000, z: 9000 } },
-    { ...common, ...bushing(data, state.magnification), opacity: 0.32 },
-    directions(data, state),
-  ];
-}
-
-/** Return three short lines that name the directions. */
-function directions(data, state) {
-  const [at, size] = VIEWS[state.view].corner(data);
-  const ends = [0, 1, 2].map((n) => at.map((value, m) => value + (m === n ? size : 0)));
-  const points = ends.flatMap((end) => [at, end, [null, null, null]]);
-  return {
-    type: "scatter3d",
-    mode: "lines+text",
-    x: points.map((p) => p[0]),
-    y: points.map((p) => p[1]),
-    z: points.map((p) => p[2]),
-    text: ["", "X", "", "", "Y", "", "", "Z", ""],
-    textfont: { size: 12, color: theme.colour("quiet") },
-    line: { color: theme.colour("quiet"), width: 3 },
-    hoverinfo: "skip",
-  };
 }
 
 const VIEWS = {
@@ -189,34 +224,25 @@ const VIEWS = {
         [Math.min(pivot[2], ring_radius - vane) - 55, ring_radius + 30],
       ];
     },
-    corner: ({ size }) => [[-size.ring_radius * Math.sin(RING.before), -40, size.ring_radius - size.vane], 45],
   },
   joint: {
     label: "Trunnion and bushing",
     from: [0.65, -1, 0.55],
     ranges({ size }) {
-      const half = 2.2 * size.length;
+      const half = 1.5 * size.length;
       const middle = size.ring_radius - 0.8 * size.length;
       return [[-half, half], [-half, 1.3 * half], [middle - 1.1 * half, middle + 0.9 * half]];
     },
-    corner: ({ size }) => [[-2 * size.length, -2 * size.length, size.ring_radius - 3 * size.length], 9],
   },
 };
 
-/** Return a camera that looks from the side of the view and sees all of it, on a wide or a narrow screen. */
-function cameraOf(data, state, area) {
-  const view = VIEWS[state.view];
-  const sizes = view.ranges(data).map(([low, high]) => high - low);
-  // The plotting library scales the box of the scene to the volume 1; it sees 0.83 of the distance in height.
-  const scale = Math.cbrt(sizes[0] * sizes[1] * sizes[2]);
-  const wide = area.clientWidth / area.clientHeight;
-  const far = Math.max(sizes[0] / wide, sizes[2]) / scale / 0.83 + (0.5 * sizes[1]) / scale;
-  const [x, y, z] = unit(view.from).map((value) => value * far);
-  return { eye: { x, y, z }, center: { x: 0, y: 0, z: 0 }, up: { x: 0, y: 0, z: 1 } };
+/** Return names, where they point to, and how far beside it they stand [px]. */
+function names(data, state) {
+  return partNames(data, state).map(([text, at, ...aside]) => ({ text, at, aside }));
 }
 
-/** Return where names point to, and how far beside it they stand [px]. */
-function names(data, state) {
+/** Return text, point and offset of each name. */
+function partNames(data, state) {
   const { ring_radius, lever, vane, length, ring_angle } = data.size;
   const middle = Math.floor(clock.frames / 4);
   const tip = [...data.crank_tip.subarray(3 * middle, 3 * middle + 3)];
@@ -230,38 +256,8 @@ function names(data, state) {
   if (state.view === "joint") {
     return [...both.slice(0, 2), ["trunnion", [4, -4, ring_radius + 2], 56, -30],
       ["collar", [10, -6, ring_radius - length - 3], 50, 24],
-      ["vane", [0, -2, ring_radius - 1.9 * length], 60, 10]];
+      ["vane", [14, 0, ring_radius - 1.6 * length], 64, 20]];
   }
   return [...both, ["crank", half(data.pivot, tip), -44, 24], ["drag link", half(tip, joint), 10, -40],
     ["unison ring", ringPoint(data, middle, 0.5 * ring_angle, ring_radius), 30, -38]];
-}
-
-/** Return the layout: no axes, names with leader lines, the camera. */
-function sceneLayout(data, state, camera) {
-  const [x, y, z] = VIEWS[state.view].ranges(data);
-  const off = { visible: false, showspikes: false };
-  const annotations = names(data, state).map(([text, at, ax, ay]) => ({
-    text,
-    x: at[0],
-    y: at[1],
-    z: at[2],
-    ax,
-    ay,
-    arrowhead: 0,
-    arrowwidth: 1,
-    arrowcolor: theme.colour("quiet"),
-    font: { size: 12, color: theme.colour("ink") },
-  }));
-  return {
-    margin: { l: 0, r: 0, t: 0, b: 0 },
-    scene: {
-      xaxis: { ...off, range: x },
-      yaxis: { ...off, range: y },
-      zaxis: { ...off, range: z },
-      aspectmode: "data",
-      camera,
-      annotations,
-      dragmode: theme.coarse.matches ? false : "orbit",
-    },
-  };
 }

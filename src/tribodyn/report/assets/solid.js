@@ -2,25 +2,19 @@
 
 class Solid {
   constructor() {
-    Object.assign(this, { x: [], y: [], z: [], i: [], j: [], k: [], vertexcolor: [] });
+    Object.assign(this, { points: [], colours: [], corners: [] });
   }
 
-  /** Add a corner and return its number. */
-  corner([x, y, z], colour) {
-    this.x.push(x);
-    this.y.push(y);
-    this.z.push(z);
-    this.vertexcolor.push(colour);
-    return this.x.length - 1;
+  /** Add a corner with red, green, blue and strength, 0 to 255; return its number. */
+  corner([x, y, z], [red, green, blue, strength = 255]) {
+    this.points.push(x, y, z);
+    this.colours.push(red, green, blue, strength);
+    return this.points.length / 3 - 1;
   }
 
   /** Add a triangle or a convex polygon by the numbers of its corners. */
   face(...corners) {
-    for (let n = 1; n + 1 < corners.length; n++) {
-      this.i.push(corners[0]);
-      this.j.push(corners[n]);
-      this.k.push(corners[n + 1]);
-    }
+    for (let n = 1; n + 1 < corners.length; n++) this.corners.push(corners[0], corners[n], corners[n + 1]);
   }
 
   /** Add the skin between loops of equally many points, each loop closed, with lids unless told otherwise. */
@@ -56,33 +50,15 @@ class Solid {
       );
     this.loft([loop(from), loop(to)], colour);
   }
-}
 
-/** Return what keys do in a scene: arrows turn it, plus and minus move nearer and away. */
-function cameraKeys(area) {
-  const camera = () => area().layout.scene.camera;
-  const look = (eye) => Plotly.relayout(area(), { "scene.camera": { ...camera(), eye } });
-  const turn = (around, rise) => {
-    const up = Object.values(camera().up);
-    const eye = rotate(Object.values(camera().eye), up, around);
-    const height = Math.asin(dot(unit(eye), up));
-    const wanted = Math.max(-1.5, Math.min(1.5, height + rise));
-    const [x, y, z] = rotate(eye, unit(cross(up, eye)), height - wanted);
-    look({ x, y, z });
-  };
-  const approach = (factor) => {
-    const { x, y, z } = camera().eye;
-    look({ x: factor * x, y: factor * y, z: factor * z });
-  };
-  return {
-    ArrowLeft: () => turn(-0.15, 0),
-    ArrowRight: () => turn(0.15, 0),
-    ArrowUp: () => turn(0, 0.12),
-    ArrowDown: () => turn(0, -0.12),
-    "+": () => approach(0.85),
-    "=": () => approach(0.85),
-    "-": () => approach(1 / 0.85),
-  };
+  /** Return the triangles as what a graphics card takes. */
+  packed() {
+    return {
+      points: new Float32Array(this.points),
+      colours: new Uint8Array(this.colours),
+      corners: new Uint32Array(this.corners),
+    };
+  }
 }
 
 /** Return `sides` points on the unit circle. */
@@ -93,8 +69,12 @@ function circle(sides) {
   });
 }
 
+function plus(a, b, factor = 1) {
+  return a.map((value, n) => value + factor * b[n]);
+}
+
 function minus(a, b) {
-  return a.map((value, n) => value - b[n]);
+  return plus(a, b, -1);
 }
 
 function cross(a, b) {

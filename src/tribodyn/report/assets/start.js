@@ -1,8 +1,12 @@
 // What all scripts share: the data of the page and small helpers.
 
-const page = unpack(JSON.parse(document.getElementById("page-data").textContent));
+const page = { clock: null, figures: {} };
 
-/** Draws one kind of figure: (box, data) => {paint(), show(frame)}. Each script adds its own. */
+/**
+ * Draws one kind of figure: (box) => {take(data, ghosts), paint(), show(frame)}. Each script adds its own.
+ *
+ * `take` gives what is drawn and, fainter, the same of other runs: [{data, strength}]. `paint` draws it, `show` follows time.
+ */
 const widgets = {};
 
 /** Tell whether the screen is that of a phone. */
@@ -23,10 +27,13 @@ function unpack(node) {
   return Object.fromEntries(keys.map((key) => [key, unpack(node[key])]));
 }
 
-/** Make an element with attributes and children; texts stay texts. */
+/** Make an element with attributes and children; texts stay texts, and styles need no leave of the page's policy. */
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name === "style") made.style.cssText = value;
+    else made.setAttribute(name, value);
+  }
   made.append(...children);
   return made;
 }
@@ -36,11 +43,6 @@ function button(label, action, attributes = {}) {
   const made = element("button", { type: "button", ...attributes }, label);
   made.addEventListener("click", action);
   return made;
-}
-
-/** Write a text so that the plotting library, which reads some markup, prints it as it is. */
-function literal(text) {
-  return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
 
 /** Write a number as a person reads it: a true minus, few digits. */
