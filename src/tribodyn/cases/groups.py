@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from pydantic import PrivateAttr
 
@@ -339,6 +339,9 @@ class PlainJoint(Group):
 class Wear(Group):
     """Wear of the bushing."""
 
+    LIMIT_OF: ClassVar[Mapping[str, str]] = {"wear_depth_max": "wear.depth_limit"}
+    """Keys that end a campaign, by what its history calls the number that is limited."""
+
     specific_wear_rate: float = quantity(
         "1.1e-15 m^2/N", "specific wear rate C_w", "paper, section 2.4", ge=0
     )
@@ -366,6 +369,11 @@ class Wear(Group):
     depth_limit: float | None = quantity(
         None, "depth at which the bushing is worn out: a campaign ends there", ASSUMED, gt=0, example="5 um"
     )
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """Limits of the motion that end a campaign, by what its history calls them; by default none."""
+        return {}
 
 
 class Tolerances(Group):

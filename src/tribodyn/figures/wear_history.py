@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
@@ -14,23 +15,34 @@ from tribodyn.figures.base import Family
 from tribodyn.figures.style import BLUE, DASHED, GREY, INK, SOLID, caption, finish, legend, lines, note, sheet
 from tribodyn.views.depth import fitting_unit, no_feedback
 from tribodyn.views.series import series
+from tribodyn.views.wear_history import PANELS, SECTION
 
-TITLE: Final = "Wear over the cycles"
+TITLE: Final = SECTION.title
+_LOOKS: Final = ((INK, DASHED), (BLUE, SOLID))
+FAR_APART: Final = 10.0
+"""Ratio of the largest to the least from which an axis counts in powers of ten."""
 
 
 def draw(dataset: xr.Dataset) -> Figure:
-    """Draw the greatest depth, and the peak pressure of the cycles that were simulated."""
-    figure = sheet(dataset, TITLE, 4.6)
-    above, below = figure.subplots(2, 1, sharex=True)
+    """Draw the greatest depth, and below it what is known of the cycles that were simulated."""
+    below = [
+        (label, size, there)
+        for label, size, names in PANELS
+        if (there := {name: words for name, words in names.items() if name in dataset})
+    ]
+    figure = sheet(dataset, TITLE, 2.6 + 1.7 * len(below))
+    panels = figure.subplots(1 + len(below), 1, sharex=True, squeeze=False)[:, 0]
     cycles = series(dataset, "wear_cycles")
     if cycles.size:
-        _depth(above, dataset, cycles)
-        _pressure(below, dataset, cycles)
+        _depth(panels[0], dataset, cycles)
+        for axes, (_, size, names) in zip(panels[1:], below, strict=True):
+            _of_motion(axes, dataset, cycles, size, names)
     else:
-        for axes in (above, below):
+        for axes in panels:
             note(axes, "nothing computed")
-    finish(above, "", above.get_ylabel())
-    finish(below, "drive cycles", "pressure [MPa]")
+    finish(panels[0], "", panels[0].get_ylabel())
+    for axes, (label, _, _) in zip(panels[1:], below, strict=True):
+        finish(axes, "drive cycles" if axes is panels[-1] else "", label)
     return figure
 
 
@@ -48,15 +60,21 @@ def _depth(axes: Axes, dataset: xr.Dataset, cycles: FloatArray) -> None:
     caption(axes, f"{deepest}; dashed: if the first rate went on")
 
 
-def _pressure(axes: Axes, dataset: xr.Dataset, cycles: FloatArray) -> None:
-    """Draw the peak pressure as the cycle's mean and as its maximum."""
-    curves = [
-        (series(dataset, "wear_pressure_max", 1e-6), "largest, impacts included", INK, DASHED),
-        (series(dataset, "wear_pressure_mean", 1e-6), "mean over the cycle", BLUE, SOLID),
+def _of_motion(
+    axes: Axes, dataset: xr.Dataset, cycles: FloatArray, size: float, names: Mapping[str, str]
+) -> None:
+    """Draw numbers of the simulated cycles; far apart, in powers of ten."""
+    drawn = [
+        (series(dataset, name, 1.0 / size), words, *look)
+        for (name, words), look in zip(names.items(), _LOOKS, strict=False)
     ]
-    lines(axes, cycles, curves)
-    axes.set_yscale("log")
-    caption(axes, "Peak pressure in the bushing")
+    lines(axes, cycles, drawn)
+    every = np.array([values for values, *_ in drawn])
+    largest, least = float(np.nanmax(every)), float(np.nanmin(every))
+    if least > 0.0 and largest > FAR_APART * least:
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(0.0, 1.3 * largest or 1.0)
     legend(axes, 2)
 
 
@@ -68,10 +86,7 @@ def _marker(cycles: FloatArray) -> str:
 FAMILY: Final = Family(
     name="wear_history",
     title=TITLE,
-    caption=(
-        "The deepest point of the bushing and its peak pressure over the cycles of a wear campaign. As the "
-        "loaded edge wears in, pressure spreads and wear slows down against the straight line."
-    ),
-    needs=("wear_cycles", "wear_depth_max", "wear_rate", "wear_pressure_max", "wear_pressure_mean"),
+    caption=SECTION.caption,
+    needs=SECTION.needs,
     draw=draw,
 )

@@ -9,8 +9,8 @@ simulated cycles is a :class:`Campaign`, and nothing else: a campaign goes on fr
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -42,6 +42,8 @@ class Plan:
         Area that each node stands for [m²], in the shape of the nodes; all fields below have it.
     of_cycle
         What is written down about the motion of each cycle, by name.
+    limits
+        Those of its entries that end the campaign, with the value at which they do.
     """
 
     cycles: int
@@ -52,6 +54,7 @@ class Plan:
     control: JumpControl
     node_area: FloatArray
     of_cycle: tuple[str, ...]
+    limits: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -118,7 +121,7 @@ class Campaign:
     gain
         Depth that the last jump gained at its deepest, over the roughness.
     life
-        Cycles after which the depth limit was reached; infinite if it was not.
+        Cycles after which a limit was reached; infinite if none was.
     history
         What was written down at the stops so far.
     stage_cycles, stage_depth
@@ -165,6 +168,7 @@ def run_campaign(
         cycle = system.cycle(_gap(worn, plan), worn.carried, worn.cycles)
         worn = replace(worn, statistics=_added(worn.statistics, cycle.statistics))
         if cycle.failure is None:
+            worn = replace(worn, life=min(worn.life, _moved_until(worn, cycle, plan)))
             if worn.cycles >= plan.cycles or math.isfinite(worn.life):
                 return _noted(worn, cycle, plan), cycle
             worn = _jumped(system, worn, cycle, plan)
@@ -244,6 +248,17 @@ def _cycles_to(limit: float, depth: FloatArray, per_cycle: FloatArray) -> float:
     if not (math.isfinite(limit) and wearing.any()):
         return math.inf
     return float(((limit - depth[wearing]) / per_cycle[wearing]).min())
+
+
+def _moved_until(worn: Campaign, cycle: Cycle, plan: Plan) -> float:
+    """Return after how many cycles the motion reached a limit, straight between stops."""
+    lives = [math.inf]
+    for name, limit in plan.limits.items():
+        stops = np.append(worn.history["wear_cycles"], worn.cycles)[-2:]
+        values = np.append(worn.history[name], cycle.motion[name])[-2:]
+        if values[-1] >= limit:
+            lives.append(float(np.interp(limit, values, stops)))
+    return min(lives)
 
 
 def _noted(worn: Campaign, cycle: Cycle, plan: Plan, jump: int = 0, lost: float = 0.0) -> Campaign:

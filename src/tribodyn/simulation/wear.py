@@ -62,7 +62,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
             **campaign.history,
             "stage_depth": cycles.system.as_field(campaign.stage_depth),
         },
-        warnings=[*told, *_limit_not_reached(cycles.case.wear, campaign)],
+        warnings=[*told, *_not_reached(cycles.case.wear, campaign)],
     )
     return session.dataset(replace(cycles.last, cost=campaign.statistics), more)
 
@@ -113,6 +113,7 @@ class _Cycles:
             control=JumpControl(wear.jump_limit, wear.jump_depth, nodes.roughness),
             node_area=nodes.area,
             of_cycle=tuple(self.session.mechanism.of_cycle),
+            limits=wear.limits,
         )
 
     def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
@@ -137,13 +138,21 @@ class _Cycles:
         return float(self.system.contact_energy(Worn(wear, carried)))
 
 
-def _limit_not_reached(wear: groups.Wear, campaign: Campaign) -> list[str]:
-    """Say how long the bushing would last if the last rate went on."""
-    limit, rates = wear.depth_limit, campaign.history["wear_rate"]
-    if limit is None or math.isfinite(campaign.life) or rates.size == 0 or rates[-1] == 0.0:
+def _not_reached(wear: groups.Wear, campaign: Campaign) -> list[str]:
+    """Say how long the bushing would last if all went on as between the last two stops."""
+    history = campaign.history
+    if math.isfinite(campaign.life) or history["wear_cycles"].size < 2:
         return []
-    left = (limit - float(campaign.depth.max())) / float(rates[-1])
+    limits = {**wear.limits, **({} if wear.depth_limit is None else {"wear_depth_max": wear.depth_limit})}
+    lives = {}
+    for name, limit in limits.items():
+        rate = np.diff(history[name])[-1] / np.diff(history["wear_cycles"])[-1]
+        if rate > 0.0:
+            lives[name] = (limit - history[name][-1]) / rate
+    if not lives:
+        return []
+    first = min(lives, key=lambda name: lives[name])
     return [
-        f"The bushing was not worn out: at its last rate it would take {left:.2g} more cycles to "
-        "wear.depth_limit."
+        f"The bushing was not worn out: at its last rate it would take {lives[first]:.2g} more cycles to "
+        f"{wear.LIMIT_OF[first]}."
     ]

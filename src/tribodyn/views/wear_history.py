@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
@@ -13,9 +14,26 @@ from tribodyn.views.lines import over
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak, series
 
+PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
+    (
+        "peak pressure [MPa]",
+        1e6,
+        {
+            "wear_pressure_max": "largest in the cycle, impacts included",
+            "wear_pressure_mean": "mean over the cycle",
+        },
+    ),
+    (
+        "vane-angle error [°]",
+        np.pi / 180.0,
+        {"wear_angle_error_max": "largest in the cycle", "wear_angle_error_rms": "rms over the cycle"},
+    ),
+)
+"""What is drawn below the depth where a result has it: label, size of its unit, and curves by their names."""
+
 
 def data(dataset: xr.Dataset) -> Payload | None:
-    """Return depth, peak pressure and vane-angle error at the stops."""
+    """Return depth, and what else is known of the stops."""
     cycles = series(dataset, "wear_cycles")
     if cycles.size < 2:
         return None
@@ -25,27 +43,23 @@ def data(dataset: xr.Dataset) -> Payload | None:
         Curve("if the first rate went on", no_feedback(dataset) / size, "grey", "dash"),
         Curve("deepest point", depth / size, "blue"),
     ]
-    pressure = [Curve("mean over the cycle", series(dataset, "wear_pressure_mean", 1e-6), "blue")]
-    error = [Curve("rms over the cycle", np.rad2deg(series(dataset, "wear_angle_error_rms")), "ink")]
-    return over(
-        cycles,
-        "drive cycles",
-        [
-            Panel(f"wear depth [{unit}]", worn),
-            Panel("peak contact pressure [MPa]", pressure),
-            Panel("vane-angle error [°]", error),
-        ],
-    )
+    drawn = [Panel(f"wear depth [{unit}]", worn)]
+    for label, size, names in PANELS:
+        there = [name for name in names if name in dataset]
+        curves = [Curve(names[name], series(dataset, name) / size) for name in there]
+        drawn += [Panel(label, curves)] if curves else []
+    return over(cycles, "drive cycles", drawn)
 
 
 SECTION: Final = Section(
     name="wear-history",
     title="Wear over the cycles",
     caption=(
-        "The deepest point of the bushing and its peak pressure over the cycles of a wear campaign. As the "
-        "loaded edge wears in, pressure spreads and wear slows down against the straight line."
+        "The deepest point of the bushing, its peak pressure and the error of the motion over the cycles of "
+        "a wear campaign. As the loaded edge wears in, pressure spreads and wear slows down against the "
+        "straight line."
     ),
-    needs=("wear_cycles", "wear_depth_max", "wear_rate", "wear_pressure_mean", "wear_angle_error_rms"),
+    needs=("wear_cycles", "wear_depth_max", "wear_rate"),
     widget="lines",
     data=data,
     still="wear_history",

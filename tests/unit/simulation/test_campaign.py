@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -34,7 +35,7 @@ class Punch:
     def cycle(self, wear, carried, done):
         count = 0.0 if carried is None else float(carried.state[0])
         failure = "interrupted" if len(self.cycles) == self.fails_at else None
-        motion = {"wear_force_mean": 0.0}
+        motion = {"wear_force_mean": float(wear.max())}
         found = Cycle(
             Carried(np.full(8, count + 1.0), np.zeros(SHAPE)),
             LOAD * np.exp(-wear / LENGTH),
@@ -158,6 +159,18 @@ def test_a_campaign_ends_at_the_depth_limit():
     life = LENGTH * math.expm1(limit / LENGTH) / (RATE * LOAD.max())
     assert worn.life == pytest.approx(life, rel=1e-2)
     assert worn.cycles == math.ceil(worn.life)
+
+
+def test_a_campaign_ends_where_the_motion_reaches_its_limit():
+    # The motion of the made-up joint is its depth: both limits are passed at the same cycle.
+    limit = 0.3e-6
+    deep, *_ = campaign(plan(10**9, limit=1e-3, depth_limit=limit))
+    moved, cycle, _ = campaign(replace(plan(10**9, limit=1e-3), limits={"wear_force_mean": limit}))
+    assert cycle.failure is None
+    assert moved.life == pytest.approx(deep.life, rel=1e-9)
+    assert moved.history["wear_force_mean"][-2] < limit <= moved.history["wear_force_mean"][-1]
+    begun, *_ = campaign(replace(plan(), limits={"wear_force_mean": -1.0}))
+    assert (begun.life, begun.cycles) == (0.0, 0)
 
 
 def test_a_campaign_that_does_not_reach_the_limit_says_nothing_of_life():

@@ -109,6 +109,27 @@ class Loads(Group):
     switch_width: float = quantity("0.01 rad", "width of that change", ASSUMED, gt=0)
 
 
+class VaneWear(Wear):
+    """Wear of the bushing."""
+
+    LIMIT_OF: ClassVar[Mapping[str, str]] = {
+        **Wear.LIMIT_OF,
+        "wear_angle_error_max": "wear.angle_error_limit",
+    }
+    angle_error_limit: float | None = quantity(
+        None,
+        "vane-angle error, largest in a cycle, at which the joint is worn out: a campaign ends there",
+        ASSUMED,
+        gt=0,
+        example="0.05 deg",
+    )
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The limit of the vane-angle error [rad]."""
+        return {} if self.angle_error_limit is None else {"wear_angle_error_max": self.angle_error_limit}
+
+
 class Run(Group):
     """How long, from where, and what is kept."""
 
@@ -143,7 +164,7 @@ class VsvCase(BushingCase):
     mechanism: MechanismKeys = MechanismKeys()
     drive: Drive = Drive()
     loads: Loads = Loads()
-    wear: Wear = Wear()
+    wear: VaneWear = VaneWear()
     solver: Solver = Solver()
     run: Run = Run(cycles=2.0)
 

@@ -232,7 +232,8 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Life",
         "cycles",
         "Wear",
-        "Drive cycles until some point is worn to the depth limit; without a campaign a linear estimate.",
+        "Drive cycles until some point is worn to the depth limit, or the vane-angle error has grown to "
+        "its own; without a campaign a linear estimate.",
         lambda d: float(d.attrs["wear_life_cycles"]),
     ),
     "energy_residual_percent": Headline(
