@@ -36,7 +36,8 @@ def changed(**more: object) -> dict[str, object]:
 
 def command(changes: dict[str, object]) -> list[str]:
     options = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
-    return [sys.executable, "-m", "tribodyn", "run", "vsv", "--quiet", *options, "-o", "out"]
+    quick = ["--quiet", "--no-figures", "--no-report"]
+    return [sys.executable, "-m", "tribodyn", "run", "vsv", *quick, *options, "-o", "out"]
 
 
 def begin(changes: dict[str, object], folder: Path) -> subprocess.Popen[bytes]:

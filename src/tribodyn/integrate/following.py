@@ -42,10 +42,8 @@ class Followed:
         """Take over the first ``n`` rows."""
         window = np.searchsorted(self.windows[:, 1], self.times[:n])
         for k in np.unique(window).tolist():
-            new = self.times[:n][window == k], self.rows[:n][window == k]
-            self._kept[k] = _joined(self._kept[k], new) if k in self._kept else new
-            if self._kept[k][0].size > _UNTHINNED * self.following.most:
-                self._kept[k] = self._thinned(self._kept[k])
+            inside = window == k
+            self._add(k, (self.times[:n][inside], self.rows[:n][inside]))
 
     def merged(self, times: FloatArray, rows: FloatArray) -> Rows:
         """Return other rows and those kept, in the order of time."""
@@ -53,6 +51,18 @@ class Followed:
         every = np.concatenate([part[0] for part in parts])
         order = np.argsort(every)
         return every[order], np.concatenate([part[1] for part in parts])[order]
+
+    def _add(self, k: int, new: Rows) -> None:
+        """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
+        full = _UNTHINNED * self.following.most
+        kept = self._kept.get(k, (new[0][:0], new[1][:0]))
+        while new[0].size:
+            room = full - kept[0].size
+            kept = _joined(kept, (new[0][:room], new[1][:room]))
+            new = new[0][room:], new[1][room:]
+            if kept[0].size == full:
+                kept = self._thinned(kept)
+        self._kept[k] = kept
 
     def _thinned(self, rows: Rows) -> Rows:
         """Return what is kept of the rows of a stretch."""

@@ -9,7 +9,7 @@ import pytest
 
 from tribodyn.core.problem import CompiledFunctions, Following, Problem
 from tribodyn.integrate import integrate
-from tribodyn.integrate.following import CHUNK, thinning
+from tribodyn.integrate.following import CHUNK, Followed, thinning
 
 WINDOWS = np.array([[0.0, 0.3], [1.0, 1.4]])
 
@@ -132,3 +132,28 @@ def test_every_third_step_gives_a_row_and_those_that_are_wanted(solver):
 
 def test_few_rows_are_left_alone():
     assert thinning(np.zeros((7, 2)), 7).tolist() == list(range(7))
+
+
+def walked(lengths):
+    """Return the rows that are kept of 5000 steps when visits come after these numbers of them."""
+    t = np.linspace(0.0, 0.3, 5000, endpoint=False)
+    rows = np.column_stack([np.sin(300.0 * t), np.cos(11.0 * t)])
+    followed = Followed(Following(WINDOWS, 60, (0,)), 2)
+    begin = 0
+    for length in lengths:
+        end = min(begin + length, t.size)
+        followed.times[: end - begin], followed.rows[: end - begin] = t[begin:end], rows[begin:end]
+        followed.collect(end - begin)
+        begin = end
+    assert begin == t.size
+    return followed.merged(np.empty(0), np.empty((0, 2)))
+
+
+def test_what_is_kept_does_not_hang_on_the_clock():
+    # How many steps lie between two visits does.
+    chance = np.random.default_rng(5)
+    t, rows = walked([CHUNK] * 10)
+    for longest in (2, 100, CHUNK):
+        others = walked(chance.integers(0, longest, 20_000))
+        np.testing.assert_array_equal(others[0], t)
+        np.testing.assert_array_equal(others[1], rows)
