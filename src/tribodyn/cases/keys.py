@@ -39,6 +39,7 @@ ASSUMED = "assumed"
 ANY_NAME = "*"
 """Stands in the path of a key for the name that a user gives a table."""
 
+_BOUNDS = ("gt", "ge", "lt", "le")
 _LONGEST_SHOWN = 60
 _MOST_ELEMENTS = 20
 _LEAST = 1.0e-60
@@ -78,6 +79,8 @@ class Key:
         Whether it must be given.
     profile
         Whether it is a root mean square height, for which other measures are understood.
+    bounds
+        The limits as numbers (SI), each after its name: ``gt``, ``ge``, ``lt`` or ``le``.
     """
 
     path: str
@@ -92,6 +95,7 @@ class Key:
     length: int = 0
     required: bool = False
     profile: bool = False
+    bounds: tuple[tuple[str, float], ...] = ()
 
     @property
     def table(self) -> str:
@@ -265,6 +269,12 @@ def _key(path: str, info: FieldInfo) -> Key:
         length=int(notes.get("length", "0")),
         required=info.is_required(),
         profile=bool(extra.get("profile")),
+        bounds=tuple(
+            (name, float(getattr(limit, name)))
+            for limit in info.metadata
+            for name in _BOUNDS
+            if hasattr(limit, name)
+        ),
     )
 
 

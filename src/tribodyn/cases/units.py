@@ -188,6 +188,12 @@ def from_si(value: float, unit: str) -> str:
     return f"{value!r} {si_unit(unit)}"
 
 
+def number_in(value: float, unit: str) -> float:
+    """Return an SI value in some unit as the nearest float, to draw it; :func:`from_si` writes it."""
+    scale = _scale(unit)
+    return float(_ARITHMETIC.divide(Decimal(value) - scale.zero, scale.factor))
+
+
 def with_shared_unit(texts: Sequence[str]) -> list[str]:
     """Return quantities to whose bare numbers the unit of the last one is added: ``20, 25, 30 um``."""
     try:

@@ -15,6 +15,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import MappingProxyType
@@ -79,6 +80,18 @@ def process(function: Callable[..., None], *arguments: Any) -> BaseProcess:
     with _set(ENVIRONMENT):
         made.start()
     return made
+
+
+def end_with_parent() -> None:
+    """Let this process end when the one that started it has ended, whatever it is doing then."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)
 
 
 def _context() -> ForkServerContext | SpawnContext:

@@ -286,6 +286,8 @@ class Mechanism:
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
     by_joint
         Headline numbers that each joint has, for mechanisms whose joints a user names; see :class:`ByJoint`.
+    controls
+        Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
     """
 
     folder: str
@@ -296,6 +298,7 @@ class Mechanism:
     key_numbers: tuple[str, ...]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
     by_joint: Mapping[str, ByJoint] = field(default_factory=dict)
+    controls: tuple[str, ...] = ()
 
     def headlines_of(self, joints: Iterable[str]) -> dict[str, Headline]:
         """Return all headline numbers, those of joints with these names among them, in reading order."""

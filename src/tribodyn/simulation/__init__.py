@@ -143,9 +143,9 @@ def check(case: Case, *, deep: bool = False) -> Sequence[str]:
     return remarks
 
 
-def load_equations(case: Case) -> None:
-    """Load the equations of a case if they are compiled."""
-    loaded(case, _first_steps)
+def load_equations(case: Case) -> bool:
+    """Load the equations of a case if they are compiled, and tell whether they are."""
+    return loaded(case, _first_steps)
 
 
 def compile_for_parent() -> None:

@@ -53,7 +53,7 @@ def loading_only() -> Iterator[None]:
 
 def loaded(case: Case, first_steps: Steps) -> bool:
     """Load the equations of a case; False if they are not compiled yet."""
-    choices = frozenset(_choices(case.model_dump(exclude={"title"})))
+    choices = equations_of(case)
     if choices not in _loaded:
         try:
             with loading_only():
@@ -66,8 +66,13 @@ def loaded(case: Case, first_steps: Steps) -> bool:
     return True
 
 
+def equations_of(case: Case) -> frozenset[tuple[str, object]]:
+    """Return what equations depend on: all settings but numbers. Cases that agree in them share equations."""
+    return frozenset(_choices(case.model_dump(exclude={"title"})))
+
+
 def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, object]]:
-    """Yield all settings but numbers: those that equations may depend on."""
+    """Yield settings below a path."""
     for name, value in settings.items():
         if isinstance(value, Mapping):
             yield from _choices(value, f"{path}{name}.")

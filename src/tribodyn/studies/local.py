@@ -7,9 +7,7 @@ there is nothing that another user could connect to. The fork server listens whe
 from __future__ import annotations
 
 import multiprocessing
-import os
 import signal
-import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
@@ -198,17 +196,9 @@ def serve(connection: Connection) -> None:
     """
     # Ctrl-C is for the command, which ends its workers.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    fork_server.end_with_parent()
     import_what_points_need()
     with suppress(EOFError, OSError):
         while True:
             function, arguments = connection.recv()
             connection.send(function(*arguments))
-
-
-def _end_with_parent() -> None:
-    """End this process when the one that started it has ended, in the middle of a point, too."""
-    parent = multiprocessing.parent_process()
-    assert parent is not None
-    parent.join()
-    os._exit(1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -22,8 +23,26 @@ _ESCAPES: Final = {
 }
 
 
-def packed(values: ArrayLike, kind: str = "float32") -> dict[str, str]:
-    """Return an array as the page stores it: base64 of its little-endian bytes, flattened.
+@dataclass(frozen=True)
+class Packed:
+    """An array on its way into a page.
+
+    Attributes
+    ----------
+    array
+        Little-endian, flat and contiguous.
+    """
+
+    array: NDArray[Any]
+
+    @property
+    def code(self) -> str:
+        """Name of its kind, as scripts know it."""
+        return _CODES[self.array.dtype.name]
+
+
+def packed(values: ArrayLike, kind: str = "float32") -> Packed:
+    """Return an array as pages hold it: flattened, of a kind that scripts know.
 
     Parameters
     ----------
@@ -32,8 +51,7 @@ def packed(values: ArrayLike, kind: str = "float32") -> dict[str, str]:
     kind
         ``float32`` (7 digits: enough to draw), ``float64`` (times) or ``uint8`` (pictures).
     """
-    array = np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<"))
-    return {_CODES[kind]: base64.b64encode(array.tobytes()).decode("ascii")}
+    return Packed(np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<")).reshape(-1))
 
 
 def quantised(fields: NDArray[np.floating[Any]]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
@@ -56,8 +74,15 @@ def quantised(fields: NDArray[np.floating[Any]]) -> tuple[NDArray[np.uint8], NDA
 
 
 def safe_json(document: Mapping[str, Any]) -> str:
-    """Return JSON that may stand inside a script element, whatever its texts hold."""
-    text = json.dumps(document, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    """Return JSON that may stand inside a script element, whatever its texts hold; arrays stand as base64."""
+    text = json.dumps(document, default=_as_text, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     for character, escape in _ESCAPES.items():
         text = text.replace(character, escape)
     return text
+
+
+def _as_text(value: object) -> dict[str, str]:
+    """Return an array as the base64 of its bytes."""
+    if not isinstance(value, Packed):
+        raise TypeError(f"{type(value).__name__} has no place in a page")
+    return {value.code: base64.b64encode(value.array.tobytes()).decode("ascii")}

@@ -31,4 +31,16 @@ MECHANISM: Final = Mechanism(
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
     by_joint=BY_JOINT,
+    controls=(
+        "joints.*.clearance.radial",
+        "joints.*.clearance.gap",
+        "drives.*.*.value",
+        "drives.*.*.angular_frequency",
+        "joints.*.clearance.friction_coefficient",
+        "loads.*.*.value",
+        "springs.*.stiffness",
+        "joints.*.start_speed",
+        "surfaces.bushing.roughness",
+        "contact.law",
+    ),
 )

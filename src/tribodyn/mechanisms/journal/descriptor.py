@@ -22,4 +22,14 @@ MECHANISM: Final = Mechanism(
     variables=VARIABLES,
     headlines=HEADLINES,
     key_numbers=KEY_NUMBERS,
+    controls=(
+        "joint.clearance",
+        "joint.friction_coefficient",
+        "surfaces.bushing.roughness",
+        "asperities.density",
+        "loads.force_x",
+        "loads.force_y",
+        "journal.mass",
+        "contact.law",
+    ),
 )

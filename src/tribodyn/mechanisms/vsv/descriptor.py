@@ -23,4 +23,14 @@ MECHANISM: Final = Mechanism(
     headlines=HEADLINES,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
+    controls=(
+        "joint.clearance",
+        "joint.friction_coefficient",
+        "surfaces.bushing.roughness",
+        "asperities.density",
+        "loads.air_moment",
+        "loads.air_force_y",
+        "drive.speed_amplitude",
+        "contact.law",
+    ),
 )

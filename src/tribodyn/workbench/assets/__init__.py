@@ -1,0 +1,1 @@
+"""What the page of the workbench is made of, beside what it shares with the report."""

@@ -1,0 +1,93 @@
+"""What a person can turn in a case: one control a key, those that matter most first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
+from fnmatch import fnmatchcase
+from typing import Any, Final
+
+from tribodyn.cases.case import Case
+from tribodyn.cases.keys import Key, Value
+from tribodyn.cases.lists import LISTS
+from tribodyn.cases.tables import keys_in, with_components
+from tribodyn.cases.units import number_in
+from tribodyn.studies.variation import written
+from tribodyn.workbench.ranges import track
+
+FIRST: Final = 8
+"""Controls that a page shows without being asked."""
+FILE: Final = "file"
+"""Kind of the keys that name files: no page may turn them."""
+_NO_TRACK: Final = {"least": None, "greatest": None, "step": None}
+
+
+def turnable(case: Case) -> dict[str, Key]:
+    """Return the keys of a case that a page may turn, by dotted path."""
+    keys = with_components(keys_in(case))
+    return {path: key for path, key in keys.items() if key.kind != FILE and path != "case"}
+
+
+def controls(case: Case, patterns: Sequence[str]) -> list[dict[str, Any]]:
+    """Return the controls of a case, first those that match patterns, in the order of these."""
+    keys = {path: key for path, key in turnable(case).items() if _stands(case, path)}
+    first = list(dict.fromkeys(_matching(case, keys, patterns)))[:FIRST]
+    others = [path for path in keys if path not in first]
+    return [_control(keys[path], case.at(path), path in first) for path in (*first, *others)]
+
+
+def _stands(case: Case, path: str) -> bool:
+    """Tell whether the table that a key stands in is there; components of a vector stand in the vector."""
+    table = path.rpartition(".")[0]
+    return not table or case.at(table) is not None
+
+
+def _matching(case: Case, keys: Mapping[str, Key], patterns: Sequence[str]) -> Iterator[str]:
+    """Yield the paths that match each pattern and have a value that a page can turn."""
+    for pattern in patterns:
+        for path, key in keys.items():
+            fits = path.count(".") == pattern.count(".") and fnmatchcase(path, pattern)
+            if fits and case.at(path) is not None and _has_course(key, case.at(path)):
+                yield path
+
+
+def _has_course(key: Key, value: Value | None) -> bool:
+    """Tell whether a slider or a list can give other values."""
+    return bool(key.choices) or track(key, _number(value)) is not None
+
+
+def text(key: Key, value: Value | None) -> str:
+    """Return a value as a person writes it, empty where there is none."""
+    return "" if value is None else written(key, value)
+
+
+def shown_number(key: Key, value: Value | None) -> float | None:
+    """Return a value as a number in the unit of its key; None for what is no number."""
+    number = _number(value)
+    if number is None or not key.unit:
+        return number
+    return float(f"{number_in(number, key.unit):.15g}")
+
+
+def _number(value: Value | None) -> float | None:
+    plain = isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value) if plain else None  # type: ignore[arg-type]
+
+
+def _control(key: Key, value: Value | None, first: bool) -> dict[str, Any]:
+    found = track(key, _number(value))
+    return {
+        "key": key.path,
+        "label": key.description,
+        "kind": "list" if key.kind in LISTS else key.kind,
+        "unit": key.unit,
+        "text": text(key, value),
+        "number": shown_number(key, value),
+        **(_NO_TRACK if found is None else asdict(found)),
+        "limits": key.limits,
+        "allowed": key.allowed,
+        "example": key.example,
+        "source": key.source,
+        "choices": list(key.choices),
+        "first": first,
+    }

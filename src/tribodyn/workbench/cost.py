@@ -1,0 +1,86 @@
+"""What a run will take, by what runs took so far."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Final
+
+from tribodyn.cases.case import Case
+from tribodyn.cases.tables import keys_in
+from tribodyn.core.errors import InputError
+
+Equations = frozenset[tuple[str, object]]
+
+MOST_ROWS: Final = 100_000
+"""Rows of a result that a page is sent, at most."""
+_NO_GRID: Final = ("run", "wear")
+"""Tables whose whole numbers do not say how fine a grid is."""
+_TOLERANCE_POWER: Final = -0.2
+"""How the number of steps follows the relative tolerance, for a method of the fourth order or so."""
+
+
+@dataclass
+class Costs:
+    """Seconds that runs took, by their equations.
+
+    Attributes
+    ----------
+    seconds
+        Of the last run with these equations, for a case of size one.
+    """
+
+    seconds: dict[Equations, float] = field(default_factory=dict)
+
+    def note(self, case: Case, seconds: float) -> None:
+        """Remember what a run took."""
+        self.seconds[equations(case)] = seconds / size(case)
+
+    def knows(self, case: Case) -> bool:
+        """Tell whether a case with these equations was run."""
+        return equations(case) in self.seconds
+
+    def expected(self, case: Case) -> float | None:
+        """Return what a run will take [s], as if all equations cost the same; None before any run."""
+        if not self.seconds:
+            return None
+        last = next(reversed(self.seconds.values()))
+        return self.seconds.get(equations(case), last) * size(case)
+
+
+def equations(case: Case) -> Equations:
+    """Return what cases with the same equations have in common."""
+    from tribodyn.simulation.compilation import equations_of
+
+    return equations_of(case)
+
+
+def size(case: Case) -> float:
+    """Return how much work a case is: its time, its nodes and its tolerance, in no particular unit."""
+    found = case.duration
+    for path, key in keys_in(case).items():
+        value = case.at(path) if key.kind == "count" and path.partition(".")[0] not in _NO_GRID else None
+        if isinstance(value, int) and value > 0:
+            found *= value / float(key.example or 1.0)
+    tolerance = case.at("solver.rtol")
+    return found * tolerance**_TOLERANCE_POWER if isinstance(tolerance, float) else found
+
+
+def refuse_rows(case: Case) -> None:
+    """Refuse a case whose result no page could hold."""
+    interval = case.at("run.output_interval")
+    if isinstance(interval, float) and case.duration / interval > MOST_ROWS:
+        raise InputError(
+            f"these are {case.duration / interval:.3g} rows; a page holds {MOST_ROWS}: lengthen it, or use "
+            "`tribodyn run`",
+            key="run.output_interval",
+        )
+
+
+def in_words(seconds: float) -> str:
+    """Return a time as a person says it."""
+    if seconds < 100.0:
+        return f"{max(seconds, 0.1):.2g} s"
+    if seconds < 6000.0:
+        return f"{math.ceil(seconds / 60.0)} minutes"
+    return f"{seconds / 3600.0:.2g} hours"

@@ -1,0 +1,249 @@
+"""Runs along one key that nobody waits for: a sweep, and the slope at a value."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.cases.keys import Key, ValueProblem
+from tribodyn.cases.tables import plain_path
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.results.summary import EFFORT
+from tribodyn.workbench import frame
+from tribodyn.workbench.bench import Bench
+from tribodyn.workbench.controls import shown_number, text
+from tribodyn.workbench.cost import in_words, refuse_rows
+from tribodyn.workbench.crew import Failed, GivenUp
+from tribodyn.workbench.messages import Slope, Sweep, Values
+from tribodyn.workbench.variant import Variant
+from tribodyn.workbench.visitor import Visitor
+
+AROUND: Final = (-0.10, -0.05, 0.0, 0.05, 0.10)
+"""Where a slope is fitted, relative to the value."""
+_DIGITS: Final = 10
+
+Tell = Callable[[Mapping[str, Any]], None]
+Point = dict[str, Any]
+Said = Callable[[Sequence[Point], bool], dict[str, Any]]
+
+
+class Series:
+    """Runs that are made one after the other while nobody waits for anything else.
+
+    Parameters
+    ----------
+    bench, visitor
+        Where they are made, and for whom.
+    number
+        Of the request.
+    variants
+        What is run.
+    key
+        The key that they differ in.
+    say
+        Returns what the page is told after each point, of all points so far and whether it was the last.
+    tell
+        Tells the page.
+    """
+
+    def __init__(
+        self,
+        bench: Bench,
+        visitor: Visitor,
+        number: int,
+        variants: Sequence[Variant],
+        key: Key,
+        say: Said,
+        tell: Tell,
+    ) -> None:
+        self.bench, self.visitor, self.number = bench, visitor, number
+        self.variants, self.key, self.say, self.tell = variants, key, say, tell
+        self._task = asyncio.create_task(self._compute())
+
+    def cancel(self) -> None:
+        """Give it up."""
+        self._task.cancel()
+
+    async def _compute(self) -> None:
+        points: list[Point] = []
+        with suppress(GivenUp):
+            for variant in self.variants:
+                points.append(await self._point(variant))
+                self.tell(self.say(points, len(points) == len(self.variants)))
+
+    async def _point(self, variant: Variant) -> Point:
+        value = variant.case.at(self.key.path)
+        point: Point = {
+            "value": shown_number(self.key, value),
+            "text": text(self.key, value),
+            "run": variant.run,
+            "headlines": {},
+            "failure": "",
+        }
+        try:
+            found = frame.header(await self._frame(variant))
+        except Failed as error:
+            return point | {"failure": str(error)}
+        return point | {name: found[name] for name in ("headlines", "failure")}
+
+    async def _frame(self, variant: Variant) -> bytes:
+        kept = self.visitor.frame(variant.run)
+        if kept is not None:
+            return kept
+        job = self.bench.order(variant, self.bench.rules.unasked, lambda event: None, background=True)
+        try:
+            content = await self.bench.made(variant, job)
+        except asyncio.CancelledError:
+            self.bench.crew.stop(job)
+            raise
+        self.visitor.keep(variant.run, variant.toml, content)
+        return content
+
+
+@dataclass(frozen=True)
+class _Along:
+    """A key, and the values of the others."""
+
+    bench: Bench
+    key: Key
+    values: Values
+
+    def variants(self, texts: Iterator[str]) -> list[Variant]:
+        """Return the cases with these values of the key; what cannot be computed at once is refused."""
+        found: dict[str, Variant] = {}
+        for value in texts:
+            variant = self.bench.origin.varied({**self.values, self.key.path: value})
+            refuse_rows(variant.case)
+            self._refuse_long(variant)
+            found.setdefault(variant.run, variant)
+        return list(found.values())
+
+    def _refuse_long(self, variant: Variant) -> None:
+        expected, most = self.bench.costs.expected(variant.case), self.bench.rules.unasked
+        if variant.case.campaign_cycles:
+            raise InputError("points with wear campaigns are for `tribodyn sweep`", key="wear.cycles")
+        if expected is not None and expected > most:
+            raise InputError(
+                f"a point takes about {in_words(expected)}, {in_words(most)} are the most here: use "
+                "`tribodyn sweep`",
+                key=self.key.path,
+            )
+
+
+def _along(bench: Bench, path: str, values: Values) -> _Along:
+    keys = bench.origin.keys
+    path = plain_path(path, keys)
+    if path not in keys:
+        raise InputError("there is no such key", key=path)
+    return _Along(bench, keys[path], {name: value for name, value in values.items() if name != path})
+
+
+def sweep_of(bench: Bench, visitor: Visitor, asked: Sweep, tell: Tell) -> Series:
+    """Begin a sweep.
+
+    Raises
+    ------
+    InputError
+        There is nothing to sweep over.
+    """
+    along = _along(bench, asked.key, asked.values)
+    variants = along.variants(_levels(along.key, asked))
+
+    def say(points: Sequence[Point], finished: bool) -> dict[str, Any]:
+        told = {"number": asked.number, "key": asked.key, "points": points}
+        return {"type": "sweep", **told, "of": len(variants), "finished": finished}
+
+    return Series(bench, visitor, asked.number, variants, along.key, say, tell)
+
+
+def _levels(key: Key, asked: Sweep) -> Iterator[str]:
+    """Yield the values of a sweep: all choices, or evenly from one end to the other."""
+    if key.choices:
+        yield from key.choices
+    elif key.kind == "switch":
+        yield from ("false", "true")
+    else:
+        first, last = (_number(key, end) for end in asked.ends)
+        for number in np.linspace(first, last, asked.points):
+            yield _written(key, float(number))
+
+
+def _number(key: Key, end: str) -> float:
+    """Return one end of a sweep in the unit of its key."""
+    try:
+        value = key.read(end, text=True)
+    except ValueProblem as problem:
+        raise InputError(str(problem) or f"allowed: {key.allowed}", key=key.path) from None
+    number = shown_number(key, value)
+    if number is None:
+        raise InputError("only numbers and choices can be swept", key=key.path)
+    return number
+
+
+def _written(key: Key, number: float) -> str:
+    """Return a number as a person writes it, with its unit."""
+    if key.kind == "count":
+        return str(round(number))
+    return f"{float(f'{number:.{_DIGITS}g}')!r} {key.unit}".strip()
+
+
+def slope_of(bench: Bench, visitor: Visitor, asked: Slope, tell: Tell) -> Series:
+    """Begin to find the slope at the present value of a key.
+
+    Raises
+    ------
+    InputError
+        The value is no number, or zero.
+    """
+    along = _along(bench, asked.key, asked.values)
+    middle = shown_number(along.key, bench.origin.varied(asked.values).case.at(along.key.path))
+    if not middle:
+        raise InputError("a slope needs a number other than zero", key=asked.key)
+    variants = along.variants(_written(along.key, middle * (1.0 + share)) for share in AROUND)
+
+    def say(points: Sequence[Point], finished: bool) -> dict[str, Any]:
+        told = {"number": asked.number, "key": asked.key, "done": len(points), "of": len(variants)}
+        return {
+            "type": "slope",
+            **told,
+            "finished": finished,
+            "headlines": slopes(points) if finished else {},
+        }
+
+    return Series(bench, visitor, asked.number, variants, along.key, say, tell)
+
+
+def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:
+    """Return how headline numbers follow a key, in percent a percent, with the standard error of that.
+
+    The straight line of least squares through all points; numbers that a point lacks, or that are zero on
+    average, have none.
+
+    Parameters
+    ----------
+    points
+        With ``value`` and ``headlines``.
+    """
+    names = set.intersection(*(set(point["headlines"]) for point in points)) if points else set()
+    names -= EFFORT.keys()
+    x = np.array([point["value"] for point in points], dtype=np.float64)
+    found = {}
+    for name in names:
+        y = np.array([point["headlines"][name] for point in points], dtype=np.float64)
+        if x.size > 2 and y.mean() != 0.0 and np.ptp(x) > 0.0:
+            found[name] = _fitted(x / x.mean() - 1.0, y / y.mean())
+    return found
+
+
+def _fitted(x: FloatArray, y: FloatArray) -> dict[str, float]:
+    """Return the slope of the straight line of least squares, and its standard error."""
+    dx, dy = x - x.mean(), y - y.mean()
+    slope = float(dx @ dy / (dx @ dx))
+    left = dy - slope * dx
+    return {"slope": slope, "scatter": float(np.sqrt(left @ left / (x.size - 2) / (dx @ dx)))}

@@ -1,0 +1,146 @@
+"""A case with some values changed by the page, and everything that is said about it."""
+
+from __future__ import annotations
+
+import hashlib
+import shlex
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Final
+
+from tribodyn.cases.case import Case
+from tribodyn.cases.keys import Key
+from tribodyn.cases.tables import keys_in, plain_path, with_components
+from tribodyn.core.errors import Faults, InputError
+from tribodyn.workbench.controls import FILE, text
+
+_DIGITS: Final = 16
+_FILES: Final = "a page may not name files of this machine; start the workbench with a case that does"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """The case that a workbench was started with.
+
+    Attributes
+    ----------
+    case
+        The case.
+    name
+        As it was given: a built-in case or a file.
+    changes
+        Values that were changed there and then, by dotted path.
+    """
+
+    case: Case
+    name: str
+    changes: Mapping[str, str] = field(default_factory=dict)
+
+    @cached_property
+    def texts(self) -> dict[str, str]:
+        """Values of all keys as texts, by dotted path."""
+        return _texts(self.case)
+
+    @cached_property
+    def keys(self) -> dict[str, Key]:
+        """Keys of the case and components of its vectors, by dotted path."""
+        return with_components(keys_in(self.case))
+
+    def varied(self, values: Mapping[str, str]) -> Variant:
+        """Return the case with other values.
+
+        Raises
+        ------
+        InputError
+            A value cannot be, or names a file.
+        """
+        faults = Faults()
+        for path in values:
+            key = self.keys.get(plain_path(path, self.keys))
+            with faults.noted():
+                if key is not None and key.kind == FILE:
+                    raise InputError(_FILES, key=path)
+        faults.raise_any()
+        case = self.case.replace(values, source="") if values else self.case
+        return Variant(self, case, {path: self._canonical(case, path) for path in values})
+
+    def _canonical(self, case: Case, path: str) -> str:
+        plain = plain_path(path, self.keys)
+        return text(self.keys[plain], case.at(plain))
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A case as the page wants it.
+
+    Attributes
+    ----------
+    origin
+        What it was made from.
+    case
+        The case.
+    values
+        What the page changed, as texts in the units of the keys.
+    """
+
+    origin: Origin
+    case: Case
+    values: Mapping[str, str]
+
+    @cached_property
+    def toml(self) -> str:
+        """The case as text, which is all that a worker gets of it."""
+        return self.case.to_toml()
+
+    @cached_property
+    def run(self) -> str:
+        """Name of the run: that of every case with this very text."""
+        return hashlib.sha256(self.toml.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGITS]
+
+    @property
+    def follows(self) -> dict[str, str]:
+        """Values that differ from those of the origin though the page did not change them."""
+        before = self.origin.texts
+        return {
+            path: value
+            for path, value in _texts(self.case).items()
+            if value != before.get(path, "") and path not in self.values
+        }
+
+    @property
+    def command(self) -> str:
+        """The command that makes this very run."""
+        changes = {**self.origin.changes, **self.values}
+        options = [f"--set {shlex.quote(f'{path}={value}')}" for path, value in changes.items()]
+        return " ".join(["tribodyn run", shlex.quote(self.origin.name), *options])
+
+    @property
+    def python(self) -> str:
+        """Lines of Python that make this very run."""
+        return "\n".join(self._lines())
+
+    def _lines(self) -> Iterator[str]:
+        changes = {**self.origin.changes, **self.values}
+        yield "import tribodyn as td"
+        yield ""
+        yield f"case = td.load_case({self.origin.name!r})"
+        if changes:
+            yield "case = case.replace({"
+            yield from (f"    {path!r}: {value!r}," for path, value in changes.items())
+            yield "})"
+        yield "result = td.simulate(case)"
+
+    def told(self) -> dict[str, object]:
+        """Return what the header of a frame says of the case."""
+        return {
+            "run": self.run,
+            "values": dict(self.values),
+            "follows": self.follows,
+            "command": self.command,
+            "python": self.python,
+        }
+
+
+def _texts(case: Case) -> dict[str, str]:
+    return {path: text(key, case.at(path)) for path, key in keys_in(case).items()}

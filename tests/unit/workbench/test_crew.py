@@ -1,0 +1,125 @@
+"""Workers that are real processes: what becomes of a run when its worker dies, hangs, or takes too much."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import psutil
+import pytest
+from tests.unit.workbench.host import SOON
+
+from tribodyn.core import fork_server
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.workbench import frame
+from tribodyn.workbench.crew import Crew, Failed, GivenUp, Job
+from tribodyn.workbench.worker import Limits
+
+SHORT = load_case("vsv").replace({"run.duration": "0.3 s"})
+LONG = load_case("vsv").replace({"run.cycles": "200"})
+EFFORT = {"wall_time_s", "real_time_factor"}
+Test = Callable[[Callable[[Crew], Coroutine[Any, Any, None]]], None]
+
+
+def job(case=SHORT, seconds=SOON, **more):
+    return Job({"work": "picture", "case": case.to_toml(), "told": {"run": "x"}}, seconds, **more)
+
+
+@contextmanager
+def crew(**limits: int) -> Iterator[Test]:
+    """Have one worker, and what runs tests with it."""
+    fork_server.start(name="vsv")
+    with asyncio.Runner() as runner:
+        made = Crew(1, Limits(**limits))
+        runner.run(made.start())
+        yield lambda test: runner.run(test(made))
+        (pid,) = (worker.process.pid for worker in made.workers)
+        runner.run(made.end())
+    assert not psutil.pid_exists(pid)
+
+
+@pytest.fixture(scope="module")
+def with_crew() -> Iterator[Test]:
+    with crew() as run:
+        yield run
+
+
+async def at_work(made: Crew) -> int:
+    """Wait until the worker is at it, and return its process."""
+    while made.workers[0].job is None:
+        await asyncio.sleep(0.01)
+    await asyncio.sleep(0.3)
+    pid = made.workers[0].process.pid
+    assert pid is not None
+    return pid
+
+
+def numbers(content: bytes) -> dict[str, Any]:
+    """Return what a frame shows, without what the run took."""
+    header = frame.header(content)
+    return {"sections": header["sections"]} | {
+        k: v for k, v in header["headlines"].items() if k not in EFFORT
+    }
+
+
+def test_a_worker_killed_in_mid_run_goes_unnoticed_but_for_the_time(with_crew: Test) -> None:
+    async def test(made: Crew) -> None:
+        first = await made.do(job())
+        again = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "4"}))))
+        victim = await at_work(made)
+        os.kill(victim, signal.SIGKILL)
+        assert frame.header(await again)["failure"] == ""
+        assert made.workers[0].process.pid != victim
+        # The same case is the same frame from any worker.
+        assert numbers(await made.do(job())) == numbers(first)
+
+    with_crew(test)
+
+
+def test_a_run_that_takes_too_long_is_stopped_and_one_that_hangs_is_killed(with_crew: Test) -> None:
+    async def test(made: Crew) -> None:
+        with pytest.raises(Failed, match=r"stopped after 0\.5 s"):
+            await made.do(job(LONG, seconds=0.5))
+        long = job(LONG)
+        waiting = asyncio.create_task(made.do(long))
+        hung = await at_work(made)
+        os.kill(hung, signal.SIGSTOP)
+        made.stop(long)
+        with pytest.raises(GivenUp):
+            await waiting
+        await made.do(job())
+        assert made.workers[0].process.pid != hung
+
+    with_crew(test)
+
+
+def test_what_nobody_waits_for_makes_room_and_is_done_later(with_crew: Test) -> None:
+    async def test(made: Crew) -> None:
+        later = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "4"}), background=True)))
+        await at_work(made)
+        assert await made.do(job())
+        assert not later.done()
+        assert frame.header(await later)["failure"] == ""
+
+    with_crew(test)
+
+
+def test_what_is_too_large_or_wrong_is_told_in_words() -> None:
+    async def test(made: Crew) -> None:
+        with pytest.raises(Failed, match=r"larger than 0\.001 MB"):
+            await made.do(job())
+        with pytest.raises(Failed, match="not valid TOML"):
+            await made.do(Job({"work": "picture", "case": "?", "told": {}}, SOON))
+        if sys.platform == "linux":
+            # 300,000 rows of some sixty numbers.
+            rows = {"run.output_interval": "1 us", "run.duration": "0.3 s"}
+            with pytest.raises(Failed, match="more memory than a worker may have"):
+                await made.do(job(load_case("vsv").replace(rows)))
+
+    with crew(memory=100_000_000, result=1000) as run:
+        run(test)

@@ -1,0 +1,266 @@
+"""What a page is sent for what it wishes, by a crew that only pretends to compute."""
+
+from __future__ import annotations
+
+import asyncio
+
+from tests.unit.workbench.host import Answer, Pretending, hosting, in_loop
+
+from tribodyn.workbench.bench import Rules
+from tribodyn.workbench.frame import KEPT
+
+CLEARANCE = "joint.clearance"
+
+
+def wide(micrometres: float) -> dict[str, str]:
+    return {CLEARANCE: f"{micrometres:g} um"}
+
+
+@in_loop
+async def test_the_answer_names_its_values_and_the_command_that_makes_it() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        await page.run(7, {CLEARANCE: "0.037 mm", "contact.law": "gw"}, rest=True)
+        answer = await page.picture()
+        assert answer.number == 7
+        assert answer.header["values"] == {CLEARANCE: "37 um", "contact.law": "gw"}
+        # A law without a restitution of its own is left undamped, which nobody asked for.
+        assert answer.header["follows"] == {"contact.damping_factor": "none"}
+        assert (
+            answer.header["command"] == "tribodyn run vsv --set 'joint.clearance=37 um' --set contact.law=gw"
+        )
+        place = answer.header["sections"]["one"]["x"]["f32"]
+        assert place == [0, 2]
+
+
+@in_loop
+async def test_while_a_slider_is_dragged_runs_end_and_the_newest_wish_is_next() -> None:
+    crew = Pretending(seconds=0.2)
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        crew.made.clear()
+        for number in range(10):
+            await page.run(number, wide(20 + number))
+            await asyncio.sleep(0.01)
+        answers = [await page.picture(), await page.picture()]
+        assert [answer.number for answer in answers] == [0, 9]
+        assert [answer.header["values"] for answer in answers] == [wide(20), wide(29)]
+        assert len(crew.made) == 2
+        assert crew.given_up == []
+
+
+@in_loop
+async def test_a_hand_at_rest_ends_what_is_under_way_for_other_values() -> None:
+    crew = Pretending(seconds=0.5)
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        await page.run(1, wide(30))
+        await asyncio.sleep(0.1)
+        await page.run(2, wide(31), rest=True)
+        assert (await page.picture()).number == 2
+        assert [order["told"]["values"] for order in crew.given_up] == [wide(30)]
+
+
+@in_loop
+async def test_equal_cases_are_run_once_however_they_are_spelled() -> None:
+    crew = Pretending()
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        found = []
+        for number, text in enumerate(("25 um", "0.025 mm", "2.5e-5 m")):
+            await page.run(number, {CLEARANCE: text}, rest=True)
+            found.append(await page.picture())
+        runs = [order for order in crew.made if order["told"]["values"] == wide(25)]
+        assert len(runs) == 1
+        assert [answer.flags for answer in found] == [0, KEPT, KEPT]
+        assert len({answer.header["run"] for answer in found}) == 1
+
+
+@in_loop
+async def test_one_result_waits_for_a_page_that_has_not_drawn_and_it_is_the_newest() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        page.draws = False
+        for number in range(5):
+            await page.run(number, wide(20 + number), rest=True)
+            await asyncio.sleep(0.05)
+        assert (await page.picture()).number == 0
+        await page.say("drawn", number=0)
+        assert (await page.picture()).number == 4
+
+
+@in_loop
+async def test_what_is_wrong_is_said_by_key_and_the_socket_stays() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        await page.run(1, {CLEARANCE: "20 kg", "joint.radius": "-1 mm"}, rest=True)
+        refused = await page.until("refused")
+        assert refused["number"] == 1
+        assert [fault["key"] for fault in refused["faults"]] == [CLEARANCE, "joint.radius"]
+        assert "not a unit of length" in refused["faults"][0]["message"]
+        await page.run(2, wide(21), rest=True)
+        assert (await page.picture()).number == 2
+
+
+@in_loop
+async def test_keys_that_name_files_are_refused_and_no_control_has_one() -> None:
+    async with hosting(case="slider-crank") as host:
+        page = await host.greeted()
+        files = ("asperities.surface", "joints.wrist.clearance.mesh", "drives.motor.speed.table")
+        for number, key in enumerate(files):
+            await page.run(number, {key: "/etc/passwd"}, rest=True)
+            (fault,) = (await page.until("refused"))["faults"]
+            assert fault["key"] == key
+            assert "may not name files" in fault["message"]
+        assert not set(files) & {control["key"] for control in host.bench.hello["controls"]}
+
+
+@in_loop
+async def test_what_would_take_long_is_asked_before_and_too_long_is_refused() -> None:
+    crew = Pretending(seconds=0.05)
+    async with hosting(crew, rules=Rules(dragged=1.0, unasked=5.0, longest=60.0)) as host:
+        page = await host.greeted()
+        made = len(crew.made)
+        # Two cycles on 96 by 16 nodes take 0.05 s: on 4096 nodes around 2 s, on 256 across too 34 s.
+        many = {"solver.grid.theta": 4096, "solver.grid.z": 256}
+        await page.run(1, many, rest=True)
+        asked = await page.until("ask")
+        assert 30.0 < asked["seconds"] < 40.0
+        await page.run(2, {**many, "run.cycles": 10}, rest=True, agreed=True)
+        assert "the most that a run may take here is 60 s" in (await page.until("refused"))["message"]
+        await page.run(3, {"solver.grid.theta": 4096})
+        assert (await page.until("state"))["state"] == "waiting"
+        assert len(crew.made) == made
+        await page.run(4, many, rest=True, agreed=True)
+        assert (await page.picture()).number == 4
+        await page.run(5, {"run.cycles": 5000}, rest=True)
+        assert (await page.until("refused"))["faults"][0]["key"] == "run.output_interval"
+
+
+@in_loop
+async def test_a_wear_campaign_and_equations_to_compile_are_asked_about() -> None:
+    crew = Pretending()
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        await page.run(1, {"wear.cycles": "100000"}, rest=True)
+        assert "wear campaign" in (await page.until("ask"))["message"]
+        crew.compiled = False
+        await page.run(2, {"mechanism.formulation": "paper"}, rest=True)
+        assert "not compiled" in (await page.until("ask"))["message"]
+        await page.run(3, {"mechanism.formulation": "paper"}, rest=True, agreed=True)
+        assert (await page.until("state"))["state"] == "compiling"
+        assert (await page.picture()).number == 3
+
+
+@in_loop
+async def test_when_the_hand_rests_the_next_steps_of_its_slider_are_computed_ahead() -> None:
+    crew = Pretending()
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        await page.run(1, {}, rest=True)
+        await page.picture()
+        await page.run(2, wide(25), rest=True)
+        await page.picture()
+        await asyncio.sleep(1.0)
+        await page.run(3, wide(26), rest=True)
+        ahead = await page.picture()
+        await page.run(4, wide(24), rest=True)
+        assert [ahead.flags, (await page.picture()).flags] == [KEPT, KEPT]
+
+
+@in_loop
+async def test_a_sweep_tells_each_point_and_its_runs_are_there_at_once() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        await page.say(
+            "sweep", number=5, key=CLEARANCE, values={}, **{"from": "10 um", "to": "50 um"}, points=9
+        )
+        told = [await page.until("sweep") for _ in range(9)]
+        assert [len(message["points"]) for message in told] == list(range(1, 10))
+        assert [point["value"] for point in told[-1]["points"]] == [10, 15, 20, 25, 30, 35, 40, 45, 50]
+        assert told[-1]["finished"]
+        await page.run(6, wide(35))
+        answer = await page.picture()
+        assert answer.flags == KEPT
+        assert answer.header["run"] == told[-1]["points"][5]["run"]
+
+
+@in_loop
+async def test_a_sweep_over_names_takes_them_all_and_can_be_cancelled() -> None:
+    crew = Pretending(seconds=0.1)
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        await page.say("sweep", number=5, key="contact.law", values={})
+        first = await page.until("sweep")
+        assert first["of"] == 7
+        await page.say("cancel", number=5)
+        await page.run(6, wide(30), rest=True)
+        await page.picture()
+        made = len(crew.made)
+        await asyncio.sleep(0.5)
+        # The neighbours of the new value are the only runs since.
+        assert len(crew.made) <= made + 2
+
+
+@in_loop
+async def test_a_slope_is_that_of_five_runs_around_the_value() -> None:
+    crew = Pretending()
+    async with hosting(crew) as host:
+        page = await host.greeted()
+        await page.say("slope", number=3, key=CLEARANCE, values=wide(40))
+        while not (told := await page.until("slope"))["finished"]:
+            pass
+        assert told["of"] == 5
+        runs = {order["told"]["values"].get(CLEARANCE) for order in crew.made}
+        assert {"36 um", "38 um", "40 um", "42 um", "44 um"} <= runs
+        # The pretended number is always the same.
+        assert told["headlines"]["a"] == {"slope": 0.0, "scatter": 0.0}
+        await page.say("slope", number=4, key="joint.form.crown", values={})
+        assert "other than zero" in (await page.until("refused"))["message"]
+
+
+@in_loop
+async def test_pins_are_limited_and_their_runs_stay() -> None:
+    async with hosting(rules=Rules(pins=2, room=1)) as host:
+        page = await host.greeted()
+        runs = []
+        for number in range(4):
+            await page.run(number, wide(20 + number), rest=True)
+            runs.append((await page.picture()).header["run"])
+            await page.say("pin", run=runs[-1])
+        assert "at most 2" in (await page.until("error"))["message"]
+        await page.run(9, wide(20), rest=True)
+        assert (await page.picture()).flags == KEPT
+        await page.run(10, wide(22), rest=True)
+        assert (await page.picture()).flags == 0, "there is no room for more than the last and the pinned"
+
+
+@in_loop
+async def test_a_socket_that_ends_takes_its_runs_along() -> None:
+    crew = Pretending(seconds=5.0)
+    async with hosting(crew) as host:
+        page = await host.open()
+        await page.until("hello")
+        host.bench.ready.set()
+        await page.run(1, wide(30), rest=True)
+        await asyncio.sleep(0.2)
+        await page.leave()
+        await asyncio.sleep(0.2)
+        assert [order["told"]["values"] for order in crew.given_up] == [wide(30)]
+        assert host.house.sockets == 0
+
+
+@in_loop
+async def test_every_message_of_the_greeting_is_what_the_page_needs() -> None:
+    async with hosting() as host:
+        page = await host.open()
+        hello = await page.until("hello")
+        first = [control for control in hello["controls"] if control["first"]]
+        assert [control["key"] for control in first] == list(host.bench.mechanism.controls)
+        clearance = first[0]
+        assert (clearance["text"], clearance["number"], clearance["unit"]) == ("20 um", 20.0, "um")
+        assert (clearance["least"], clearance["greatest"], clearance["step"]) == (1.0, 50.0, 1.0)
+        robust = [number["robust"] for number in hello["headlines"]]
+        assert robust == sorted(robust, reverse=True)
+        assert {section["chapter"] for section in hello["sections"]} == {c["name"] for c in hello["chapters"]}
+        assert not isinstance(await page.hear(), Answer)

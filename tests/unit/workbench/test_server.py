@@ -1,0 +1,203 @@
+"""The gate and what is behind it, over real connections."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import json
+import stat
+import time
+
+from tests.unit.workbench.host import Pretending, hosting, in_loop
+
+from tribodyn.workbench.bench import Rules
+from tribodyn.workbench.gate import same
+from tribodyn.workbench.messages import LARGEST
+from tribodyn.workbench.server import pointer
+
+ROUTES = ("/", "/assets/a.js", "/download/case.toml", "/socket", "/nothing")
+EVIL = "http://evil.example"
+UPGRADE = {
+    "Upgrade": "websocket",
+    "Connection": "Upgrade",
+    "Sec-WebSocket-Version": "13",
+    "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+}
+
+
+def combinations(host):
+    """Yield every mixture of right and wrong host, origin and cookie, and whether it may pass."""
+    port = host.port
+    hosts = (f"127.0.0.1:{port}", f"localhost:{port}", "127.0.0.1", f"evil.example:{port}")
+    origins = (None, "own", "null", EVIL, f"https://127.0.0.1:{port}", f"http://127.0.0.1:{port + 1}")
+    name, value = host.cookie.split("=")
+    cookies = (None, host.cookie, f"{name}={value[:-1]}", f"tribodyn-{port + 1}={value}")
+    for asked, origin, cookie in itertools.product(hosts, origins, cookies):
+        headers = {"Host": asked}
+        if origin is not None:
+            headers["Origin"] = f"http://{asked}" if origin == "own" else origin
+        if cookie is not None:
+            headers["Cookie"] = cookie
+        known = asked in hosts[:2] and cookie == host.cookie
+        yield headers, known and origin in (None, "own"), known and origin == "own"
+
+
+@in_loop
+async def test_no_route_answers_who_is_not_our_page() -> None:
+    async with hosting() as host:
+        for route in ROUTES:
+            for headers, plain, socket in combinations(host):
+                status = (await host.get(route, headers)).code
+                assert (status != 403) == plain, (route, headers)
+                if not socket:
+                    status = (await host.get(route, {**headers, **UPGRADE})).code
+                    assert status == 403, (route, headers)
+
+
+@in_loop
+async def test_our_own_page_opens_its_socket() -> None:
+    async with hosting() as host:
+        page = await host.open()
+        assert (await page.until("hello"))["mechanism"] == "vsv"
+
+
+@in_loop
+async def test_other_methods_are_refused() -> None:
+    async with hosting() as host:
+        for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD", "PATCH"):
+            more = {"method": method, "allow_nonstandard_methods": True}
+            assert (await host.get("/", **more)).code == 403
+
+
+@in_loop
+async def test_the_token_is_traded_once_for_a_cookie_that_scripts_cannot_read() -> None:
+    async with hosting() as host:
+        address = f"/?token={host.person.token}"
+        assert (await host.get("/?token=wrong", {})).code == 403
+        assert (await host.get(f"{address}&token=x", {})).code == 403
+        assert (await host.get(address.replace("/", "/assets/a.js", 1), {})).code == 403
+        first = await host.get(address, {})
+        assert first.code == 200
+        cookie = first.headers["Set-Cookie"]
+        assert cookie.startswith(host.cookie)
+        for part in ("HttpOnly", "SameSite=Strict", "Path=/"):
+            assert part in cookie
+        assert host.person.token not in first.body.decode()
+        assert (await host.get(address, {})).code == 403
+        # Who has the cookie and comes back with the address is sent on.
+        assert (await host.get(address)).code == 200
+        assert b"the page" in (await host.get("/")).body
+
+
+@in_loop
+async def test_every_answer_keeps_others_out_and_tells_nothing_of_us() -> None:
+    async with hosting() as host:
+        for path, headers in (
+            ("/", None),
+            ("/", {}),
+            ("/assets/a.js", None),
+            ("/nothing", None),
+            ("/socket", None),
+        ):
+            found = (await host.get(path, headers)).headers
+            policy = found["Content-Security-Policy"]
+            assert policy.startswith("default-src 'none'; script-src 'self'; style-src 'self';")
+            assert "unsafe" not in policy
+            assert found["X-Content-Type-Options"] == "nosniff"
+            assert found["Cross-Origin-Opener-Policy"] == "same-origin"
+            assert found["Cross-Origin-Resource-Policy"] == "same-origin"
+            assert found["Referrer-Policy"] == "no-referrer"
+            assert not [name for name in found if name.startswith("Access-Control")]
+            assert "Server" not in found
+
+
+@in_loop
+async def test_downloads_are_of_runs_that_were_seen_and_paths_lead_nowhere() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        await page.run(1, {"joint.clearance": "31 um"}, rest=True)
+        run = (await page.picture()).header["run"]
+        case = await host.get(f"/download/case.toml?run={run}")
+        assert 'clearance = "31 um"' in case.body.decode()
+        assert case.headers["Content-Disposition"] == 'attachment; filename="case.toml"'
+        assert (await host.get(f"/download/result.nc?run={run}")).body == b"a file"
+        for path in (
+            "/download/case.toml?run=0000000000000000",
+            "/download/case.toml",
+            f"/download/load?run={run}",
+            f"/download/..%2f..%2fetc%2fpasswd?run={run}",
+            "/assets/page.html",
+            "/assets/%2e%2e%2fgate.py",
+            "/assets/..%2fgate.py",
+            "/assets//etc/passwd",
+        ):
+            assert (await host.get(path)).code == 404, path
+
+
+@in_loop
+async def test_messages_are_read_at_sixty_a_second_and_not_beyond_their_length() -> None:
+    async with hosting(rules=Rules(messages=100)) as host:
+        page = await host.greeted()
+        began = time.monotonic()
+        for _ in range(250):
+            await page.socket.write_message("{}")
+        for _ in range(250):
+            await page.until("error")
+        # A second of them may come at once, the others take theirs.
+        assert time.monotonic() - began > 1.3
+        await page.socket.write_message(json.dumps({"type": "drawn", "number": 1, "x": "x" * LARGEST}))
+        assert await page.hear() is None
+
+
+@in_loop
+async def test_there_are_only_so_many_sockets() -> None:
+    async with hosting(rules=Rules(sockets=3)) as host:
+        pages = [await host.open() for _ in range(3)]
+        ours = {"Origin": host.origin, "Cookie": host.cookie}
+        assert (await host.get("/socket", {**ours, **UPGRADE})).code == 503
+        await pages[0].leave()
+        await asyncio.sleep(0.1)
+        await host.open()
+
+
+@in_loop
+async def test_who_does_not_read_is_left() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        handler = host.bench.told[0].__self__.send.__self__  # type: ignore[attr-defined]
+        handler.backlog = 2 * 10**8
+        await page.run(1, rest=True)
+        while await page.hear() is not None:
+            pass
+
+
+@in_loop
+async def test_errors_of_our_own_are_told_without_the_address() -> None:
+    class Broken(Pretending):
+        async def do(self, job):
+            if job.order["work"] == "result.nc":
+                raise RuntimeError("broken")
+            return await super().do(job)
+
+    async with hosting(Broken()) as host:
+        page = await host.greeted()
+        await page.run(1, rest=True)
+        run = (await page.picture()).header["run"]
+        assert (await host.get(f"/download/result.nc?run={run}&token=secret")).code == 500
+        (told,) = host.complaints
+        assert "RuntimeError: broken" in told
+        assert "secret" not in told
+        host.complaints.clear()
+
+
+def test_secrets_are_compared_whole():
+    assert same("abc", "abc")
+    assert not same("abc", "abd")
+    assert not same("", "abc")
+
+
+def test_the_browser_is_pointed_by_a_file_for_the_eyes_of_this_user():
+    with pointer("http://127.0.0.1:1/?token=x") as path:
+        assert stat.S_IMODE(path.stat().st_mode) == 0o600
+        assert "http://127.0.0.1:1/?token=x" in path.read_text()
+    assert not path.exists()
