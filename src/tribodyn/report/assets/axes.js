@@ -15,12 +15,12 @@ function scaleOf(low, high, begin, end) {
   };
 }
 
-/** Return round values between two, `most` or a few less, with their texts. */
+/** Return round values between two, about `most`, with their texts. */
 function roundMarks(low, high, most) {
   const exact = (high - low) / Math.max(most, 1);
   if (!(exact > 0)) return [];
   const power = 10 ** Math.floor(Math.log10(exact));
-  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= exact * (1 - 1e-9));
+  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= 0.75 * exact);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const marks = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) {

@@ -11,6 +11,7 @@ const clock = {
   playing: false,
   due: false,
   longest: 0,
+  speed: 1,
 
   /** Return the simulated time now [s]. */
   now() {
@@ -29,13 +30,18 @@ const clock = {
     });
   },
 
-  /** Go to the frame nearest to a time [s]. */
-  goTo(time) {
+  /** Return the frame nearest to a time [s]. */
+  nearest(time) {
     let best = 0;
     page.clock.time.forEach((t, k) => {
       if (Math.abs(t - time) < Math.abs(page.clock.time[best] - time)) best = k;
     });
-    clock.go(best);
+    return best;
+  },
+
+  /** Go to the frame nearest to a time [s]. */
+  goTo(time) {
+    clock.go(clock.nearest(time));
   },
 
   /** Say on the slider what moment it is. */
@@ -45,6 +51,7 @@ const clock = {
     const step = time[Math.min(clock.frame + 1, clock.frames - 1)] - clock.now();
     const slow = step > 0 && step < SLOW * clock.longest ? "slow motion" : "";
     const parts = [notes[clock.frame], slow].filter(Boolean);
+    clock.shownAt = clock.now();
     clock.slider.value = clock.frame;
     clock.slider.setAttribute("aria-valuetext", [text, ...parts].join(", "));
     clock.output.replaceChildren(
@@ -64,26 +71,42 @@ const clock = {
   step(last) {
     requestAnimationFrame((now) => {
       if (!clock.playing) return;
-      const passed = Math.min(Math.floor((now - last) / FRAME_MS), MOST_LEFT_OUT);
+      const passed = Math.min(Math.floor((clock.speed * (now - last)) / FRAME_MS), MOST_LEFT_OUT);
       if (passed > 0) clock.go((clock.frame + passed) % clock.frames);
       clock.step(passed > 0 ? now : last);
     });
   },
 
-  /** Connect the slider of the page, where there is one. */
-  start() {
-    const bar = document.querySelector(".clock");
-    if (!bar || !page.clock) return;
-    clock.frames = page.clock.time.length;
-    clock.slider = bar.querySelector("input");
-    clock.output = bar.querySelector("output");
-    clock.button = bar.querySelector("button");
+  /** Take the moments of a run; the moment shown stays, or the nearest one. */
+  take() {
+    const before = clock.frames ? clock.shownAt : 0;
+    clock.frames = page.clock ? page.clock.time.length : 0;
+    clock.bar.hidden = !clock.frames;
+    if (!clock.frames) return;
     clock.slider.max = clock.frames - 1;
+    clock.longest = 0;
     page.clock.time.forEach((t, k) => {
       clock.longest = Math.max(clock.longest, k ? t - page.clock.time[k - 1] : 0);
     });
+    clock.frame = clock.nearest(before);
+    clock.tell();
+  },
+
+  /** Connect the controls of the page, where there are any. */
+  start() {
+    const bar = document.querySelector(".clock");
+    if (!bar) return;
+    clock.bar = bar;
+    clock.slider = bar.querySelector("input");
+    clock.output = bar.querySelector("output");
+    clock.button = bar.querySelector("button[data-play]");
     clock.slider.addEventListener("input", () => clock.go(Number(clock.slider.value)));
     clock.button.addEventListener("click", clock.toggle);
-    clock.go(0);
+    for (const one of bar.querySelectorAll("[data-step]")) {
+      one.addEventListener("click", () => clock.go(clock.frame + Number(one.dataset.step)));
+    }
+    const speed = bar.querySelector("select");
+    speed.addEventListener("change", () => (clock.speed = Number(speed.value)));
+    clock.take();
   },
 };

@@ -14,17 +14,21 @@ function isNarrow() {
   return document.documentElement.clientWidth < 600;
 }
 
-/** Turn packed arrays back into typed arrays, everywhere in a document. */
-function unpack(node) {
+const KINDS = { f32: Float32Array, f64: Float64Array, u8: Uint8Array };
+
+/** Turn packed arrays back into typed arrays, everywhere in a document: texts, or places in a buffer after `base`. */
+function unpack(node, buffer = null, base = 0) {
   if (node === null || typeof node !== "object") return node;
-  if (Array.isArray(node)) return node.map(unpack);
-  const kinds = { f32: Float32Array, f64: Float64Array, u8: Uint8Array };
+  if (Array.isArray(node)) return node.map((one) => unpack(one, buffer, base));
   const keys = Object.keys(node);
-  if (keys.length === 1 && keys[0] in kinds) {
-    const bytes = Uint8Array.from(atob(node[keys[0]]), (c) => c.charCodeAt(0));
-    return new kinds[keys[0]](bytes.buffer);
-  }
-  return Object.fromEntries(keys.map((key) => [key, unpack(node[key])]));
+  if (keys.length === 1 && keys[0] in KINDS) return unpacked(KINDS[keys[0]], node[keys[0]], buffer, base);
+  return Object.fromEntries(keys.map((key) => [key, unpack(node[key], buffer, base)]));
+}
+
+/** Return an array from a text, or as a view of a buffer. */
+function unpacked(Kind, content, buffer, base) {
+  if (typeof content !== "string") return new Kind(buffer, base + content[0], content[1]);
+  return new Kind(Uint8Array.from(atob(content), (c) => c.charCodeAt(0)).buffer);
 }
 
 /** Make an element with attributes and children; texts stay texts, and styles need no leave of the page's policy. */

@@ -1,0 +1,161 @@
+// Sliders, boxes and lists for the keys of the case; those that matter most first, the others by search.
+
+/** Time within which presses of a key on one slider are one gesture [ms]. */
+const ONE_GESTURE = 1000;
+/** Keys that a search shows at most. */
+const MOST_FOUND = 12;
+
+const gesture = { key: "", ended: -Infinity, before: null };
+
+/** Make all controls anew. */
+function makeControls() {
+  bench.controls = new Map(bench.hello.controls.map((control) => [control.key, control]));
+  const first = document.querySelector("#controls .first");
+  first.replaceChildren(...bench.hello.controls.filter((one) => one.first).map(controlOf));
+  const search = document.getElementById("search");
+  search.addEventListener("input", () => findControls(search.value));
+  findControls("");
+}
+
+/** Show the controls whose name or meaning holds some words, and those that differ from the case. */
+function findControls(text) {
+  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  const others = bench.hello.controls.filter((one) => !one.first);
+  const fits = ({ key, label }) => words.every((word) => `${key} ${label}`.toLowerCase().includes(word));
+  const found = words.length ? others.filter(fits) : [];
+  const changed = others.filter(({ key }) => key in bench.values);
+  const shown = [...new Set([...changed, ...found.slice(0, MOST_FOUND)])];
+  const place = document.querySelector("#controls .others");
+  const there = [...place.children].map((one) => one.dataset.key).join();
+  if (there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
+  const more = found.length > MOST_FOUND ? `, the first ${MOST_FOUND} are shown` : "";
+  document.getElementById("found").textContent = words.length ? `${found.length} of ${others.length} keys${more}` : "";
+  fillControls();
+}
+
+/** Return the element of a control, none where it is not on the page. */
+function controlAt(key) {
+  return [...document.querySelectorAll(".control")].find((one) => one.dataset.key === key);
+}
+
+/** Make a control. */
+function controlOf(control) {
+  const { key, label, limits, source } = control;
+  const id = `of-${key.replaceAll(".", "-")}`;
+  const box = element("div", { class: "control", "data-key": key, role: "group", "aria-label": label });
+  const name = element("label", { for: id, title: `${label}. ${[limits, source].filter(Boolean).join(". ")}` });
+  name.append(label[0].toUpperCase() + label.slice(1), " ", element("code", {}, key));
+  name.addEventListener("dblclick", () => giveBack(key));
+  const fault = element("p", { class: "fault", id: `${id}-fault`, role: "alert", hidden: "" });
+  const back = button("↺", () => giveBack(key), { class: "back", "aria-label": `${label}: back to the case's value`, title: "Back to the case's value" });
+  const row = element("div", { class: "row" }, name, back, entryOf(control, id));
+  const readout = element("p", { class: "readout", "aria-live": "polite", hidden: "" });
+  const track = element("div", { class: "track" }, ...(control.least === null ? [] : trackOf(control)), ...sweepButton(control));
+  box.append(row, track, readout, fault);
+  return box;
+}
+
+/** Return the box, list or switch of a control. */
+function entryOf(control, id) {
+  const { key, choices, kind } = control;
+  if (choices.length || kind === "switch") {
+    const texts = choices.length ? choices : ["true", "false"];
+    const list = element("select", { id, class: "entry" }, ...texts.map((text) => element("option", {}, text)));
+    list.addEventListener("change", () => bench.gesture(bench.changed(key, list.value)));
+    return list;
+  }
+  const about = { id, class: "entry", type: "text", spellcheck: "false", autocomplete: "off" };
+  const entry = element("input", { ...about, placeholder: control.example, "aria-describedby": `${id}-fault` });
+  entry.addEventListener("change", () => typedIn(key, entry.value.trim()));
+  return entry;
+}
+
+/** Wish a value as it was typed; what cannot be is refused by the server and said beside the box. */
+function typedIn(key, typed) {
+  complain(key, "");
+  const text = typed || bench.controls.get(key).text;
+  const before = bench.values;
+  const values = bench.changed(key, text);
+  if (sameValues(values, before)) return fillControls();
+  wishes.typed.set(wishes.number + 1, { key, text, before });
+  return bench.gesture(values);
+}
+
+/** Return the slider of a control, in a list, with room for the curve of a sweep in its track. */
+function trackOf({ key, label, least, greatest, step, unit }) {
+  const slider = element("input", { type: "range", min: least, max: greatest, step, "aria-label": label });
+  const text = () => `${Number(Number(slider.value).toPrecision(12))} ${unit}`.trim();
+  slider.addEventListener("input", () => {
+    if (gesture.before === null) gesture.before = bench.values;
+    complain(key, "");
+    bench.wish(bench.changed(key, text()), false);
+  });
+  slider.addEventListener("change", () => {
+    const now = performance.now();
+    const goesOn = gesture.key === key && now - gesture.ended < ONE_GESTURE && bench.past.length > 0;
+    bench.wish(bench.values, true);
+    bench.remember(goesOn ? bench.past.pop() : gesture.before ?? bench.values);
+    Object.assign(gesture, { key, ended: now, before: null });
+  });
+  slider.addEventListener("focus", () => askSlope(key));
+  const curve = element("canvas", { class: "curve", "aria-hidden": "true" });
+  followSweep(curve, key);
+  return [element("div", { class: "ground" }, curve, slider)];
+}
+
+/** Wish the value of the case again. */
+function giveBack(key) {
+  complain(key, "");
+  bench.gesture(bench.changed(key, bench.controls.get(key).text));
+  fillControls();
+}
+
+/** Write what is wished into the controls, and mark what differs from the case. */
+function fillControls() {
+  for (const box of document.querySelectorAll(".control")) {
+    const { key } = box.dataset;
+    const control = bench.controls.get(key);
+    const changed = key in bench.values;
+    box.classList.toggle("changed", changed);
+    box.querySelector(".back").disabled = !changed;
+    const entry = box.querySelector(".entry");
+    const wrong = entry.getAttribute("aria-invalid") === "true";
+    if (entry !== document.activeElement && !wrong) entry.value = shownText(key);
+    else if (entry.tagName === "SELECT") entry.value = shownText(key);
+    const slider = box.querySelector("input[type=range]");
+    if (slider) fillSlider(slider, control, bench.text(key));
+  }
+  document.getElementById("undo").disabled = !bench.past.length;
+  document.getElementById("redo").disabled = !bench.future.length;
+}
+
+/** Return the wished value of a key as it is shown: what follows from others as the run shown has it. */
+function shownText(key) {
+  return bench.values[key] ?? bench.shown?.follows[key] ?? bench.controls.get(key).text;
+}
+
+/** Set a slider; a text in another unit leaves it where it is until the run says its number. */
+function fillSlider(slider, control, text) {
+  const own = control.unit ? plain(text).endsWith(plain(control.unit)) : true;
+  const value = parseFloat(text);
+  if (own && Number.isFinite(value) && slider !== document.activeElement) slider.value = value;
+  else if (own && Number.isFinite(value) && Number(slider.value) !== value) slider.value = value;
+  slider.setAttribute("aria-valuetext", shownText(control.key));
+}
+
+/** Say beside the box of a key what is wrong with it; tell whether there is such a box. */
+function complain(key, text) {
+  const box = key && controlAt(key);
+  if (!box) return false;
+  const fault = box.querySelector(".fault");
+  fault.textContent = text;
+  fault.hidden = !text;
+  box.querySelector(".entry").setAttribute("aria-invalid", String(Boolean(text)));
+  return true;
+}
+
+/** Leave in the box of a key what was typed there. */
+function keepText(key) {
+  fillControls();
+  controlAt(key)?.querySelector(".entry").focus();
+}

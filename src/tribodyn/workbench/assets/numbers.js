@@ -1,0 +1,88 @@
+// The headline numbers of the run that is shown, beside a pinned one; of peaks the range over the last runs.
+
+/** Numbers that are shown before they are asked for: the robust ones and those that matter most. */
+const MOST_AT_FIRST = 7;
+const chosen = { curve: null, all: false, against: null };
+
+/** Return a headline number in words. */
+function headlineText(value, digits) {
+  if (value === undefined || value === null) return "—";
+  return Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value).replace("-", "−") : number(value, digits || 3);
+}
+
+/** Return by how much a number differs from that of another run, in percent. */
+function difference(value, other) {
+  if (typeof value !== "number" || typeof other !== "number" || !other) return "";
+  const share = (100 * (value - other)) / Math.abs(other);
+  if (share === 0) return "same";
+  return `${share > 0 ? "+" : ""}${number(share, Math.abs(share) >= 100 ? 3 : 2)} %`;
+}
+
+/** Return the smallest and the largest of a number over the run shown and the trail, in words. */
+function rangeText({ name, digits }) {
+  const values = [...bench.trail, bench.shown].map((run) => run.headlines[name]).filter(Number.isFinite);
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  if (values.length < 2 || low === high) return "";
+  return `${headlineText(low, digits)} … ${headlineText(high, digits)}`;
+}
+
+/** Return the run that numbers are compared with. */
+function compared() {
+  return bench.pins.find((run) => run.run === chosen.against) ?? bench.pins[bench.pins.length - 1];
+}
+
+/** Write the numbers of the run that is shown. */
+function tellNumbers() {
+  const { shown } = bench;
+  if (!shown) return;
+  document.getElementById("whose").textContent = `Numbers and pictures of: ${valuesInWords(shown.values)}`;
+  tellDoubts();
+  const known = bench.hello.headlines.filter(({ name }) => name in shown.headlines);
+  chosen.curve ??= known.find(({ robust }) => robust)?.name;
+  const focused = document.activeElement?.dataset.number;
+  const table = document.querySelector("#numbers table");
+  const other = compared();
+  const heads = ["number", "", other ? "from the pinned run" : "", "over the last runs", slope.key ? "slope" : ""];
+  table.tHead.replaceChildren(element("tr", {}, ...heads.map((text) => element("td", {}, text))));
+  for (const [k, robust] of [true, false].entries()) {
+    const rows = known.filter((one) => one.robust === robust);
+    table.tBodies[k].replaceChildren(...(chosen.all ? rows : atFirst(rows, robust)).map(numberRow));
+  }
+  if (focused) document.querySelector(`[data-number="${focused}"]`)?.focus();
+  document.getElementById("slopes").textContent = slopeInWords();
+}
+
+/** Return the numbers that are shown before all are asked for. */
+function atFirst(rows, robust) {
+  if (!robust) return rows.filter(({ key }) => key);
+  return rows.filter(({ key, name }) => key || !Number.isInteger(bench.shown.headlines[name])).slice(0, MOST_AT_FIRST);
+}
+
+/** Return the row of a number; a press of its name chooses it for the curves of sweeps. */
+function numberRow(one) {
+  const { name, label, unit, meaning, digits, robust } = one;
+  const value = bench.shown.headlines[name];
+  const choose = () => {
+    chosen.curve = name;
+    tellNumbers();
+    drawTracks();
+  };
+  const about = { "aria-pressed": String(chosen.curve === name), "data-number": name, title: meaning };
+  const words = headlineText(value, digits);
+  const range = rangeText(one);
+  const main = element("td", { class: "value" }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));
+  const change = difference(value, compared()?.headlines[name]);
+  const rest = [change, robust ? range : range && `this run ${words}`, slopeText(name)];
+  const cells = rest.map((text) => element("td", {}, text));
+  return element("tr", { "data-row": name }, element("th", { scope: "row" }, button(label, choose, about)), main, ...cells);
+}
+
+/** Say what speaks against trusting the run. */
+function tellDoubts() {
+  const { failure, warnings, time_reached: reached } = bench.shown;
+  trouble(failure ? `The run stopped at t = ${number(reached, 4)} s: ${failure}` : "");
+  const doubts = document.getElementById("doubts");
+  doubts.hidden = !warnings.length;
+  doubts.querySelector("summary").textContent = `Before you trust these numbers (${warnings.length})`;
+  doubts.querySelector("ul").replaceChildren(...warnings.map((text) => element("li", {}, text)));
+}
