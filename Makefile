@@ -59,8 +59,8 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 docs: $(VENV)/.docs
-	for plot in $(PLOTS); do $(BIN)/python $$plot docs/_static/generated || exit 1; done
-	$(BIN)/sphinx-build -W --keep-going -b html docs $(DOCS)
+	echo $(PLOTS) | tr ' ' '\n' | xargs -P 2 -I {} $(BIN)/python {} docs/_static/generated
+	$(BIN)/sphinx-build -W --keep-going -j 2 -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 
 bench: $(VENV)/.bench
@@ -83,7 +83,7 @@ $(VENV)/.run: pyproject.toml $(BIN)/python
 	@touch $@
 
 $(VENV)/.dev: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,docs]"
 	@touch $@ $(VENV)/.run
 
 $(VENV)/.bench: pyproject.toml $(BIN)/python

@@ -24,18 +24,18 @@ release = version = installed_version("tribodyn")
 extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
-    "sphinx.ext.autosummary",
-    "sphinx.ext.mathjax",
+    "sphinx_design",
     "numpydoc",
     "case_keys",
     "contact_laws",
     "materials",
     "benchmark_tables",
+    "mathml",
+    "reference",
 ]
 exclude_patterns = ["_build"]
-templates_path = ["_templates"]
 
-myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 myst_dmath_double_inline = True
 
@@ -43,7 +43,6 @@ nb_execution_mode = "auto"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 600
 
-autosummary_generate = True
 autodoc_typehints = "none"  # the signature shows them, the docstring says what they mean
 autodoc_member_order = "bysource"
 numpydoc_show_class_members = False
@@ -52,6 +51,8 @@ numpydoc_class_members_toctree = False
 html_theme = "furo"
 html_title = f"tribodyn {release}"
 html_static_path = ["_static"]
+html_css_files = ["manual.css"]
+html_math_renderer = "mathml"
 
 
 LITERAL_OR_BAR = re.compile(r"(``.*?``)|\|")

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tribodyn.cases.materials import MATERIALS as materials
     from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanisms.general.builder import Mechanism
+    from tribodyn.mechanisms.journal.curves import stribeck
     from tribodyn.mechanisms.results import read
     from tribodyn.simulation import simulate
 
@@ -29,6 +30,7 @@ __all__ = [
     "materials",
     "read",
     "simulate",
+    "stribeck",
     "studies",
 ]
 
@@ -38,7 +40,9 @@ _HOME = {
     "materials": "tribodyn.cases.materials:MATERIALS",
     "read": "tribodyn.mechanisms.results:read",
     "simulate": "tribodyn.simulation:simulate",
+    "stribeck": "tribodyn.mechanisms.journal.curves:stribeck",
 }
+_GIVING_RESULTS = ("read", "simulate")
 
 
 def __getattr__(name: str) -> Any:
@@ -48,6 +52,8 @@ def __getattr__(name: str) -> Any:
     if name in _HOME:
         module, _, attribute = _HOME[name].partition(":")
         value = getattr(importlib.import_module(module), attribute)
+        if name in _GIVING_RESULTS:
+            importlib.import_module("tribodyn.report.accessor")
         globals()[name] = value
         return value
     if name in __all__:

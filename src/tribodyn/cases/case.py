@@ -23,6 +23,7 @@ from tribodyn.cases import scans
 from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.fields import text
+from tribodyn.cases.html import to_html
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.meshes import with_meshes_read
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, located, problems, unknown
@@ -194,8 +195,15 @@ class Case(Group):
         comments
             Whether each key is followed by what it means, where it comes from and what it may hold.
         """
-        own = {path for path, entry in self._given.items() if not entry.built_in}
-        return to_toml(self, self.kind(), own, comments=comments)
+        return to_toml(self, self.kind(), self._own(), comments=comments)
+
+    def _own(self) -> set[str]:
+        """Return the paths of what a user gave."""
+        return {path for path, entry in self._given.items() if not entry.built_in}
+
+    def _repr_html_(self) -> str:
+        """Return the case as a notebook shows it."""
+        return to_html(self, self.title or self.kind(), self._own())
 
     def __eq__(self, other: object) -> bool:
         """Cases are equal when all their values are, however they were spelled."""

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import Final
 
 from tribodyn.views.numbers import rounded
+
+_SHOWN_IN_FULL: Final = (1e4, 1e9)
 
 
 def in_words(summary: Mapping[str, object]) -> Iterator[str]:
@@ -25,5 +28,8 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
 
 
 def _number(value: object, digits: int) -> str:
-    """Write a number with the digits that hold; counts in full."""
-    return f"{rounded(value, digits):>9.4g}" if isinstance(value, float) else f"{value!s:>9}"
+    """Write a number with the digits that hold, not in powers of ten where it need not be; counts in full."""
+    if not isinstance(value, float):
+        return f"{value!s:>9}"
+    number = rounded(value, digits)
+    return f"{number:>9.0f}" if _SHOWN_IN_FULL[0] <= abs(number) < _SHOWN_IN_FULL[1] else f"{number:>9.4g}"

@@ -21,6 +21,7 @@ from tribodyn.cli import (
     reproduce,
     run,
     show,
+    stribeck,
     surface,
     sweep,
 )
@@ -56,6 +57,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "reproduce": reproduce,
     "surface": surface,
     "materials": materials,
+    "stribeck": stribeck,
     "bounce": bounce,
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
@@ -72,6 +74,7 @@ _EXAMPLES: Final = {
     "reproduce": "tribodyn reproduce fig9 claims",
     "surface": "tribodyn surface scan.csv --unit um --spacing '0.5 um'",
     "materials": "tribodyn materials ptfe-liner bronze-c93200",
+    "stribeck": "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'",
     "bounce": "tribodyn bounce vsv --law rsdc",
 }
 """How the help of each command ends."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import codecs
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import BinaryIO, Final
 
 from tribodyn.core.errors import InputError
@@ -12,6 +12,8 @@ from tribodyn.core.errors import InputError
 SEPARATORS: Final = (";", "\t", ",")
 """What may stand between the fields of a line; the first one that is found does."""
 _MARKS: Final = tuple(mark.encode() for mark in SEPARATORS)
+COMMENTS: Final = ("#", "%", "//")
+"""How a line begins that is a comment."""
 BLOCK: Final = 1_000_000
 """Bytes that are read at a time."""
 
@@ -45,6 +47,10 @@ class Block:
             begun, goes_on = self.begun and place == 0, self.goes_on and place == last
             if begun or goes_on or (text and not text.isspace()):
                 yield Line(self.number + place, text, goes_on)
+
+    def with_points(self) -> Block:
+        """Return the lines with points in the place of decimal commas."""
+        return replace(self, texts=[text.replace(",", ".") for text in self.texts])
 
     def after(self, number: int) -> Block:
         """Return the lines from a number on."""
@@ -96,7 +102,7 @@ def _end(content: bytes, number: int, source: str) -> int:
 
 def is_comment(text: str) -> bool:
     """Tell whether a line holds no numbers but says something."""
-    return text.lstrip().startswith("#")
+    return text.lstrip().startswith(COMMENTS)
 
 
 def too_long(number: int, source: str) -> InputError:

@@ -8,6 +8,8 @@ from typing import Any, Final
 
 import numpy as np
 
+from tribodyn.core.arrays import FloatArray
+from tribodyn.surfaces.amplitudes import arithmetic_mean, mean_total_height
 from tribodyn.surfaces.analysis import Roughness
 
 
@@ -22,21 +24,32 @@ class Parameter:
     value
         The number in that unit, of a surface that has it.
     of_maps
-        Whether only maps have it.
+        Whether only maps have it, or only profiles; None where both do.
     """
 
     label: str
     unit: str
     value: Callable[[Roughness], float]
-    of_maps: bool = False
+    of_maps: bool | None = None
 
 
 def _directional(name: str, factor: float = 1.0) -> Callable[[Roughness], float]:
     return lambda surface: factor * float(getattr(surface.moments.directional, name))
 
 
+def _heights(surface: Roughness) -> FloatArray:
+    return surface.surface.heights
+
+
 PARAMETERS: Final[dict[str, Parameter]] = {
     "sigma_um": Parameter("roughness sigma", "um", lambda s: s.sigma * 1e6),
+    "Ra_um": Parameter("mean height Ra", "um", lambda s: 1e6 * arithmetic_mean(_heights(s)), of_maps=False),
+    "Rq_um": Parameter("root mean square height Rq", "um", lambda s: s.sigma * 1e6, of_maps=False),
+    "Rz_um": Parameter(
+        "mean total height Rz", "um", lambda s: 1e6 * mean_total_height(_heights(s)), of_maps=False
+    ),
+    "Sa_um": Parameter("mean height Sa", "um", lambda s: 1e6 * arithmetic_mean(_heights(s)), of_maps=True),
+    "Sq_um": Parameter("root mean square height Sq", "um", lambda s: s.sigma * 1e6, of_maps=True),
     "skewness": Parameter("skewness of the heights", "", lambda s: s.skewness),
     "kurtosis": Parameter("kurtosis of the heights (Gaussian: 3)", "", lambda s: s.kurtosis),
     "m0_um2": Parameter("spectral moment m0", "um^2", lambda s: s.moments.m0 * 1e12),
@@ -72,7 +85,7 @@ def numbers(surface: Roughness) -> dict[str, float]:
     return {
         name: parameter.value(surface)
         for name, parameter in PARAMETERS.items()
-        if is_map or not parameter.of_maps
+        if parameter.of_maps in (None, is_map)
     }
 
 

@@ -1,14 +1,16 @@
 """Surfaces as plain text with commas: our own reader and writer, strict on purpose.
 
 A map is a table of heights, a line of the file for each line of the scan; a profile is a single line, or
-the columns ``x`` and ``h`` under a header that names them. What the numbers mean stands above them::
+two columns, position and height, whatever the header above them calls them. What the numbers mean stands
+above them::
 
-    # unit: um                     x [mm],h [um]
-    # spacing: 0.5 um, 0.4 um      0,0.12
-    0.12,0.15,0.11                 0.001,0.15
+    # unit: um                     x [mm],h [um]        Position (mm);Height (um)
+    # spacing: 0.5 um, 0.4 um      0,0.12               0,000;0,12
+    0.12,0.15,0.11                 0.001,0.15           0,001;0,15
 
 ``spacing`` is that of the points in a line, then that of the lines; one number serves for both.
-Semicolons and tabs may stand for commas. A missing height is an empty field or ``nan``.
+Semicolons and tabs may stand for commas, which then are decimal commas. A missing height is an empty field or
+``nan``. Lines of words above the header, and those that begin with ``#``, ``%`` or ``//``, are passed over.
 """
 
 from __future__ import annotations
@@ -33,7 +35,8 @@ from tribodyn.surfaces.table import Table
 Numbers: TypeAlias = Callable[[int | None], FloatArray]
 """Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known."""
 
-_COLUMN: Final = re.compile(r"\s*([xh])\s*(?:\[\s*([^\]]+?)\s*\])?\s*", re.IGNORECASE)
+_COLUMN: Final = re.compile(r"\s*\"?([^\[\](),;\"]*?)\s*(?:\[\s*([^\]]+?)\s*\]|\(\s*([^)]+?)\s*\))?\"?\s*")
+"""Name of a column with its unit in brackets."""
 _NOTE: Final = re.compile(r"#\s*(unit|spacing)\s*[:=]\s*(.+?)\s*", re.IGNORECASE)
 
 
@@ -83,11 +86,13 @@ def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Sc
     def numbers(width: int | None) -> FloatArray:
         table = Table(separator, width, late, source)
         for block in chain([first], every):
-            table.add(block)
+            table.add(block if separator == "," else block.with_points())
         return table.values()
 
     if header is not None:
         return _profile(_columns(header, separator, source), numbers, scale, length, source)
+    if scale.spacing is None and _fields(first, separator) == 2:
+        return _profile(_without_names(scale, source), numbers, scale, length, source)
     return _table(numbers, scale, length, source)
 
 
@@ -135,17 +140,16 @@ def _length(text: str, length: Length, key: str) -> float:
 
 
 def _head(every: Iterator[Block], source: str) -> tuple[dict[str, str], Line | None, str, Block]:
-    """Return notes, header, separator, and the block that begins with the first numbers."""
+    """Return notes, the last line of words, separator, and the block that begins with the first numbers."""
     notes: dict[str, str] = {}
     header: Line | None = None
-    separator = None
     for block in every:
         for line in block.lines():
             if is_comment(line.text):
                 notes |= _note(line, source)
                 continue
-            separator = separator or next((mark for mark in SEPARATORS if mark in line.text), ",")
-            if header is not None or not _is_header(line.text.split(separator)):
+            separator = next((mark for mark in SEPARATORS if mark in line.text), ",")
+            if not _is_header(line.text.split(separator)):
                 return notes, header, separator, block.after(line.number)
             header = line
     raise InputError("there are no heights in this file", source=source)
@@ -189,7 +193,8 @@ def _profile(
     """Return the profile in the columns x and h."""
     if scale.spacing is not None:
         raise InputError("the column x gives the spacing; leave it out", key="spacing", source=source)
-    sizes = {name: _size(name, unit or scale.unit, length, source) for name, unit in units.items()}
+    given = dict(zip(("x", "h"), _both(scale.unit), strict=True))
+    sizes = {name: _size(name, unit or given[name], length, source) for name, unit in units.items()}
     columns = dict(zip(sizes, numbers(len(sizes)).T, strict=True))
     x, heights = (columns[name] * sizes[name] for name in ("x", "h"))
     return from_columns(x, heights, source)
@@ -202,18 +207,42 @@ def _size(name: str, unit: str | None, length: Length, source: str) -> float:
 
 
 def _columns(header: Line, separator: str, source: str) -> dict[str, str | None]:
-    """Return the unit of each column by its name."""
+    """Return the unit of each column in their order: x, then h, unless they are named otherwise."""
     words = header.text.split(separator)
-    found = [_COLUMN.fullmatch(word) for word in words]
-    units = {match[1].lower(): match[2] for match in found if match is not None}
-    if len(found) != 2 or set(units) != {"x", "h"}:
+    found = [match for word in words if (match := _COLUMN.fullmatch(word)) is not None]
+    if len(found) != 2 or len(words) != 2:
         shown = brief(",".join(words).strip())
         raise InputError(
-            f'line {header.number}: given the header "{shown}"; allowed: "x [um],h [um]" for a profile, and '
-            "none for a table of heights",
+            f'line {header.number}: given the header "{shown}"; allowed: two columns, position and height, '
+            'such as "x [mm],z [um]", and none for a table of heights',
             source=source,
         )
-    return units
+    swapped = [match[1].lower() for match in found] == ["h", "x"]
+    names = ("h", "x") if swapped else ("x", "h")
+    return {name: match[2] or match[3] for name, match in zip(names, found, strict=True)}
+
+
+def _fields(block: Block, separator: str) -> int:
+    """Return the fields of the first line of numbers."""
+    return next((line.text.count(separator) + 1 for line in block.lines() if not line.goes_on), 0)
+
+
+def _without_names(scale: Scale, source: str) -> dict[str, str | None]:
+    """Return the units of position and height in a file that does not name its columns."""
+    if scale.unit is None:
+        raise InputError(
+            "two columns, position and height, without a header that says their units: give both, such as "
+            '"mm, um"; for a map of two columns give the spacing instead',
+            key="unit",
+            source=source,
+        )
+    return {"x": None, "h": None}
+
+
+def _both(unit: str | None) -> tuple[str | None, str | None]:
+    """Return the units of position and height in one text with a comma, or one that serves for both."""
+    first, comma, second = (unit or "").partition(",")
+    return (first.strip() or None), (second.strip() if comma else first.strip()) or None
 
 
 def _lacking(name: str, example: str) -> str:

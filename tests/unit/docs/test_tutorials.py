@@ -15,13 +15,15 @@ DOCS = Path(__file__).parents[3] / "docs"
 CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 TUTORIALS = sorted((DOCS / "tutorials").glob("*.md"))
 GUIDES = [
-    path for path in sorted((DOCS / "guide").glob("*.md")) if CELL.search(path.read_text(encoding="utf-8"))
+    path
+    for path in (DOCS / "gallery.md", *sorted((DOCS / "guide").glob("*.md")))
+    if CELL.search(path.read_text(encoding="utf-8"))
 ]
 
 
 def test_there_are_tutorials():
     assert len(TUTORIALS) >= 6
-    assert "bearing" in {path.stem for path in GUIDES}
+    assert {"bearing", "first_run", "gallery", "stribeck", "surface"} <= {path.stem for path in GUIDES}
 
 
 @pytest.mark.parametrize("path", [*TUTORIALS, *GUIDES], ids=lambda path: path.stem)

@@ -126,3 +126,41 @@ def test_errors_are_placed_whatever_the_block(
     with pytest.raises(InputError) as caught:
         read_scan(path, LENGTH)
     assert said in str(caught.value)
+
+
+PROFILE = [f"{i},{(i * i) % 7}" for i in range(6)]
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("Position [mm],Height [um]\n" + "\n".join(PROFILE), None),
+        ("Weg (mm);Höhe (µm)\n" + "\n".join(row.replace(",", ",0;") + ",0" for row in PROFILE), None),
+        (
+            "# run 7\nMeasured, twice\nx [mm]\tz [um]\n" + "\n".join(PROFILE).replace(",", "\t"),
+            None,
+        ),
+        ("% no names\n" + "\n".join(PROFILE), "mm, um"),
+        ("// no names\n" + "\n".join(PROFILE).replace(",", ";"), "mm,um"),
+        ("distance,profile\n" + "\n".join(PROFILE), "mm, um"),
+        ("h [um],x [mm]\n" + "\n".join(",".join(reversed(row.split(","))) for row in PROFILE), None),
+    ],
+    ids=[
+        "other-name",
+        "decimal-commas",
+        "preamble",
+        "no-header",
+        "semicolon",
+        "no-units",
+        "swapped",
+    ],
+)
+def test_profiles_as_instruments_write_them(text: str, unit: str | None, tmp_path: Path) -> None:
+    scan = read(tmp_path, text + "\n", Scale(unit))
+    np.testing.assert_allclose(scan.heights, 1e-6 * np.array([i * i % 7 for i in range(6)]), atol=1e-20)
+    assert scan.spacing == pytest.approx((1e-3,), rel=1e-12)
+
+
+def test_two_columns_without_units_are_asked_for_them(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="mm, um"):
+        read(tmp_path, "\n".join(PROFILE))

@@ -1,0 +1,54 @@
+"""Pages of the reference, one for each package: one for each module would make every side bar long."""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import tribodyn
+
+GENERATED = Path("reference", "generated")
+TOP = "tribodyn"
+
+
+def packages() -> Iterator[str]:
+    """Yield the dotted name of every package below the top."""
+    for module in pkgutil.walk_packages(tribodyn.__path__, f"{TOP}."):
+        if module.ispkg:
+            yield module.name
+
+
+def page(package: str) -> str:
+    """Return the page of a package: itself, then each of its modules."""
+    folder = Path(*tribodyn.__path__, *package.split(".")[1:])
+    modules = [module.name for module in pkgutil.iter_modules([str(folder)]) if not module.ispkg]
+    parts = [_part(package, "=")]
+    parts += [_part(f"{package}.{name}", "-") for name in modules if not name.startswith("__")]
+    return "\n".join(parts)
+
+
+def _part(module: str, line: str) -> str:
+    return (
+        f"{module}\n{line * len(module)}\n\n.. automodule:: {module}\n   :members:\n   :ignore-module-all:\n"
+    )
+
+
+def _write(app: Any) -> None:
+    folder = Path(app.srcdir) / GENERATED
+    folder.mkdir(parents=True, exist_ok=True)
+    there = {f"{package}.rst": page(package) for package in packages()}
+    for old in folder.glob("*.rst"):
+        if old.name not in there:
+            old.unlink()
+    for name, text in there.items():
+        path = folder / name
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Write the pages before they are read."""
+    app.connect("builder-inited", _write)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,118 @@
+"""``result.tribodyn``: figures and headline numbers of a result, in a notebook or a script.
+
+>>> result.tribodyn.plot.orbit()  # doctest: +SKIP
+>>> result.tribodyn.summary["vane_angle_error_max_deg"]  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from html import escape
+from typing import TYPE_CHECKING, Any, Final
+
+import xarray as xr
+
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given, meant
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from tribodyn.figures.base import Family
+
+ORBIT: Final = "orbit"
+_ORBITS: Final = ("trajectory", "orbits", "path")
+"""What different mechanisms call the figure of a shaft in its clearance circle."""
+
+
+@xr.register_dataset_accessor("tribodyn")  # type: ignore[no-untyped-call]
+class Accessor:
+    """What tribodyn knows of a result.
+
+    Parameters
+    ----------
+    dataset
+        From :func:`tribodyn.simulate`, :func:`tribodyn.read` or a sweep.
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    @property
+    def plot(self) -> Plots:
+        """The figures of the result, drawn by ``plot.NAME()``; ``dir(plot)`` lists them."""
+        return Plots(self._dataset)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The headline numbers, as in ``summary.json``."""
+        from tribodyn.mechanisms.results import summarise
+
+        return summarise(self._dataset)
+
+    def _repr_html_(self) -> str:
+        """Return the headline numbers as a table, with what the run says of itself."""
+        return "\n".join(_page(self.summary))
+
+
+class Plots:
+    """The figures of a result as methods, each of which returns a :class:`matplotlib.figure.Figure`."""
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    def _families(self) -> dict[str, Family]:
+        from tribodyn.report.figures import figures_of
+
+        families = {
+            name: family
+            for name, family in figures_of(self._dataset).items()
+            if family.drawable(self._dataset)
+        }
+        orbit = next((families[name] for name in _ORBITS if name in families), None)
+        return families | ({} if orbit is None else {ORBIT: orbit})
+
+    def __getattr__(self, name: str) -> Callable[[], Figure]:
+        """Return what draws the figure of this name."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        families = self._families()
+        if name not in families:
+            hint = f"{as_given(name)}; allowed: {', '.join(families)}{meant(name, families)}"
+            raise AttributeError(str(InputError(hint, key="plot")))
+        return partial(_drawn, families[name], self._dataset)
+
+    def __dir__(self) -> list[str]:
+        """Return the names of the figures."""
+        return sorted(self._families())
+
+
+def _drawn(family: Family, dataset: xr.Dataset) -> Figure:
+    if "IPython" in sys.modules:
+        _show_pictures()
+    return family.draw(dataset)
+
+
+def _show_pictures() -> None:
+    """Have a notebook show figures as pictures; it would print their names until pyplot is used."""
+    shell = importlib.import_module("IPython").get_ipython()
+    if shell is not None:
+        importlib.import_module("IPython.core.pylabtools").select_figure_formats(shell, {"png"})
+
+
+def _page(summary: dict[str, Any]) -> Iterator[str]:
+    from tribodyn.mechanisms.results import known
+    from tribodyn.views.numbers import rounded
+
+    yield f"<strong>{escape(str(summary.get('title', '')))}</strong><table>"
+    for name, headline in known(summary, str(summary.get("kind", ""))).items():
+        value = summary[name]
+        number = f"{rounded(value, headline.digits):.4g}" if isinstance(value, float) else str(value)
+        label = escape(headline.label_in(summary))
+        yield f"<tr><td style='text-align:left'>{label}</td><td>{number} {escape(headline.unit)}</td></tr>"
+    yield "</table>"
+    for kind in ("warnings", "notes"):
+        yield from (f"<p>{kind[:-1]}: {escape(text)}</p>" for text in summary.get(kind, ()))

@@ -1,0 +1,47 @@
+"""``result.tribodyn`` in a notebook, and what cases show there."""
+
+from __future__ import annotations
+
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+import tribodyn as td
+
+
+@pytest.fixture(scope="module")
+def result() -> xr.Dataset:
+    return td.simulate(td.load_case("vsv").replace({"run.duration": "20 ms"}))
+
+
+def test_figures_are_methods(result: xr.Dataset) -> None:
+    names = dir(result.tribodyn.plot)
+    assert {"orbit", "vane_error", "contact_force"} <= set(names)
+    assert isinstance(result.tribodyn.plot.orbit(), Figure)
+    with pytest.raises(AttributeError, match='did you mean "orbit"'):
+        _ = result.tribodyn.plot.orbitt
+
+
+def test_a_mechanism_of_ones_own_has_orbits_too() -> None:
+    crank = td.simulate(td.load_case("slider-crank").replace({"run.cycles": 0.01}))
+    assert isinstance(crank.tribodyn.plot.mechanism(), Figure)
+
+
+def test_numbers_show_as_a_table(result: xr.Dataset) -> None:
+    assert result.tribodyn.summary["kind"] == "vsv"
+    page = result.tribodyn._repr_html_()
+    assert page.count("<tr>") > 10
+    assert "Vane-angle error" in page
+
+
+def test_a_case_shows_what_was_given_first() -> None:
+    case = td.load_case("vsv").replace({"joint.clearance": "30 um"})
+    page = case._repr_html_()
+    assert page.index("joint.clearance") < page.index("<details>")
+    assert "30 um" in page
+    assert "default 20 um" not in page.split("<details>")[1]
+
+
+def test_the_top_of_the_package_lists_names_for_users_only() -> None:
+    assert dir(td) == sorted(td.__all__)
+    assert {"load_case", "simulate", "materials", "stribeck"} <= set(dir(td))
