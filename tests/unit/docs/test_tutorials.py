@@ -12,7 +12,7 @@ import pytest
 from tribodyn.joints.shapes import SHAPES
 
 DOCS = Path(__file__).parents[3] / "docs"
-CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(?::[^\n]*\n)*(.*?)^```", re.MULTILINE | re.DOTALL)
 TUTORIALS = sorted((DOCS / "tutorials").glob("*.md"))
 GUIDES = [
     path
