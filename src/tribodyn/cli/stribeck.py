@@ -1,4 +1,4 @@
-"""``tribodyn stribeck``: friction of a journal in oil over its speed."""
+"""``tribodyn stribeck``: friction of a shaft in oil over its speed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tribodyn.cli.console import Console, show_json
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
-HELP = "print the Stribeck curve of a journal in oil: friction over the speed, and who carries the load"
+HELP = "print the Stribeck curve of a shaft in oil: friction over the speed, and who carries the load"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
