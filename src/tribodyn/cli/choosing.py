@@ -13,9 +13,16 @@ if TYPE_CHECKING:
     from tribodyn.cases import Case
 
 
-def add_case_arguments(parser: ArgumentParser) -> None:
-    """Add CASE and the options that change it."""
-    parser.add_argument("case", metavar="CASE", help="a built-in case (see `tribodyn cases`) or a TOML file")
+def add_case_arguments(parser: ArgumentParser, default: str | None = None) -> None:
+    """Add CASE, which may be left out if there is a default, and the options that change it."""
+    parser.add_argument(
+        "case",
+        metavar="CASE",
+        nargs=None if default is None else "?",
+        default=default,
+        help="a built-in case (see `tribodyn cases`) or a TOML file"
+        + ("" if default is None else f" (default: {default})"),
+    )
     parser.add_argument(
         "--set",
         dest="changes",

@@ -24,6 +24,7 @@ from tribodyn.cli import (
     stribeck,
     surface,
     sweep,
+    workbench,
 )
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
@@ -52,6 +53,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "check": check,
     "sweep": sweep,
     "find": find,
+    "workbench": workbench,
     "report": report,
     "compare": compare,
     "reproduce": reproduce,
@@ -69,6 +71,7 @@ _EXAMPLES: Final = {
     "check": "tribodyn check vsv --deep",
     "sweep": "tribodyn sweep vsv --vary joint.clearance='20 um:40 um:5 um' --workers 2",
     "find": "tribodyn find vsv --vary joint.clearance=10..60um --until vane_angle_error_max_deg=0.03",
+    "workbench": "tribodyn workbench vsv --set joint.clearance='25 um'",
     "report": "tribodyn report results-vsv",
     "compare": "tribodyn compare results-vsv wide",
     "reproduce": "tribodyn reproduce fig9 claims",

@@ -13,10 +13,11 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
+from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import Stopped
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ Steps = Callable[["Case"], Any]
 _CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent()"
 _LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
-_loaded: Final[set[frozenset[tuple[str, object]]]] = set()
+_loaded: Final[set[Choices]] = set()
 """Choices of the cases whose equations this process has loaded."""
 
 
@@ -53,7 +54,7 @@ def loading_only() -> Iterator[None]:
 
 def loaded(case: Case, first_steps: Steps) -> bool:
     """Load the equations of a case; False if they are not compiled yet."""
-    choices = equations_of(case)
+    choices = choices_of(case)
     if choices not in _loaded:
         try:
             with loading_only():
@@ -64,20 +65,6 @@ def loaded(case: Case, first_steps: Steps) -> bool:
             return True
         _loaded.add(choices)
     return True
-
-
-def equations_of(case: Case) -> frozenset[tuple[str, object]]:
-    """Return what equations depend on: all settings but numbers. Cases that agree in them share equations."""
-    return frozenset(_choices(case.model_dump(exclude={"title"})))
-
-
-def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, object]]:
-    """Yield settings below a path."""
-    for name, value in settings.items():
-        if isinstance(value, Mapping):
-            yield from _choices(value, f"{path}{name}.")
-        elif value is None or isinstance(value, str | bool):
-            yield f"{path}{name}", value
 
 
 def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> None:

@@ -8,17 +8,20 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
+from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.base import Mechanism
 from tribodyn.results import Headline
 from tribodyn.results.summary import EFFORT
 from tribodyn.workbench.controls import controls
-from tribodyn.workbench.cost import Costs, Equations, equations
+from tribodyn.workbench.cost import Costs
 from tribodyn.workbench.crew import Crew, Failed, Job
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.variant import Origin, Variant
 
+_LEAST_SHARE: Final = 1e-3
+"""Share of a long run that counts as reached when nothing was told of it."""
 DOWNLOADS: Final = ("case.toml", "result.nc", "report.html")
 Heard = Callable[[Mapping[str, Any]], None]
 
@@ -75,7 +78,7 @@ class Bench:
     crew: Crew
     rules: Rules = field(default_factory=Rules)
     costs: Costs = field(default_factory=Costs)
-    compiled: set[Equations] = field(default_factory=set)
+    compiled: set[Choices] = field(default_factory=set)
     state: dict[str, Any] = field(default_factory=dict)
     told: list[Callable[[Mapping[str, Any]], None]] = field(default_factory=list)
     ready: asyncio.Event = field(default_factory=asyncio.Event)
@@ -89,12 +92,29 @@ class Bench:
             if not await self.are_compiled(variant):
                 words = "compiling the equations for this machine; later starts take seconds"
                 self._tell("compiling", words, 60.0)
-            runs = (self.picture(variant, self.rules.longest) for _ in self.crew.workers)
-            await asyncio.gather(*runs)
+            await asyncio.gather(*(self._try(variant) for _ in self.crew.workers))
             self._tell("ready", "", None)
         except (Failed, TribodynError, OSError) as error:
             self._tell("failed", str(error), None)
         self.ready.set()
+
+    async def _try(self, variant: Variant) -> None:
+        """Make a run, or begin one that is long, to know what runs cost."""
+        if variant.case.campaign_cycles:
+            variant = variant.origin.varied({**variant.values, "wear.cycles": "0"})
+        reached, duration = 0.0, variant.case.duration
+
+        def heard(event: Mapping[str, Any]) -> None:
+            nonlocal reached
+            reached = event["reached"]
+
+        job = self.order(variant, self.rules.unasked, heard)
+        try:
+            await self.made(variant, job)
+        except Failed:
+            if job.verdict is None:
+                raise
+            self.costs.note(variant.case, job.took * duration / max(reached, _LEAST_SHARE * duration))
 
     def _tell(self, state: str, message: str, seconds: float | None) -> None:
         self.state = {"type": "state", "state": state, "message": message, "seconds": seconds}
@@ -103,11 +123,11 @@ class Bench:
 
     async def are_compiled(self, variant: Variant) -> bool:
         """Tell whether the equations of a case are compiled; a worker that finds them loads them."""
-        if equations(variant.case) in self.compiled:
+        if choices_of(variant.case) in self.compiled:
             return True
         answer = await self.crew.do(Job({"work": "load", "case": variant.toml}, self.rules.unasked))
         if answer == b"true":
-            self.compiled.add(equations(variant.case))
+            self.compiled.add(choices_of(variant.case))
         return answer == b"true"
 
     def order(self, variant: Variant, seconds: float, heard: Heard, *, background: bool = False) -> Job:
@@ -115,15 +135,11 @@ class Bench:
         order = {"work": "picture", "case": variant.toml, "told": variant.told()}
         return Job(order, seconds, background, heard)
 
-    async def picture(self, variant: Variant, seconds: float) -> bytes:
-        """Return the body of the frame of a case."""
-        return await self.made(variant, self.order(variant, seconds, lambda event: None))
-
     async def made(self, variant: Variant, job: Job) -> bytes:
         """Return the body of the frame that a job makes, and remember what it took."""
         content = await self.crew.do(job)
         self.costs.note(variant.case, job.took)
-        self.compiled.add(equations(variant.case))
+        self.compiled.add(choices_of(variant.case))
         return content
 
     @cached_property

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from tribodyn.cases.case import Case
+from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.cases.tables import keys_in
 from tribodyn.core.errors import InputError
-
-Equations = frozenset[tuple[str, object]]
 
 MOST_ROWS: Final = 100_000
 """Rows of a result that a page is sent, at most."""
@@ -30,29 +29,18 @@ class Costs:
         Of the last run with these equations, for a case of size one.
     """
 
-    seconds: dict[Equations, float] = field(default_factory=dict)
+    seconds: dict[Choices, float] = field(default_factory=dict)
 
     def note(self, case: Case, seconds: float) -> None:
         """Remember what a run took."""
-        self.seconds[equations(case)] = seconds / size(case)
-
-    def knows(self, case: Case) -> bool:
-        """Tell whether a case with these equations was run."""
-        return equations(case) in self.seconds
+        self.seconds[choices_of(case)] = seconds / size(case)
 
     def expected(self, case: Case) -> float | None:
         """Return what a run will take [s], as if all equations cost the same; None before any run."""
         if not self.seconds:
             return None
         last = next(reversed(self.seconds.values()))
-        return self.seconds.get(equations(case), last) * size(case)
-
-
-def equations(case: Case) -> Equations:
-    """Return what cases with the same equations have in common."""
-    from tribodyn.simulation.compilation import equations_of
-
-    return equations_of(case)
+        return self.seconds.get(choices_of(case), last) * size(case)
 
 
 def size(case: Case) -> float:

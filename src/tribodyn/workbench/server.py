@@ -43,8 +43,8 @@ def workers() -> int:
     return min(max(machine.processors(), _WORKERS), _MOST_WORKERS)
 
 
-def listening(address: str, port: int) -> socket.socket:
-    """Return a socket that listens; port 0 stands for any that is free.
+def listening(port: int, address: str = ADDRESS) -> socket.socket:
+    """Return a socket that listens, by default to this machine only; port 0 stands for any that is free.
 
     Raises
     ------

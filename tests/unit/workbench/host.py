@@ -191,7 +191,7 @@ async def hosting(
 ) -> AsyncIterator[Host]:
     """Serve while the block runs; no error of our own may be told of."""
     chosen = rules or Rules()
-    listener = listening("127.0.0.1", 0)
+    listener = listening(0)
     port = listener.getsockname()[1]
     door = Door("http", frozenset(f"{name}:{port}" for name in NAMES), f"tribodyn-{port}")
     person = OnePerson(Visitor(chosen.room))

@@ -1,0 +1,91 @@
+"""``tribodyn workbench``: a page on this machine that runs a case while its values are turned."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from argparse import ArgumentParser, Namespace
+from contextlib import ExitStack
+from typing import Final
+
+from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
+from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.interrupt import Interruption
+from tribodyn.core import fork_server
+from tribodyn.core.errors import InputError
+
+HELP = "open a page on which values are turned and pictures follow"
+_CLOSING: Final = "closing the workbench"
+_PORTS: Final = 65535
+_MOST_WORKERS: Final = 256
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``workbench``."""
+    add_case_arguments(parser, default="vsv")
+    parser.add_argument(
+        "--port", metavar="N", type=int, default=0, help="where it listens (default: any that is free)"
+    )
+    parser.add_argument(
+        "--workers", metavar="N", type=int, help="processes that compute (default: one a processor, 2 to 4)"
+    )
+    parser.add_argument(
+        "--no-browser",
+        dest="browser",
+        action="store_false",
+        help="print the address with its key, which can be used once, instead of opening a browser",
+    )
+
+
+def execute(args: Namespace) -> int:
+    """Serve the page until Ctrl-C."""
+    fork_server.start(name=args.case, changes=changes(args))
+    _check(args)
+    case = chosen_case(args)
+    import asyncio
+
+    from tribodyn.workbench.server import attended, listening, workers
+    from tribodyn.workbench.variant import Origin
+
+    listener = listening(args.port)
+    with Interruption(_CLOSING) as stop, ExitStack() as stack:
+        served = attended(
+            Origin(case, args.case, changes(args)),
+            listener,
+            size=args.workers or workers(),
+            opened=lambda address: _show(address, args, stack),
+            stop=stop,
+            complain=complain,
+        )
+        asyncio.run(served)
+    return 0
+
+
+def _show(address: str, args: Namespace, stack: ExitStack) -> None:
+    """Open the page, or say where it is; what is needed for that lasts as long as the stack."""
+    from tribodyn.workbench.server import open_browser, pointer
+
+    console = Console.of(args)
+    console.note(f"the workbench of {args.case} is at {address.partition('?')[0]}; Ctrl-C ends it")
+    if args.json:
+        show_json({"address": address})
+        sys.stdout.flush()
+        return
+    if not args.browser:
+        print(f"open {address}", flush=True)
+        return
+    file = stack.enter_context(pointer(address))
+
+    def show() -> None:
+        if not open_browser(file):
+            print(f"no browser was found; open {address}", flush=True)
+
+    # Some browsers keep who opens them waiting.
+    threading.Thread(target=show, daemon=True).start()
+
+
+def _check(args: Namespace) -> None:
+    if not 0 <= args.port <= _PORTS:
+        raise InputError(f"given {args.port}; allowed: 0 to {_PORTS}", key="--port")
+    if args.workers is not None and not 1 <= args.workers <= _MOST_WORKERS:
+        raise InputError(f"given {args.workers}; allowed: 1 to {_MOST_WORKERS}", key="--workers")

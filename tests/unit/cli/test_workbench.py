@@ -1,0 +1,50 @@
+"""The command, as a process of its own."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+
+import psutil
+import pytest
+
+from tribodyn.cli.main import main
+
+COMMAND = [sys.executable, "-m", "tribodyn", "workbench"]
+
+
+def test_it_says_where_it_is_lets_one_browser_in_and_leaves_nothing_behind():
+    options = ["journal-dry", "--set", "joint.clearance=30 um", "--json", "--workers", "1"]
+    with subprocess.Popen(
+        [*COMMAND, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        lines = [process.stdout.readline() for _ in range(3)]
+        address = json.loads("".join(lines))["address"]
+        family = psutil.Process(process.pid).children(recursive=True)
+        with urllib.request.urlopen(address) as answer:
+            assert "HttpOnly" in answer.headers["Set-Cookie"]
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(address)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=30)
+    assert process.returncode == 0
+    assert "closing the workbench" in said
+    assert "Traceback" not in said
+    token = address.partition("=")[2]
+    assert token not in said
+    _, left = psutil.wait_procs(family, timeout=20)
+    assert left == []
+
+
+@pytest.mark.parametrize(
+    ("options", "key"),
+    [(["--port", "70000"], "--port"), (["--workers", "0"], "--workers"), (["no-such-case"], "no-such-case")],
+)
+def test_what_it_cannot_do_is_said_at_once(options, key, capsys):
+    assert main(["workbench", *options]) == 2
+    assert key in capsys.readouterr().err
