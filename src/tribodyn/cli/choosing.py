@@ -13,15 +13,14 @@ if TYPE_CHECKING:
     from tribodyn.cases import Case
 
 
-def add_case_arguments(parser: ArgumentParser, default: str | None = None) -> None:
-    """Add CASE, which may be left out if there is a default, and the options that change it."""
+def add_case_arguments(parser: ArgumentParser, *, required: bool = True) -> None:
+    """Add CASE and the options that change it."""
     parser.add_argument(
         "case",
         metavar="CASE",
-        nargs=None if default is None else "?",
-        default=default,
+        nargs=None if required else "?",
         help="a built-in case (see `tribodyn cases`) or a TOML file"
-        + ("" if default is None else f" (default: {default})"),
+        + ("" if required else " (default: the first of the built-in ones)"),
     )
     parser.add_argument(
         "--set",

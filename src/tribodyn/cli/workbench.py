@@ -22,7 +22,7 @@ _MOST_WORKERS: Final = 256
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``workbench``."""
-    add_case_arguments(parser, default="vsv")
+    add_case_arguments(parser, required=False)
     parser.add_argument(
         "--port", metavar="N", type=int, default=0, help="where it listens (default: any that is free)"
     )
@@ -39,6 +39,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Serve the page until Ctrl-C."""
+    if args.case is None:
+        from tribodyn.mechanisms.catalogue import built_in
+
+        args.case = next(iter(built_in()))
     fork_server.start(name=args.case, changes=changes(args))
     _check(args)
     case = chosen_case(args)

@@ -32,7 +32,8 @@ _KINDS: Final = {
 }
 _ARRIVED: Final = (
     b'<!doctype html><html lang="en"><meta charset="utf-8"><title>tribodyn</title>'
-    b'<link rel="icon" href="data:,"><meta http-equiv="refresh" content="0; url=/"><p><a href="/">The workbench</a></html>\n'
+    b'<link rel="icon" href="data:,"><meta http-equiv="refresh" content="0; url=/">'
+    b'<p><a href="/">The workbench</a></html>\n'
 )
 """A page that goes on to ours: sent on at once, a browser from elsewhere would leave the cookie out."""
 _BACKLOG: Final = 200_000_000
