@@ -28,6 +28,7 @@ from tribodyn.joints.point_contact import point_damping
 from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity, wrench
 from tribodyn.kernels.joints.pose import N_WRENCH
 from tribodyn.kernels.vsv import layout
+from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -56,7 +57,8 @@ class ExudynModel:
         self.case, self.vsv, self.surface = case, vsv, contact == "surface"
         self.data, self.memory = constants(problem.data), problem.memory.joint
         self.motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
-        fill_motion(problem.data.mechanism, 0.0, problem.y0, self.motion)
+        mechanism = problem.data.mechanism
+        fill_motion(mechanism, sinusoid(mechanism, 0.0), problem.y0, self.motion)
         self.container = exu.SystemContainer()
         self.mbs = self.container.AddSystem()
         self.ground = self.mbs.AddObject(items.ObjectGround())

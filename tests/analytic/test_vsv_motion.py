@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from tribodyn.kernels.vsv import layout
+from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
 from tribodyn.mechanisms.vsv.parameters import Drive
 from tribodyn.mechanisms.vsv.problem import vsv_data
@@ -27,7 +28,8 @@ FORMULATIONS = ("exact", "paper")
 
 def motion_table(vsv, t, q, rates):
     motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
-    fill_motion(vsv_data(vsv).mechanism, t, np.concatenate([q, rates]), motion)
+    mechanism = vsv_data(vsv).mechanism
+    fill_motion(mechanism, sinusoid(mechanism, t), np.concatenate([q, rates]), motion)
     return motion
 
 

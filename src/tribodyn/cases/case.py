@@ -165,6 +165,10 @@ class Case(Group):
         """Return what a user should know of values that do not contradict each other; by default nothing."""
         return Remarks()
 
+    def idle(self) -> tuple[str, ...]:
+        """Return the paths of keys that others put out of force; by default there are none."""
+        return ()
+
     def at(self, path: str) -> Value | None:
         """Return the value at a dotted path, such as ``joint.clearance``."""
         found: Value | None = value_at(self, path)
@@ -195,7 +199,7 @@ class Case(Group):
         comments
             Whether each key is followed by what it means, where it comes from and what it may hold.
         """
-        return to_toml(self, self.kind(), self._own(), comments=comments)
+        return to_toml(self, self.kind(), self._own(), self.idle(), comments=comments)
 
     def _own(self) -> set[str]:
         """Return the paths of what a user gave."""
@@ -332,8 +336,20 @@ def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCa
             if plain not in keys:
                 plain, value = _vector(case, plain, value, known, new, source)
             new[plain] = Entry(value, source, text=True)
+    return _rebuilt(case, new, source, faults.found)
+
+
+def with_entries(case: AnyCase, values: Mapping[str, object], source: str) -> AnyCase:
+    """Return a copy of `case` with some values by dotted path, in tables that may be new."""
+    return _rebuilt(case, {path: Entry(value, source, text=True) for path, value in values.items()}, source)
+
+
+def _rebuilt(
+    case: AnyCase, new: Mapping[str, Entry], source: str, found: Iterable[InputError] = ()
+) -> AnyCase:
+    """Return a copy of `case` with other entries; ``found`` as for :func:`build`."""
     kept = scans.entries_kept(case._given, case._scans, new)
-    result = build(type(case), beside(type(case), kept, new), source, faults.found)
+    result = build(type(case), beside(type(case), kept, new), source, found)
     if not result._scans and not any(path in new for path in scans.FOLLOWING):
         result._scans.update(case._scans)
     return result

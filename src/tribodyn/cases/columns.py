@@ -7,7 +7,12 @@ never depends on the file again. Above the columns stand their names and units::
     0, 0, 1.5
     1, 250, 1.4
 
-Semicolons and tabs may stand for commas. A row that stands there twice is a kink: the slope may jump.
+Semicolons and tabs may stand for commas. A row that stands there twice is a kink: the slope may jump. In a
+map, which a key ``map`` names, the places across stand for the names of columns::
+
+    time [ms], 60 deg [N m], 90 deg [N m]
+    0, 1.5, 1.2
+    250, 1.4, 1.1
 """
 
 from __future__ import annotations
@@ -16,6 +21,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Final
 
@@ -28,12 +34,16 @@ from tribodyn.core.quoting import LONGEST, brief
 
 TABLE: Final = "table"
 """Name of a key that names a file; beside it stand those of :data:`KNOTS` and ``values``."""
+MAP: Final = "map"
+"""Name of a key that names the file of a map."""
 COLUMN: Final = "column"
 VALUES: Final = "values"
 KNOTS: Final = {"times": "s", "angles": "rad", "positions": "m"}
 """What the first column may hold, by the key that takes it, with its unit."""
 LARGEST: Final = 20_000_000
 MOST_ROWS: Final = 10_000
+MOST_OF_MAP: Final = 50_000
+"""Numbers that a map holds, at most."""
 _HEADER: Final = re.compile(r"\s*\"?([^\[\]\"]*?)\s*\[\s*([^\]]+?)\s*\]\s*\"?\s*")
 
 
@@ -54,13 +64,15 @@ def with_tables_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> d
     read = dict(entries)
     for path, entry in entries.items():
         before, _, name = path.rpartition(".")
-        if name != TABLE or f"{before}.{VALUES}" not in keys:
+        if name not in (TABLE, MAP) or f"{before}.{VALUES}" not in keys:
             continue
         of_column = read.pop(f"{before}.{COLUMN}", None)
         column = None if of_column is None else str(read_entry(keys[f"{before}.{COLUMN}"], of_column))
-        file = str(read_entry(keys[path], read.pop(path)))
+        file, unit = str(read_entry(keys[path], read.pop(path))), keys[f"{before}.{VALUES}"].unit
         try:
-            found = _numbers(_text((entry.folder or Path()) / file), column, keys[f"{before}.{VALUES}"].unit)
+            text = _text((entry.folder or Path()) / file)
+            found = _numbers(text, column, unit) if name == TABLE else _map(text, unit)
+            _expected(found, [knots for knots in KNOTS if f"{before}.{knots}" in keys])
         except (TableProblem, UnitProblem, ValueProblem) as problem:
             raise InputError(f"given {shown(file)}: {problem}", key=path, source=entry.source) from None
         read |= {f"{before}.{key}": replace(entry, value=value) for key, value in found.items()}
@@ -78,14 +90,26 @@ def _text(file: Path) -> str:
         raise TableProblem(f"it cannot be read ({error.strerror})") from None
 
 
-def _numbers(text: str, column: str | None, unit: str) -> dict[str, str]:
-    """Return knots and values as a case writes them, by their keys."""
+def _expected(found: Mapping[str, str], knots: Sequence[str]) -> None:
+    """Refuse a table over what this key does not follow."""
+    for key in found:
+        if key in KNOTS and key not in knots:
+            raise TableProblem(f"its first column holds {key}; here it is {' or '.join(knots)}")
+
+
+def _lines(text: str) -> tuple[list[str], str]:
+    """Return the lines of a file that count, the header first, and what separates its columns."""
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if len(lines) < 3:
         raise TableProblem("it needs a header, such as time [s], force [N], and two rows of numbers at least")
     if len(lines) > MOST_ROWS:
         raise TableProblem(f"it has more than {MOST_ROWS} rows")
-    separator = next((mark for mark in (";", "\t") if mark in lines[0]), ",")
+    return lines, next((mark for mark in (";", "\t") if mark in lines[0]), ",")
+
+
+def _numbers(text: str, column: str | None, unit: str) -> dict[str, str]:
+    """Return knots and values as a case writes them, by their keys."""
+    lines, separator = _lines(text)
     header = [_described(cell) for cell in lines[0].split(separator)]
     names = [name for name, _ in header]
     place = 1 if column is None else names.index(column) if column in names else 0
@@ -99,6 +123,54 @@ def _numbers(text: str, column: str | None, unit: str) -> dict[str, str]:
     values = _in_si([row[1] for row in rows], header[place][1], unit)
     check(knots, values)
     return {key: _written(knots, KNOTS[key]), VALUES: _written(values, si_unit(unit))}
+
+
+def _map(text: str, unit: str) -> dict[str, str]:
+    """Return times, angles and values of a map as a case writes them, by their keys."""
+    lines, separator = _lines(text)
+    cells = lines[0].split(separator)
+    first, header = _described(cells[0]), [_described(cell) for cell in cells[1:]]
+    down = _knots(first[1])
+    across = "angles" if down == "times" else "times"
+    places = range(len(cells))
+    rows = [_row(line, separator, places, number) for number, line in enumerate(lines[1:], 2)]
+    knots = {
+        down: _in_si([row[0] for row in rows], first[1], KNOTS[down]),
+        across: [_place(name, KNOTS[across]) for name, _ in header],
+    }
+    columns = [_in_si([row[k] for row in rows], header[k - 1][1], unit) for k in places[1:]]
+    by_row = columns if down == "angles" else list(zip(*columns, strict=True))
+    values = [number for row in by_row for number in row]
+    check_map(knots["times"], knots["angles"], values)
+    return {key: _written(of, KNOTS[key]) for key, of in knots.items()} | {
+        VALUES: _written(values, si_unit(unit))
+    }
+
+
+def _place(name: str, unit: str) -> float:
+    """Return the place that the name of a column of a map is."""
+    try:
+        return to_si(name, unit)
+    except UnitProblem:
+        example = "60 deg [N m]" if unit == "rad" else "0.5 s [N m]"
+        raise TableProblem(f"the column {shown(name)} names no {dimension(unit)}, as in {example}") from None
+
+
+def check_map(times: Sequence[float], angles: Sequence[float], values: Sequence[float]) -> None:
+    """Refuse a map that no surface goes through.
+
+    Raises
+    ------
+    TableProblem
+        The message says what is wrong.
+    """
+    if len(values) != len(times) * len(angles):
+        raise TableProblem(f"there are {len(values)} values for {len(times)} times and {len(angles)} angles")
+    if len(values) > MOST_OF_MAP:
+        raise TableProblem(f"it has more than {MOST_OF_MAP} values")
+    for name, places in (("times", times), ("angles", angles)):
+        if len(places) < 2 or any(b <= a for a, b in pairwise(places)):
+            raise TableProblem(f"a map needs two {name} at least, each greater than the one before it")
 
 
 def check(knots: Sequence[float], values: Sequence[float]) -> None:
@@ -144,7 +216,7 @@ def _knots(unit: str) -> str:
     raise TableProblem(f"the unit {shown(unit)} of the first column is none of {kinds}")
 
 
-def _row(line: str, separator: str, places: tuple[int, int], number: int) -> tuple[str, str]:
+def _row(line: str, separator: str, places: Sequence[int], number: int) -> list[str]:
     cells = [cell.strip() for cell in line.split(separator)]
     if separator == ";":
         cells = [cell.replace(",", ".") for cell in cells]
@@ -155,7 +227,7 @@ def _row(line: str, separator: str, places: tuple[int, int], number: int) -> tup
             finite = False
         if not finite:
             raise TableProblem(f"row {number - 1}, {shown(brief(line.strip(), LONGEST))}, lacks a number")
-    return cells[places[0]], cells[places[1]]
+    return [cells[place] for place in places]
 
 
 def _in_si(cells: list[str], unit: str, like: str) -> list[float]:

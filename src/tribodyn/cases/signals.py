@@ -4,62 +4,183 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.columns import KNOTS, TABLE, VALUES, TableProblem, check
+from tribodyn.cases.columns import KNOTS, MAP, TABLE, VALUES, TableProblem, check, check_map
 from tribodyn.cases.fields import Numbers, choice, file, name, quantity, series
+from tribodyn.cases.units import unit_of
 
 if TYPE_CHECKING:
     from tribodyn.core.signals import Signal
 
 _FORMULA: Final = ("value", "amplitude", "swing")
+_FEWEST_SMOOTH: Final = 5
+_ROUNDING: Final = 1.0e-14
+_TINY: Final = 1.0e-300
+
+
+def _value(example: str) -> Any:
+    return quantity(None, "constant, or where it begins", "", example=example)
+
+
+def _amplitude(example: str) -> Any:
+    return quantity(None, "of a sinusoid about value", "", example=example)
+
+
+def _swing(example: str) -> Any:
+    return quantity(None, "from value there and back", "", example=example)
+
+
+def _values(example: str) -> Any:
+    unit = unit_of(example.rpartition(", ")[2])
+    return series("in the place of a CSV file", "", unit=unit, example=f'"{example}"')
 
 
 class _Angle(Group):
-    value: float | None = quantity(None, "constant, or where it begins", "", unit="deg", example="30 deg")
-    amplitude: float | None = quantity(None, "of a sinusoid about value", "", unit="deg", example="20 deg")
-    swing: float | None = quantity(None, "from value there and back", "", unit="deg", example="40 deg")
-    values: Numbers | None = series("in the place of a CSV file", "", unit="deg", example='"0, 10, 30 deg"')
+    value: float | None = _value("30 deg")
+    amplitude: float | None = _amplitude("20 deg")
+    swing: float | None = _swing("40 deg")
+    values: Numbers | None = _values("0, 10, 30 deg")
 
 
 class _Speed(Group):
-    value: float | None = quantity(None, "constant, or where it begins", "", unit="rpm", example="5000 rpm")
-    amplitude: float | None = quantity(None, "of a sinusoid about value", "", unit="rpm", example="20 rpm")
-    swing: float | None = quantity(None, "from value there and back", "", unit="rpm", example="40 rpm")
-    values: Numbers | None = series("in the place of a CSV file", "", unit="rpm", example='"0, 100, 300 rpm"')
+    value: float | None = _value("5000 rpm")
+    amplitude: float | None = _amplitude("20 rpm")
+    swing: float | None = _swing("40 rpm")
+    values: Numbers | None = _values("0, 100, 300 rpm")
 
 
 class _Position(Group):
-    value: float | None = quantity(None, "constant, or where it begins", "", unit="mm", example="30 mm")
-    amplitude: float | None = quantity(None, "of a sinusoid about value", "", unit="mm", example="20 mm")
-    swing: float | None = quantity(None, "from value there and back", "", unit="mm", example="40 mm")
-    values: Numbers | None = series("in the place of a CSV file", "", unit="mm", example='"0, 10, 30 mm"')
+    value: float | None = _value("30 mm")
+    amplitude: float | None = _amplitude("20 mm")
+    swing: float | None = _swing("40 mm")
+    values: Numbers | None = _values("0, 10, 30 mm")
 
 
 class _Velocity(Group):
-    value: float | None = quantity(None, "constant, or where it begins", "", unit="m/s", example="1 m/s")
-    amplitude: float | None = quantity(None, "of a sinusoid about value", "", unit="m/s", example="1 m/s")
-    swing: float | None = quantity(None, "from value there and back", "", unit="m/s", example="2 m/s")
-    values: Numbers | None = series("in the place of a CSV file", "", unit="m/s", example='"0, 1, 3 m/s"')
+    value: float | None = _value("1 m/s")
+    amplitude: float | None = _amplitude("1 m/s")
+    swing: float | None = _swing("2 m/s")
+    values: Numbers | None = _values("0, 1, 3 m/s")
 
 
 class _Torque(Group):
-    value: float | None = quantity(None, "constant, or where it begins", "", unit="N m", example="2 N m")
-    amplitude: float | None = quantity(None, "of a sinusoid about value", "", unit="N m", example="1 N m")
-    swing: float | None = quantity(None, "from value there and back", "", unit="N m", example="2 N m")
-    values: Numbers | None = series("in the place of a CSV file", "", unit="N m", example='"0, 1, 3 N m"')
+    value: float | None = _value("2 N m")
+    amplitude: float | None = _amplitude("1 N m")
+    swing: float | None = _swing("2 N m")
+    values: Numbers | None = _values("0, 1, 3 N m")
 
 
 class _Force(Group):
-    value: float | None = quantity(None, "constant, or where it begins", "", unit="N", example="100 N")
-    amplitude: float | None = quantity(None, "of a sinusoid about value", "", unit="N", example="20 N")
-    swing: float | None = quantity(None, "from value there and back", "", unit="N", example="40 N")
-    values: Numbers | None = series("in the place of a CSV file", "", unit="N", example='"0, 10, 30 N"')
+    value: float | None = _value("100 N")
+    amplitude: float | None = _amplitude("20 N")
+    swing: float | None = _swing("40 N")
+    values: Numbers | None = _values("0, 10, 30 N")
 
 
-class _Course(NamedGroup):
-    """What all of them have beside their value."""
+class _Rows(NamedGroup):
+    """What all tables have beside their values and what these stand over."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(itertools.product((TABLE,), (VALUES, *KNOTS)))
+
+    table: str | None = file("CSV file: time, angle or position, then values", "table.csv")
+    column: str | None = name(
+        None, "which of its columns, by name; the second without it", "", example="force"
+    )
+    interpolation: Literal["cubic", "linear", "smooth"] | None = choice(
+        None,
+        "between the rows of a table, or near those of a noisy one; cubic without",
+        "",
+        example="linear",
+    )
+
+    if TYPE_CHECKING:  # What the groups of quantities declare.
+        values: Numbers | None
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        self._check_given()
+        try:
+            self._check_rows()
+        except TableProblem as problem:
+            demand(not self.values, VALUES, str(problem))
+
+    def _check_given(self) -> None:
+        demand(bool(self.values), TABLE, "give a table, or its values")
+        self._check_over()
+
+    def _check_over(self) -> None:
+        there = ", ".join(name for name in KNOTS if name in type(self).model_fields)
+        demand(bool(self.over) == bool(self.values), VALUES, f"give one of {there} with the values")
+
+    def _check_rows(self) -> None:
+        check(self.knots, self.values or self.knots)
+        if self.interpolation == "smooth" and len(set(self.knots)) < max(len(self.knots), _FEWEST_SMOOTH):
+            raise TableProblem(f"a smooth curve needs {_FEWEST_SMOOTH} rows, none of them twice")
+
+    @property
+    def over(self) -> str:
+        """Which of :data:`~tribodyn.cases.columns.KNOTS` a table runs over; empty without one."""
+        return next((name for name in KNOTS if getattr(self, name, None)), "")
+
+    @property
+    def knots(self) -> Numbers:
+        """Where a table has values, SI units."""
+        return tuple(getattr(self, self.over)) if self.over else ()
+
+    def curve(self, *, closed: bool = False) -> Signal:
+        """Return the curve through the rows; ``closed`` as for :func:`tribodyn.core.signals.spline`."""
+        # Imported here: reading a case needs no NumPy.
+        from tribodyn.core.signals import smoothed, spline
+
+        if self.interpolation == "smooth":
+            return smoothed(self.knots, self.values or ())
+        return spline(*self._rows(), closed=closed)
+
+    def _rows(self) -> tuple[Numbers, Numbers]:
+        """Return knots and values; of straight lines each stands there twice but for the ends."""
+        values = self.values or ()
+        if self.interpolation != "linear":
+            return self.knots, values
+        rows = sorted(set(zip(self.knots, values, strict=True)))
+        doubled = [rows[0], *(row for row in rows[1:-1] for _ in range(2)), rows[-1]]
+        return tuple(row[0] for row in doubled), tuple(row[1] for row in doubled)
+
+
+class _Timed(_Rows):
+    """A table over time."""
+
+    times: Numbers | None = series("of values", "", unit="s", example='"0, 0.5, 1 s"')
+
+
+class AngleTable(_Timed):
+    """An angle over time."""
+
+    values: Numbers | None = _values("0, 10, 30 deg")
+
+
+class SpeedTable(_Timed):
+    """An angular speed over time."""
+
+    values: Numbers | None = _values("0, 10, 10, 0 deg/s")
+
+
+class PositionTable(_Timed):
+    """A position over time."""
+
+    values: Numbers | None = _values("0, 10, 30 mm")
+
+
+class LineLoadTable(_Rows):
+    """A load per length over a position."""
+
+    positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
+    values: Numbers | None = _values("100, 200, 150 N/m")
+
+
+class _Course(_Timed):
+    """What all signals have beside their value."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
         *itertools.product(_FORMULA, (TABLE, VALUES, *KNOTS)),
@@ -72,46 +193,20 @@ class _Course(NamedGroup):
         None, "of amplitude or swing", "", unit="rad/s", gt=0, example="1 rad/s"
     )
     phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
-    table: str | None = file("CSV file: time, angle or position, then values", "table.csv")
-    column: str | None = name(
-        None, "which of its columns, by name; the second without it", "", example="force"
-    )
-    times: Numbers | None = series("of values", "", unit="s", example='"0, 0.5, 1 s"')
     angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 360 deg"')
     positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
-    interpolation: Literal["cubic", "linear"] | None = choice(
-        None, "between the rows of a table; cubic without", "", example="linear"
-    )
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
         value: float | None
         amplitude: float | None
         swing: float | None
-        values: Numbers | None
 
-    def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+    def _check_given(self) -> None:
         moving = self.amplitude is not None or self.swing is not None
         demand(self.value is not None or moving or bool(self.values), "value", "give a value, or a table")
         key = "swing" if self.swing is not None else "amplitude"
         demand(not moving or self.angular_frequency is not None, key, "this needs an angular_frequency")
-        demand(
-            bool(self.over) == bool(self.values), VALUES, f"give one of {', '.join(KNOTS)} with the values"
-        )
-        try:
-            check(self.knots, self.values or self.knots)
-        except TableProblem as problem:
-            demand(not self.values, VALUES, str(problem))
-
-    @property
-    def over(self) -> str:
-        """Which of :data:`~tribodyn.cases.columns.KNOTS` a table runs over; empty without one."""
-        return next((name for name in KNOTS if getattr(self, name)), "")
-
-    @property
-    def knots(self) -> Numbers:
-        """Where a table has values, SI units."""
-        return tuple(getattr(self, self.over)) if self.over else ()
+        self._check_over()
 
     @property
     def period(self) -> float | None:
@@ -120,12 +215,11 @@ class _Course(NamedGroup):
 
     def signal(self) -> Signal:
         """Return what kernels are given."""
-        # Imported here: reading a case needs no NumPy.
-        from tribodyn.core.signals import constant, sinusoid, spline
+        from tribodyn.core.signals import constant, sinusoid
 
         mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.angular_frequency or 0.0
         if self.values:
-            return spline(*self._rows())
+            return self.curve()
         if self.swing is not None:
             half = 0.5 * self.swing
             return sinusoid(mean + half, -half, frequency, phase + 0.5 * math.pi)
@@ -133,14 +227,51 @@ class _Course(NamedGroup):
             return sinusoid(mean, self.amplitude, frequency, phase)
         return constant(mean)
 
-    def _rows(self) -> tuple[Numbers, Numbers]:
-        """Return knots and values; of straight lines each stands there twice but for the ends."""
-        values = self.values or ()
-        if self.interpolation != "linear":
-            return self.knots, values
-        rows = sorted(set(zip(self.knots, values, strict=True)))
-        doubled = [rows[0], *(row for row in rows[1:-1] for _ in range(2)), rows[-1]]
-        return tuple(row[0] for row in doubled), tuple(row[1] for row in doubled)
+
+class _Mapped(_Course):
+    """A signal that may follow time and an angle at once."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
+        *itertools.product((*_FORMULA, TABLE), (MAP,)),
+        *itertools.product((MAP,), (VALUES, *KNOTS)),
+        *itertools.product(_FORMULA, (TABLE, VALUES, *KNOTS)),
+        *itertools.product((TABLE,), (VALUES, *KNOTS)),
+        ("times", "positions"),
+        ("angles", "positions"),
+        ("amplitude", "swing"),
+    )
+
+    map: str | None = file("CSV file: time down, an angle across; or the other way round", "map.csv")
+
+    @property
+    def is_map(self) -> bool:
+        """Whether its values stand over times and angles."""
+        return bool(self.times and self.angles)
+
+    def _check_rows(self) -> None:
+        if self.is_map:
+            check_map(self.times or (), self.angles or (), self.values or ())
+        else:
+            super()._check_rows()
+
+    def products(self) -> list[tuple[tuple[Signal, str], ...]]:
+        """Return signals over one of :data:`~tribodyn.cases.columns.KNOTS` each, whose products add up to it.
+
+        Of a map they are those of its singular vectors: the bicubic spline through it, as few as it takes.
+        """
+        if not self.is_map:
+            return [((self.signal(), self.over or "times"),)]
+        import numpy as np
+
+        from tribodyn.core.signals import spline
+
+        times, angles = self.times or (), self.angles or ()
+        down, sizes, across = np.linalg.svd(np.reshape(self.values or (), (len(times), len(angles))))
+        return [
+            ((spline(times, size * column), "times"), (spline(angles, row), "angles"))
+            for size, column, row in zip(sizes, down.T, across, strict=False)
+            if size > _ROUNDING * max(sizes[0], _TINY)
+        ]
 
 
 class AngleSignal(_Course, _Angle):
@@ -165,3 +296,11 @@ class TorqueSignal(_Course, _Torque):
 
 class ForceSignal(_Course, _Force):
     """A force: constant, sinusoidal, or from a table."""
+
+
+class TorqueMap(_Mapped, _Torque):
+    """A torque: constant, sinusoidal, from a table, or from a map."""
+
+
+class ForceMap(_Mapped, _Force):
+    """A force: constant, sinusoidal, from a table, or from a map."""

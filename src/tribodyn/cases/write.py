@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from itertools import groupby
 from textwrap import wrap
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -16,15 +17,18 @@ _LONGEST_LINE = 120
 _ASSUMED = "ASSUMED"
 
 
-def to_toml(case: BaseModel, kind: str, own: Collection[str], *, comments: bool) -> str:
+def to_toml(
+    case: BaseModel, kind: str, own: Collection[str], idle: Collection[str] = (), *, comments: bool
+) -> str:
     """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`.
 
-    Of the keys that are a user's ``own``, comments say what they would be without.
+    Of the keys that are a user's ``own``, comments say what they would be without. ``idle`` keys are out of
+    force.
     """
     keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
     tables = {
-        table: [line for key in inside for line in _lines(case, key, own, comments)]
+        table: [line for key in inside for line in _lines(_in_force(case, key, idle), key, own, comments)]
         for table, inside in groupby(keys.values(), key=lambda key: key.table)
     }
     for table, inside in (tables if comments else _shortened(tables)).items():
@@ -58,8 +62,11 @@ def _head(kind: str) -> Iterator[str]:
     yield ""
 
 
-def _lines(case: BaseModel, key: Key, own: Collection[str], comments: bool) -> Iterator[str]:
-    value = value_at(case, key.path)
+def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:
+    return None if key.path in idle else value_at(case, key.path)
+
+
+def _lines(value: Any, key: Key, own: Collection[str], comments: bool) -> Iterator[str]:
     line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
     if not comments:
         yield from [] if value is None else [line]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,14 +19,15 @@ class Signal:
     ----------
     kind
         ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but
-        at kinks.
+        at kinks, or its integral.
     coefficients
-        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n), highest power first, over
-        the distance from the knot on the left.
+        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n) or (5, n), highest power
+        first, over the distance from the knot on the left.
     knots
         Shape (n + 1,), increasing; of no length without a table. The first and last value hold beyond.
     kinks
-        Where the slope jumps: no step crosses them if the argument is time, shape (m,).
+        Where the slope, or what follows from it, jumps: no step crosses them if the argument is time, shape
+        (m,).
     """
 
     kind: str
@@ -44,7 +46,7 @@ def sinusoid(mean: float, amplitude: float, angular_frequency: float, phase: flo
     return Signal("sinusoid", np.array([mean, amplitude, angular_frequency, phase]), np.empty(0), np.empty(0))
 
 
-def spline(knots: ArrayLike, values: ArrayLike) -> Signal:
+def spline(knots: ArrayLike, values: ArrayLike, *, closed: bool = False) -> Signal:
     """Return the cubic spline through a table, not-a-knot at its ends and on both sides of a kink.
 
     Parameters
@@ -53,15 +55,93 @@ def spline(knots: ArrayLike, values: ArrayLike) -> Signal:
         Not decreasing, shape (n,), at least two different ones; one that stands there twice is a kink.
     values
         Shape (n,), the same on both sides of a kink.
+    closed
+        Whether the curve is to go on smoothly from its end to its beginning, where they have one value and
+        nothing kinks between.
     """
     # Imported here: SciPy takes longer than all of the package, and few cases have a table.
     from scipy.interpolate import CubicSpline
 
     x, y = np.asarray(knots, dtype=np.float64), np.asarray(values, dtype=np.float64)
     pieces = np.split(np.arange(x.size), np.flatnonzero(np.diff(x) == 0.0) + 1)
-    smooth = [CubicSpline(x[piece], y[piece]) for piece in pieces]
-    ends = np.array([x[0], *(x[piece[-1]] for piece in pieces)])
-    return Signal("table", np.concatenate([part.c for part in smooth], axis=1), np.unique(x), ends)
+    round_trip = closed and len(pieces) == 1 and x.size > 3 and bool(y[0] == y[-1])
+    ends: Literal["periodic", "not-a-knot"] = "periodic" if round_trip else "not-a-knot"
+    smooth = [CubicSpline(x[piece], y[piece], bc_type=ends) for piece in pieces]
+    kinks = np.array([x[0], *(x[piece[-1]] for piece in pieces)])
+    return Signal("table", np.concatenate([part.c for part in smooth], axis=1), np.unique(x), kinks)
+
+
+def smoothed(knots: ArrayLike, values: ArrayLike) -> Signal:
+    """Return a cubic spline near the rows of a table that was measured with noise.
+
+    How near is chosen by generalised cross-validation, as in Woltring, Adv. Eng. Softw. 8 (1986) 104-113.
+
+    Parameters
+    ----------
+    knots
+        Increasing, shape (n,), five at least.
+    values
+        Shape (n,).
+    """
+    from scipy.interpolate import PPoly, make_smoothing_spline
+
+    x = np.asarray(knots, dtype=np.float64)
+    found = make_smoothing_spline(x, np.asarray(values, dtype=np.float64))
+    curve = PPoly.from_spline(found.tck)
+    wide = np.flatnonzero(np.diff(curve.x) > 0.0)
+    return Signal("table", curve.c[:, wide], np.append(curve.x[wide], x[-1]), x[[0, -1]])
+
+
+def polyline(knots: ArrayLike, values: ArrayLike, corner: float) -> Signal:
+    """Return straight lines through a table whose corners are parabolas: ramps and holds of what has a mass.
+
+    Parameters
+    ----------
+    knots
+        Increasing, shape (n,), two at least.
+    values
+        Shape (n,).
+    corner
+        Length of the parabolas, half of it on either side of a row; less where rows stand closer.
+    """
+    x, y = np.asarray(knots, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    slope, rows = np.diff(y) / np.diff(x), []
+    gap = np.concatenate([[np.inf], np.diff(x), [np.inf]])
+    left, value = x[0], y[0]
+    for i in range(1, x.size - 1):
+        before, after = slope[i - 1], slope[i]
+        if before == after:
+            continue
+        half = 0.5 * min(corner, gap[i], gap[i + 1])
+        rows.append((left, value, before, 0.0))
+        rows.append((x[i] - half, y[i] - before * half, before, (after - before) / (4.0 * half)))
+        left, value = x[i] + half, y[i] + after * half
+    rows.append((left, value, slope[-1], 0.0))
+    table = np.array([row for k, row in enumerate(rows) if k + 1 == len(rows) or row[0] < rows[k + 1][0]])
+    ends = np.append(table[:, 0], x[-1])
+    inner = np.vstack([np.zeros(len(table)), table[:, 3], table[:, 2], table[:, 1]])
+    wide = np.diff(ends) > 0.0
+    places = np.append(ends[:-1][wide], x[-1])
+    return Signal("table", inner[:, wide], places, places)
+
+
+def pulse(begin: float, length: float, height: float) -> Signal:
+    """Return height sin²(π (x − begin)/length) over one pulse, and zero elsewhere, as a table."""
+    phase = np.linspace(0.0, 1.0, 65)
+    return spline(begin + length * phase, height * np.sin(np.pi * phase) ** 2, closed=True)
+
+
+def repeated(signal: Signal, n: int) -> Signal:
+    """Return a table ``n`` times, one after the other."""
+    length = signal.knots[-1] - signal.knots[0]
+    shifts = length * np.arange(n)[:, None]
+    knots = (shifts + signal.knots[None, :-1]).ravel()
+    return replace(
+        signal,
+        coefficients=np.tile(signal.coefficients, n),
+        knots=np.append(knots, signal.knots[-1] + shifts[-1]),
+        kinks=np.unique(shifts + signal.kinks[None]),
+    )
 
 
 def scaled(signal: Signal, factor: float) -> Signal:

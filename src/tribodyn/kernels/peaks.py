@@ -90,7 +90,13 @@ def begin(peaks: Peaks, t: float) -> None:
     course = peaks.course
     course.stretch = min(course.stretch + 1, peaks.largest.shape[0] - 1)
     course.begin = t
-    course.marks = 0
+    resume(peaks, t)
+
+
+@kernel
+def resume(peaks: Peaks, t: float) -> None:
+    """Go on in this stretch from ``t`` [s] with the present values, which may have jumped."""
+    peaks.course.marks = 0
     note(peaks, t)
 
 

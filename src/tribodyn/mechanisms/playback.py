@@ -17,7 +17,9 @@ from tribodyn.core.arrays import FloatArray
 EVEN: Final = 120
 """Frames in a cycle, without those after reversals."""
 AFTER_REVERSAL: Final = 48
-"""Frames after each reversal."""
+"""Frames after each reversal, fewer where there are many."""
+MOST_CLOSE: Final = 960
+"""Of all such frames of a cycle."""
 _SAME: Final = 1.0e-9
 """Times closer than this share of the run are the same time."""
 
@@ -81,6 +83,7 @@ def _of_cycle(start: float, length: float, reversals: FloatArray, window: float)
     """Return the times of the frames of one cycle [s]."""
     turns = np.concatenate([[start], reversals])
     within = turns[(turns >= start) & (turns < start + length)]
-    burst = window * np.arange(1, AFTER_REVERSAL + 1) / AFTER_REVERSAL
+    each = max(1, min(AFTER_REVERSAL, MOST_CLOSE // max(within.size, 1)))
+    burst = window * np.arange(1, each + 1) / each
     close = (within[:, None] + burst).ravel() if window > 0.0 else np.empty(0)
     return np.concatenate([start + length * np.linspace(0.0, 1.0, EVEN + 1), close[close < start + length]])

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from tribodyn.cases.functions import OwnFunction, with_functions
 from tribodyn.cases.groups import Contact
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
@@ -30,6 +31,8 @@ def simulate(
     stop: Callable[[], bool] | None = None,
     checkpoint: str | PathLike[str] | None = None,
     law: OwnLaw | None = None,
+    drive: OwnFunction | None = None,
+    loads: Mapping[str, OwnFunction] | None = None,
 ) -> xr.Dataset:
     """Simulate a case.
 
@@ -50,6 +53,14 @@ def simulate(
         A contact law instead of the one that the case names: a subclass of
         :class:`tribodyn.contact.ContactLaw`, or a function that returns the pressure [Pa] at an array of
         separations h* = h/σ [1]. Damping follows from the case.
+    drive
+        A function of the time ``t`` [s] instead of the drive of the case: the crank angle of the vane
+        mechanism [rad], or the speed of the journal [rad/s].
+    loads
+        Functions by the names of the loads that they take the place of: ``force_x``, ``force_y``,
+        ``force_z`` and ``moment`` on the vane, ``force_x``, ``force_y``, ``moment_x`` and ``moment_y`` on the
+        journal, in N and N m. Their arguments are named ``t`` and ``theta_v`` or ``theta_a``, of the journal
+        ``angle``. They are tabulated; the case in the result holds the tables.
 
     Returns
     -------
@@ -66,7 +77,8 @@ def simulate(
     """
     # Equations do not depend on the law, and who compiles them could not import it.
     prepare(case, stop)
-    chosen = case if law is None else _with_law(case, law)
+    own = with_functions(case, drive, loads)
+    chosen = own if law is None else _with_law(own, law)
     return _simulated(chosen, progress, stop, None if checkpoint is None else Path(checkpoint))
 
 

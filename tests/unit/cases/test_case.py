@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 import tribodyn as td
 from tribodyn.cases import Case, Key, keys_of
+from tribodyn.cases.keys import ANY_NAME
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import built_in, kinds, parse_case
 
@@ -32,14 +33,21 @@ def _near(key: Key, scale: float) -> object:
     return key.default
 
 
+_WITH_OTHERS = {
+    "asperities.short_cutoff",
+    "asperities.long_cutoff",
+    "contact.loss_coefficient",
+    "drive.actuator_arm",
+}
 SCALES = st.floats(-1.0, 1.0)
-# The cut-offs are allowed beside a scan only.
+# The cut-offs are allowed beside a scan only, the arm beside a stroke.
 CHANGEABLE = {
     path: key
     for path, key in keys_of(type(CASE)).items()
     if key.kind in {"quantity", "number", "count"}
     and not path.startswith(("run.", "temperature.", "joint.liner.", "joint.form."))
-    and path not in {"asperities.short_cutoff", "asperities.long_cutoff", "contact.loss_coefficient"}
+    and ANY_NAME not in path
+    and path not in _WITH_OTHERS
 }
 
 

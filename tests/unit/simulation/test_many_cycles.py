@@ -27,7 +27,10 @@ def test_a_cycle_is_the_same_however_late_it_is(cycles: int) -> None:
     angles = []
     for begin in (0.0, 2.0 * np.pi * cycles):
         problem = problem_of(*vsv_case(1.0))
-        late = replace(problem, t_span=(begin, begin + 3.3), breakpoints=(begin + np.pi,))
+        segments = problem.data.actions.segments.copy()
+        segments.begin += begin
+        data = problem.data._replace(actions=problem.data.actions._replace(segments=segments))
+        late = replace(problem, data=data, t_span=(begin, begin + 3.3), breakpoints=(begin + np.pi,))
         solution = integrate(late, output_times=[begin + 3.3])
         assert solution.complete, solution.failure
         angles.append(solution.rows[0, OBSERVED.index("theta_v")])

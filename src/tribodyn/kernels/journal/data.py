@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.actions import N_OVER, Actions
 from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
@@ -17,8 +18,6 @@ Constants: Final = record_type(
     ("inertia", "f8", (4,)),
     ("spin_inertia", "f8"),
     ("load", "f8", (4,)),
-    ("speed", "f8"),
-    ("direction", "f8"),
     ("deepest", "f8"),
 )
 """Constants of a journal under stated loads, SI units.
@@ -28,14 +27,18 @@ inertia
 spin_inertia
     Moment of inertia about the axis of the journal [kg m²].
 load
-    W_x, W_y and the moments about X and Y (left-handed) [N, N m].
-speed
-    Speed of rotation ω about Z [rad/s].
-direction
-    Its sign, 0 at rest.
+    W_x, W_y and the moments about X and Y (left-handed), what of them is constant [N, N m].
 deepest
     Smallest separation that the contact law reaches [m]; negative.
 """
+
+
+ROTATION: Final = 0
+SPEED: Final = 1
+"""Numbers of the signals that are angle [rad] and speed ω [rad/s] of the rotation about Z over time."""
+TIME: Final = 0
+TURNED: Final = 1
+"""What loads may follow, in the order of ``kernels/actions.py``: time and the angle of rotation."""
 
 
 class JournalData(NamedTuple):
@@ -50,11 +53,14 @@ class JournalData(NamedTuple):
     film
         The oil film; None without oil. Kernels are compiled for the one and the other: a dry journal does not
         wait for those of the film.
+    actions
+        Rotation, loads from tables, and the segments of the run.
     """
 
     constants: Record
     joint: BushingData
     film: FilmData | None
+    actions: Actions
 
 
 Course: Final = record_type(("touching", "f8"), ("beyond", "f8"))
@@ -69,6 +75,10 @@ beyond
 
 Scratch: Final = record_type(
     ("state", "f8", (8,)),
+    ("over", "f8", (N_OVER,)),
+    ("load", "f8", (4,)),
+    ("turned", "f8"),
+    ("speed", "f8"),
     ("total", "f8", (4,)),
     ("wrench", "f8", (5,)),
     ("wrench_jacobian", "f8", (5, 9)),
@@ -81,6 +91,12 @@ Scratch: Final = record_type(
 
 state
     The eight states of the joint, tilts included.
+over
+    Coordinates that tables follow.
+load
+    W_x, W_y and the moments about X and Y [N, N m].
+turned, speed
+    Angle and speed of rotation [rad, rad/s].
 total
     Generalised load on (e_x, e_y, φ_x, φ_y) [N, N m].
 wrench, wrench_jacobian
@@ -109,6 +125,8 @@ class JournalMemory(NamedTuple):
         See ``COUNTS`` there.
     course
         See :data:`Course`.
+    segment
+        What holds until the next kink, see ``kernels/actions.py``.
     film
         Cache of the film; None without oil.
     scratch
@@ -120,5 +138,6 @@ class JournalMemory(NamedTuple):
     peaks: Peaks
     counts: Record
     course: Record
+    segment: Record
     film: FilmMemory | None
     scratch: Record

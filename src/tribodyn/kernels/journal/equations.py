@@ -15,13 +15,15 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import add_terms, held
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
-from tribodyn.kernels.journal.data import JournalData, JournalMemory
+from tribodyn.kernels.journal.data import ROTATION, SPEED, TIME, TURNED, JournalData, JournalMemory
+from tribodyn.kernels.signals import evaluate
 
 
 @kernel
@@ -34,11 +36,25 @@ def spread(y: FloatArray, state: FloatArray) -> None:
 
 
 @kernel
-def place(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
-    """Fill the eight states and the pose of the joint from ``y``."""
+def act(data: JournalData, t: float, memory: JournalMemory) -> None:
+    """Fill the rotation and the loads at ``t`` [s]."""
+    scratch, segment, signals = memory.scratch, memory.segment, data.actions.signals
+    within = held(segment, TIME, t)
+    scratch.turned, _, _ = evaluate(signals, ROTATION, t, within)
+    scratch.speed, _, _ = evaluate(signals, SPEED, t, within)
+    scratch.over[TIME], scratch.over[TURNED] = t, scratch.turned
+    for i in range(4):
+        scratch.load[i] = data.constants.load[i]
+    add_terms(data.actions, segment, segment.direction, scratch.over, scratch.load)
+
+
+@kernel
+def place(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
+    """Fill rotation, loads, the eight states and the pose of the joint at ``t`` [s]."""
+    act(data, t, memory)
     spread(y, memory.scratch.state)
-    constants = data.constants
-    fill_pose(memory.scratch.state, constants.speed, constants.direction, memory.joint.scratch.pose)
+    pose = memory.joint.scratch.pose
+    fill_pose(memory.scratch.state, memory.scratch.speed, memory.segment.direction, pose)
 
 
 @kernel
@@ -83,40 +99,40 @@ def gather(data: JournalData, memory: JournalMemory) -> None:
     state, total, force, film = scratch.state, scratch.total, scratch.wrench, scratch.film
     sec2_x = 1.0 + math.tan(state[2]) ** 2
     sec2_y = 1.0 + math.tan(state[3]) ** 2
-    spin = constants.spin_inertia * constants.speed
-    total[0] = constants.load[0] + force[0] + film[0]
-    total[1] = constants.load[1] + force[1] + film[1]
-    total[2] = constants.load[2] + sec2_x * (force[2] + film[2]) + spin * state[7]
-    total[3] = constants.load[3] + sec2_y * (force[3] + film[3]) - spin * state[6]
+    spin, load = constants.spin_inertia * scratch.speed, scratch.load
+    total[0] = load[0] + force[0] + film[0]
+    total[1] = load[1] + force[1] + film[1]
+    total[2] = load[2] + sec2_x * (force[2] + film[2]) + spin * state[7]
+    total[3] = load[3] + sec2_y * (force[3] + film[3]) - spin * state[6]
 
 
 @kernel
-def forces(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
+def forces(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.total``; not a number once an accepted step has left the range of the contact law."""
     scratch, joint = memory.scratch, memory.joint.scratch
-    place(data, y, memory)
+    place(data, t, y, memory)
     if memory.course.beyond > 0.0:
         for i in range(4):
             scratch.total[i] = math.nan
         return
     wrench(data.joint, memory.joint, joint.pose, joint.wrench)
     from_wrench(joint.wrench, scratch.wrench)
-    film_force(data.film, memory.film, data.constants.speed, scratch)
+    film_force(data.film, memory.film, scratch.speed, scratch)
     gather(data, memory)
 
 
 @kernel
-def forces_and_gradient(data: JournalData, y: FloatArray, memory: JournalMemory) -> None:
+def forces_and_gradient(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.total`` and turn ``scratch.wrench_jacobian`` (4 rows) into its derivative."""
     scratch, joint = memory.scratch, memory.joint.scratch
-    place(data, y, memory)
+    place(data, t, y, memory)
     jacobian = scratch.wrench_jacobian
     wrench_and_jacobian(data.joint, memory.joint, joint.pose, joint.wrench, joint.jacobian)
     from_wrench(joint.wrench, scratch.wrench)
     from_jacobian(joint.jacobian, jacobian)
-    film_force_and_gradient(data.film, memory.film, data.constants.speed, scratch)
+    film_force_and_gradient(data.film, memory.film, scratch.speed, scratch)
     gather(data, memory)
-    spin = data.constants.spin_inertia * data.constants.speed
+    spin = data.constants.spin_inertia * scratch.speed
     for i in (2, 3):
         tangent = math.tan(scratch.state[i])
         sec2 = 1.0 + tangent * tangent

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
@@ -14,7 +15,7 @@ from tribodyn.kernels.journal.equations import forces, forces_and_gradient, leas
 @entry
 def rhs(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, f: FloatArray) -> None:
     """Fill ``f`` (n,) with the time derivative of the state."""
-    forces(data, y, memory)
+    forces(data, t, y, memory)
     n = y.size // 2
     for i in range(n):
         f[i] = y[n + i]
@@ -26,7 +27,7 @@ def jac(
     t: float, y: FloatArray, data: JournalData, memory: JournalMemory, f: FloatArray, jacobian: FloatArray
 ) -> None:
     """Fill ``f`` (n,) and its derivative ``jacobian`` (n, n)."""
-    forces_and_gradient(data, y, memory)
+    forces_and_gradient(data, t, y, memory)
     gradient = memory.scratch.wrench_jacobian
     clear(jacobian)
     n = y.size // 2
@@ -41,7 +42,8 @@ def jac(
 
 @entry
 def enter(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) -> None:
-    """Begin a segment: nothing changes but the mark of the ledger."""
+    """Begin a segment: set the direction of rotation and where the pieces of tables end."""
+    begin_segment(data.actions, t, memory.segment)
     ledger.begin(data, t, y, memory)
 
 
@@ -54,7 +56,7 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: JournalData, memory: 
 @entry
 def accept(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) -> None:
     """Update entry velocities, count rebounds and watch the range of the law at the end of a step."""
-    place(data, y, memory)
+    place(data, t, y, memory)
     gap = least_gap(data.joint, memory.scratch.state)
     ledger.count_rebound(data, gap, memory)
     if gap < data.constants.deepest:
@@ -65,7 +67,7 @@ def accept(t: float, y: FloatArray, data: JournalData, memory: JournalMemory) ->
 @entry
 def picture(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, fields: FloatArray) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
-    place(data, y, memory)
+    place(data, t, y, memory)
     pressure_field(data.joint, memory.joint, memory.joint.scratch.pose, fields[0])
 
 
@@ -73,7 +75,7 @@ def picture(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, f
 def static_residual(
     q: FloatArray, data: JournalData, memory: JournalMemory, residual: FloatArray, jacobian: FloatArray
 ) -> None:
-    """Fill the generalised load on a journal whose axis is at rest, and its derivative.
+    """Fill the generalised load on a journal whose axis is at rest at t = 0, and its derivative.
 
     Parameters
     ----------
@@ -91,7 +93,7 @@ def static_residual(
     for i in range(n):
         y[i] = q[i]
         y[n + i] = 0.0
-    forces_and_gradient(data, y, memory)
+    forces_and_gradient(data, 0.0, y, memory)
     for i in range(n):
         residual[i] = memory.scratch.total[i]
         for k in range(n):

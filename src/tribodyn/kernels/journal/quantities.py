@@ -15,6 +15,13 @@ FILM: Final = (
     Quantity("M_oy", "N m", "moment of the oil film about Y (left-handed)"),
     Quantity("M_of", "N m", "friction moment of the oil film about Z"),
 )
+LOADS: Final = (
+    Quantity("W_x", "N", "load on the journal along X"),
+    Quantity("W_y", "N", "load on the journal along Y"),
+    Quantity("W_mx", "N m", "moment of the load about X"),
+    Quantity("W_my", "N m", "moment of the load about Y (left-handed)"),
+)
+ROTATION: Final = (Quantity("omega", "rad s-1", "speed of rotation about Z"),)
 ENERGIES: Final = (Quantity("energy_kinetic", "J", "kinetic energy of the motion in the clearance"),)
 FORCES: Final = (
     Quantity("work_loads", "J", "work of the loads"),
@@ -29,7 +36,15 @@ WATCHED: Final = together(WATCHED_TABLES)
 """Sizes whose peaks are kept, in the order of ``kernels/peaks.py``."""
 COUNTS: Final = (Quantity("rebounds", "1", "how often the journal left contact again", ()),)
 
-TABLES: Final = {"states": STATES, "joint": REPORTED, "film": FILM, "energies": ENERGIES, "works": FORCES}
+TABLES: Final = {
+    "states": STATES,
+    "joint": REPORTED,
+    "film": FILM,
+    "loads": LOADS,
+    "rotation": ROTATION,
+    "energies": ENERGIES,
+    "works": FORCES,
+}
 QUANTITIES: Final = together(TABLES)
 """Everything observed, in the order of a row."""
 OBSERVED: Final = names(QUANTITIES)
@@ -37,6 +52,7 @@ OBSERVED: Final = names(QUANTITIES)
 Row: Final = of_tables(TABLES)
 States: Final = of_table(STATES)
 Film: Final = of_table(FILM)
+Loads: Final = of_table(LOADS)
 Forces: Final = of_table(FORCES)
 Counts: Final = of_table(COUNTS)
 Watched: Final = of_tables(WATCHED_TABLES)

@@ -19,9 +19,9 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mechanism.data import ANGLE, NONE, POINT, POSITION, Signals
-from tribodyn.kernels.mechanism.signals import evaluate
+from tribodyn.kernels.mechanism.data import ANGLE, NONE, POINT, POSITION
 from tribodyn.kernels.mechanism.vectors import cross, multiply
+from tribodyn.kernels.signals import Signals, evaluate
 
 
 @kernel

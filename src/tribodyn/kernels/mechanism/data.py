@@ -15,6 +15,7 @@ from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import Pose
+from tribodyn.kernels.signals import Signals
 
 N_STATES: Final = 13
 """Of a body: mass centre (3) [m], unit quaternion (4), velocity (3) [m/s], angular velocity (3) [rad/s]."""
@@ -124,11 +125,6 @@ rows_block
 bodies_block
     Blocks (socket, shaft) and (shaft, socket) of the iteration matrix.
 """
-
-Signal: Final = record_type(("first", "i8"), ("n", "i8"), ("sine", "f8", (3,)))
-"""Pieces of a polynomial, and a sine beside it: amplitude, angular frequency, phase."""
-Piece: Final = record_type(("until", "f8"), ("left", "f8"), ("c", "f8", (5,)))
-"""A polynomial over the distance from ``left``, rising powers, up to ``until``."""
 
 BodyNow: Final = record_type(
     ("r", "f8", (3,)),
@@ -293,29 +289,15 @@ class Now(NamedTuple):
     rest: FloatArray
 
 
-class Signals(NamedTuple):
-    """What drives and loads follow.
-
-    Attributes
-    ----------
-    signals, pieces
-        Records named above.
-    kinks
-        Times at which a table of time has a kink [s].
-    """
-
-    signals: Any
-    pieces: Any
-    kinks: FloatArray
-
-
 class MechanismData(NamedTuple):
     """What the kernels read.
 
     Attributes
     ----------
-    parts, signals
-        See :class:`Parts` and :class:`Signals`.
+    parts
+        See :class:`Parts`.
+    signals
+        What drives and loads follow.
     mass, newton
         Patterns of the equations of motion and of the iteration matrix of implicit methods.
     contact

@@ -31,9 +31,8 @@ from tribodyn.kernels.mechanism.data import (
     WORK,
     MechanismData,
     MechanismMemory,
-    Signals,
 )
-from tribodyn.kernels.mechanism.signals import evaluate
+from tribodyn.kernels.signals import Signals, evaluate
 
 
 @kernel

@@ -36,10 +36,10 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
     Pattern,
-    Signals,
 )
 from tribodyn.kernels.mechanism.forces import force
 from tribodyn.kernels.mechanism.relative import relative_motion
+from tribodyn.kernels.signals import Signals
 
 HARD: Final = 1.0e-8
 SOFT: Final = 1.0

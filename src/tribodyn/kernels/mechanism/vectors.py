@@ -71,18 +71,6 @@ def put_cross(
 
 
 @kernel
-def put_transposed_cross(
-    target: FloatArray, row: int, column: int, matrix: FloatArray, y: FloatArray, factor: float
-) -> None:
-    """Add ``factor`` Mᵀ [y]× at a block of ``target``."""
-    for i in range(3):
-        a, b, c = factor * matrix[0, i], factor * matrix[1, i], factor * matrix[2, i]
-        target[row + i, column] += b * y[2] - c * y[1]
-        target[row + i, column + 1] += c * y[0] - a * y[2]
-        target[row + i, column + 2] += a * y[1] - b * y[0]
-
-
-@kernel
 def cross_put(
     target: FloatArray, row: int, column: int, y: FloatArray, matrix: FloatArray, factor: float
 ) -> None:

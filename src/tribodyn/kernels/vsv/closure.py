@@ -13,8 +13,8 @@ CONVERGED = 1.0e-10
 
 
 @kernel
-def drive(mechanism: Record, t: float) -> tuple[float, float, float]:
-    """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at time ``t`` [s]."""
+def sinusoid(mechanism: Record, t: float) -> tuple[float, float, float]:
+    """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] of the paper's drive at ``t`` [s]."""
     nu = mechanism.angular_frequency
     cos, sin = math.cos(nu * t), math.sin(nu * t)
     theta = mechanism.start_angle + mechanism.speed_amplitude / nu * (1.0 - cos)

@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity, Record, names, record_type
+from tribodyn.kernels.actions import N_OVER, Actions
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
@@ -38,6 +39,7 @@ CONSTANTS: Final = tuple(
         ("start_angle", "rad", "drive: ω_a = Ω sin ν t from this crank angle"),
         ("speed_amplitude", "rad s-1", "Ω"),
         ("angular_frequency", "rad s-1", "ν"),
+        ("tabulated", "1", "1 where the crank follows the signal :data:`CRANK` instead"),
         ("air_force_x", "N", "size of F_airx, Table 3"),
         ("air_force_y", "N", "F_airy"),
         ("air_moment", "N m", "size of M_air"),
@@ -68,6 +70,24 @@ def new_mechanism(**constants: float | FloatArray) -> Record:
     return mechanism
 
 
+CRANK: Final = 0
+"""Number of the signal that is the crank angle over time, where there is one."""
+TIME: Final = 0
+VANE: Final = 1
+CRANK_ANGLE: Final = 2
+"""What loads may follow, in the order of ``kernels/actions.py``: time, θ_v and θ_a."""
+
+AIR_X: Final = 0
+AIR_Y: Final = 1
+AIR_Z: Final = 2
+BEND_X: Final = 3
+BEND_Y: Final = 4
+AIR_M: Final = 5
+N_AIR: Final = 6
+"""Loads on the vane: forces through its centre O_v [N], what their line of action adds about X and Y (the
+latter left-handed), and the moment about Z [N m]."""
+
+
 class VsvData(NamedTuple):
     """What the kernels of the mechanism read.
 
@@ -79,11 +99,14 @@ class VsvData(NamedTuple):
         The bushing.
     collar
         The thrust collar, see ``kernels/joints/collar.py``.
+    actions
+        The drive, where it is no sinusoid, loads from tables, and the segments of the run.
     """
 
     mechanism: Record
     joint: BushingData
     collar: Record
+    actions: Actions
 
 
 Scratch: Final = record_type(
@@ -101,6 +124,8 @@ Scratch: Final = record_type(
     ("system", "f8", (N_UNKNOWNS, N_UNKNOWNS)),
     ("reactions", "f8", (N_UNKNOWNS, 1)),
     ("ideal", "f8", (N_ROWS, N_COLUMNS)),
+    ("over", "f8", (N_OVER,)),
+    ("air", "f8", (N_AIR,)),
     ("f_cz", "f8"),
     ("marked", "f8"),
 )
@@ -119,6 +144,8 @@ class VsvMemory(NamedTuple):
         What the bushing remembers.
     collar
         Extremes of the thrust collar.
+    segment
+        What holds until the next kink, see ``kernels/actions.py``.
     regime
         Direction of the ideal vane motion, ±1; the vane speed that traction is told instead of the actual
         one (0: none); and 1 once an accepted step has left the range of the contact law, shape (3,).
@@ -132,6 +159,7 @@ class VsvMemory(NamedTuple):
 
     joint: JointMemory
     collar: Record
+    segment: Record
     regime: FloatArray
     peaks: Peaks
     books: Record

@@ -1,4 +1,4 @@
-"""Projected equations of motion, M(q, t) q̈ = Q, section 6 of the model.
+"""Projected equations of motion, M(q, t) q̈ = Q; see the manual, the mechanism.
 
 Every body contributes Σ_rows (F_r − m_r a_r) δr = 0 along a test motion δr. In ``exact`` the test
 motions are the true ones, the columns of the motion table. In ``paper`` they are those with which
@@ -13,13 +13,27 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import add_terms
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints import collar as thrust
 from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import (
+    AIR_M,
+    AIR_X,
+    AIR_Y,
+    AIR_Z,
+    BEND_X,
+    BEND_Y,
+    CRANK_ANGLE,
+    TIME,
+    VANE,
+    VsvData,
+    VsvMemory,
+)
+from tribodyn.kernels.vsv.drive import drive
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -38,6 +52,7 @@ from tribodyn.kernels.vsv.layout import (
     S2_Z,
     S3_X,
     S3_Z,
+    THETA_A,
     THETA_B,
     THETA_V,
     VALUE,
@@ -95,10 +110,18 @@ def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, f
 
 
 @kernel
-def air_loads(mechanism: Record, theta_v: float, direction: float) -> tuple[float, float, float]:
-    """Return F_airx, F_airy [N] and M_air [N m], Table 3."""
-    f_x = mechanism.air_force_x * math.tanh((theta_v - mechanism.switch_angle) / mechanism.switch_width)
-    return f_x, mechanism.air_force_y, -mechanism.air_moment * direction
+def fill_air(data: VsvData, t: float, memory: VsvMemory) -> None:
+    """Fill the loads on the vane: those of the paper's Table 3, and those from tables."""
+    mechanism, air, over = data.mechanism, memory.scratch.air, memory.scratch.over
+    theta_v, direction = memory.scratch.motion[THETA_V, VALUE], memory.regime[0]
+    for k in range(air.size):
+        air[k] = 0.0
+    past = (theta_v - mechanism.switch_angle) / mechanism.switch_width
+    air[AIR_X] = mechanism.air_force_x * math.tanh(past)
+    air[AIR_Y] = mechanism.air_force_y
+    air[AIR_M] = -mechanism.air_moment * direction
+    over[TIME], over[VANE], over[CRANK_ANGLE] = t, theta_v, memory.scratch.motion[THETA_A, VALUE]
+    add_terms(data.actions, memory.segment, direction, over, air)
 
 
 @kernel
@@ -113,20 +136,19 @@ def slip_speed(regime: FloatArray, motion: FloatArray) -> float:
 def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     """Fill the force of each row and the collar's share per unit of F_cz from the joint wrench."""
     mechanism, scratch = data.mechanism, memory.scratch
-    motion, force, collar = scratch.motion, scratch.force, scratch.collar
-    direction = memory.regime[0]
+    force, collar = scratch.force, scratch.collar
+    direction, air = memory.regime[0], scratch.air
     for row in range(N_BODY):
         force[row] = mechanism.weight[row]
     tan_x = math.tan(y[2])
     tan_y = math.tan(y[3])
-    f_x, f_y, m_z = air_loads(mechanism, motion[THETA_V, VALUE], direction)
     force[E_X] = scratch.wrench[0]
     force[E_Y] = scratch.wrench[1]
-    force[PHI_X] = (1.0 + tan_x * tan_x) * scratch.wrench[2]
-    force[PHI_Y] = (1.0 + tan_y * tan_y) * scratch.wrench[3]
-    force[THETA_V] = m_z + scratch.wrench[4]
-    force[OV_X] = f_x
-    force[OV_Y] = f_y
+    force[PHI_X] = (1.0 + tan_x * tan_x) * (scratch.wrench[2] + air[BEND_X])
+    force[PHI_Y] = (1.0 + tan_y * tan_y) * (scratch.wrench[3] + air[BEND_Y])
+    force[THETA_V] = air[AIR_M] + scratch.wrench[4]
+    force[OV_X] = air[AIR_X]
+    force[OV_Y] = air[AIR_Y]
     collar[PHI_X], collar[PHI_Y], collar[THETA_V] = thrust.moments(data.collar, y[2], y[3], direction)
 
 
@@ -169,8 +191,10 @@ def lever_lift(exact: float, theta_b: float) -> float:
 def add_collar(mechanism: Record, scratch: Record, factor: float) -> None:
     """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
     lift = lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE])
-    at_rest = mechanism.vane_weight + lift * (
-        scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * scratch.motion[OV_X, BIAS]
+    at_rest = (
+        mechanism.vane_weight
+        - scratch.air[AIR_Z]
+        + lift * (scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * scratch.motion[OV_X, BIAS])
     )
     for i in range(5):
         share = factor * collar_share(scratch.test, scratch.collar, i)
@@ -181,20 +205,22 @@ def add_collar(mechanism: Record, scratch: Record, factor: float) -> None:
 
 @kernel
 def collar_force(mechanism: Record, scratch: Record, acceleration: FloatArray) -> float:
-    """Return m_v g + F_43z [N] for given clearance accelerations; negative means lift-off."""
+    """Return m_v g − F_airz + F_43z [N] for given clearance accelerations; negative means lift-off."""
     x_ov = scratch.motion[OV_X, BIAS]
     for j in range(4):
         x_ov += scratch.motion[OV_X, 1 + j] * acceleration[j]
     f_43x = scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * x_ov
-    return mechanism.vane_weight + lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE]) * f_43x
+    lift = lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE])
+    return mechanism.vane_weight - scratch.air[AIR_Z] + lift * f_43x
 
 
 @kernel
-def set_up(mechanism: Record, t: float, y: FloatArray, memory: VsvMemory) -> float:
-    """Fill motion table and test motions; return the vane speed that traction sees [rad/s]."""
-    scratch = memory.scratch
+def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
+    """Fill motion table, test motions and loads; return the vane speed that traction sees [rad/s]."""
+    mechanism, scratch = data.mechanism, memory.scratch
     scratch.marked = 0.0
-    fill_motion(mechanism, t, y, scratch.motion)
+    fill_motion(mechanism, drive(data, memory.segment, t), y, scratch.motion)
+    fill_air(data, t, memory)
     fill_test_motions(mechanism, scratch.motion, scratch.test)
     return slip_speed(memory.regime, scratch.motion)
 
@@ -248,7 +274,7 @@ def drive_moment(scratch: Record) -> float:
 def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
     joint = memory.joint.scratch
-    omega = set_up(data.mechanism, t, y, memory)
+    omega = set_up(data, t, y, memory)
     fill_pose(y, omega, memory.regime[0], joint.pose)
     wrench(data.joint, memory.joint, joint.pose, joint.wrench)
     from_wrench(joint.wrench, memory.scratch.wrench)
@@ -304,7 +330,7 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
     clearance coordinates, smaller by five orders than the contact stiffness, is left out.
     """
     scratch, joint = memory.scratch, memory.joint.scratch
-    omega = set_up(data.mechanism, t, y, memory)
+    omega = set_up(data, t, y, memory)
     fill_pose(y, omega, memory.regime[0], joint.pose)
     wrench_and_jacobian(data.joint, memory.joint, joint.pose, joint.wrench, joint.jacobian)
     from_wrench(joint.wrench, scratch.wrench)

@@ -6,7 +6,7 @@ import math
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
@@ -14,14 +14,10 @@ from tribodyn.kernels.joints.paper import fill_pose
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
-from tribodyn.kernels.vsv.layout import THETA_V, VELOCITY
-from tribodyn.kernels.vsv.motion import fill_rods
 
 BEYOND: Final = 2
 """Entry of the regime that tells whether the range of the contact law was left. From then on no force is a
 number, which stops every integrator. Trial states may lie there: the law goes on linearly."""
-JUST_AFTER: Final = 1.0e-5
-"""How long after a reversal the new direction is read, as a phase of the drive [rad]."""
 
 
 @entry
@@ -48,21 +44,12 @@ def jac(
             jacobian[4 + i, k] = memory.scratch.solved[i, 1 + k]
 
 
-@kernel
-def vane_direction(mechanism: Record, t: float, memory: VsvMemory) -> float:
-    """Return the direction of the ideal vane motion just after ``t``, ±1: at a reversal it does not move."""
-    motion = memory.scratch.motion
-    clear(motion)
-    soon = t + JUST_AFTER / mechanism.angular_frequency
-    fill_rods(mechanism, soon, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
-    return 1.0 if motion[THETA_V, VELOCITY] >= 0.0 else -1.0
-
-
 @entry
 def enter(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Begin a segment: set the direction of the ideal vane motion."""
-    memory.regime[0] = vane_direction(data.mechanism, t, memory)
-    ledger.begin(data, t, y, memory)
+    """Begin a segment: set the direction of the ideal vane motion and where the pieces of tables end."""
+    turned = begin_segment(data.actions, t, memory.segment)
+    memory.regime[0] = memory.segment.direction
+    ledger.begin(data, t, y, memory, turned)
 
 
 @entry

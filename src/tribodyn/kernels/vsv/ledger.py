@@ -21,8 +21,9 @@ from tribodyn.kernels.ledger import add_part as add_works
 from tribodyn.kernels.ledger import begin as begin_works
 from tribodyn.kernels.peaks import begin as begin_peaks
 from tribodyn.kernels.peaks import note as note_peaks
+from tribodyn.kernels.peaks import resume as resume_peaks
 from tribodyn.kernels.vsv.closure import vane_angle
-from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, BEND_X, BEND_Y, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
     BIAS,
@@ -47,7 +48,7 @@ from tribodyn.kernels.vsv.quantities import Forces, Powers, Watched
 def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch, joint = memory.scratch, memory.joint.scratch
-    omega = set_up(data.mechanism, t, y, memory)
+    omega = set_up(data, t, y, memory)
     fill_pose(y, omega, memory.regime[0], joint.pose)
     report(data.joint, memory.joint, joint.pose)
     from_report(joint.report)
@@ -70,13 +71,15 @@ def clearance_velocity(motion: FloatArray, row: int, y: FloatArray) -> float:
 def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     """Fill what each contributor does to the whole mechanism [W] from the scratch arrays of this instant."""
     scratch = memory.scratch
-    motion, force, collar = scratch.motion, scratch.force, scratch.collar
+    motion, collar = scratch.motion, scratch.collar
     omega_v, f_cz = motion[THETA_V, VELOCITY], scratch.f_cz
-    air_moment = force[THETA_V] - scratch.wrench[4]
+    air = scratch.air
+    sec2_x, sec2_y = 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2
     powers.work_drive = drive_moment(scratch) * motion[THETA_A, VELOCITY]
     powers.work_loads = (
-        force[OV_X] * motion[OV_X, VELOCITY] + force[OV_Y] * motion[OV_Y, VELOCITY] + air_moment * omega_v
+        air[AIR_X] * motion[OV_X, VELOCITY] + air[AIR_Y] * motion[OV_Y, VELOCITY] + air[AIR_M] * omega_v
     )
+    powers.work_loads += sec2_x * air[BEND_X] * y[6] + sec2_y * air[BEND_Y] * y[7]
     powers.work_friction = memory.joint.scratch.report.friction_power
     powers.work_collar_friction = f_cz * collar[THETA_V] * omega_v
     powers.work_collar_tilt = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
@@ -114,8 +117,11 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
         force.work_clearance_loads = loads
         force.work_clearance_collar = scratch.f_cz * collar[THETA_V] * turning
         here[POSITION, j], here[SPEED, j], here[MOMENTUM, j] = y[j], y[4 + j], momentum
-    forces[2].view(Forces)[0].work_clearance_collar += scratch.f_cz * collar[PHI_X]
-    forces[3].view(Forces)[0].work_clearance_collar += scratch.f_cz * collar[PHI_Y]
+    about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
+    about_x.work_clearance_loads += (1.0 + math.tan(y[2]) ** 2) * scratch.air[BEND_X]
+    about_y.work_clearance_loads += (1.0 + math.tan(y[3]) ** 2) * scratch.air[BEND_Y]
+    about_x.work_clearance_collar += scratch.f_cz * collar[PHI_X]
+    about_y.work_clearance_collar += scratch.f_cz * collar[PHI_Y]
 
 
 @kernel
@@ -148,11 +154,14 @@ def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) ->
 
 
 @kernel
-def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
-    """Set the mark at ``t``, from which :func:`add_part` goes on."""
+def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, turned: bool) -> None:
+    """Set the mark at ``t``, from which :func:`add_part` goes on; peaks begin where the vane ``turned``."""
     _evaluate_mark(data, t, y, memory)
     begin_works(memory.books, t)
-    begin_peaks(memory.peaks, t)
+    if turned or memory.peaks.course.stretch < 0:
+        begin_peaks(memory.peaks, t)
+    else:
+        resume_peaks(memory.peaks, t)
 
 
 @kernel

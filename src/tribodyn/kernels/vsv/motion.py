@@ -8,7 +8,7 @@ shifts O2 by (e_x/2, e_y/2) and O3 by (e_x/2, e_y), Appendix 2.
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv.closure import drive, ring_end, vane_angle
+from tribodyn.kernels.vsv.closure import ring_end, vane_angle
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -44,6 +44,9 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 
+Crank: TypeAlias = tuple[float, float, float]
+"""Angle of the crank [rad], its speed [rad/s] and acceleration [rad/s²]."""
+
 SHIFTED: Final = np.array([O2_X, O2_Y, O3_X, O3_Y])
 SHIFTS: Final = np.array([0, 1, 0, 1])
 SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
@@ -51,14 +54,14 @@ SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
 
 
 @kernel
-def fill_motion(mechanism: Record, t: float, y: FloatArray, motion: FloatArray) -> None:
-    """Fill the motion table (N_ROWS, N_COLUMNS) at time ``t`` [s] and state ``y`` (8,)."""
+def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArray) -> None:
+    """Fill the motion table (N_ROWS, N_COLUMNS) at a motion of the crank and the state ``y`` (8,)."""
     clear(motion)
     if mechanism.exact > 0.0:
         _fill_trunnion(mechanism, y, motion)
-        fill_rods(mechanism, t, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)
+        fill_rods(mechanism, crank, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)
     else:
-        fill_rods(mechanism, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+        fill_rods(mechanism, crank, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
         for row in range(E_X):
             for column in range(1, 5):
                 motion[row, column] = 0.0
@@ -100,7 +103,7 @@ def _fill_trunnion(mechanism: Record, y: FloatArray, motion: FloatArray) -> None
 @kernel
 def fill_rods(
     mechanism: Record,
-    t: float,
+    crank: Crank,
     e_x: float,
     e_y: float,
     phi_x: float,
@@ -112,7 +115,7 @@ def fill_rods(
     motion: FloatArray,
 ) -> None:
     """Fill the rows of crank, drag link, ring and vane rotation from the closure."""
-    theta_a, omega_a, alpha_a = drive(mechanism, t)
+    theta_a, omega_a, alpha_a = crank
     tan_x = math.tan(phi_x)
     tan_y = math.tan(phi_y)
     sec2_x = 1.0 + tan_x * tan_x

@@ -17,8 +17,8 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
-from tribodyn.kernels.vsv.data import VsvMemory
-from tribodyn.kernels.vsv.equations import air_loads, ring_centre
+from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, AIR_Z, BEND_X, BEND_Y, VsvMemory
+from tribodyn.kernels.vsv.equations import ring_centre
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     N_X,
@@ -169,9 +169,8 @@ def _vane(
     """Equations 38 to 43 and the condition of the frictionless pin."""
     scratch = memory.scratch
     motion, collar, joint = scratch.motion, scratch.collar, scratch.wrench
-    direction = memory.regime[0]
-    theta_v = motion[THETA_V, VALUE]
-    f_x, f_y, m_z = air_loads(mechanism, theta_v, direction)
+    air, theta_v = scratch.air, motion[THETA_V, VALUE]
+    f_x, f_y = air[AIR_X], air[AIR_Y]
     tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
     sec2_x, sec2_y = 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
     arm_x, arm_y = mechanism.vane_arm * sec2_x, mechanism.vane_arm * sec2_y
@@ -185,16 +184,16 @@ def _vane(
     matrix[19, F_CZ] = 1.0
     if lifted == 0.0:
         matrix[19, F_43 + 2] = -1.0
-        rhs[19, 0] += mechanism.vane_weight
+        rhs[19, 0] += mechanism.vane_weight - air[AIR_Z]
 
     matrix[20, F_43 + 1] = lever * mechanism.half_length * sec2_x
     matrix[20, F_43 + 2] = -lever * mechanism.l_4 * sin_v * sec2_x
     matrix[20, F_CZ] = collar[PHI_X]
-    rhs[20, 0] -= sec2_x * joint[2] + arm_x * f_y
+    rhs[20, 0] -= sec2_x * (joint[2] + air[BEND_X]) + arm_x * f_y
     matrix[21, F_43] = lever * mechanism.half_length * sec2_y
     matrix[21, F_43 + 2] = -lever * mechanism.l_4 * cos_v * sec2_y
     matrix[21, F_CZ] = collar[PHI_Y]
-    rhs[21, 0] -= sec2_y * joint[3] + arm_y * f_x
+    rhs[21, 0] -= sec2_y * (joint[3] + air[BEND_Y]) + arm_y * f_x
     for j in range(4):
         matrix[20, j] -= arm_x * mechanism.m_v * motion[OV_Y, 1 + j]
         matrix[21, j] -= arm_y * mechanism.m_v * motion[OV_X, 1 + j]
@@ -205,7 +204,7 @@ def _vane(
     matrix[22, F_43 + 1] = -mechanism.l_4 * cos_v
     matrix[22, F_43 + 2] = -lever * mechanism.l_4 * (cos_v * tan_x - sin_v * tan_y)
     matrix[22, F_CZ] = collar[THETA_V]
-    rhs[22, 0] -= joint[4] + m_z
+    rhs[22, 0] -= joint[4] + air[AIR_M]
 
     matrix[23, F_43 + 2] = 1.0
     matrix[23, F_43] = -lever * math.tan(motion[THETA_B, VALUE])
@@ -217,12 +216,12 @@ def newton_euler(mechanism: Record, y: FloatArray, memory: VsvMemory, lifted: fl
 
     Parameters
     ----------
-    data
+    mechanism
         Constants.
     y
         State, shape (8,).
     memory
-        Holds motion table, collar shares and joint wrench of this instant.
+        Holds motion table, loads, collar shares and joint wrench of this instant.
     lifted
         1 where the collar has let go (F_cz = 0), 0 otherwise.
     """

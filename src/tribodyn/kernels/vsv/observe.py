@@ -12,10 +12,9 @@ from tribodyn.kernels.ledger import is_at_mark
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
+from tribodyn.kernels.vsv.drive import drive
 from tribodyn.kernels.vsv.layout import (
     N_UNKNOWNS,
-    OV_X,
-    OV_Y,
     PHI_X,
     PHI_Y,
     S3_Y,
@@ -26,21 +25,22 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 from tribodyn.kernels.vsv.motion import fill_rods
-from tribodyn.kernels.vsv.quantities import Reactions, Row, States, Works
+from tribodyn.kernels.vsv.quantities import Air, Reactions, Row, States, Works
 
 
 @kernel
-def _fill_motion(mechanism: Record, t: float, y: FloatArray, memory: VsvMemory, out: Record) -> None:
+def _fill_motion(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, out: Record) -> None:
     """Fill angles and speeds; in ``paper`` θ_v is read from the closure with the offsets e_x, e_y alone."""
+    mechanism, crank = data.mechanism, drive(data, memory.segment, t)
     motion, table = memory.scratch.motion, memory.scratch.ideal
     clear(table)
-    fill_rods(mechanism, t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, table)
+    fill_rods(mechanism, crank, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, table)
     out.theta_v_ideal, out.omega_v_ideal = table[THETA_V, VALUE], table[THETA_V, VELOCITY]
     if mechanism.exact > 0.0:
         out.theta_v, out.omega_v = motion[THETA_V, VALUE], motion[THETA_V, VELOCITY]
     else:
         clear(table)
-        fill_rods(mechanism, t, y[0], y[1], 0.0, 0.0, y[4], y[5], 0.0, 0.0, table)
+        fill_rods(mechanism, crank, y[0], y[1], 0.0, 0.0, y[4], y[5], 0.0, 0.0, table)
         out.theta_v, out.omega_v = table[THETA_V, VALUE], table[THETA_V, VELOCITY]
     out.theta_a, out.omega_a = motion[THETA_A, VALUE], motion[THETA_A, VELOCITY]
     out.theta_b = motion[THETA_B, VALUE]
@@ -53,16 +53,15 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     scratch, joint, out = memory.scratch, memory.joint.scratch, row.view(Row)[0]
     if not (scratch.marked > 0.0 and is_at_mark(memory.books, t, y)):
         scratch.f_cz = ledger.evaluate(data, t, y, memory)
-    motion, force, collar, f_cz = scratch.motion, scratch.force, scratch.collar, scratch.f_cz
-    _fill_motion(data.mechanism, t, y, memory, out.motion)
+    motion, collar, f_cz = scratch.motion, scratch.collar, scratch.f_cz
+    _fill_motion(data, t, y, memory, out.motion)
     fill_pose(y, motion[THETA_V, VELOCITY], memory.regime[0], joint.pose)
     joint.report.energy_contact = stored(data.joint, memory.joint, joint.pose)
     out.states = y.view(States)[0]
     out.joint = joint.report
     out.collar.M_tcx, out.collar.M_tcy = f_cz * collar[PHI_X], f_cz * collar[PHI_Y]
     out.collar.M_tf = f_cz * collar[THETA_V]
-    out.air.F_airx, out.air.F_airy = force[OV_X], force[OV_Y]
-    out.air.M_air = force[THETA_V] - scratch.wrench[4]
+    out.air = scratch.air.view(Air)[0]
     ledger.fill_energies(data.mechanism, scratch, out.energies)
     ne.newton_euler(data.mechanism, y, memory, 1.0 if f_cz == 0.0 else 0.0)
     out.reactions = scratch.reactions.reshape(N_UNKNOWNS)[ne.F_AX :].view(Reactions)[0]

@@ -49,15 +49,21 @@ REACTIONS: Final = (
 AIR: Final = (
     Quantity("F_airx", "N", "aerodynamic force on the vane along X"),
     Quantity("F_airy", "N", "aerodynamic force on the vane along Y"),
+    Quantity("F_airz", "N", "aerodynamic force on the vane along Z"),
+    Quantity("M_airx", "N m", "moment of the aerodynamic force about X, over the vane's centre"),
+    Quantity(
+        "M_airy", "N m", "moment of the aerodynamic force about Y, over the vane's centre (left-handed)"
+    ),
     Quantity("M_air", "N m", "aerodynamic moment on the vane about Z"),
 )
+"""In the order of the loads in ``kernels/vsv/data.py``."""
 ENERGIES: Final = (
     Quantity("energy_kinetic", "J", "kinetic energy of all bodies"),
     Quantity("energy_gravity", "J", "gravity energy of all bodies"),
 )
 POWERS: Final = (
     Quantity("work_drive", "J", "work of the drive"),
-    Quantity("work_loads", "J", "work of the air loads"),
+    Quantity("work_loads", "J", "work of the loads on the vane"),
     Quantity("work_friction", "J", "work of the bushing friction"),
     Quantity("work_collar_friction", "J", "work of the thrust collar's friction"),
     Quantity("work_collar_tilt", "J", "work of the thrust collar on tilting"),
@@ -102,4 +108,5 @@ Powers: Final = of_table(POWERS)
 Forces: Final = of_table(FORCES)
 States: Final = of_table(STATES)
 Reactions: Final = of_table(REACTIONS)
+Air: Final = of_table(AIR)
 Works: Final = of_table(TABLES["works"])

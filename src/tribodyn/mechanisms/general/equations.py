@@ -18,45 +18,17 @@ from tribodyn.kernels.mechanism.data import (
     MechanismMemory,
     Now,
     Parts,
-    Signals,
 )
 from tribodyn.mechanisms.general.description import Description, Drive, Joint, Load, Spring
 from tribodyn.mechanisms.general.inspection import sound_drives
 from tribodyn.mechanisms.general.joints import ROWS, frame
 from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
-from tribodyn.mechanisms.general.signals import Pieces, integral_of, negated, pieces_of
+from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 
 _LOADS: Final = {"ground": kinds.LOAD_GROUND, "body": kinds.LOAD_BODY, "motion": kinds.LOAD_MOTION}
 _COORDINATES: Final = ("angle", "position")
 _NOWHERE: Final = -1
-
-
-class _Signals:
-    """Signals of a mechanism, numbered as they are added."""
-
-    def __init__(self) -> None:
-        self.all: list[Pieces] = []
-        self.kinks: list[FloatArray] = []
-
-    def add(self, pieces: Pieces, kinks: FloatArray) -> int:
-        """Add a signal and return its number; ``kinks`` are times."""
-        self.all.append(pieces)
-        self.kinks.append(kinks)
-        return len(self.all) - 1
-
-    def records(self) -> tuple[Any, Any]:
-        """Return the records of signals and of their pieces, one of each at least."""
-        signals = np.recarray(max(len(self.all), 1), dtype=kinds.Signal)
-        pieces = np.recarray(max(sum(p.until.size for p in self.all), 1), dtype=kinds.Piece)
-        first = 0
-        for k, one in enumerate(self.all):
-            last = first + one.until.size
-            signals[k].first, signals[k].n, signals[k].sine[:] = first, one.until.size, one.sine
-            pieces.until[first:last], pieces.left[first:last] = one.until, one.left
-            pieces.c[first:last] = one.polynomial
-            first = last
-        return signals, pieces
 
 
 def mechanism_data(description: Description, worn: FloatArray | None = None) -> MechanismData:
@@ -69,7 +41,7 @@ def mechanism_data(description: Description, worn: FloatArray | None = None) -> 
     worn
         Wear depth at the nodes of all joints [m], shape (n_nodes,); none by default.
     """
-    signals = _Signals()
+    signals = SignalList()
     couplings = _couplings(description, signals)
     mass, newton = _patterns(len(description.bodies), couplings)
     constants = new_record(kinds.Constants)
@@ -78,12 +50,10 @@ def mechanism_data(description: Description, worn: FloatArray | None = None) -> 
     constants.n_nodes = len(description.bodies) + int(np.sum(couplings.node != NONE))
     constants.n_work = -(-(constants.n_nodes + len(description.bodies)) // 6)
     constants.size = _size(description)
-    records, pieces = signals.records()
-    kinks = np.unique(np.concatenate([np.zeros(0), *signals.kinks]))
     clearances = [joint.clearance for joint in description.joints if joint.clearance is not None]
     contact = surfaces(clearances, worn)
     parts = Parts(constants, _bodies(description), couplings)
-    return MechanismData(parts, Signals(records, pieces, kinks), mass, newton, contact)
+    return MechanismData(parts, signals.records(), mass, newton, contact)
 
 
 def new_memory(data: MechanismData) -> MechanismMemory:
@@ -134,7 +104,7 @@ def _bodies(description: Description) -> Any:
     return records
 
 
-def _couplings(description: Description, signals: _Signals) -> Any:
+def _couplings(description: Description, signals: SignalList) -> Any:
     """Return the records of joints, springs and loads, in this order."""
     joints, springs, loads = description.joints, description.springs, description.loads
     records = np.recarray(len(joints) + len(springs) + len(loads), dtype=kinds.Coupling)
@@ -217,7 +187,7 @@ def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) 
     record.n_rows = m + 1
 
 
-def _add_drive(record: Any, joint: Joint, drive: Drive, signals: _Signals) -> None:
+def _add_drive(record: Any, joint: Joint, drive: Drive, signals: SignalList) -> None:
     """Add a drive: a row for motion, an effort for torque or force.
 
     It moves the second body against the first; where that carries the socket, the shaft goes the other way.
@@ -242,7 +212,7 @@ def _fill_spring(record: Any, description: Description, spring: Spring) -> None:
     record.stiffness[0], record.damping[0] = spring.stiffness, spring.damping
 
 
-def _fill_load(record: Any, description: Description, load: Load, signals: _Signals) -> None:
+def _fill_load(record: Any, description: Description, load: Load, signals: SignalList) -> None:
     """Fill a load: on the shaft against the ground, or on the socket where it turns with the body."""
     bodies = (load.body, _NOWHERE) if load.frame == "body" else (_NOWHERE, load.body)
     _place(record, description, bodies, np.array([load.point, load.point]), (np.eye(3), np.eye(3)))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Literal
+from typing import ClassVar, Final, Literal
 
-from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import choice, number, quantity, switch, text
+from tribodyn.cases.case import Group, NamedGroup, demand
+from tribodyn.cases.fields import choice, number, quantity, switch, tables, text
 from tribodyn.cases.film import Film
+from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
     FormKeys,
     PlainJoint,
@@ -18,6 +19,7 @@ from tribodyn.cases.groups import (
 )
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
+from tribodyn.cases.signals import ForceMap, SpeedTable, TorqueMap
 
 SECTION_4 = "paper, section 4"
 _FRICTION = "joint.friction_coefficient"
@@ -54,13 +56,45 @@ class Shaft(Group):
     )
 
 
+class Drive(Group):
+    """What turns the journal."""
+
+    speed: SpeedTable | None = None
+
+
 class Loads(Group):
-    """Constant loads on the centre of the journal."""
+    """Loads on the centre of the journal."""
 
     force_x: float = quantity("200 N", "W_x", SECTION_4)
     force_y: float = quantity("100 N", "W_y", SECTION_4)
     moment_x: float = quantity("0 N m", "moment about X, right-handed; used with tilt", SECTION_4)
     moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", SECTION_4)
+    more: Mapping[str, ShaftLoad] = tables("loads from tables, beside these")
+
+
+_COMPONENTS: Final = {"force_x": "N", "force_y": "N", "moment_x": "N m", "moment_y": "N m"}
+
+
+class ShaftLoad(NamedGroup):
+    """A load on the centre of the journal from tables over time or the angle of rotation."""
+
+    force_x: ForceMap | None = None
+    force_y: ForceMap | None = None
+    moment_x: TorqueMap | None = None
+    moment_y: TorqueMap | None = None
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        demand(bool(self.given), "force_x", 'a load needs a force or a moment, such as force_x = "100 N"')
+        for key, signal in self.given.items():
+            words = "a load on the journal follows time or its angle"
+            demand(signal.over != "positions", f"{key}.positions", words)
+
+    @property
+    def given(self) -> dict[str, ForceMap | TorqueMap]:
+        """Its forces and moments, as far as it has them."""
+        found = {name: getattr(self, name) for name in _COMPONENTS}
+        return {key: signal for key, signal in found.items() if signal is not None}
 
 
 class TightTolerances(Tolerances):
@@ -96,10 +130,15 @@ class Run(Group):
 class JournalCase(BushingCase):
     """The journal of the paper's section 4 unless keys say otherwise."""
 
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(
+        ("journal.speed", f"drive.speed.{key}") for key in SpeedTable.model_fields
+    )
+
     case: Literal["journal"] = choice("journal", "the kind of system", "")
     title: str = text("Journal bearing, dry rough contact", "heading of figures and report")
     joint: JournalJoint = JournalJoint()
     journal: Shaft = Shaft()
+    drive: Drive = Drive()
     loads: Loads = Loads()
     film: Film = Film()
     solver: Tight = Tight()
@@ -118,6 +157,31 @@ class JournalCase(BushingCase):
     def duration(self) -> float:
         """Simulated time of the whole run [s]."""
         return self.run.duration
+
+    def idle(self) -> tuple[str, ...]:
+        """Return the speed where a table takes its place."""
+        return () if self.drive.speed is None else ("journal.speed",)
+
+    def doors(self) -> Doors:
+        """Return where functions for speed and loads go."""
+        silenced = {name: f"0 {unit}" for name, unit in _COMPONENTS.items()}
+        turned = self._turned()
+        return Doors(
+            drive=("drive.speed", "rad/s"),
+            loads={name: (f"loads.more.function-{name}.{name}", unit) for name, unit in _COMPONENTS.items()},
+            silenced={name: (f"loads.{name}", zero) for name, zero in silenced.items()},
+            arguments={"t": ("times", (0.0, self.duration)), "angle": ("angles", turned)},
+        )
+
+    def _turned(self) -> tuple[float, float]:
+        """Return the smallest and the largest angle of rotation in the run [rad]."""
+        if self.drive.speed is None:
+            return min(0.0, self.journal.speed * self.duration), max(0.0, self.journal.speed * self.duration)
+        from scipy.interpolate import PPoly
+
+        curve = self.drive.speed.curve()
+        angle = PPoly(curve.coefficients, curve.knots).antiderivative()(curve.knots)
+        return float(angle.min()), float(angle.max())
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return what checks keys against each other."""

@@ -74,7 +74,7 @@ class Equilibrium:
 def equilibrium(
     journal: Journal, *, speed: float | None = None, guess: FloatArray | None = None
 ) -> Equilibrium:
-    """Return the static equilibrium of a journal.
+    """Return the static equilibrium of a journal under its loads at t = 0.
 
     Parameters
     ----------
@@ -94,7 +94,9 @@ def equilibrium(
     turning = journal if speed is None else replace(journal, speed=speed)
     data = journal_data(turning)
     memory = journal_memory(turning, data)
-    starts = _starts(turning)
+    static_residual(np.zeros(journal.freedoms), data, memory, *_room(journal.freedoms))
+    load = memory.scratch.load[:2].copy()
+    starts = _starts(turning, load)
     if guess is not None:
         starts.insert(0, np.asarray(guess, dtype=np.float64))
     half = data.joint.z[-1]
@@ -106,13 +108,17 @@ def equilibrium(
         if q is not None and _in_range(data, memory):
             return _described(turning, data, memory, q)
     raise InputError(
-        f"no equilibrium was found: {journal.loads.force:.4g} N may be more than this bearing can carry",
+        f"no equilibrium was found: {np.hypot(*load):.4g} N may be more than this bearing can carry",
         key="loads.force_x",
     )
 
 
+def _room(n: int) -> tuple[FloatArray, FloatArray]:
+    return np.empty(n), np.empty((n, n))
+
+
 def _residual(data: JournalData, memory: JournalMemory, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-    residual, jacobian = np.empty(q.size), np.empty((q.size, q.size))
+    residual, jacobian = _room(q.size)
     static_residual(q, data, memory, residual, jacobian)
     return residual, jacobian
 
@@ -122,11 +128,13 @@ def _in_range(data: JournalData, memory: JournalMemory) -> bool:
     return bool(least_gap(data.joint, memory.scratch.state) >= data.constants.deepest)
 
 
-def _starts(journal: Journal) -> list[FloatArray]:
-    """Lay the journal against the bushing in the direction of the load."""
+def _starts(journal: Journal, load: FloatArray) -> list[FloatArray]:
+    """Lay the journal against the bushing in the direction of the load [N], shape (2,)."""
+    size = float(np.hypot(*load))
+    direction = load / size if size > 0.0 else np.array([1.0, 0.0])
     clearance, roughness = journal.joint.geometry.clearance, journal.joint.roughness
     depths = [max(clearance - depth * roughness, 0.1 * clearance) for depth in _START_DEPTHS]
-    return [np.append(e * journal.loads.direction, [0.0, 0.0]) for e in depths]
+    return [np.append(e * direction, [0.0, 0.0]) for e in depths]
 
 
 def _described(journal: Journal, data: JournalData, memory: JournalMemory, q: FloatArray) -> Equilibrium:

@@ -9,13 +9,15 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication.film import Film
+from tribodyn.mechanisms.actions import Term
 
 
 @dataclass(frozen=True)
 class Loads:
-    """What acts on the centre of the journal.
+    """What acts on the centre of the journal, all of it constant.
 
     Attributes
     ----------
@@ -58,11 +60,15 @@ class Journal:
     speed
         Speed of rotation ω about Z, right-handed, kept by a drive [rad/s].
     loads
-        Loads, constant in time.
+        Constant loads.
     joint
         The bushing.
     film
         The oil film; none by default.
+    terms
+        Loads from tables; targets and coordinates as in ``kernels/journal``.
+    spin
+        Speed over time [rad/s] in the place of ``speed``; none by default.
 
     Raises
     ------
@@ -78,6 +84,8 @@ class Journal:
     loads: Loads
     joint: BushingJoint
     film: Film | None = None
+    terms: tuple[Term, ...] = ()
+    spin: Signal | None = None
 
     def __post_init__(self) -> None:
         """Refuse a film of another size than the bushing."""
@@ -87,6 +95,11 @@ class Journal:
         given = (film.clearance, film.radius, film.length)
         if not np.allclose(given, (size.clearance, size.radius, size.length), rtol=1e-9, atol=0.0):
             raise InputError("the film has another clearance, radius or length than the joint", key="film")
+
+    @property
+    def changes(self) -> bool:
+        """Whether load or speed follow a table."""
+        return bool(self.terms) or self.spin is not None
 
     @property
     def freedoms(self) -> int:

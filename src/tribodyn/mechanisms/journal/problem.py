@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -10,6 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.core.quantities import names
+from tribodyn.core.signals import constant
 from tribodyn.joints.bushing import new_memory
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
@@ -28,7 +30,10 @@ from tribodyn.kernels.journal.observe import observe
 from tribodyn.kernels.journal.quantities import FORCES, OBSERVED, WATCHED, Counts
 from tribodyn.kernels.ledger import new_books
 from tribodyn.kernels.peaks import new_peaks
+from tribodyn.mechanisms.actions import actions_of
+from tribodyn.mechanisms.journal.course import course
 from tribodyn.mechanisms.journal.parameters import Journal
+from tribodyn.mechanisms.signals import SignalList, integral_of, pieces_of
 
 FUNCTIONS: Final = CompiledFunctions(
     rhs=functions.rhs,
@@ -41,16 +46,22 @@ FUNCTIONS: Final = CompiledFunctions(
 )
 
 
-def journal_data(journal: Journal) -> JournalData:
-    """Return what the kernels read."""
+def journal_data(journal: Journal, duration: float = math.inf) -> JournalData:
+    """Return what the kernels read in a run of ``duration`` [s]; in one without end kinks are passed over."""
     joint, loads = journal.joint, journal.loads
     constants = new_record(Constants)
     constants.inertia[:] = np.repeat([journal.mass, journal.transverse_inertia], 2)
     constants.spin_inertia = journal.spin_inertia
     constants.load[:] = loads.force_x, loads.force_y, loads.moment_x, loads.moment_y
-    constants.speed, constants.direction = journal.speed, np.sign(journal.speed)
     constants.deepest = joint.table.h_first * joint.roughness
-    return JournalData(constants, joint.data(), None if journal.film is None else journal.film.data())
+    speed = pieces_of(constant(journal.speed) if journal.spin is None else journal.spin)
+    signals = SignalList()
+    signals.add(integral_of(speed))
+    signals.add(speed)
+    actions = actions_of(signals, journal.terms, course(journal, duration))
+    return JournalData(
+        constants, joint.data(), None if journal.film is None else journal.film.data(), actions
+    )
 
 
 def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
@@ -61,6 +72,7 @@ def journal_memory(journal: Journal, data: JournalData) -> JournalMemory:
         peaks=new_peaks(len(WATCHED)),
         counts=new_record(Counts),
         course=new_record(Course),
+        segment=data.actions.segments[0].copy(),
         film=None if journal.film is None else journal.film.memory(),
         scratch=new_record(Scratch),
     )
@@ -91,14 +103,14 @@ def journal_problem(
     InputError
         If the journal does not start inside the bushing.
     """
-    data = journal_data(journal)
+    data = journal_data(journal, duration)
     memory = journal_memory(journal, data)
     n = journal.freedoms
     y0 = np.zeros(2 * n)
     if start is not None:
         y0[:n] = start[:n]
     _check_inside(journal, y0)
-    place(data, y0, memory)
+    place(data, 0.0, y0, memory)
     update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 1.0)
     position, tilt, velocity, tilt_rate = atol
     tolerances = np.array([position, position, tilt, tilt, velocity, velocity, tilt_rate, tilt_rate])
@@ -109,7 +121,7 @@ def journal_problem(
         memory=memory,
         y0=y0,
         t_span=(0.0, duration),
-        breakpoints=(),
+        breakpoints=tuple(data.actions.segments.begin[1:].tolist()),
         atol=tolerances[kept],
         state_names=tuple(names(STATES)[k] for k in kept),
         n_observed=len(OBSERVED),

@@ -72,6 +72,8 @@ def stribeck(journal: Journal, speeds: Iterable[float]) -> Stribeck:
     """
     if journal.loads.force == 0.0:
         raise InputError("a Stribeck curve needs a load", key="loads.force_x")
+    if journal.changes:
+        raise InputError("a Stribeck curve needs loads and speeds that no table changes", key="loads.more")
     points: list[Equilibrium] = []
     for speed in speeds:
         guess = points[-1].attitude if points else None

@@ -30,6 +30,7 @@ from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
 from tribodyn.mechanisms.journal.ledger import ledger_columns, residual_fraction
+from tribodyn.mechanisms.journal.loads import terms_of
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
 from tribodyn.mechanisms.journal.problem import journal_problem
 from tribodyn.mechanisms.peaks import of_run
@@ -47,6 +48,8 @@ def journal_of(case: JournalCase) -> Journal:
         spin_inertia=shaft.spin_inertia,
         tilts=shaft.tilt,
         speed=shaft.speed,
+        spin=None if case.drive.speed is None else case.drive.speed.curve(),
+        terms=tuple(terms_of(case)),
         loads=Loads(loads.force_x, loads.force_y, loads.moment_x, loads.moment_y),
         joint=bushing_of(case),
         film=_film(case),
@@ -84,7 +87,9 @@ class JournalSystem:
 
     @cached_property
     def balance(self) -> Equilibrium | None:
-        """The static equilibrium, None where there is none."""
+        """The static equilibrium, None where there is none or the load changes."""
+        if self.journal.changes:
+            return None
         try:
             return equilibrium(self.journal)
         except InputError:
@@ -181,7 +186,7 @@ class JournalSystem:
         }
         if self.journal.film is None:
             found = {name: value for name, value in found.items() if not name.startswith("film_")}
-        if self.journal.speed != 0.0:
+        if self.journal.speed != 0.0 and not self.journal.changes:
             found["friction_coefficient_end"] = self._friction_coefficient(rows)
         return {name: np.array(value) for name, value in found.items()}
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.kernels.joints.quantities import EXTREMES
-from tribodyn.kernels.journal.quantities import COUNTS, ENERGIES, FILM, WATCHED
+from tribodyn.kernels.journal.quantities import COUNTS, ENERGIES, FILM, LOADS, ROTATION, WATCHED
 from tribodyn.results.peaks import of_run_described
 from tribodyn.results.variables import Variable, described
 
 VARIABLES: Final[dict[str, Variable]] = {
-    **described(FILM, ENERGIES, EXTREMES, COUNTS),
+    **described(FILM, LOADS, ROTATION, ENERGIES, EXTREMES, COUNTS),
     **of_run_described(WATCHED),
     "energy_film": Variable("J", "heat of the oil film"),
     "settling_time": Variable(

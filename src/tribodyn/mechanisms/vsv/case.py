@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import choice, count, number, quantity, text
+from tribodyn.cases.fields import choice, count, number, quantity, tables, text
+from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
     PlainJoint,
     Solver,
@@ -17,14 +18,13 @@ from tribodyn.cases.groups import (
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.core.errors import Faults
+from tribodyn.mechanisms.vsv.actions import DRIVE_TABLES, Drive, Surge, VaneLoad, VanePassing
 
 if TYPE_CHECKING:
-    from tribodyn.mechanisms.vsv.parameters import Drive as Crank
-    from tribodyn.mechanisms.vsv.parameters import Lengths
+    from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths
 
 TABLE_2 = "paper, Table 2"
 TABLE_3 = "paper, Table 3"
-DRIVE = "paper, section 5.1"
 
 
 class VaneJoint(PlainJoint):
@@ -89,16 +89,6 @@ def _rod_inertias(given: Mapping[str, Value]) -> dict[str, Value]:
     return found
 
 
-class Drive(Group):
-    """Motion of the crank: theta_a = start + amplitude/frequency (1 - cos(frequency t))."""
-
-    start_angle: float = quantity("-16 deg", "crank angle at the start", DRIVE, ge="-180 deg", le="180 deg")
-    speed_amplitude: float = quantity(
-        "20 deg/s", "largest angular speed of the crank; negative: it sets out backwards", DRIVE
-    )
-    angular_frequency: float = quantity("1 rad/s", "of the sinusoidal crank speed", DRIVE, gt=0)
-
-
 class Loads(Group):
     """Aerodynamic loads on the vane."""
 
@@ -107,6 +97,9 @@ class Loads(Group):
     air_moment: float = quantity("0.84 N m", "size of M_air, which opposes the motion of the vane", TABLE_3)
     switch_angle: float = quantity("90 deg", "vane angle at which F_airx changes sign", TABLE_3)
     switch_width: float = quantity("0.01 rad", "width of that change", ASSUMED, gt=0)
+    more: Mapping[str, VaneLoad] = tables("loads from tables, beside these")
+    passing: Mapping[str, VanePassing] = tables("excitation by blades that pass")
+    pulses: Mapping[str, Surge] = tables("pulses of the flow")
 
 
 class VaneWear(Wear):
@@ -175,13 +168,15 @@ class VsvCase(BushingCase):
         if given.get("mechanism.formulation") == "paper":
             defaults |= {"joint.friction": "moment", "run.start": "centred"}
         if "run.duration" not in given:
-            defaults["run.cycles"] = 2.0
+            tabulated = any(f"drive.{name}.values" in given for name in DRIVE_TABLES)
+            defaults["run.cycles"] = 1.0 if tabulated else 2.0
         return defaults
 
     @property
     def period(self) -> float:
-        """Time of one drive cycle [s]."""
-        return 2.0 * math.pi / self.drive.angular_frequency
+        """Time of one drive cycle [s]: that of the sinusoid, or all of a table."""
+        found = self.drive.table
+        return 2.0 * math.pi / self.drive.angular_frequency if found is None else found[1].knots[-1]
 
     @property
     def duration(self) -> float:
@@ -221,15 +216,53 @@ class VsvCase(BushingCase):
         )
 
     @property
-    def crank(self) -> Crank:
+    def crank(self) -> AnyDrive:
         """Motion of the crank in the symbols of the paper."""
-        from tribodyn.mechanisms.vsv.parameters import Drive as Crank
+        from tribodyn.mechanisms.vsv.drives import drive_of
 
-        return Crank(self.drive.start_angle, self.drive.speed_amplitude, self.drive.angular_frequency)
+        return drive_of(self.drive, self.duration, again=self.wear.cycles > 0)
+
+    def idle(self) -> tuple[str, ...]:
+        """Return the keys of the sinusoid that a table takes the place of."""
+        if self.drive.table is None:
+            return ()
+        start = ("drive.start_angle",) if self.drive.angle is not None else ()
+        return ("drive.speed_amplitude", "drive.angular_frequency", *start)
+
+    def doors(self) -> Doors:
+        """Return where functions for drive and loads go."""
+        from tribodyn.mechanisms.vsv.course import ideal_range
+
+        crank = self.crank.crank_range(self.duration)
+        span = self.period if self.run.cycles is not None else self.duration
+        return Doors(
+            drive=("drive.angle", "rad"),
+            loads={
+                name: (f"loads.more.function-{name}.{name}", "N m" if name == "moment" else "N")
+                for name in ("force_x", "force_y", "force_z", "moment")
+            },
+            silenced={
+                "force_x": ("loads.air_force_x", "0 N"),
+                "force_y": ("loads.air_force_y", "0 N"),
+                "moment": ("loads.air_moment", "0 N m"),
+            },
+            arguments={
+                "t": ("times", (0.0, span)),
+                "theta_v": ("angles", ideal_range(self.lengths, self.crank, self.duration)),
+                "theta_a": ("angles", crank),
+            },
+            beside={"theta_a": {"along": "crank"}},
+        )
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return what checks keys against each other."""
-        own = (self._check_run, self._check_campaign, self._check_inertias, self._check_reach)
+        own = (
+            self._check_run,
+            self._check_campaign,
+            self._check_inertias,
+            self._check_reach,
+            self._check_loads,
+        )
         return (*super().checks(), *own)
 
     def _check_run(self) -> None:
@@ -275,6 +308,14 @@ class VsvCase(BushingCase):
             with faults.noted():
                 demand(inertia > least, f"mechanism.{body}_inertia", message)
         faults.raise_any()
+
+    def _check_loads(self) -> None:
+        """Check that forces act on the vane."""
+        longest = self.mechanism.vane_length
+        for name, load in self.loads.more.items():
+            arm, key = load.arm, "centre_of_pressure" if load.span is None else "span.positions"
+            words = f"the vane is {longest * 1e3:g} mm long, the force would act at {(arm or 0) * 1e3:.4g} mm"
+            demand(arm is None or 0.0 <= arm <= longest, f"loads.more.{name}.{key}", words)
 
     def _check_reach(self) -> None:
         """Check that the loop closes at every crank angle of the drive."""

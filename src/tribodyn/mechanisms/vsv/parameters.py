@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final
+from functools import cached_property
+from typing import Final, TypeAlias
 
+import numpy as np
+from scipy.interpolate import PPoly
+
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
+from tribodyn.mechanisms.actions import Term, crossings
 
 FORMULATIONS: Final = ("exact", "paper")
 IMPACT_SHARE: Final = 0.1
@@ -80,6 +87,88 @@ class Drive:
         far = self.start_angle + 0.5 * self.swing * (1.0 - math.cos(phase))
         return min(self.start_angle, far), max(self.start_angle, far)
 
+    def angle(self, times: FloatArray) -> FloatArray:
+        """Return the crank angle [rad] at times [s]."""
+        return np.asarray(
+            self.start_angle + 0.5 * self.swing * (1.0 - np.cos(self.angular_frequency * times))
+        )
+
+    def speed(self, times: FloatArray) -> FloatArray:
+        """Return the speed of the crank [rad/s] at times [s]."""
+        return np.asarray(self.speed_amplitude * np.sin(self.angular_frequency * times))
+
+    def turns(self, duration: float) -> FloatArray:
+        """Return the times at which the crank reverses [s], from 0 to just beyond the run."""
+        half = 0.5 * self.period
+        return np.asarray(half * np.arange(math.ceil(duration / half) + 1))
+
+    def passes(self, angles: FloatArray, duration: float) -> FloatArray:
+        """Return the times at which the crank passes given angles [s], in no order."""
+        after = np.arccos(1.0 - (angles - self.start_angle) / (0.5 * self.swing)) / self.angular_frequency
+        return np.asarray((self.turns(duration)[::2, None] + np.concatenate([after, -after])).ravel())
+
+    @property
+    def signal(self) -> None:
+        """No table: kernels have the formula."""
+        return
+
+
+@dataclass(frozen=True)
+class TableDrive:
+    """Crank motion from a table.
+
+    Attributes
+    ----------
+    signal
+        Crank angle over time [rad, s], from 0 to the end of the longest run.
+    period
+        Time of one drive cycle [s]: the length of the table.
+    """
+
+    signal: Signal
+    period: float
+
+    @property
+    def impact_time(self) -> float:
+        """How long impacts last after a reversal [s]."""
+        return IMPACT_SHARE * 0.5 * self.period
+
+    @cached_property
+    def _angle(self) -> PPoly:
+        return PPoly(self.signal.coefficients, self.signal.knots)
+
+    @cached_property
+    def _speed(self) -> PPoly:
+        return self._angle.derivative()
+
+    def crank_range(self, duration: float) -> tuple[float, float]:
+        """Return the smallest and the largest crank angle in a run of ``duration`` [s] [rad]."""
+        end = min(duration, float(self.signal.knots[-1]))
+        angles = self.angle(np.append(self.turns(end), end))
+        return float(angles.min()), float(angles.max())
+
+    def angle(self, times: FloatArray) -> FloatArray:
+        """Return the crank angle [rad] at times [s]."""
+        return np.asarray(self._angle(times))
+
+    def speed(self, times: FloatArray) -> FloatArray:
+        """Return the speed of the crank [rad/s] at times [s]."""
+        return np.asarray(self._speed(times))
+
+    def turns(self, duration: float) -> FloatArray:
+        """Return the times at which the crank reverses or the table kinks [s], up to ``duration``."""
+        # Of a piece at rest scipy tells the beginning; where it ends the table kinks.
+        found = np.concatenate([[0.0], self._speed.roots(extrapolate=False), self.signal.kinks])
+        return np.asarray(np.unique(found[np.isfinite(found) & (found <= duration)]))
+
+    def passes(self, angles: FloatArray, duration: float) -> FloatArray:
+        """Return the times at which the crank passes given angles [s], in no order."""
+        ends = np.unique(np.append(self.turns(duration), min(duration, self.signal.knots[-1])))
+        return crossings(self.angle, ends, angles)
+
+
+AnyDrive: TypeAlias = Drive | TableDrive
+
 
 @dataclass(frozen=True)
 class AirLoads:
@@ -118,16 +207,19 @@ class Vsv:
         Radius r_t of the thrust collar [m].
     joint
         The trunnion in its bushing.
+    terms
+        Loads from tables; targets and coordinates as in ``kernels/vsv/data.py``.
     """
 
     formulation: str
     lengths: Lengths
     inertias: Inertias
-    drive: Drive
+    drive: AnyDrive
     air: AirLoads
     gravity: float
     collar_radius: float
     joint: BushingJoint
+    terms: tuple[Term, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse an unknown formulation."""

@@ -22,13 +22,15 @@ from tribodyn.kernels.ledger import new_books
 from tribodyn.kernels.peaks import new_peaks
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
-from tribodyn.kernels.vsv.functions import vane_direction
 from tribodyn.kernels.vsv.observe import observe
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
+from tribodyn.mechanisms.actions import actions_of
 from tribodyn.mechanisms.base import Carried
+from tribodyn.mechanisms.signals import SignalList, pieces_of
+from tribodyn.mechanisms.vsv.course import course
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
-from tribodyn.mechanisms.vsv.parameters import Vsv
-from tribodyn.mechanisms.vsv.reach import dead_centres, ideal_table
+from tribodyn.mechanisms.vsv.parameters import Drive, Vsv
+from tribodyn.mechanisms.vsv.reach import ideal_table
 
 STARTS: Final = ("equilibrium", "centred")
 
@@ -55,7 +57,7 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
     duration
         Length of the run [s]; the crank must reach no further than it takes it.
     """
-    lengths, inertias = vsv.lengths, vsv.inertias
+    lengths, inertias, drive = vsv.lengths, vsv.inertias, vsv.drive
     ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, *vsv.drive.crank_range(duration))
     mechanism = new_mechanism(
         exact=1.0 if vsv.exact else 0.0,
@@ -80,9 +82,10 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         inertia=_row_inertia(vsv),
         weight=_row_weight(vsv),
         vane_weight=inertias.m_v * vsv.gravity,
-        start_angle=vsv.drive.start_angle,
-        speed_amplitude=vsv.drive.speed_amplitude,
-        angular_frequency=vsv.drive.angular_frequency,
+        start_angle=drive.start_angle if isinstance(drive, Drive) else 0.0,
+        speed_amplitude=drive.speed_amplitude if isinstance(drive, Drive) else 0.0,
+        angular_frequency=drive.angular_frequency if isinstance(drive, Drive) else 1.0,
+        tabulated=0.0 if drive.signal is None else 1.0,
         air_force_x=vsv.air.force_x,
         air_force_y=vsv.air.force_y,
         air_moment=vsv.air.moment,
@@ -94,7 +97,11 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
     )
     collar = new_record(Collar)
     collar.radius, collar.friction = vsv.collar_radius, vsv.collar_radius * vsv.joint.friction.coefficient
-    return VsvData(mechanism, vsv.joint.data(wear), collar)
+    signals = SignalList()
+    if drive.signal is not None:
+        signals.add(pieces_of(drive.signal))
+    actions = actions_of(signals, vsv.terms, course(vsv, duration).segments)
+    return VsvData(mechanism, vsv.joint.data(wear), collar, actions)
 
 
 def _row_inertia(vsv: Vsv) -> FloatArray:
@@ -136,6 +143,7 @@ def vsv_memory(data: VsvData, *, reversals: int = 0, impact_time: float = 0.0) -
     return VsvMemory(
         joint=new_memory(data.joint),
         collar=new_record(CollarExtremes),
+        segment=data.actions.segments[0].copy(),
         regime=np.array([1.0, 0.0, 0.0]),
         peaks=new_peaks(len(WATCHED), sharp=SHARP, reversals=reversals, impact_time=impact_time),
         books=new_books(len(POWERS), len(FORCES), layout.N_COORDINATES),
@@ -158,23 +166,8 @@ def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
         raise InputError(f"given {start!r}; allowed: {', '.join(STARTS)}", key="run.start")
     y0 = np.zeros(8)
     if start == "equilibrium":
-        y0[:4] = equilibrium(data, memory, 0.0, direction=vane_direction(data.mechanism, 0.0, memory))
+        y0[:4] = equilibrium(data, memory, 0.0, direction=float(data.actions.segments[0].direction))
     return y0
-
-
-def reversals(vsv: Vsv, duration: float) -> tuple[float, ...]:
-    """Return the times strictly inside the run at which the ideal vane reverses [s], increasing.
-
-    With the crank, at t = kπ/ν, and where the crank passes a dead centre on its way.
-    """
-    drive = vsv.drive
-    half = 0.5 * drive.period
-    ends = half * np.arange(math.ceil(duration / half) + 1)
-    angles = np.array(dead_centres(vsv.lengths, *drive.crank_range(duration)))
-    after = np.arccos(1.0 - (angles - drive.start_angle) / (0.5 * drive.swing)) / drive.angular_frequency
-    passed = (ends[::2, None] + np.concatenate([after, -after])).ravel()
-    times = np.unique(np.concatenate([ends, passed]))
-    return tuple(times[(times > 0.0) & (times < duration * (1.0 - 1.0e-12))].tolist())
 
 
 def vsv_problem(
@@ -204,8 +197,8 @@ def vsv_problem(
         Where to go on from, at the beginning of a drive cycle, instead of ``start``.
     """
     data = vsv_data(vsv, wear, duration)
-    turns = reversals(vsv, duration)
-    memory = vsv_memory(data, reversals=len(turns), impact_time=vsv.drive.impact_time)
+    events = course(vsv, duration)
+    memory = vsv_memory(data, reversals=events.turns.size, impact_time=vsv.drive.impact_time)
     if carried is None:
         y0 = initial_state(data, memory, start)
     else:
@@ -221,7 +214,7 @@ def vsv_problem(
         memory=memory,
         y0=y0,
         t_span=(0.0, duration),
-        breakpoints=turns,
+        breakpoints=tuple(events.breaks.tolist()),
         atol=np.repeat(np.asarray(atol, dtype=np.float64), 2),
         state_names=names(STATES),
         n_observed=len(OBSERVED),

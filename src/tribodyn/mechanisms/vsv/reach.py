@@ -14,7 +14,6 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.vsv.closure import closure_residual, crank_end
-from tribodyn.kernels.vsv.closure import drive as crank
 from tribodyn.kernels.vsv.layout import N_IDEAL
 from tribodyn.mechanisms.vsv.parameters import Lengths
 
@@ -167,17 +166,17 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     return tuple(bisect(lever, float(angles[k]), float(angles[k + 1]), xtol=1e-12) for k in turns)
 
 
-def at_limit(mechanism: Record, t: float, y: FloatArray) -> bool:
+def at_limit(mechanism: Record, theta_a: float, y: FloatArray) -> bool:
     """Tell whether the assemblies meet, or nearly, with the trunnion where it is: beyond, nothing closes.
 
     Parameters
     ----------
     mechanism
         Its constants.
-    t, y
-        Time [s] and state, shape (8,).
+    theta_a, y
+        Crank angle [rad] and state, shape (8,).
     """
-    s1 = crank_end(mechanism, crank(mechanism, t)[0])
+    s1 = crank_end(mechanism, theta_a)
     place = (float(y[0]), float(y[1]), math.tan(y[2]), math.tan(y[3]))
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
     missing = [closure_residual(mechanism, *s1, *place, theta_v)[0] for theta_v in turn]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
-from tribodyn.kernels.vsv.functions import BEYOND, vane_direction
+from tribodyn.kernels.vsv.functions import BEYOND
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
 from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
 from tribodyn.mechanisms.bushing import (
@@ -34,9 +34,11 @@ from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.checks import notes, warnings
+from tribodyn.mechanisms.vsv.course import course
 from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
+from tribodyn.mechanisms.vsv.loads import terms_of
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Inertias, Vsv
-from tribodyn.mechanisms.vsv.problem import reversals, vsv_problem
+from tribodyn.mechanisms.vsv.problem import vsv_problem
 from tribodyn.mechanisms.vsv.reach import at_limit, ideal_vane_angle
 from tribodyn.mechanisms.vsv.times import following, output_times, snapshots
 from tribodyn.results.attributes import CARRIED
@@ -45,7 +47,7 @@ from tribodyn.results.attributes import CARRIED
 def vsv_of(case: VsvCase) -> Vsv:
     """Return the mechanism that a case describes, in the symbols of the paper."""
     m, loads = case.mechanism, case.loads
-    return Vsv(
+    vsv = Vsv(
         formulation=m.formulation,
         lengths=case.lengths,
         inertias=Inertias(
@@ -67,6 +69,7 @@ def vsv_of(case: VsvCase) -> Vsv:
         collar_radius=case.joint.collar_radius,
         joint=bushing_of(case),
     )
+    return replace(vsv, terms=tuple(terms_of(case, vsv.vane_arm)))
 
 
 @dataclass(frozen=True)
@@ -120,7 +123,7 @@ class VsvSystem:
 
     def picture_times(self, duration: float) -> FloatArray:
         """Return the times of snapshots and of the frames of the playback [s]."""
-        turns = np.array(reversals(self.vsv, duration))
+        turns = course(self.vsv, duration).turns
         frames = frame_times(duration, self.period, turns, self.case.run.impact_window)
         return merged(snapshots(self.vsv, duration), frames, duration)
 
@@ -195,7 +198,6 @@ class VsvSystem:
         pictures = run.solution.picture_times
         times = pictures[self._is_snapshot(run)]
         frames = pictures[self._playback(run)]
-        mechanism, memory = run.problem.data.mechanism, run.problem.memory
         turns = self._turns(run)
         return {
             "reversal": np.arange(turns.size, dtype=np.float64),
@@ -204,8 +206,8 @@ class VsvSystem:
             "snapshot_time": times,
             "frame": np.arange(frames.size, dtype=np.float64),
             "frame_time": frames,
-            "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, self._crank_angle(times)),
-            "snapshot_direction": np.array([vane_direction(mechanism, t, memory) for t in times]),
+            "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, self.vsv.drive.angle(times)),
+            "snapshot_direction": _directions(run.problem.data.actions.segments, times),
             "theta": self.bushing.theta,
             "z": self.bushing.z,
         }
@@ -213,11 +215,7 @@ class VsvSystem:
     def _turns(self, run: Run) -> FloatArray:
         """Return the times of the start and of the reversals that were reached [s]."""
         reached = int(run.problem.memory.peaks.course.stretch) + 1
-        return np.array([0.0, *run.problem.breakpoints])[:reached]
-
-    def _crank_angle(self, times: FloatArray) -> FloatArray:
-        drive = self.vsv.drive
-        return drive.start_angle + 0.5 * drive.swing * (1.0 - np.cos(drive.angular_frequency * times))
+        return np.concatenate([[0.0], course(self.vsv, run.duration).turns])[:reached]
 
     def _is_snapshot(self, run: Run) -> NDArray[np.bool_]:
         """Tell of each picture whether it is a snapshot, shape (n_pictures,)."""
@@ -240,13 +238,18 @@ class VsvSystem:
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
         if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] > 0.0:
             return beyond_law(self.bushing, t)
-        if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, t, y):
+        angle = float(self.vsv.drive.angle(np.array([t]))[0])
+        if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, angle, y):
             return reason
-        angle = math.degrees(float(self._crank_angle(np.array([t]))[0]))
         return (
-            f"{reason}; the mechanism is at the limit of its reach with the crank at {angle:.4g}° and the "
-            "trunnion where it is: beyond, its parts cannot be joined"
+            f"{reason}; the mechanism is at the limit of its reach with the crank at "
+            f"{math.degrees(angle):.4g}° and the trunnion where it is: beyond, its parts cannot be joined"
         )
+
+
+def _directions(segments: Any, times: FloatArray) -> FloatArray:
+    """Return the direction of the vane's motion at times [s]."""
+    return np.asarray(segments.direction[np.searchsorted(segments.begin, times, side="right") - 1])
 
 
 def _mean(t: FloatArray, values: FloatArray) -> float:

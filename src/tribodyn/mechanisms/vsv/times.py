@@ -11,10 +11,11 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Following
 from tribodyn.kernels.vsv.quantities import OBSERVED
+from tribodyn.mechanisms.actions import crossings
 from tribodyn.mechanisms.playback import distinct
 from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.parameters import Drive, Lengths, Vsv
-from tribodyn.mechanisms.vsv.problem import reversals
+from tribodyn.mechanisms.vsv.course import course, ideal_motion
+from tribodyn.mechanisms.vsv.parameters import Drive, Lengths, TableDrive, Vsv
 from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
 
 _WATCHED: Final = tuple(
@@ -27,12 +28,12 @@ _END_SHARE: Final = 0.02
 
 
 def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:
-    """Return the times of the rows [s]: uniform, and the reversals.
+    """Return the times of the rows [s]: uniform, and where the vane turns or a table kinks.
 
     ``duration`` is the time simulated in one go [s].
     """
     uniform = np.append(np.arange(0.0, duration, case.run.output_interval), duration)
-    return distinct(np.concatenate([uniform, reversals(vsv, duration)]), duration)
+    return distinct(np.concatenate([uniform, course(vsv, duration).breaks]), duration)
 
 
 def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> Following | None:
@@ -44,7 +45,7 @@ def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> F
     run = case.run
     if run.impact_window == 0.0:
         return None
-    begin = np.array([0.0, *reversals(vsv, duration)])
+    begin = np.concatenate([[0.0], course(vsv, duration).turns])
     end = np.minimum(begin + run.impact_window, np.append(begin[1:], duration))
     return Following(np.column_stack([begin, end]), run.impact_rows, _WATCHED, _STRIDE, wanted)
 
@@ -56,10 +57,37 @@ def snapshots(vsv: Vsv, duration: float) -> FloatArray:
     range), and near the largest; in the last complete cycle, or in the first where none is complete.
     """
     drive = vsv.drive
+    if isinstance(drive, TableDrive):
+        return _in_table(vsv, drive, duration)
     forward = np.array(_forward(vsv.lengths, drive, vsv.air.switch_angle))
     cycle = max(math.floor(duration / drive.period + 1.0e-9) - 1, 0) * drive.period
     times = cycle + np.concatenate([forward, drive.period - forward[::-1]])
     return np.asarray(times[times <= duration])
+
+
+def _in_table(vsv: Vsv, drive: TableDrive, duration: float) -> FloatArray:
+    """Return the times of the pictures in a cycle of a table [s], the first of each angle each way."""
+    motion = ideal_motion(vsv.lengths, drive, duration)
+    cycle = max(math.floor(duration / drive.period + 1.0e-9) - 1, 0) * drive.period
+    last = min(cycle + drive.period, duration)
+    turns = drive.turns(last)
+    turns = np.concatenate([[cycle], turns[turns > cycle], [last]])
+    angles = motion.vane_angle(turns)
+    wanted = _wanted(float(angles.min()), float(angles.max()), vsv.air.switch_angle)
+    met = [np.sort(crossings(motion.vane_angle, turns, np.array([angle]))) for angle in wanted]
+    times = [
+        on_the_way[0]
+        for sense in (1.0, -1.0)
+        for times in met
+        if (on_the_way := times[motion.direction(times) == sense]).size
+    ]
+    return np.unique(np.array(times))
+
+
+def _wanted(low: float, high: float, switch: float) -> FloatArray:
+    """Return the vane angles of the pictures between two ends [rad]."""
+    middle = switch if min(low, high) < switch < max(low, high) else 0.5 * (low + high)
+    return np.array([low + _END_SHARE * (high - low), middle, high - _END_SHARE * (high - low)])
 
 
 # Asked several times by a run, and by every case of a sweep, most of which share lengths and drive.
@@ -72,9 +100,7 @@ def _forward(lengths: Lengths, drive: Drive, switch: float) -> tuple[float, ...]
     if turns.size:
         # Past a dead centre the vane comes back to where it was, and out of reach it is nowhere.
         crank, vane = crank[: turns[0] + 2], vane[: turns[0] + 2]
-    low, high = float(vane[0]), float(vane[-1])
-    middle = switch if min(low, high) < switch < max(low, high) else 0.5 * (low + high)
-    wanted = np.array([low + _END_SHARE * (high - low), middle, high - _END_SHARE * (high - low)])
+    wanted = _wanted(float(vane[0]), float(vane[-1]), switch)
     order = np.argsort(vane)
     angle = np.interp(wanted, vane[order], crank[order])
     phase = np.arccos(np.clip(1.0 - (angle - drive.start_angle) / (0.5 * drive.swing), -1.0, 1.0))

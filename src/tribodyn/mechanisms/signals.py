@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
+from tribodyn.kernels import signals as kinds
+
+NO_KINKS: Final = np.empty(0)
 
 
 @dataclass(frozen=True)
@@ -73,3 +77,30 @@ def _padded(polynomial: FloatArray) -> FloatArray:
 def _value(polynomial: FloatArray, x: float) -> float:
     """Return the value of one polynomial."""
     return float(np.polynomial.polynomial.polyval(x, polynomial))
+
+
+class SignalList:
+    """The signals of a mechanism, numbered as they are added."""
+
+    def __init__(self) -> None:
+        self.all: list[Pieces] = []
+        self.kinks: list[FloatArray] = []
+
+    def add(self, pieces: Pieces, kinks: FloatArray = NO_KINKS) -> int:
+        """Add a signal and return its number; ``kinks`` are times that kernels must know."""
+        self.all.append(pieces)
+        self.kinks.append(kinks)
+        return len(self.all) - 1
+
+    def records(self) -> kinds.Signals:
+        """Return what kernels read: one signal and one piece at least."""
+        signals = np.recarray(max(len(self.all), 1), dtype=kinds.Signal)
+        pieces = np.recarray(max(sum(p.until.size for p in self.all), 1), dtype=kinds.Piece)
+        first = 0
+        for k, one in enumerate(self.all):
+            last = first + one.until.size
+            signals[k].first, signals[k].n, signals[k].sine[:] = first, one.until.size, one.sine
+            pieces.until[first:last], pieces.left[first:last] = one.until, one.left
+            pieces.c[first:last] = one.polynomial
+            first = last
+        return kinds.Signals(signals, pieces, np.unique(np.concatenate([np.zeros(0), *self.kinks])))

@@ -3,9 +3,32 @@
 from __future__ import annotations
 
 import math
+from typing import Any, Final, NamedTuple
 
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import record_type
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mechanism.data import Signals
+
+Signal: Final = record_type(("first", "i8"), ("n", "i8"), ("sine", "f8", (3,)))
+"""Pieces of a polynomial, and a sine beside it: amplitude, angular frequency, phase."""
+Piece: Final = record_type(("until", "f8"), ("left", "f8"), ("c", "f8", (5,)))
+"""A polynomial over the distance from ``left``, rising powers, up to ``until``."""
+
+
+class Signals(NamedTuple):
+    """What drives and loads follow.
+
+    Attributes
+    ----------
+    signals, pieces
+        Records named above.
+    kinks
+        Times at which a table of time has a kink [s].
+    """
+
+    signals: Any
+    pieces: Any
+    kinks: FloatArray
 
 
 @kernel

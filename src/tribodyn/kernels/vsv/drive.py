@@ -1,0 +1,20 @@
+"""How the crank moves: the sinusoid of the paper's section 5.1, or a signal."""
+
+from __future__ import annotations
+
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import held
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.signals import evaluate
+from tribodyn.kernels.vsv.closure import sinusoid
+from tribodyn.kernels.vsv.data import CRANK, TIME, VsvData
+
+
+@kernel
+def drive(data: VsvData, segment: Record, t: float) -> tuple[float, float, float]:
+    """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at ``t`` [s] within a segment."""
+    if data.mechanism.tabulated == 0.0:
+        found: tuple[float, float, float] = sinusoid(data.mechanism, t)
+    else:
+        found = evaluate(data.actions.signals, CRANK, t, held(segment, TIME, t))
+    return found

@@ -1,0 +1,148 @@
+"""What loads a mechanism over a run, and the segments between the kinks of tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal
+from tribodyn.kernels import actions as kinds
+from tribodyn.kernels.actions import Actions
+from tribodyn.mechanisms.signals import SignalList, pieces_of
+
+TIME: Final = 0
+"""The first of the coordinates that signals may follow."""
+_SAME: Final = 1.0e-12
+"""Instants closer than this share of a run are one."""
+_BEFORE: Final = 1.0e-9
+"""Share of the way to a kink by which a segment ends before it."""
+_BISECTIONS: Final = 60
+
+
+@dataclass(frozen=True)
+class Term:
+    """A part of a load.
+
+    Attributes
+    ----------
+    target
+        Number of the component that it adds to.
+    factors
+        One signal or two, multiplied, each with the number of the coordinate that it follows.
+    against
+        Whether it opposes the motion.
+    """
+
+    target: int
+    factors: tuple[tuple[Signal, int], ...]
+    against: bool = False
+
+
+def kinks_over(terms: Iterable[Term], over: int) -> FloatArray:
+    """Return where signals over one coordinate kink, increasing."""
+    found = [signal.kinks for term in terms for signal, follows in term.factors if follows == over]
+    return np.unique(np.concatenate([np.empty(0), *found]))
+
+
+def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Actions:
+    """Return what kernels read.
+
+    Parameters
+    ----------
+    signals
+        Those that the mechanism has numbered before.
+    terms
+        Its loads from tables.
+    segments
+        From :func:`segments_of`.
+    """
+    records = np.recarray(len(terms), dtype=kinds.Term)
+    for record, term in zip(records, terms, strict=True):
+        record.target, record.against = term.target, int(term.against)
+        record.signals[:], record.over[:] = kinds.NONE, TIME
+        for k, (signal, over) in enumerate(term.factors):
+            record.signals[k], record.over[k] = signals.add(pieces_of(signal)), over
+    return Actions(signals.records(), records, segments)
+
+
+def inside(times: FloatArray, duration: float) -> FloatArray:
+    """Return the instants strictly inside a run of ``duration`` [s], each once, increasing."""
+    times = np.unique(times)
+    times = times[(times > 0.0) & (times < duration * (1.0 - _SAME))]
+    apart = np.diff(times, prepend=0.0) > _SAME * duration
+    return np.asarray(times[apart])
+
+
+def crossings(
+    coordinate: Callable[[FloatArray], FloatArray], turns: FloatArray, levels: FloatArray
+) -> FloatArray:
+    """Return when a coordinate passes some values, shape (n,).
+
+    Parameters
+    ----------
+    coordinate
+        Its values at times [s].
+    turns
+        Times between which it grows or falls all the way, those of begin and end of the run among them.
+    levels
+        The values.
+    """
+    at = coordinate(turns)
+    level, begin, end = (
+        np.broadcast_to(x, (levels.size, turns.size - 1)) for x in (levels[:, None], turns[:-1], turns[1:])
+    )
+    passed = (at[:-1] - level) * (at[1:] - level) < 0.0
+    level, low, high = level[passed], begin[passed], end[passed]
+    rising = np.broadcast_to(at[1:] > at[:-1], passed.shape)[passed]
+    for _ in range(_BISECTIONS if level.size else 0):
+        middle = 0.5 * (low + high)
+        above = (coordinate(middle) > level) == rising
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return 0.5 * (low + high)
+
+
+def segments_of(
+    breaks: FloatArray,
+    directions: FloatArray,
+    time_kinks: FloatArray,
+    others: Sequence[tuple[FloatArray, FloatArray]] = (),
+) -> Any:
+    """Return the segments of a run as kernels read them, shape (n,).
+
+    Parameters
+    ----------
+    breaks
+        Instants between segments [s], increasing, shape (n - 1,).
+    directions
+        Direction of motion in each segment, shape (n,).
+    time_kinks
+        Where signals over time kink, those beyond the run among them [s].
+    others
+        Of each other coordinate its values in the middle of the segments, shape (n,), and where signals over
+        it kink.
+    """
+    segments = np.recarray(directions.size, dtype=kinds.Segment)
+    segments.begin = np.concatenate([[0.0], breaks])
+    segments.direction = directions
+    segments.low[:], segments.high[:] = -np.inf, np.inf
+    after = np.append(breaks, segments.begin[-1] + 1.0)
+    middles = 0.5 * (segments.begin + after)
+    middles[-1] = _just_after(segments.begin[-1], time_kinks)
+    for k, (values, kinks) in enumerate([(middles, np.union1d(breaks, time_kinks)), *others]):
+        ends = np.concatenate([[-np.inf], kinks, [np.inf]])
+        place = np.searchsorted(ends, values, side="right")
+        low, high = ends[place - 1], ends[np.minimum(place, ends.size - 1)]
+        with np.errstate(invalid="ignore"):
+            room = np.where(np.isfinite(high), _BEFORE * (high - np.maximum(low, values - 1.0)), 0.0)
+        segments.low[:, k], segments.high[:, k] = low, high - room
+    return segments
+
+
+def _just_after(t: float, kinks: FloatArray) -> float:
+    """Return a time after ``t`` [s] and before the next kink."""
+    later = kinks[kinks > t]
+    return float(0.5 * (t + later[0])) if later.size else t + 1.0

@@ -1,0 +1,158 @@
+"""What drives and loads the vane mechanism, but for the loads of the paper: keys and cross-checks."""
+
+from __future__ import annotations
+
+import itertools
+from typing import ClassVar, Final, Literal
+
+from tribodyn.cases.case import Group, NamedGroup, demand
+from tribodyn.cases.fields import choice, number, quantity, switch
+from tribodyn.cases.keys import ASSUMED
+from tribodyn.cases.signals import (
+    AngleTable,
+    ForceMap,
+    LineLoadTable,
+    PositionTable,
+    SpeedTable,
+    TorqueMap,
+)
+
+DRIVE: Final = "paper, section 5.1"
+DRIVE_TABLES: Final = ("angle", "speed", "stroke")
+
+
+def _keys_of_tables(*names: str) -> list[str]:
+    """Return the paths of all keys of some tables."""
+    return [f"{name}.{key}" for name in names for key in AngleTable.model_fields]
+
+
+class Drive(Group):
+    """Motion of the crank: start + amplitude/frequency (1 - cos(frequency t)), or a table over time."""
+
+    start_angle: float = quantity("-16 deg", "crank angle at the start", DRIVE, ge="-180 deg", le="180 deg")
+    speed_amplitude: float = quantity(
+        "20 deg/s", "largest angular speed of the crank; negative: it sets out backwards", DRIVE
+    )
+    angular_frequency: float = quantity("1 rad/s", "of the sinusoidal crank speed", DRIVE, gt=0)
+    corner_time: float = quantity("20 ms", "over which corners of a ramp are rounded", ASSUMED, gt=0)
+    actuator_arm: float | None = quantity(
+        None, "arm on the crank over which a stroke turns it", ASSUMED, gt=0, example="50 mm"
+    )
+    angle: AngleTable | None = None
+    speed: SpeedTable | None = None
+    stroke: PositionTable | None = None
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
+        *itertools.product(_keys_of_tables(*DRIVE_TABLES), ("speed_amplitude", "angular_frequency")),
+        *itertools.product(_keys_of_tables("angle"), ("start_angle",)),
+        *(
+            pair
+            for one, other in itertools.combinations(DRIVE_TABLES, 2)
+            for pair in itertools.product(_keys_of_tables(one), _keys_of_tables(other))
+        ),
+    )
+
+    @property
+    def table(self) -> tuple[str, AngleTable | SpeedTable | PositionTable] | None:
+        """What the crank follows, with its name; None for the sinusoid."""
+        return next(
+            ((name, found) for name in DRIVE_TABLES if (found := getattr(self, name)) is not None), None
+        )
+
+
+class VaneLoad(NamedGroup):
+    """A load on the vane from tables, added to those of the paper."""
+
+    force_x: ForceMap | None = None
+    force_y: ForceMap | None = None
+    force_z: ForceMap | None = None
+    moment: TorqueMap | None = None
+    along: Literal["vane", "crank"] = choice("vane", "whose angle a table over angles follows", ASSUMED)
+    against_motion: bool = switch(False, "whether it opposes the motion of the vane", ASSUMED)
+    centre_of_pressure: float | None = quantity(
+        None,
+        "from the trunnion centre down to where force_x and force_y act; the vane's centre without",
+        ASSUMED,
+        ge=0,
+        example="85 mm",
+    )
+    span: LineLoadTable | None = None
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check what involves several keys."""
+        demand(bool(self.given), "moment", 'a load needs a force or a moment, such as moment = "1 N m"')
+        demand(
+            self.span is None or self.centre_of_pressure is None,
+            "centre_of_pressure",
+            "the spread along the span tells it",
+        )
+        for key, signal in self.given.items():
+            demand(
+                signal.over != "positions", f"{key}.positions", "a load on the vane follows time or an angle"
+            )
+
+    @property
+    def given(self) -> dict[str, ForceMap | TorqueMap]:
+        """Its forces and its moment, as far as it has them."""
+        found = {
+            "force_x": self.force_x,
+            "force_y": self.force_y,
+            "force_z": self.force_z,
+            "moment": self.moment,
+        }
+        return {key: signal for key, signal in found.items() if signal is not None}
+
+    @property
+    def arm(self) -> float | None:
+        """From the trunnion centre down to where forces act [m]; None for the vane's centre."""
+        if self.span is None:
+            return self.centre_of_pressure
+        from scipy.interpolate import PPoly
+
+        curve = self.span.curve()
+        total = PPoly(curve.coefficients, curve.knots).antiderivative()
+        # ∫ z q dz = [z Q] − ∫ Q dz with Q' = q.
+        first, last = curve.knots[0], curve.knots[-1]
+        whole = float(total(last) - total(first))
+        moment = last * total(last) - first * total(first) - total.integrate(first, last)
+        demand(whole != 0.0, "span.values", "its parts cancel: such a load has no centre of pressure")
+        return float(moment) / whole
+
+
+class _Shaken(NamedGroup):
+    """Forces and a moment by their size."""
+
+    force_x: float | None = quantity(None, "along X", "", example="0.5 N")
+    force_y: float | None = quantity(None, "along Y", "", example="0.5 N")
+    force_z: float | None = quantity(None, "along Z", "", example="0.5 N")
+    moment: float | None = quantity(None, "about Z", "", example="0.02 N m")
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that there is a load."""
+        demand(bool(self.given), "moment", 'a load needs a force or a moment, such as moment = "0.02 N m"')
+
+    @property
+    def given(self) -> dict[str, float]:
+        """What is given of it [N, N m]."""
+        found = {
+            "force_x": self.force_x,
+            "force_y": self.force_y,
+            "force_z": self.force_z,
+            "moment": self.moment,
+        }
+        return {key: size for key, size in found.items() if size is not None}
+
+
+class VanePassing(_Shaken):
+    """Excitation by the blades beside the vane: amplitudes of a sinusoid."""
+
+    order: float = number(1.0, "waves in a turn of the shaft, such as the number of blades", ASSUMED, gt=0)
+    shaft_speed: float = quantity("12000 rpm", "speed of the shaft", ASSUMED, gt=0)
+    phase: float = quantity("0 deg", "at the start", ASSUMED)
+
+
+class Surge(_Shaken):
+    """A pulse of the flow: largest values of a squared sine."""
+
+    begin: float = quantity("0 s", "when it begins", ASSUMED, ge=0)
+    length: float = quantity("50 ms", "how long it lasts", ASSUMED, gt=0)

@@ -1,0 +1,97 @@
+"""When the vane turns and where tables kink: the instants at which an integration restarts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.vsv.data import CRANK_ANGLE, TIME, VANE
+from tribodyn.mechanisms.actions import crossings, inside, kinks_over, segments_of
+from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths, Vsv
+from tribodyn.mechanisms.vsv.reach import dead_centres, ideal_table
+
+CLEARANCE_ROOM: Final = 0.01
+"""What clearance may add to θ_v, generously [rad]."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """What happens in a run.
+
+    Attributes
+    ----------
+    turns
+        Times strictly inside the run at which the ideal vane reverses, stops or starts [s], shape (n_turns,).
+    breaks
+        These, and where something kinks [s], shape (n,).
+    segments
+        What holds between, as kernels read it, shape (n + 1,).
+    """
+
+    turns: FloatArray
+    breaks: FloatArray
+    segments: Any
+
+
+@dataclass(frozen=True)
+class IdealMotion:
+    """The ideal mechanism over time.
+
+    Attributes
+    ----------
+    drive
+        Motion of the crank.
+    curve
+        θ_v over θ_a [rad].
+    """
+
+    drive: AnyDrive
+    curve: CubicHermiteSpline
+
+    def vane_angle(self, times: FloatArray) -> FloatArray:
+        """Return θ_v [rad] at times [s]."""
+        return np.asarray(self.curve(self.drive.angle(times)))
+
+    def direction(self, times: FloatArray) -> FloatArray:
+        """Return the direction of the vane's motion, 1, -1, or 0 at rest."""
+        return np.asarray(np.sign(self.drive.speed(times)) * np.sign(self.curve(self.drive.angle(times), 1)))
+
+
+def ideal_motion(lengths: Lengths, drive: AnyDrive, duration: float) -> IdealMotion:
+    """Return the ideal mechanism over a run of ``duration`` [s]."""
+    first, inverse_step, table = ideal_table(lengths, *drive.crank_range(duration))
+    angles = first + np.arange(len(table)) / inverse_step
+    return IdealMotion(drive, CubicHermiteSpline(angles, table[:, 0], inverse_step * table[:, 1]))
+
+
+def ideal_range(lengths: Lengths, drive: AnyDrive, duration: float) -> tuple[float, float]:
+    """Return the least and the largest θ_v of a run of ``duration`` [s], with room for clearance [rad]."""
+    motion = ideal_motion(lengths, drive, duration)
+    angles = motion.curve(motion.curve.x)
+    return float(angles.min()) - CLEARANCE_ROOM, float(angles.max()) + CLEARANCE_ROOM
+
+
+def course(vsv: Vsv, duration: float) -> Course:
+    """Return what happens in a run of ``duration`` [s]; of one without end, in its first drive cycle."""
+    duration = duration if math.isfinite(duration) else vsv.drive.period
+    drive = vsv.drive
+    centres = np.array(dead_centres(vsv.lengths, *drive.crank_range(duration)))
+    reversals = inside(np.concatenate([drive.turns(duration), drive.passes(centres, duration)]), duration)
+    motion = ideal_motion(vsv.lengths, drive, duration)
+    ends = np.concatenate([[0.0], reversals, [duration]])
+    of_time, of_vane, of_crank = (kinks_over(vsv.terms, over) for over in (TIME, VANE, CRANK_ANGLE))
+    met = (crossings(motion.vane_angle, ends, of_vane), crossings(drive.angle, ends, of_crank))
+    breaks = inside(np.concatenate([reversals, of_time, *met]), duration)
+    ends = np.concatenate([[0.0], breaks, [duration]])
+    middles = 0.5 * (ends[:-1] + ends[1:])
+    directions = motion.direction(middles)
+    if drive.signal is not None:
+        of_time = np.union1d(of_time, drive.signal.kinks)
+    others = [(motion.vane_angle(middles), of_vane), (drive.angle(middles), of_crank)]
+    segments = segments_of(breaks, directions, of_time, others)
+    return Course(breaks[np.diff(directions) != 0.0], breaks, segments)
