@@ -169,6 +169,10 @@ class Case(Group):
         """Return the paths of keys that others put out of force; by default there are none."""
         return ()
 
+    def derived(self) -> dict[str, str]:
+        """Return from what the values of some keys follow, by their paths; by default there are none."""
+        return {}
+
     def at(self, path: str) -> Value | None:
         """Return the value at a dotted path, such as ``joint.clearance``."""
         found: Value | None = value_at(self, path)
@@ -199,7 +203,9 @@ class Case(Group):
         comments
             Whether each key is followed by what it means, where it comes from and what it may hold.
         """
-        return to_toml(self, self.kind(), self._own(), self.idle(), comments=comments)
+        given = {path: entry.origin for path, entry in self._given.items() if entry.origin}
+        origins = {path: why for path, why in self.derived().items() if path not in self._given} | given
+        return to_toml(self, self.kind(), self._own(), self.idle(), origins, comments=comments)
 
     def _own(self) -> set[str]:
         """Return the paths of what a user gave."""

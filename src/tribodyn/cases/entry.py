@@ -26,6 +26,8 @@ class Entry:
         Where the names of files begin; None is the current directory.
     built_in
         Whether a built-in case gives it, and no user.
+    origin
+        Where a value of a built-in case comes from, if it says so.
     """
 
     value: object
@@ -33,6 +35,7 @@ class Entry:
     text: bool = False
     folder: Path | None = None
     built_in: bool = False
+    origin: str = ""
 
 
 def read_entry(key: Key, entry: Entry) -> Value:

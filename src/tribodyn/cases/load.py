@@ -32,11 +32,14 @@ class BuiltIn:
         One line for ``tribodyn cases``.
     given
         What differs from the defaults of the kind, by dotted path.
+    origins
+        Where these values come from, by dotted path, for those whose key does not say it.
     """
 
     model: type[Case]
     summary: str
     given: Mapping[str, object] = field(default_factory=dict)
+    origins: Mapping[str, str] = field(default_factory=dict)
 
 
 _LONGEST_LINE: Final = 200
@@ -133,7 +136,10 @@ def _begun(
 def _given(name: str, case: BuiltIn) -> dict[str, Entry]:
     """Return what a built-in case gives."""
     values = {"case": case.model.kind(), **case.given}
-    return {path: Entry(value, f"built-in case {name}", built_in=True) for path, value in values.items()}
+    return {
+        path: Entry(value, f"built-in case {name}", built_in=True, origin=case.origins.get(path, ""))
+        for path, value in values.items()
+    }
 
 
 def _text(name: str, built_in: Mapping[str, BuiltIn]) -> str:

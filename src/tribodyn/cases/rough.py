@@ -57,6 +57,10 @@ class BushingCase(RoughCase):
             demand(False, key, f"a case of this kind has no {path}")
         return super().resolve(given) | at_temperature
 
+    def derived(self) -> dict[str, str]:
+        """Return which properties of the material follow from the temperature."""
+        return self.temperature.properties.derived()
+
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return the checks of contact law, liner and clearance."""
         return (*super().checks(), self._check_liner, self._check_clearance)

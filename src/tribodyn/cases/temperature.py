@@ -40,6 +40,11 @@ class PropertiesKeys(Group):
         "of the bushing", "", unit="m^2/N", example='"1e-15, 2e-15, 5e-15 m^2/N"'
     )
 
+    def derived(self) -> dict[str, str]:
+        """Return from where the values of keys come that follow from these tables."""
+        given = (key for key in _FOLLOWING if getattr(self, key) is not None)
+        return {_FOLLOWING[key]: f"temperature.properties.{key}" for key in given}
+
 
 class Temperature(Group):
     """Temperatures of assembly and of the run; a part without one stays at that of assembly."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 from itertools import groupby
 from textwrap import wrap
 from typing import Any
@@ -18,17 +19,27 @@ _ASSUMED = "ASSUMED"
 
 
 def to_toml(
-    case: BaseModel, kind: str, own: Collection[str], idle: Collection[str] = (), *, comments: bool
+    case: BaseModel,
+    kind: str,
+    own: Collection[str],
+    idle: Collection[str],
+    origins: Mapping[str, str],
+    *,
+    comments: bool,
 ) -> str:
     """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`.
 
     Of the keys that are a user's ``own``, comments say what they would be without. ``idle`` keys are out of
-    force.
+    force; ``origins`` tell where values come from that are neither.
     """
     keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
     tables = {
-        table: [line for key in inside for line in _lines(_in_force(case, key, idle), key, own, comments)]
+        table: [
+            line
+            for key in inside
+            for line in _lines(_in_force(case, key, idle), _from(key, origins), own, comments)
+        ]
         for table, inside in groupby(keys.values(), key=lambda key: key.table)
     }
     for table, inside in (tables if comments else _shortened(tables)).items():
@@ -60,6 +71,10 @@ def _head(kind: str) -> Iterator[str]:
     yield '# Values with a unit are text, "20 um"; others are bare. Keys left out take their defaults.'
     yield f"# {_ASSUMED}: the paper does not give this value."
     yield ""
+
+
+def _from(key: Key, origins: Mapping[str, str]) -> Key:
+    return replace(key, source=origins[key.path]) if key.path in origins else key
 
 
 def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:

@@ -7,6 +7,7 @@ from typing import Final
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import Mechanism
 from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.mechanisms.vsv.engine import ENGINE
 from tribodyn.mechanisms.vsv.headlines import HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.vsv.variables import OF_CYCLE, VARIABLES
 
@@ -17,7 +18,8 @@ MECHANISM: Final = Mechanism(
         "vsv": BuiltIn(
             VsvCase,
             "variable stator vane mechanism, dry rough trunnion joint, 20 um clearance, two drive cycles",
-        )
+        ),
+        "vsv-engine": ENGINE,
     },
     variables=VARIABLES | OF_CYCLE,
     headlines=HEADLINES,
