@@ -36,9 +36,7 @@ def to_toml(
     lines = list(_head(kind)) if comments else []
     tables = {
         table: [
-            line
-            for key in inside
-            for line in _lines(_in_force(case, key, idle), _from(key, origins), own, comments)
+            line for key in inside for line in _lines(_in_force(case, key, idle), key, own, origins, comments)
         ]
         for table, inside in groupby(keys.values(), key=lambda key: key.table)
     }
@@ -73,21 +71,21 @@ def _head(kind: str) -> Iterator[str]:
     yield ""
 
 
-def _from(key: Key, origins: Mapping[str, str]) -> Key:
-    return replace(key, source=origins[key.path]) if key.path in origins else key
-
-
 def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:
     return None if key.path in idle else value_at(case, key.path)
 
 
-def _lines(value: Any, key: Key, own: Collection[str], comments: bool) -> Iterator[str]:
+def _lines(
+    value: Any, key: Key, own: Collection[str], origins: Mapping[str, str], comments: bool
+) -> Iterator[str]:
     line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
     if not comments:
         yield from [] if value is None else [line]
     else:
-        changed = key.default is not None and value != key.default
-        yield from _commented(line, key, own=changed or key.path in own)
+        told = key.path in origins
+        changed = not told and key.default is not None and value != key.default
+        sourced = replace(key, source=origins[key.path]) if told else key
+        yield from _commented(line, sourced, own=changed or key.path in own)
 
 
 def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator[str]:
