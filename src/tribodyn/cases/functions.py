@@ -57,7 +57,7 @@ def with_functions(case: _Any, drive: OwnFunction | None, loads: Mapping[str, Ow
     case
         The case.
     drive
-        Crank angle [rad], or speed of a journal [rad/s], as a function of ``t`` [s].
+        Crank angle [rad], or speed of a shaft [rad/s], as a function of ``t`` [s].
     loads
         Forces [N] and moments [N m] by name, as functions of ``t`` or an angle, or of both.
 

@@ -55,11 +55,11 @@ def simulate(
         separations h* = h/σ [1]. Damping follows from the case.
     drive
         A function of the time ``t`` [s] instead of the drive of the case: the crank angle of the vane
-        mechanism [rad], or the speed of the journal [rad/s].
+        mechanism [rad], or the speed of a shaft [rad/s].
     loads
         Functions by the names of the loads that they take the place of: ``force_x``, ``force_y``,
-        ``force_z`` and ``moment`` on the vane, ``force_x``, ``force_y``, ``moment_x`` and ``moment_y`` on the
-        journal, in N and N m. Their arguments are named ``t`` and ``theta_v`` or ``theta_a``, of the journal
+        ``force_z`` and ``moment`` on the vane, ``force_x``, ``force_y``, ``moment_x`` and ``moment_y`` on a
+        shaft, in N and N m. Their arguments are named ``t`` and ``theta_v`` or ``theta_a``, of a shaft
         ``angle``. They are tabulated; the case in the result holds the tables.
 
     Returns
