@@ -17,7 +17,18 @@ from typing import Final
 
 from benchmarks.figure import draw
 
-NAMES: Final = ("joint_kernel", "vsv", "film", "growth", "long_run", "command", "sweep", "cash", "kinks")
+NAMES: Final = (
+    "joint_kernel",
+    "vsv",
+    "film",
+    "growth",
+    "long_run",
+    "command",
+    "sweep",
+    "workbench",
+    "cash",
+    "kinks",
+)
 """Every benchmark once: to add one, write a module with ``run`` and name it here."""
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"
 

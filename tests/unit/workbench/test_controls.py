@@ -1,0 +1,72 @@
+"""Controls of every built-in case, and where their sliders go."""
+
+from __future__ import annotations
+
+import pytest
+
+from tribodyn.cases.tables import keys_in, with_components
+from tribodyn.mechanisms.catalogue import MECHANISMS, built_in, load_case
+from tribodyn.workbench.controls import FIRST, controls
+from tribodyn.workbench.ranges import track
+
+
+def found(name):
+    case = load_case(name)
+    return case, controls(case, MECHANISMS[case.kind()].controls)
+
+
+@pytest.mark.parametrize("name", built_in())
+def test_controls_of_a_case(name):
+    case, made = found(name)
+    first = [control["first"] for control in made]
+    assert 2 <= sum(first) <= FIRST
+    assert first == sorted(first, reverse=True)
+    assert len({control["key"] for control in made}) == len(made)
+    for control in made:
+        if control["text"] and control["kind"] != "list":
+            # What a control shows is the value itself.
+            assert case.replace({control["key"]: control["text"]}).at(control["key"]) == case.at(
+                control["key"]
+            )
+        if control["step"] is not None:
+            assert control["least"] < control["greatest"]
+            ends = [f"{control[end]!r} {control['unit']}".strip() for end in ("least", "greatest")]
+            key = with_components(keys_in(case))[control["key"]]
+            texts = (
+                [str(round(control[end])) for end in ("least", "greatest")] if key.kind == "count" else ends
+            )
+            for value in (key.read(text, text=True) for text in texts):
+                for sign, bound in key.bounds:
+                    kept = {
+                        "gt": value > bound,
+                        "ge": value >= bound,
+                        "lt": value < bound,
+                        "le": value <= bound,
+                    }
+                    assert kept[sign], (control["key"], value)
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "expected"),
+    [
+        ("joint.clearance", 20e-6, (1.0, 50.0, 1.0)),
+        ("joint.friction_coefficient", 0.1, (0.0, 0.5, 0.01)),
+        # Zero says nothing, so the whole range that there is.
+        ("joint.friction_coefficient", 0.0, (0.0, 2.0, 0.01)),
+        ("surfaces.bushing.poisson_ratio", 0.34, (0.01, 0.5, 0.01)),
+        ("loads.air_moment", -0.84, (-5.0, 5.0, 0.01)),
+        ("solver.grid.theta", 96, (12.0, 500.0, 1.0)),
+        # Where none is given, the example.
+        ("joint.liner.thickness", None, (0.1, 5.0, 0.1)),
+    ],
+)
+def test_sliders_go_in_round_steps_from_limit_to_well_beyond_the_value(path, value, expected):
+    key = keys_in(load_case("vsv"))[path]
+    made = track(key, value)
+    assert (made.least, made.greatest, made.step) == expected
+
+
+def test_what_has_no_size_has_no_slider():
+    keys = keys_in(load_case("vsv"))
+    assert track(keys["joint.form.crown"], 0.0) is None
+    assert track(keys["contact.law"], None) is None
