@@ -126,12 +126,12 @@ def _numbers(text: str, column: str | None, unit: str) -> dict[str, str]:
 
 
 def _map(text: str, unit: str) -> dict[str, str]:
-    """Return times, angles and values of a map as a case writes them, by their keys."""
+    """Return places and values of a map as a case writes them, by their keys."""
     lines, separator = _lines(text)
     cells = lines[0].split(separator)
     first, header = _described(cells[0]), [_described(cell) for cell in cells[1:]]
     down = _knots(first[1])
-    across = "angles" if down == "times" else "times"
+    across = _kind(header[0][0], down)
     places = range(len(cells))
     rows = [_row(line, separator, places, number) for number, line in enumerate(lines[1:], 2)]
     knots = {
@@ -139,9 +139,10 @@ def _map(text: str, unit: str) -> dict[str, str]:
         across: [_place(name, KNOTS[across]) for name, _ in header],
     }
     columns = [_in_si([row[k] for row in rows], header[k - 1][1], unit) for k in places[1:]]
-    by_row = columns if down == "angles" else list(zip(*columns, strict=True))
+    first_of = sorted(knots, key=list(KNOTS).index)
+    by_row = columns if down == first_of[1] else list(zip(*columns, strict=True))
     values = [number for row in by_row for number in row]
-    check_map(knots["times"], knots["angles"], values)
+    check_map({key: knots[key] for key in first_of}, values)
     return {key: _written(of, KNOTS[key]) for key, of in knots.items()} | {
         VALUES: _written(values, si_unit(unit))
     }
@@ -156,20 +157,42 @@ def _place(name: str, unit: str) -> float:
         raise TableProblem(f"the column {shown(name)} names no {dimension(unit)}, as in {example}") from None
 
 
-def check_map(times: Sequence[float], angles: Sequence[float], values: Sequence[float]) -> None:
+def _kind(name: str, other: str) -> str:
+    """Return the key of what the name of a column of a map is a place of."""
+    for key, unit in KNOTS.items():
+        try:
+            to_si(name, unit)
+        except UnitProblem:
+            continue
+        if key != other:
+            return key
+    kinds = " or ".join(dimension(unit) for key, unit in KNOTS.items() if key != other)
+    raise TableProblem(f"the column {shown(name)} names no {kinds}, as in 60 deg [N m]")
+
+
+def check_map(places: Mapping[str, Sequence[float]], values: Sequence[float]) -> None:
     """Refuse a map that no surface goes through.
+
+    Parameters
+    ----------
+    places
+        What it stands over, by two of :data:`KNOTS`.
+    values
+        Row by row of the first.
 
     Raises
     ------
     TableProblem
         The message says what is wrong.
     """
-    if len(values) != len(times) * len(angles):
-        raise TableProblem(f"there are {len(values)} values for {len(times)} times and {len(angles)} angles")
+    sizes = [len(of) for of in places.values()]
+    if len(values) != sizes[0] * sizes[1]:
+        counted = " and ".join(f"{len(of)} {name}" for name, of in places.items())
+        raise TableProblem(f"there are {len(values)} values for {counted}")
     if len(values) > MOST_OF_MAP:
         raise TableProblem(f"it has more than {MOST_OF_MAP} values")
-    for name, places in (("times", times), ("angles", angles)):
-        if len(places) < 2 or any(b <= a for a, b in pairwise(places)):
+    for name, of in places.items():
+        if len(of) < 2 or any(b <= a for a, b in pairwise(of)):
             raise TableProblem(f"a map needs two {name} at least, each greater than the one before it")
 
 

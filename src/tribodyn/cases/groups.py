@@ -10,6 +10,7 @@ from pydantic import PrivateAttr
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, file, number, quantity, switch, text
 from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.signals import BoreMap, ProfileTable
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, Liner, SurfacePair
@@ -274,6 +275,8 @@ class FormKeys(Group):
     chamfer_depth: float | None = quantity(
         None, "depth of the run-out at the end", ASSUMED, gt=0, example="20 um"
     )
+    bushing: BoreMap | None = None
+    trunnion: ProfileTable | None = None
 
     def model_post_init(self, context: object, /) -> None:
         """Check that a chamfer is whole."""
@@ -285,9 +288,26 @@ class FormKeys(Group):
 
     def form(self) -> Form:
         """Return the form of the joint."""
-        from tribodyn.joints import Form
+        from tribodyn.joints.form import Bore, Form
 
-        return Form(self.crown, self.chamfer_length or 0.0, self.chamfer_depth or 0.0)
+        bore = self.bushing
+        return Form(
+            self.crown,
+            self.chamfer_length or 0.0,
+            self.chamfer_depth or 0.0,
+            None if bore is None else Bore(bore.angles or (), bore.positions or (), bore.values or ()),
+            None if self.trunnion is None else self.trunnion.curve(),
+        )
+
+    def check_length(self, length: float) -> None:
+        """Refuse measured forms that end before the bushing does, ``length`` [m]."""
+        for name, measured in (("bushing", self.bushing), ("trunnion", self.trunnion)):
+            places = () if measured is None else measured.positions or ()
+            demand(
+                not places or (places[0] <= -0.5 * length and 0.5 * length <= places[-1]),
+                f"joint.form.{name}.positions",
+                f"they count from the middle of the bushing and must reach its ends at {500 * length:g} mm",
+            )
 
 
 class PlainJoint(Group):
@@ -329,6 +349,7 @@ class PlainJoint(Group):
             "joint.form",
             'a contact at points has no form: joint.contact = "surface" is needed',
         )
+        self.form.check_length(self.length)
         demand(
             (self.form.chamfer_length or 0.0) <= 0.4 * self.length,
             "joint.form.chamfer_length",

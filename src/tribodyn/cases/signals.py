@@ -18,6 +18,7 @@ _FORMULA: Final = ("value", "amplitude", "swing")
 _FEWEST_SMOOTH: Final = 5
 _ROUNDING: Final = 1.0e-14
 _TINY: Final = 1.0e-300
+_TURN: Final = 2.0 * math.pi * (1.0 - 1.0e-9)
 
 
 def _value(example: str) -> Any:
@@ -172,6 +173,37 @@ class PositionTable(_Timed):
     values: Numbers | None = _values("0, 10, 30 mm")
 
 
+class ProfileTable(_Rows):
+    """A deviation of a radius over a position."""
+
+    positions: Numbers | None = series("of values", "", unit="mm", example='"-10, 0, 10 mm"')
+    values: Numbers | None = _values("0, 3, 0 um")
+
+
+class BoreMap(NamedGroup):
+    """A deviation of a radius over angle and position."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(
+        itertools.product((MAP,), (VALUES, "angles", "positions"))
+    )
+
+    map: str | None = file("CSV file: an angle down, positions across; or the other way round", "bore.csv")
+    angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 180, 270 deg"')
+    positions: Numbers | None = series("of values", "", unit="mm", example='"-10, 10 mm"')
+    values: Numbers | None = _values("0, 3, 0 um")
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that it is a map of the whole bore."""
+        angles, positions, values = self.angles or (), self.positions or (), self.values or ()
+        demand(bool(values), MAP, "give a map, or angles, positions and values")
+        try:
+            check_map({"angles": angles, "positions": positions}, values)
+        except TableProblem as problem:
+            demand(False, VALUES, str(problem))
+        words = "they go once around: four at least, the last less than a turn after the first"
+        demand(len(angles) > 3 and angles[-1] - angles[0] < _TURN, "angles", words)
+
+
 class LineLoadTable(_Rows):
     """A load per length over a position."""
 
@@ -250,7 +282,7 @@ class _Mapped(_Course):
 
     def _check_rows(self) -> None:
         if self.is_map:
-            check_map(self.times or (), self.angles or (), self.values or ())
+            check_map({"times": self.times or (), "angles": self.angles or ()}, self.values or ())
         else:
             super()._check_rows()
 

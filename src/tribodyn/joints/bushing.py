@@ -157,8 +157,9 @@ class BushingJoint:
 
     @property
     def form_gap(self) -> FloatArray:
-        """What the form adds to the gap at the nodes [m], shape (n_z + 2, 1)."""
-        return self.form.gap(self.z, self.geometry.length)[:, None]
+        """What the form adds to the gap at the nodes [m], shape (n_z + 2, n_theta)."""
+        along = self.form.gap(self.z, self.geometry.length)[:, None]
+        return along + self.form.measured(self.theta, self.z)
 
     @property
     def field_shape(self) -> tuple[int, int]:

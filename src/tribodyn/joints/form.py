@@ -1,18 +1,52 @@
-"""What the surfaces of a bushing joint stand back from two cylinders: a crown and chamfers at the ends."""
+"""What the surfaces of a bushing joint stand back from cylinders: crown, chamfers, measured forms."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.signals import Signal
+
+
+@dataclass(frozen=True)
+class Bore:
+    """Measured form of a bushing.
+
+    Attributes
+    ----------
+    angles, positions
+        Where it was measured [rad, m], increasing; once around.
+    values
+        Deviation of the bore's radius [m], more where it is wider, angle by angle.
+    """
+
+    angles: Sequence[float]
+    positions: Sequence[float]
+    values: Sequence[float]
+
+    def deviation(self, theta: FloatArray, z: FloatArray) -> FloatArray:
+        """Return the deviation at angles and heights, shape (n_z, n_theta).
+
+        Bicubic and periodic; along heights of which there are fewer than four a polynomial.
+        """
+        from scipy.interpolate import CubicSpline
+
+        angles = np.asarray(self.angles, dtype=np.float64)
+        rows = np.reshape(self.values, (angles.size, len(self.positions)))
+        closed = np.append(angles, angles[0] + 2.0 * np.pi)
+        around = CubicSpline(closed, np.vstack([rows, rows[:1]]), bc_type="periodic")
+        at = around(angles[0] + np.mod(theta - angles[0], 2.0 * np.pi))
+        within = np.clip(z, self.positions[0], self.positions[-1])
+        return np.asarray(CubicSpline(np.asarray(self.positions), at, axis=1)(within).T)
 
 
 @dataclass(frozen=True)
 class Form:
-    """Additional gap along the axis, the same all around; nothing of it in the middle.
+    """Additional gap; of crown and chamfers there is nothing in the middle.
 
     Attributes
     ----------
@@ -20,11 +54,30 @@ class Form:
         Drop of a parabola at the ends against the middle [m].
     chamfer_length, chamfer_depth
         Straight run-out at both ends: how far it reaches inwards, and how deep it is at the end [m].
+    bore
+        Measured form of the bushing; none by default.
+    profile
+        Measured deviation of the trunnion's radius over the height [m], the same all around, since it turns
+        in the bushing; none by default.
     """
 
     crown: float = 0.0
     chamfer_length: float = 0.0
     chamfer_depth: float = 0.0
+    bore: Bore | None = None
+    profile: Signal | None = None
+
+    def measured(self, theta: FloatArray, z: FloatArray) -> FloatArray:
+        """Return what measured forms add to the clearance [m], shape (n_z, n_theta)."""
+        added = np.zeros((z.size, theta.size))
+        if self.bore is not None:
+            added += self.bore.deviation(theta, z)
+        if self.profile is not None:
+            from scipy.interpolate import PPoly
+
+            within = np.clip(z, self.profile.knots[0], self.profile.knots[-1])
+            added -= PPoly(self.profile.coefficients, self.profile.knots)(within)[:, None]
+        return added
 
     def gap(self, z: FloatArray, length: float) -> FloatArray:
         """Return what is added to the clearance at the heights ``z`` of a bushing [m], shape of ``z``."""
