@@ -15,20 +15,10 @@ from decimal import Context, Decimal
 from functools import lru_cache
 from typing import Final, NamedTuple
 
-import pint
-
+from tribodyn.cases.known_units import SIZES, ZEROS
 from tribodyn.core.quoting import brief
 
 _ARITHMETIC: Final = Context(prec=34)
-_REGISTRY: Final[pint.UnitRegistry[Decimal]] = pint.UnitRegistry(
-    non_int_type=Decimal, on_redefinition="ignore", cache_folder=None, autoconvert_offset_to_baseunit=True
-)
-# pint reads Nm as the number metric of yarns; an engineer means the moment.
-_REGISTRY.define("newton_meter = newton * meter = Nm")
-# Hardness numbers of Vickers and Brinell are kilogrammes-force per square millimetre.
-_REGISTRY.define("vickers_hardness = 9.80665 * megapascal = HV")
-_REGISTRY.define("brinell_hardness = 9.80665 * megapascal = HB")
-
 _LONGEST: Final = 100
 _NUMBER: Final = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 _FACTOR: Final = r"(?:1|[A-Za-z][A-Za-z_]*(?:(?:\^|\*\*)-?[1-9](?![0-9]))?)"
@@ -280,14 +270,14 @@ def _known(unit: str) -> _Scale:
         raise UnitProblem(
             f"{brief(unit)!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)"
         )
-    try:
-        return _scale(unit)
-    except UnitProblem:
-        raise
-    except pint.UndefinedUnitError:
-        raise UnitProblem(f"unknown unit {brief(unit)!r}") from None
-    except (pint.PintError, ArithmeticError, ValueError, TypeError):
-        raise UnitProblem(f"{brief(unit)!r} cannot be used as a unit here") from None
+    return _scale(unit)
+
+
+_KNOWN: Final = {
+    unit: _Scale(Decimal(size), Decimal(ZEROS.get(unit, "0")), base)
+    for base, sizes in SIZES.items()
+    for unit, size in sizes.items()
+}
 
 
 @lru_cache(maxsize=1024)
@@ -297,9 +287,13 @@ def _scale(unit: str) -> _Scale:
     Plain numbers, angles and frequencies have the same dimension but different base units (none,
     radian, 1/s against rad/s), which is why base units are compared and not dimensions.
     """
-    one = _REGISTRY.Quantity(Decimal(1), unit).to_base_units()
-    nothing = _REGISTRY.Quantity(Decimal(0), unit).to_base_units()
-    zero = Decimal(nothing.magnitude)
-    if zero and not unit.isidentifier():
-        raise UnitProblem(f"{brief(unit)!r} counts from a zero of its own; use kelvin")
-    return _Scale(Decimal(one.magnitude) - zero, zero, str(one.units))
+    if unit in _KNOWN:
+        return _KNOWN[unit]
+    # Loading pint takes longer than reading a case.
+    from tribodyn.cases.other_units import UnknownUnit, looked_up
+
+    try:
+        size, zero, base = looked_up(unit)
+    except UnknownUnit as problem:
+        raise UnitProblem(str(problem)) from None
+    return _Scale(size, zero, base)

@@ -9,6 +9,7 @@ from argparse import Namespace
 from dataclasses import dataclass
 from typing import Any, TextIO
 
+from tribodyn.cli.log import printed
 from tribodyn.core.quoting import on_one_line
 
 
@@ -34,11 +35,13 @@ class Console:
 
     def say(self, text: str) -> None:
         """Print what the user asked for."""
+        printed(text)
         if not (self.quiet or self.json):
             print(text)
 
     def note(self, text: str) -> None:
         """Print how the work is going."""
+        printed(text)
         if not self.quiet:
             _on_stderr(text)
 
@@ -52,6 +55,7 @@ def show_json(document: Any) -> None:
 
 def complain(text: str) -> None:
     """Print one error or warning on stderr, on one line, whatever it quotes."""
+    printed(text)
     _on_stderr(f"tribodyn: {on_one_line(text)}")
 
 

@@ -15,7 +15,9 @@ from tribodyn.cli import (
     cases,
     check,
     compare,
+    completion,
     find,
+    log,
     materials,
     report,
     reproduce,
@@ -61,6 +63,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "materials": materials,
     "stribeck": stribeck,
     "bounce": bounce,
+    "completion": completion,
 }
 """All sub-commands: a new one is a module beside this one and a line here."""
 
@@ -79,6 +82,7 @@ _EXAMPLES: Final = {
     "materials": "tribodyn materials ptfe-liner bronze-c93200",
     "stribeck": "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'",
     "bounce": "tribodyn bounce vsv --law rsdc",
+    "completion": 'eval "$(tribodyn completion bash)"',
 }
 """How the help of each command ends."""
 _EPILOG: Final = """\
@@ -149,6 +153,7 @@ def _parser() -> _Parser:
         command.add_arguments(below)
         below.add_argument("--quiet", action="store_true", help="print errors and warnings only")
         below.add_argument("--json", action="store_true", help="print the outcome as JSON on stdout")
+        log.add_arguments(below)
         below.add_argument("--debug", action="store_true", help="show where in the program an error arose")
     return parser
 
@@ -178,11 +183,13 @@ def _executed(arguments: Sequence[str]) -> int:
     """Execute a command; say what went wrong."""
     parser = _parser()
     try:
+        completion.answer(parser)
         if not arguments:
             parser.print_help()
             return DONE
         args = parser.understood(arguments)
-        return COMMANDS[args.command].execute(args)
+        with log.logged(args, arguments):
+            return _logged(args)
     except BrokenPipeError:
         # Whoever read our output has gone; there is nobody left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -193,6 +200,15 @@ def _executed(arguments: Sequence[str]) -> int:
         status = BAD_INPUT if isinstance(error, InputError) else FAILED
         _complain(error, as_json="--json" in arguments)
         return status
+
+
+def _logged(args: argparse.Namespace) -> int:
+    """Execute a command, and log what goes wrong."""
+    try:
+        return COMMANDS[args.command].execute(args)
+    except Exception as error:
+        log.LOGGER.info("%s", _in_words(error), exc_info=args.debug)
+        raise
 
 
 def _complain(error: BaseException, *, as_json: bool) -> None:

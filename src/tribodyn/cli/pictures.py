@@ -29,6 +29,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def draw(dataset: xr.Dataset, directory: Path, *, figures: bool = True, page: bool = True) -> None:
     """Draw all figures and write the report of a result into its directory."""
+    if not (figures or page):
+        return
     from tribodyn import report
 
     if figures:

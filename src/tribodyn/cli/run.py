@@ -15,6 +15,7 @@ from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, RESULT, OutputDirectory
 from tribodyn.cli.headlines import in_words
 from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.log import stage
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
 from tribodyn.cli.progress import CYCLES, Progress, progress
@@ -40,20 +41,24 @@ def add_arguments(parser: ArgumentParser) -> None:
 def execute(args: Namespace) -> int:
     """Run the case; 0 when it came to its end and everything is written, else 1."""
     console = Console.of(args)
-    case = chosen_case(args)
+    with stage("reading the case"):
+        case = chosen_case(args)
     folder = _name(args) if args.output is None else args.output
     if not args.force:
         _spare(folder, case)
     directory = OutputDirectory(folder)
     with directory.reserved():
         with Interruption() as stop:
-            dataset = _simulate(case, directory, console, stop)
+            with stage("simulating, compiling included"):
+                dataset = _simulate(case, directory, console, stop)
             last_words(f"aborted while saving; what stands in {os.fspath(directory.path)} is whole")
-            summary = _save(dataset, directory)
+            with stage("saving"):
+                summary = _save(dataset, directory)
             if case.campaign_cycles and not dataset.attrs.get("failure"):
                 directory.checkpoint.unlink(missing_ok=True)
         _tell(summary, console)
-        drawn = _draw(dataset, directory, console, args)
+        with stage("drawing"):
+            drawn = _draw(dataset, directory, console, args)
     _say_where(directory.path, console)
     failure = str(dataset.attrs.get("failure", ""))
     if failure:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from scipy.ndimage import correlate1d
 
 from tribodyn.core.arrays import FloatArray
 
@@ -36,5 +35,8 @@ def coarse_curvature(heights: FloatArray, step: float, axis: int = 0) -> FloatAr
 
 
 def _difference(heights: FloatArray, weights: FloatArray, axis: int) -> FloatArray:
+    # Imported here: most runs read no scan.
+    from scipy.ndimage import correlate1d
+
     everywhere = correlate1d(heights, weights, axis=axis, mode="nearest")
     return np.asarray(everywhere[REACH:-REACH] if axis == 0 else everywhere[:, REACH:-REACH])

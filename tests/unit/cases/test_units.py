@@ -2,11 +2,16 @@ from __future__ import annotations
 
 import contextlib
 import math
+import subprocess
+import sys
+from decimal import Decimal
 
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tribodyn.cases.known_units import SIZES, ZEROS
+from tribodyn.cases.other_units import looked_up
 from tribodyn.cases.units import UnitProblem, dimension, from_si, rms_roughness, si_unit, to_si
 
 UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N", "kg m^2", "ms", "um/s")
@@ -136,3 +141,14 @@ def test_a_kinematic_viscosity_comes_with_its_density() -> None:
         to_si("32 cSt at 870 kg", "Pa s")
     with pytest.raises(UnitProblem):
         to_si("32 um at 870 kg/m^3", "m")
+
+
+@pytest.mark.parametrize(("base", "unit"), [(base, unit) for base, sizes in SIZES.items() for unit in sizes])
+def test_what_is_known_by_heart_is_what_pint_says(base: str, unit: str) -> None:
+    size, zero, units = looked_up(unit)
+    assert (size, zero, units) == (Decimal(SIZES[base][unit]), Decimal(ZEROS.get(unit, "0")), base)
+
+
+def test_the_built_in_case_needs_no_pint() -> None:
+    code = "import sys, tribodyn as td; td.load_case('vsv'); assert 'pint' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,79 @@
+"""What a command did and when: on stderr with ``-v``, and in a file with ``--log``.
+
+The file holds all that was printed, too, a line each, after its time.
+"""
+
+from __future__ import annotations
+
+import logging
+import platform
+import shlex
+import sys
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Final
+
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given, on_one_line
+
+LOGGER: Final = logging.getLogger("tribodyn")
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the options of every command that are about its log."""
+    parser.add_argument("-v", "--verbose", action="store_true", help="say what is done and how long it takes")
+    parser.add_argument("--log", metavar="FILE", help="add what is done, printed and refused to this file")
+
+
+@contextmanager
+def logged(args: Namespace, arguments: Sequence[str]) -> Iterator[None]:
+    """Keep a log as the options of a command ask for it."""
+    handlers = list(_handlers(args))
+    LOGGER.setLevel(logging.DEBUG if handlers else logging.CRITICAL)
+    LOGGER.propagate = False
+    for handler in handlers:
+        LOGGER.addHandler(handler)
+    began = time.perf_counter()
+    try:
+        if handlers:
+            import tribodyn
+
+            LOGGER.debug("tribodyn %s", shlex.join(arguments))
+            about = (tribodyn.__version__, platform.python_version(), platform.platform())
+            LOGGER.debug("version %s, Python %s, %s", *about)
+        yield
+    finally:
+        LOGGER.debug("%.2f s in all", time.perf_counter() - began)
+        for handler in handlers:
+            LOGGER.removeHandler(handler)
+            handler.close()
+
+
+def _handlers(args: Namespace) -> Iterator[logging.Handler]:
+    if args.verbose:
+        shown = logging.StreamHandler(sys.stderr)
+        # The rest is printed as it is.
+        shown.addFilter(lambda record: record.levelno == logging.DEBUG)
+        yield shown
+    if args.log is not None:
+        try:
+            file = logging.FileHandler(args.log, encoding="utf-8")
+        except OSError as error:
+            raise InputError(f"{as_given(args.log)}: {error.strerror}", key="--log") from None
+        file.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
+        yield file
+
+
+@contextmanager
+def stage(name: str) -> Iterator[None]:
+    """Log how long a part of the work takes."""
+    began = time.perf_counter()
+    yield
+    LOGGER.debug("%s: %.2f s", name, time.perf_counter() - began)
+
+
+def printed(text: str) -> None:
+    """Log what is printed."""
+    LOGGER.info("%s", on_one_line(text))
