@@ -16,6 +16,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final
+from urllib.parse import urlsplit
 
 import numpy as np
 import psutil
@@ -55,6 +56,8 @@ def workbench() -> Iterator[tuple[psutil.Process, str]]:
 
 
 async def _measured(process: psutil.Process, address: str, quick: bool) -> dict[str, dict[str, float]]:
+    # Whose name only browsers know, and which may be called by its number, too.
+    address = address.replace(str(urlsplit(address).hostname), "127.0.0.1", 1)
     answer = await AsyncHTTPClient().fetch(address)
     base, cookie = address.partition("?")[0], answer.headers["Set-Cookie"].partition(";")[0]
     first = await Hand.at(base, cookie)

@@ -51,11 +51,11 @@ def execute(args: Namespace) -> int:
     from tribodyn.workbench.server import attended, listening, workers
     from tribodyn.workbench.variant import Origin
 
-    listener = listening(args.port)
+    listeners = listening(args.port)
     with Interruption(_CLOSING) as stop, ExitStack() as stack:
         served = attended(
             Origin(case, args.case, changes(args)),
-            listener,
+            listeners,
             size=args.workers or workers(),
             opened=lambda address: _show(address, args, stack),
             stop=stop,

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import logging
 import os
+import secrets
 import socket
+import sys
 import tempfile
 import webbrowser
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
 from tornado.httpserver import HTTPServer
-from tornado.netutil import bind_sockets
 
 from tribodyn.core import machine
 from tribodyn.core.errors import InputError
@@ -28,8 +30,10 @@ from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker import Limits
 
 ADDRESS: Final = "127.0.0.1"
-NAMES: Final = ("127.0.0.1", "localhost")
-"""What a browser of this machine may call it."""
+_ADDRESS_6: Final = "::1"
+_ATTEMPTS: Final = 20
+_BACKLOG: Final = 128
+_NAME_BYTES: Final = 16
 _LISTEN: Final = 0.2
 """Time between two looks at whether to stop [s]."""
 _LARGEST_HEADER: Final = 16_384
@@ -43,24 +47,58 @@ def workers() -> int:
     return min(max(machine.processors(), _WORKERS), _MOST_WORKERS)
 
 
-def listening(port: int, address: str = ADDRESS) -> socket.socket:
-    """Return a socket that listens, by default to this machine only; port 0 stands for any that is free.
+def own_name() -> str:
+    """Return a name of this machine that nobody can guess.
+
+    Browsers send a cookie to every port of the name that it came from. Whoever else serves something on this
+    machine would be sent ours under a name that he knows. Every name that ends in ``.localhost`` means this
+    machine; only on macOS do browsers ask the system, which does not know it.
+    """
+    return ADDRESS if sys.platform == "darwin" else f"{secrets.token_hex(_NAME_BYTES)}.localhost"
+
+
+def listening(port: int) -> list[socket.socket]:
+    """Return sockets that listen to this machine only, one for each kind of address, at the same port.
+
+    Had somebody else the other address, browsers might take it for ours.
+
+    Parameters
+    ----------
+    port
+        0 stands for any that is free.
 
     Raises
     ------
     InputError
         The port cannot be had.
     """
+    for attempt in range(1, _ATTEMPTS + 1):
+        (first,) = _bound(port, ADDRESS, socket.AF_INET)
+        try:
+            return [first, *_bound(first.getsockname()[1], _ADDRESS_6, socket.AF_INET6)]
+        except InputError:
+            first.close()
+            if port or attempt == _ATTEMPTS:
+                raise
+    raise AssertionError
+
+
+def _bound(port: int, address: str, family: socket.AddressFamily) -> list[socket.socket]:
+    """Return a socket that listens; none where there are no such addresses."""
     try:
-        return bind_sockets(port, address, family=socket.AF_INET)[0]
+        made = socket.create_server((address, port), family=family, backlog=_BACKLOG)
     except OSError as error:
+        if family == socket.AF_INET6 and error.errno in (errno.EADDRNOTAVAIL, errno.EAFNOSUPPORT):
+            return []
         reason = f"port {port} cannot be had: {error.strerror}; allowed: another one, or 0 for any"
         raise InputError(reason, key="--port") from None
+    made.setblocking(False)
+    return [made]
 
 
 async def attended(
     origin: Origin,
-    listener: socket.socket,
+    listeners: Sequence[socket.socket],
     *,
     size: int,
     opened: Callable[[str], None],
@@ -74,7 +112,7 @@ async def attended(
     ----------
     origin
         The case.
-    listener
+    listeners
         From :func:`listening`.
     size
         How many workers.
@@ -86,19 +124,19 @@ async def attended(
         Told of errors of our own.
     """
     chosen = rules or Rules()
-    port = listener.getsockname()[1]
-    door = Door("http", frozenset(f"{name}:{port}" for name in NAMES), f"tribodyn-{port}")
+    port, name = listeners[0].getsockname()[1], own_name()
+    door = Door("http", frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
     person = OnePerson(Visitor(chosen.room))
     bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits()), chosen)
-    opened_at = f"http://{ADDRESS}:{port}/?{TOKEN}={person.token}"
-    await serve(bench, door, person, listener, lambda: opened(opened_at), stop, complain)
+    opened_at = f"http://{name}:{port}/?{TOKEN}={person.token}"
+    await serve(bench, door, person, listeners, lambda: opened(opened_at), stop, complain)
 
 
 async def serve(
     bench: Bench,
     door: Door,
     keys: Keyring,
-    listener: socket.socket,
+    listeners: Sequence[socket.socket],
     opened: Callable[[], None],
     stop: Callable[[], bool],
     complain: Callable[[str], None],
@@ -112,7 +150,7 @@ async def serve(
         max_body_size=0,
         idle_connection_timeout=300,
     )
-    server.add_socket(listener)
+    server.add_sockets(listeners)
     warm = asyncio.create_task(bench.warm())
     try:
         opened()

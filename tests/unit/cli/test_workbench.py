@@ -8,6 +8,7 @@ import subprocess
 import sys
 import urllib.error
 import urllib.request
+from urllib.parse import urlsplit
 
 import psutil
 import pytest
@@ -15,6 +16,14 @@ import pytest
 from tribodyn.cli.main import main
 
 COMMAND = [sys.executable, "-m", "tribodyn", "workbench"]
+
+
+def asked(address: str):
+    """Ask for an address as a browser does, which knows where names in localhost are."""
+    parts = urlsplit(address)
+    request = urllib.request.Request(address.replace(str(parts.hostname), "127.0.0.1", 1))
+    request.add_header("Host", parts.netloc)
+    return urllib.request.urlopen(request)
 
 
 def test_it_says_where_it_is_lets_one_browser_in_and_leaves_nothing_behind():
@@ -26,10 +35,10 @@ def test_it_says_where_it_is_lets_one_browser_in_and_leaves_nothing_behind():
         lines = [process.stdout.readline() for _ in range(3)]
         address = json.loads("".join(lines))["address"]
         family = psutil.Process(process.pid).children(recursive=True)
-        with urllib.request.urlopen(address) as answer:
+        with asked(address) as answer:
             assert "HttpOnly" in answer.headers["Set-Cookie"]
         with pytest.raises(urllib.error.HTTPError, match="403"):
-            urllib.request.urlopen(address)
+            asked(address)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=30)
     assert process.returncode == 0

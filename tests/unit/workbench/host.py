@@ -21,7 +21,7 @@ from tribodyn.workbench.bench import Bench, Rules
 from tribodyn.workbench.crew import Crew, GivenUp, Job
 from tribodyn.workbench.gate import Door, Gate, OnePerson
 from tribodyn.workbench.handlers import PAGE, House, application
-from tribodyn.workbench.server import NAMES, listening
+from tribodyn.workbench.server import listening
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker import Limits
@@ -191,16 +191,17 @@ async def hosting(
 ) -> AsyncIterator[Host]:
     """Serve while the block runs; no error of our own may be told of."""
     chosen = rules or Rules()
-    listener = listening(0)
-    port = listener.getsockname()[1]
-    door = Door("http", frozenset(f"{name}:{port}" for name in NAMES), f"tribodyn-{port}")
+    listeners = listening(0)
+    port = listeners[0].getsockname()[1]
+    hosts = frozenset((f"127.0.0.1:{port}", f"ours.localhost:{port}"))
+    door = Door("http", hosts, f"tribodyn-{port}")
     person = OnePerson(Visitor(chosen.room))
     origin = Origin(load_case(case), case)
     bench = Bench(origin, MECHANISMS[origin.case.kind()], crew or Pretending(), chosen)
     complaints: list[str] = []
     house = House(bench, door, person, {PAGE: b"<!doctype html>the page", "a.js": b"1"}, complaints.append)
     server = HTTPServer(Gate(door, person, application(house)), max_body_size=0)
-    server.add_socket(listener)
+    server.add_sockets(listeners)
     warm = asyncio.create_task(bench.warm())
     host = Host(bench, house, person, port, complaints)
     try:

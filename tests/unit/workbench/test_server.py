@@ -5,15 +5,19 @@ from __future__ import annotations
 import asyncio
 import itertools
 import json
+import re
 import stat
+import sys
 import time
 
+import pytest
 from tests.unit.workbench.host import Pretending, hosting, in_loop
 
+from tribodyn.core.errors import InputError
 from tribodyn.workbench.bench import Rules
 from tribodyn.workbench.gate import same
 from tribodyn.workbench.messages import LARGEST
-from tribodyn.workbench.server import pointer
+from tribodyn.workbench.server import listening, own_name, pointer
 
 ROUTES = ("/", "/assets/a.js", "/download/case.toml", "/socket", "/nothing")
 EVIL = "http://evil.example"
@@ -28,7 +32,7 @@ UPGRADE = {
 def combinations(host):
     """Yield every mixture of right and wrong host, origin and cookie, and whether it may pass."""
     port = host.port
-    hosts = (f"127.0.0.1:{port}", f"localhost:{port}", "127.0.0.1", f"evil.example:{port}")
+    hosts = (f"127.0.0.1:{port}", f"ours.localhost:{port}", f"localhost:{port}", f"evil.example:{port}")
     origins = (None, "own", "null", EVIL, f"https://127.0.0.1:{port}", f"http://127.0.0.1:{port + 1}")
     name, value = host.cookie.split("=")
     cookies = (None, host.cookie, f"{name}={value[:-1]}", f"tribodyn-{port + 1}={value}")
@@ -188,6 +192,26 @@ async def test_errors_of_our_own_are_told_without_the_address() -> None:
         assert "RuntimeError: broken" in told
         assert "secret" not in told
         host.complaints.clear()
+
+
+def test_it_listens_to_this_machine_only_at_one_port_of_both_kinds_of_address():
+    found = listening(0)
+    try:
+        assert {listener.getsockname()[0] for listener in found} <= {"127.0.0.1", "::1"}
+        port = found[0].getsockname()[1]
+        assert {listener.getsockname()[1] for listener in found} == {port}
+        with pytest.raises(InputError, match=f"port {port} cannot be had"):
+            listening(port)
+    finally:
+        for listener in found:
+            listener.close()
+
+
+@pytest.mark.skipif(sys.platform == "darwin", reason="browsers do not find such names there")
+def test_it_has_a_name_that_nobody_can_guess():
+    names = {own_name() for _ in range(10)}
+    assert len(names) == 10
+    assert all(re.fullmatch(r"[0-9a-f]{32}\.localhost", name) for name in names)
 
 
 def test_secrets_are_compared_whole():
