@@ -239,6 +239,7 @@ def make_campaign(make_result: ResultFactory) -> ResultFactory:
             "wear_load_change": np.where(jump > 0.0, 0.05, 0.0),
             "wear_pressure_max": 2e8 + 3e7 * np.sin(jump),
             "wear_pressure_mean": 1e7 * np.exp(-jump / 10.0),
+            "wear_roughness": np.full(n_jumps, 1.6e-6),
             "wear_force_mean": np.full(n_jumps, 18.0),
             "wear_angle_error_max": np.full(n_jumps, 5e-4),
             "wear_angle_error_rms": 4e-4 + 1e-6 * jump,

@@ -366,6 +366,9 @@ class Wear(Group):
     specific_wear_rate: float = quantity(
         "1.1e-15 m^2/N", "specific wear rate C_w", "paper, section 2.4", ge=0
     )
+    partner_wear_rate: float = quantity(
+        "0 m^2/N", "specific wear rate of what slides in it; both wear in proportion", ASSUMED, ge=0
+    )
     paper_hardness_divisor: float = number(
         0.0, "the paper's figures come out when the rate is divided by 65; 0 is off", "paper, Eq. 47", ge=0
     )

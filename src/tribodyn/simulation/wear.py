@@ -26,7 +26,7 @@ def simulate_plain(session: Session) -> xr.Dataset:
     run = session.integrated(session.case.duration)
     depth = _archard(wear).depth(system.sliding_load(run.problem))
     life = _linear_life(wear, run.solution.t_end / system.period, depth)
-    return session.dataset(run, _worn(system, depth, life))
+    return session.dataset(run, _worn(system, wear, depth, life))
 
 
 def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
@@ -50,7 +50,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
     attributes: dict[str, object] = {"wear_cycles_reached": campaign.cycles}
     if math.isfinite(campaign.life):
         attributes["wear_life_cycles"] = campaign.life
-    part = _worn(cycles.system, campaign.depth, attributes)
+    part = _worn(cycles.system, cycles.case.wear, campaign.depth, attributes)
     more = replace(
         part,
         coordinates={
@@ -69,16 +69,29 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
 
 def _archard(wear: groups.Wear) -> Archard:
     """Return the wear law of a case."""
-    return Archard(wear.specific_wear_rate, wear.paper_hardness_divisor)
+    return Archard(wear.specific_wear_rate + wear.partner_wear_rate, wear.paper_hardness_divisor)
 
 
-def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> Part:
+def _of_partner(wear: groups.Wear) -> list[str]:
+    """Say whose the worn depth is where both surfaces wear."""
+    both = wear.specific_wear_rate + wear.partner_wear_rate
+    if wear.partner_wear_rate == 0.0:
+        return []
+    share = 100.0 * wear.partner_wear_rate / both
+    return [f"Of the worn depth and volume {share:.3g} % are worn off the partner of the bushing."]
+
+
+def _worn(
+    system: WearingSystem, wear: groups.Wear, depth: FloatArray, attributes: Mapping[str, object]
+) -> Part:
     """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
     if not depth.size:
         return Part()
     volume = worn_volume(depth, system.nodes.area)
     return Part(
-        fields={"wear_depth": system.as_field(depth)}, attributes={"worn_volume": volume, **attributes}
+        fields={"wear_depth": system.as_field(depth)},
+        attributes={"worn_volume": volume, **attributes},
+        notes=_of_partner(wear),
     )
 
 

@@ -5,5 +5,14 @@ from __future__ import annotations
 from tribodyn.wear.jump import JumpControl, load_change
 from tribodyn.wear.law import Archard, worn_volume
 from tribodyn.wear.profile import resampled
+from tribodyn.wear.running_in import loaded_depth, worn_roughness
 
-__all__ = ["Archard", "JumpControl", "load_change", "resampled", "worn_volume"]
+__all__ = [
+    "Archard",
+    "JumpControl",
+    "load_change",
+    "loaded_depth",
+    "resampled",
+    "worn_roughness",
+    "worn_volume",
+]

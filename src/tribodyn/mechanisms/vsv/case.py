@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
 from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import choice, count, number, quantity, tables, text
+from tribodyn.cases.fields import choice, count, number, quantity, switch, tables, text
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
     PlainJoint,
@@ -115,6 +115,15 @@ class VaneWear(Wear):
         ASSUMED,
         gt=0,
         example="0.05 deg",
+    )
+
+    running_in: bool = switch(False, "whether the bushing's roughness changes in a campaign", "manual, wear")
+    final_roughness: float | None = quantity(
+        None,
+        "rms roughness that the bushing runs in to; that of the trunnion without it",
+        ASSUMED,
+        gt=0,
+        example="0.4 um",
     )
 
     @property
@@ -262,6 +271,7 @@ class VsvCase(BushingCase):
             self._check_inertias,
             self._check_reach,
             self._check_loads,
+            self._check_running_in,
         )
         return (*super().checks(), *own)
 
@@ -308,6 +318,22 @@ class VsvCase(BushingCase):
             with faults.noted():
                 demand(inertia > least, f"mechanism.{body}_inertia", message)
         faults.raise_any()
+
+    def _check_running_in(self) -> None:
+        """Check that there is a roughness to run in to."""
+        final = self.surfaces.trunnion.roughness if self.wear.final_roughness is None else 1.0
+        words = "the trunnion is smooth: say what the bushing runs in to"
+        demand(not self.wear.running_in or final > 0.0, "wear.final_roughness", words)
+
+    def run_in(self, depth: float) -> Self:
+        """Return the case with the roughness of a bushing that is worn by a mean depth [m]."""
+        from tribodyn.wear import worn_roughness
+
+        bushing, trunnion = self.surfaces.bushing, self.surfaces.trunnion
+        final = self.wear.final_roughness or trunnion.roughness
+        sigma = worn_roughness(bushing.roughness, depth, final)
+        worn = self.surfaces.model_copy(update={"bushing": bushing.model_copy(update={"roughness": sigma})})
+        return self.model_copy(update={"surfaces": worn})
 
     def _check_loads(self) -> None:
         """Check that forces act on the vane."""

@@ -42,6 +42,7 @@ from tribodyn.mechanisms.vsv.problem import vsv_problem
 from tribodyn.mechanisms.vsv.reach import at_limit, ideal_vane_angle
 from tribodyn.mechanisms.vsv.times import following, output_times, snapshots
 from tribodyn.results.attributes import CARRIED
+from tribodyn.wear import loaded_depth
 
 
 def vsv_of(case: VsvCase) -> Vsv:
@@ -91,8 +92,18 @@ class VsvSystem:
     @property
     def nodes(self) -> Nodes:
         """The nodes of the bushing, shape (n_z + 2, n_theta)."""
-        area = np.broadcast_to(self.bushing.node_area[:, None], self.bushing.field_shape)
-        return Nodes(area, self.bushing.roughness, len(STATES))
+        smoothest = self.case.run_in(math.inf) if self.case.wear.running_in else self.case
+        return Nodes(self._area, smoothest.surface_pair.roughness_rms, len(STATES))
+
+    @property
+    def _area(self) -> FloatArray:
+        return np.broadcast_to(self.bushing.node_area[:, None], self.bushing.field_shape)
+
+    def worn_bushing(self, depth: FloatArray | None) -> BushingJoint:
+        """Return the trunnion in its bushing with the roughness that it has at a wear depth [m]."""
+        if not self.case.wear.running_in or depth is None or not depth.any():
+            return self.bushing
+        return bushing_of(self.case.run_in(loaded_depth(depth, self._area)))
 
     @property
     def period(self) -> float:
@@ -106,8 +117,9 @@ class VsvSystem:
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
+        joint = self.worn_bushing(None if worn is None else worn.depth)
         problem = vsv_problem(
-            self.vsv,
+            replace(self.vsv, joint=joint),
             duration=duration,
             start=self.case.run.start,
             atol=self.case.solver.atol.as_tuple,
@@ -143,7 +155,7 @@ class VsvSystem:
     def contact_energy(self, worn: Worn) -> float:
         """Return the energy stored in the contact [J]."""
         assert worn.carried is not None
-        data = self.bushing.data(worn.depth)
+        data = self.worn_bushing(worn.depth).data(worn.depth)
         return contact_energy(data, worn.carried.state, worn.carried.entry_velocity)
 
     def of_cycle(self, run: Run) -> dict[str, float]:
@@ -153,6 +165,7 @@ class VsvSystem:
         return {
             "wear_pressure_max": of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"],
             "wear_pressure_mean": _mean(t, rows["p_max"]),
+            "wear_roughness": float(run.problem.data.joint.roughness),
             "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
             "wear_angle_error_max": float(np.abs(error).max()),
             "wear_angle_error_rms": _mean(t, error**2) ** 0.5,
@@ -164,12 +177,13 @@ class VsvSystem:
         ledger = ledger_columns(rows)
         whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
         worn = run.problem.data.joint.wear - self.bushing.form_gap
-        grid_error = grid_force_error(self.bushing, rows, worn)
+        bushing = self.worn_bushing(worn)
+        grid_error = grid_force_error(bushing, rows, worn)
         memory = run.problem.memory
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
-        found |= loading(self.case, self.bushing, pressure, found["separation_least"])
-        found["pressure_at_rest"] = pressure_at_rest(self.bushing, rows, worn)
+        found |= loading(self.case, bushing, pressure, found["separation_least"])
+        found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         return Part(
             coordinates=self._coordinates(run),

@@ -11,6 +11,7 @@ from tribodyn.results.variables import JUMP, SNAPSHOT, Variable, described
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_pressure_mean": Variable("Pa", "peak contact pressure, mean over the cycle", JUMP),
+    "wear_roughness": Variable("m", "combined rms roughness in the cycle", JUMP),
     "wear_force_mean": Variable("N", "contact force, mean over the cycle", JUMP),
     "wear_angle_error_max": Variable("rad", "vane-angle error, largest in the cycle", JUMP),
     "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
