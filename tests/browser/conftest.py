@@ -49,9 +49,10 @@ def _executable() -> str:
     return found
 
 
-@pytest.fixture(scope="session")
+# Playwright holds the event loop of the process as long as it runs, and other tests want one of their own.
+@pytest.fixture(scope="package")
 def browser() -> Iterator[Browser]:
-    """The system's Chromium, one for all tests."""
+    """The system's Chromium, one for all tests of this folder."""
     path = _executable()
     with sync_playwright() as playwright:
         launched = playwright.chromium.launch(executable_path=path, args=OPTIONS)
@@ -87,7 +88,8 @@ class Reader:
     def draw_everything(self) -> None:
         """Scroll through the page until every figure of it is drawn."""
         page = self.page
-        for name in page.locator("[data-widget]").evaluate_all("all => all.map(one => one.dataset.name)"):
+        shown = page.locator("figure:not([hidden]) [data-widget]")
+        for name in shown.evaluate_all("all => all.map(one => one.dataset.name)"):
             page.locator(f"#{name}").scroll_into_view_if_needed()
             page.wait_for_function(
                 "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=30_000

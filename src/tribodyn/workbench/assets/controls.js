@@ -13,22 +13,28 @@ function makeControls() {
   const first = document.querySelector("#controls .first");
   first.replaceChildren(...bench.hello.controls.filter((one) => one.first).map(controlOf));
   const search = document.getElementById("search");
-  search.addEventListener("input", () => findControls(search.value));
-  findControls("");
+  const all = document.getElementById("all-keys");
+  const find = () => findControls(search.value, all.getAttribute("aria-pressed") === "true");
+  search.addEventListener("input", find);
+  all.addEventListener("click", () => {
+    all.setAttribute("aria-pressed", String(all.getAttribute("aria-pressed") !== "true"));
+    find();
+  });
+  find();
 }
 
-/** Show the controls whose name or meaning holds some words, and those that differ from the case. */
-function findControls(text) {
+/** Show the controls whose name or meaning holds some words, or all; and those that differ from the case. */
+function findControls(text, all) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const others = bench.hello.controls.filter((one) => !one.first);
   const fits = ({ key, label }) => words.every((word) => `${key} ${label}`.toLowerCase().includes(word));
-  const found = words.length ? others.filter(fits) : [];
+  const found = words.length || all ? others.filter(fits) : [];
   const changed = others.filter(({ key }) => key in bench.values);
-  const shown = [...new Set([...changed, ...found.slice(0, MOST_FOUND)])];
+  const shown = [...new Set([...changed, ...(all ? found : found.slice(0, MOST_FOUND))])];
   const place = document.querySelector("#controls .others");
   const there = [...place.children].map((one) => one.dataset.key).join();
   if (there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
-  const more = found.length > MOST_FOUND ? `, the first ${MOST_FOUND} are shown` : "";
+  const more = found.length > MOST_FOUND && !all ? `, the first ${MOST_FOUND} are shown` : "";
   document.getElementById("found").textContent = words.length ? `${found.length} of ${others.length} keys${more}` : "";
   fillControls();
 }
@@ -67,6 +73,12 @@ function entryOf(control, id) {
   const about = { id, class: "entry", type: "text", spellcheck: "false", autocomplete: "off" };
   const entry = element("input", { ...about, placeholder: control.example, "aria-describedby": `${id}-fault` });
   entry.addEventListener("change", () => typedIn(key, entry.value.trim()));
+  entry.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    entry.value = shownText(key);
+    complain(key, "");
+    entry.blur();
+  });
   return entry;
 }
 

@@ -21,6 +21,7 @@ const KEYS = [
 ];
 const ELSEWHERE = [
   ["a slider", "← →", "one step; Page Up, Page Down ten; Home, End to the ends"],
+  ["a box of text", "Enter, Escape", "take what is typed, leave it"],
   ["a curve", "+ − ← → 0", "zoom, move, the whole"],
   ["the mechanism", "← → ↑ ↓ + −", "turn it, nearer, away"],
   ["a map", "← → ↑ ↓", "read it point by point"],
@@ -29,7 +30,7 @@ const ELSEWHERE = [
 /** Put the focus on one of the first controls. */
 function focusControl(n) {
   const box = document.querySelectorAll("#controls .first .control")[n];
-  box?.querySelector("input[type=range], .entry").focus();
+  (box?.querySelector("input[type=range]") ?? box?.querySelector(".entry"))?.focus();
 }
 
 /** Do something with the key whose control has the focus. */

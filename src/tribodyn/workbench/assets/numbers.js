@@ -79,8 +79,8 @@ function numberRow(one) {
 
 /** Say what speaks against trusting the run. */
 function tellDoubts() {
-  const { failure, warnings, time_reached: reached } = bench.shown;
-  trouble(failure ? `The run stopped at t = ${number(reached, 4)} s: ${failure}` : "");
+  const { failure, warnings } = bench.shown;
+  trouble(failure && `This run is not complete: ${failure}`);
   const doubts = document.getElementById("doubts");
   doubts.hidden = !warnings.length;
   doubts.querySelector("summary").textContent = `Before you trust these numbers (${warnings.length})`;

@@ -35,9 +35,10 @@ function viewOf({ name, title, caption, widget }) {
 
 /** Return the other runs that show through, the oldest first: [{run, strength}]. */
 function others() {
-  const shown = bench.shown.run;
+  const { run: shown } = bench.shown;
+  const trail = bench.trail.filter(({ run }) => bench.pins.every((pin) => pin.run !== run));
   const pinned = bench.pins.map((run) => ({ run, strength: PINNED, pinned: true }));
-  const late = bench.trail.map((run, k) => ({ run, strength: (FADING * (k + 1)) / bench.trail.length }));
+  const late = trail.map((run, k) => ({ run, strength: (FADING * (k + 1)) / trail.length }));
   return [...late, ...pinned].filter(({ run }) => run.run !== shown);
 }
 

@@ -1,0 +1,505 @@
+"""The workbench in a real browser, with a server in a process of its own: one for all tests."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, StorageState, WebSocketRoute
+
+from tribodyn.mechanisms.results import summarise
+
+from .conftest import NO_WEBGL, Reader, Watched
+
+SOON = 60_000.0
+"""Time within which everything must have happened, on a machine that does other things too [ms]."""
+CASE = ["vsv", "--set", "run.duration=6.5 s"]
+CLEARANCE = "joint.clearance"
+PAGE_BYTES = 300_000
+"""Promised: what a browser loads before the first run, without pictures."""
+
+
+class Workbench:
+    """A server that runs, and the cookie that its one key was traded for."""
+
+    def __init__(self, address: str) -> None:
+        self.entrance = address
+        self.address = address.partition("?")[0]
+        self.state: StorageState | None = None
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Workbench]:
+    """A workbench of a run of one drive cycle."""
+    command = [
+        sys.executable,
+        "-m",
+        "tribodyn",
+        "workbench",
+        *CASE,
+        "--json",
+        "--no-browser",
+        "--workers",
+        "1",
+    ]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    try:
+        told = "".join(iter(process.stdout.readline, "}\n")) + "}"
+        yield Workbench(json.loads(told)["address"])
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(20.0)
+        process.stdout.close()
+
+
+class Person(Reader):
+    """Somebody at a workbench."""
+
+    def shown(self) -> Any:
+        """Return what is said of the run that is drawn."""
+        return self.page.evaluate("({...bench.shown, sections: null, clock: null})")
+
+    def wait_for(self, truth: str) -> None:
+        self.page.wait_for_function(f"() => {truth}", timeout=SOON)
+
+    def wait_until_shown(self, values: dict[str, str]) -> None:
+        """Wait until the run with some values is drawn, and nothing else is waited for."""
+        self.wait_for(
+            f"bench.shown && !wishes.awaited && sameValues(bench.shown.values, {json.dumps(values)})"
+        )
+
+    def control(self, key: str) -> Any:
+        return self.page.locator(f".control[data-key='{key}']")
+
+    def slider(self, key: str = CLEARANCE) -> Any:
+        return self.control(key).locator("input[type=range]")
+
+    def type_into(self, key: str, text: str) -> None:
+        entry = self.control(key).locator(".entry")
+        entry.fill(text)
+        entry.press("Enter")
+
+    def press(self, *keys: str) -> None:
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def faults(self) -> list[str]:
+        """Return what axe-core calls serious or worse."""
+        return [
+            f"{fault['id']}: {node['html'][:160]}"
+            for fault in Axe().run(self.page).response["violations"]
+            if fault["impact"] in ("serious", "critical")
+            for node in fault["nodes"]
+        ]
+
+
+Opened = Callable[..., Person]
+
+
+@pytest.fixture
+def at(browser: Browser, server: Workbench) -> Iterator[Opened]:
+    """Return an opener of workbenches; at the end none may have complained or asked for another origin."""
+    contexts, heard = [], []
+
+    def open_page(
+        fragment: str = "", *, width: int = 1280, dark: bool = False, webgl: bool = True, line: Any = None
+    ) -> Person:
+        context = browser.new_context(
+            viewport={"width": width, "height": 800},
+            color_scheme="dark" if dark else "light",
+            storage_state=server.state,
+            permissions=["clipboard-read", "clipboard-write"],
+        )
+        contexts.append(context)
+        page = context.new_page()
+        if server.state is None:
+            page.goto(server.entrance)
+            page.wait_for_url(server.address)
+            server.state = context.storage_state()
+        heard.append(Watched(page))
+        if not webgl:
+            page.add_init_script(NO_WEBGL)
+        if line is not None:
+            page.route_web_socket("**/socket", line)
+        page.goto("about:blank")
+        page.goto(server.address + fragment)
+        return Person(page)
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    for one in heard:
+        assert one.faults == []
+        assert all(url.startswith((server.address, "about:")) for url in one.requests)
+
+
+def test_the_first_picture_is_of_the_case(at: Opened) -> None:
+    person = at()
+    person.wait_until_shown({})
+    person.look_at("orbit")
+    assert "the case as it is" in person.page.locator("#whose").inner_text()
+    assert person.colours("orbit", ON_MARKS) == [[0, 114, 178], [27, 29, 31], [192, 74, 0]]
+    person.look_at("mechanism")
+    assert person.plot("mechanism", "plot.plotted.gl instanceof WebGL2RenderingContext")
+    assert person.overflow() == 0
+    first = person.page.locator(".live-numbers tbody tr").first
+    expected = person.page.evaluate("bench.hello.headlines[0].label")
+    assert first.locator("th").inner_text() == expected
+    person.keep_picture("workbench")
+
+
+ON_MARKS = "[plot.plotted].flatMap(({now, x, y}) => now.map(([a, b]) => [x.at(a), y.at(b)]))"
+
+
+def test_the_page_is_small(at: Opened) -> None:
+    sizes: list[int] = []
+    person = at()
+    person.wait_until_shown({})
+    person.page.on("response", lambda answer: sizes.append(len(answer.body())))
+    person.page.reload()
+    person.wait_until_shown({})
+    assert len(sizes) > 20
+    assert sum(sizes) <= PAGE_BYTES
+
+
+def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
+    person = at()
+    person.wait_until_shown({})
+    person.look_at("orbit")
+    person.page.evaluate(
+        """() => {
+          window.seen = [];
+          bench.on('shown', () => requestAnimationFrame(() => seen.push([
+            bench.shown.values['joint.clearance'] ?? '20 um',
+            document.getElementById('whose').textContent,
+            document.querySelector('#orbit .plot').plotted.data.clearance,
+            bench.shown.headlines.vane_angle_error_rms_deg,
+          ])));
+        }"""
+    )
+    _drag(person, 0.39, 0.75)
+    person.wait_for("!wishes.awaited && bench.past.length === 1")
+    wished = person.page.evaluate("bench.values['joint.clearance']")
+    person.wait_until_shown({CLEARANCE: wished})
+    seen = person.page.evaluate("seen")
+    assert len({value for value, *_ in seen}) >= 2
+    for value, words, circle, _ in seen:
+        assert f"{float(value.removesuffix(' um')):g}" == f"{circle:g}"
+        assert value == "20 um" or f"joint.clearance = {value}" in words
+    # A wider clearance lets the vane stray farther: 2 µm make 8 % of it, rounding nothing.
+    errors = [error for value, _, _, error in sorted(seen, key=lambda one: float(one[0][:-3]))]
+    assert errors == sorted(errors)
+    assert person.slider().get_attribute("aria-valuetext") == wished
+    assert person.control(CLEARANCE).get_attribute("class") == "control changed"
+    person.page.get_by_role("button", name="Undo").click()
+    person.wait_until_shown({})
+    person.page.get_by_role("button", name="Redo").click()
+    person.wait_until_shown({CLEARANCE: wished})
+    person.control(CLEARANCE).locator("label").dblclick()
+    person.wait_until_shown({})
+    assert person.control(CLEARANCE).get_attribute("class") == "control"
+
+
+def _drag(person: Person, begin: float, end: float, steps: int = 12) -> None:
+    """Drag the slider of the clearance between two shares of its length."""
+    box = person.slider().bounding_box()
+    y = box["y"] + 0.5 * box["height"]
+    mouse = person.page.mouse
+    mouse.move(box["x"] + begin * box["width"], y)
+    mouse.down()
+    for step in range(steps + 1):
+        mouse.move(box["x"] + (begin + (end - begin) * step / steps) * box["width"], y)
+        person.page.wait_for_timeout(60)
+    mouse.up()
+
+
+def test_what_cannot_be_is_said_beside_its_box(at: Opened) -> None:
+    person = at()
+    person.wait_until_shown({})
+    before = person.shown()["run"]
+    person.type_into(CLEARANCE, "40 mN")
+    fault = person.control(CLEARANCE).locator(".fault")
+    fault.wait_for(timeout=SOON)
+    assert "not a unit of length" in fault.inner_text()
+    assert person.control(CLEARANCE).locator(".entry").input_value() == "40 mN"
+    assert person.shown()["run"] == before
+    assert person.page.evaluate("[bench.values, bench.past.length]") == [{}, 0]
+    person.type_into(CLEARANCE, "0.04 mm")
+    person.wait_until_shown({CLEARANCE: "40 um"})
+    assert not fault.is_visible()
+    assert person.slider().input_value() == "40"
+
+
+def test_a_pinned_run_stays_behind_with_differences(at: Opened) -> None:
+    person = at()
+    person.wait_until_shown({})
+    person.look_at("orbit")
+    person.press("p")
+    person.slider().focus()
+    person.press("Home")
+    person.wait_until_shown({CLEARANCE: "1 um"})
+    rms = person.page.locator("[data-row=vane_angle_error_rms_deg] td").nth(1).inner_text()
+    pinned, now = person.page.evaluate(
+        "[bench.pins[0], bench.shown].map(run => run.headlines.vane_angle_error_rms_deg)"
+    )
+    assert float(rms.replace("−", "-").removesuffix(" %")) == pytest.approx(
+        100 * (now / pinned - 1), rel=0.06
+    )
+    assert person.plot("orbit", "plot.plotted.ghosts.map(ghost => ghost.data.clearance)") == [20.0]
+    top = "[plot.plotted].map(({x, y, ghosts}) => [x.at(0), y.at(ghosts[0].data.clearance)])"
+    circle = person.colours(
+        "orbit", f"{top}.flatMap(([x, y]) => [-3, -2, -1, 0, 1, 2, 3].map(by => [x + by, y]))"
+    )
+    assert any(max(colour) < 200 for colour in circle)  # dashed, half as strong as the ink
+    person.press("v")
+    person.look_at("mechanism")
+    faint = "plot.plotted.solids[1].colours.filter((_, n) => n % 4 === 3)[0]"
+    assert person.plot("mechanism", faint) == 127  # half of 255: the trunnion of the pinned run
+
+
+def test_a_run_that_fails_says_so_and_can_be_left(at: Opened) -> None:
+    person = at("#joint.clearance=30um")
+    person.wait_until_shown({CLEARANCE: "30 um"})
+    person.type_into("loads.air_moment", "2000 N m")
+    person.wait_for("bench.shown.failure")
+    trouble = person.page.locator("#trouble")
+    assert "came closer than the contact law reaches" in trouble.inner_text()
+    assert trouble.get_attribute("role") == "alert"
+    person.keep_picture("workbench-failed")
+    person.press("Escape", "u")
+    person.wait_until_shown({CLEARANCE: "30 um"})
+    assert not trouble.is_visible()
+
+
+def test_while_equations_are_compiled_the_page_says_so(at: Opened) -> None:
+    lines: list[WebSocketRoute] = []
+    runs: list[bytes] = []
+
+    def line(route: WebSocketRoute) -> None:
+        lines.append(route)
+        server = route.connect_to_server()
+        server.on_message(
+            lambda message: keep(message) if isinstance(message, bytes) else route.send(message)
+        )
+
+    def keep(run: bytes) -> None:
+        runs.append(run)
+        words = {"type": "state", "state": "compiling", "message": "compiling the equations", "seconds": 60}
+        lines[0].send(json.dumps(words))
+
+    person = at(line=line)
+    person.wait_for("server.state === 'compiling'")
+    assert person.page.locator("#state").inner_text() == "compiling the equations · about 60 s"
+    assert person.control(CLEARANCE).is_visible()
+    lines[0].send(runs[0])
+    person.wait_until_shown({})
+
+
+def test_over_a_slow_line_the_last_wish_is_shown_last(at: Opened) -> None:
+    delayed: list[tuple[WebSocketRoute, Any]] = []
+
+    def line(route: WebSocketRoute) -> None:
+        route.connect_to_server().on_message(lambda message: delayed.append((route, message)))
+
+    person = at(line=line)
+    _deliver(person, delayed, "bench.shown")
+    _drag(person, 0.39, 0.6, steps=4)
+    _deliver(person, delayed, "!wishes.awaited")
+    shown, wished = person.page.evaluate("[bench.shown.values, bench.values]")
+    assert shown == wished
+    assert shown != {}
+
+
+def _deliver(person: Person, delayed: list[tuple[WebSocketRoute, Any]], truth: str) -> None:
+    """Bring what is on its way one by one, a little later each, until something is true."""
+    for _ in range(600):
+        person.page.wait_for_timeout(100)
+        if delayed:
+            route, message = delayed.pop(0)
+            route.send(message)
+        if not delayed and person.page.evaluate(f"Boolean(bench.hello && ({truth}))"):
+            return
+    raise AssertionError(f"never: {truth}")
+
+
+def test_a_line_that_breaks_is_taken_up_again(at: Opened) -> None:
+    person = at("#joint.clearance=25um")
+    person.wait_until_shown({CLEARANCE: "25 um"})
+    person.page.evaluate("line.socket.close()")
+    person.wait_for("document.getElementById('state').textContent.includes('does not answer')")
+    person.wait_for("server.connected && !wishes.awaited")
+    person.wait_until_shown({CLEARANCE: "25 um"})
+
+
+def test_without_webgl_it_draws_on_a_plain_canvas(at: Opened) -> None:
+    person = at(webgl=False)
+    person.wait_until_shown({})
+    person.look_at("mechanism")
+    assert person.plot("mechanism", "plot.plotted.gl") is None
+    assert person.plot("mechanism", "plot.plotted.solids[0].corners.length") > 1000
+
+
+@pytest.mark.parametrize(("width", "dark"), [(1280, True), (400, False)], ids=["wide, dark", "narrow, light"])
+def test_axe_finds_nothing_serious(at: Opened, width: int, dark: bool) -> None:
+    person = at("#joint.clearance=25um", width=width, dark=dark)
+    person.wait_until_shown({CLEARANCE: "25 um"})
+    person.press("p")
+    person.page.locator("#search").fill("modulus")
+    person.draw_everything()
+    assert person.overflow() == 0
+    assert person.faults() == []
+    person.keep_picture(f"workbench-{width}-{'dark' if dark else 'light'}")
+    person.page.locator("h1").click()
+    person.press("?")
+    assert person.faults() == []
+    person.press("Escape")
+
+
+def test_six_tasks_by_keyboard_alone(at: Opened) -> None:
+    person = at()
+    person.wait_until_shown({})
+    _find_the_clearance_by_keyboard(person)
+    _compare_materials_by_keyboard(person)
+    _see_the_wear_by_keyboard(person)
+    _reproduce(person, lambda: person.press("c"))
+    _share(person, at)
+    person.press("c")
+    while person.page.evaluate("document.activeElement.textContent") != "report.html":
+        person.press("Tab")
+    _save(person, "report.html", lambda: person.press("Enter"))
+
+
+def _find_the_clearance_by_keyboard(person: Person) -> None:
+    """Sweep the clearance and walk along its points to the last one below 0.03°."""
+    person.press("1", "s")
+    person.wait_for("sweeps.get('joint.clearance')?.finished")
+    points = person.page.evaluate("sweeps.get('joint.clearance').points")
+    assert len(points) == 15
+    good = [p for p in points if p["headlines"]["vane_angle_error_outside_deg"] < 0.03]
+    person.press("[")
+    while person.page.evaluate("bench.text('joint.clearance')") != good[-1]["text"]:
+        person.press("]")
+        person.wait_for("!wishes.awaited")
+    person.wait_until_shown({} if good[-1]["text"] == "20 um" else {CLEARANCE: good[-1]["text"]})
+    assert person.shown()["headlines"]["vane_angle_error_outside_deg"] < 0.03
+    person.wait_for("slope.finished && slope.key === 'joint.clearance'")
+    # The vane strays in proportion to the clearance less what the asperities fill: a little more than 1.
+    slope = person.page.evaluate("slope.headlines.vane_angle_error_rms_deg.slope")
+    assert 1.0 < slope < 1.6
+
+
+def test_six_tasks_by_pointer_alone(at: Opened) -> None:
+    person = at()
+    person.wait_until_shown({})
+    _find_the_clearance_by_pointer(person)
+    _compare_materials_by_pointer(person)
+    person.look_at("wear")
+    box = person.page.locator("#wear .plot").bounding_box()
+    person.page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.2 * box["height"])
+    assert person.page.locator("#wear .readout").inner_text()[0].isdigit()
+    take_away = person.page.locator("#take-away")
+    _reproduce(person, take_away.click)
+    _share(person, at)
+    take_away.click()
+    _save(person, "report.html", person.page.get_by_role("link", name="report.html").click)
+
+
+def _find_the_clearance_by_pointer(person: Person) -> None:
+    """Sweep the clearance, look at runs by hovering over the curve, and take one by a click."""
+    person.control(CLEARANCE).get_by_role("button", name="Sweep").click()
+    person.wait_for("sweeps.get('joint.clearance')?.finished")
+    curve = person.control(CLEARANCE).locator("canvas")
+    place = "(k => placedPoints(document.querySelector('.curve'), bench.controls.get('joint.clearance'),"
+    place += " sweeps.get('joint.clearance'))[k])"
+    last, good = person.page.evaluate(f"[{place}(14), {place}(4)]")
+    box = curve.bounding_box()
+    person.page.mouse.move(box["x"] + last["x"], box["y"] + last["y"])
+    person.wait_for(f"bench.shown.run === '{last['run']}'")
+    assert person.page.evaluate("bench.values") == {}
+    person.page.mouse.move(box["x"] + good["x"], box["y"] + good["y"])
+    person.page.mouse.down()
+    person.page.mouse.up()
+    person.wait_until_shown({CLEARANCE: good["text"]})
+    assert person.shown()["headlines"]["vane_angle_error_outside_deg"] < 0.03
+
+
+def _compare_materials_by_pointer(person: Person) -> None:
+    person.page.locator("#pin").click()
+    person.page.get_by_role("button", name="All keys").click()
+    slider = person.slider("surfaces.bushing.hardness")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    person.page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.5 * box["height"])
+    person.wait_for("!wishes.awaited && bench.shown.values['surfaces.bushing.hardness']")
+    difference = person.page.locator("[data-row=wear_depth_rate_nm_per_1000_cycles] td").nth(1).inner_text()
+    assert difference.endswith("%")
+
+
+def _compare_materials_by_keyboard(person: Person) -> None:
+    person.press("p", "/")
+    person.page.keyboard.type("bushing hardness")
+    person.press("Tab")
+    key = "surfaces.bushing.hardness"
+    entry = person.control(key).locator(".entry")
+    while not entry.evaluate("entry => entry === document.activeElement"):
+        person.press("Tab")
+    person.press("Control+a")
+    person.page.keyboard.type("2 GPa")
+    person.press("Enter")
+    person.wait_for(f"!wishes.awaited && bench.shown.values['{key}']")
+    difference = person.page.locator("[data-row=wear_depth_rate_nm_per_1000_cycles] td").nth(1).inner_text()
+    assert difference.endswith("%")
+    person.press("Escape")
+
+
+def _see_the_wear_by_keyboard(person: Person) -> None:
+    person.press("v")
+    while not person.page.evaluate("document.activeElement.matches('#wear .plot')"):
+        person.press("Tab")
+    person.wait_for("document.querySelector('#wear .plot')?.plotted")
+    peak = person.page.locator("#wear .readout").inner_text()
+    person.press("ArrowLeft")
+    assert f"peak {person.page.locator('#wear .readout').inner_text()}" == peak
+    person.press("Escape")
+
+
+def _reproduce(person: Person, open_dialog: Callable[[], None]) -> None:
+    """Copy the run as Python, run it here: the same numbers to the bit."""
+    open_dialog()
+    person.page.get_by_role("button", name="Copy", exact=True).nth(1).click()
+    person.wait_for("document.querySelector('#away').textContent.includes('Copied')")
+    text = person.page.evaluate("navigator.clipboard.readText()")
+    shown = person.shown()
+    names: dict[str, Any] = {}
+    exec(text, names)
+    again = summarise(names["result"])
+    effort = ("wall_time_s", "real_time_factor")
+    for name, value in shown["headlines"].items():
+        assert name in effort or again[name] == value, name
+    command = person.page.locator("#away code").first.inner_text()
+    assert command.startswith("tribodyn run vsv --set 'run.duration=6.5 s'")
+    person.press("Escape")
+
+
+def _share(person: Person, at: Opened) -> None:
+    fragment = person.page.evaluate("location.hash")
+    values = person.shown()["values"]
+    other = at(fragment)
+    other.wait_until_shown(values)
+    assert other.shown()["run"] == person.shown()["run"]
+
+
+def _save(person: Person, name: str, act: Callable[[], None]) -> None:
+    with person.page.expect_download(timeout=SOON) as download:
+        act()
+    assert download.value.suggested_filename == name
+    assert Path(download.value.path()).stat().st_size > 100_000
+    person.press("Escape")
