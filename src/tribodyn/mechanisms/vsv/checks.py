@@ -99,7 +99,9 @@ def lift_off_share(found: Mapping[str, float], t_end: float) -> float:
 def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> str:
     """Say which reversals of a drive cycle the run does not hold with what follows them."""
     period, settling = vsv.drive.period, vsv.drive.impact_time
-    every = np.concatenate([[0.0], course(vsv, period).turns])
+    cycle = course(vsv, period)
+    ends = cycle.segments.direction[[0, -1]]
+    every = cycle.turns if ends[0] == ends[1] else np.concatenate([[0.0], cycle.turns])
     held = turns[(turns + settling <= t_end) & ((turns > 0.0) | carried)]
     phases = np.mod(held + 0.5 * settling, period) - 0.5 * settling
     missing = [t for t in every if not np.any(np.abs(phases - t) < 0.5 * settling)]
