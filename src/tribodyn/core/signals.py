@@ -64,7 +64,7 @@ def spline(knots: ArrayLike, values: ArrayLike, *, closed: bool = False) -> Sign
 
     x, y = np.asarray(knots, dtype=np.float64), np.asarray(values, dtype=np.float64)
     pieces = np.split(np.arange(x.size), np.flatnonzero(np.diff(x) == 0.0) + 1)
-    round_trip = closed and len(pieces) == 1 and x.size > 3 and bool(y[0] == y[-1])
+    round_trip = closed and len(pieces) == 1 and x.size > 2 and bool(y[0] == y[-1])
     ends: Literal["periodic", "not-a-knot"] = "periodic" if round_trip else "not-a-knot"
     smooth = [CubicSpline(x[piece], y[piece], bc_type=ends) for piece in pieces]
     kinks = np.array([x[0], *(x[piece[-1]] for piece in pieces)])

@@ -18,6 +18,7 @@ from tribodyn.cases.signals import (
 )
 
 DRIVE: Final = "paper, section 5.1"
+_CANCELLED: Final = 1.0e-9
 DRIVE_TABLES: Final = ("angle", "speed", "stroke")
 
 
@@ -115,7 +116,9 @@ class VaneLoad(NamedGroup):
         first, last = curve.knots[0], curve.knots[-1]
         whole = float(total(last) - total(first))
         moment = last * total(last) - first * total(first) - total.integrate(first, last)
-        demand(whole != 0.0, "span.values", "its parts cancel: such a load has no centre of pressure")
+        largest = max(map(abs, self.span.values or (0.0,))) * float(last - first)
+        words = "its parts cancel: such a load has no centre of pressure"
+        demand(abs(whole) > _CANCELLED * largest, "span.values", words)
         return float(moment) / whole
 
 

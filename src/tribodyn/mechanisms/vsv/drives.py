@@ -48,6 +48,7 @@ def drive_of(keys: Drive, duration: float, *, again: bool) -> AnyDrive:
     once = _angle(keys, name, table)
     period = float(once.knots[-1])
     n = max(1, math.ceil(duration / period * (1.0 - 1.0e-12)))
+    demand(bool(once.coefficients[:-1].any()), f"drive.{name}", "the crank must move")
     demand((n == 1 and not again) or _closes(once), f"drive.{name}", _ends(period, duration))
     words = f"{n} times {once.knots.size} rows are too many; give a shorter run or fewer rows"
     demand(n * once.knots.size <= _MOST_PIECES, f"drive.{name}", words)
@@ -111,7 +112,9 @@ def _closes(angle: Signal) -> bool:
 
 
 def _ends(period: float, duration: float) -> str:
+    longer = f"the table holds {period:g} s, the run takes {duration:g} s: it"
+    repeated = longer if duration > period * (1.0 + _CLOSED) else "the table of a wear campaign"
     return (
-        f"the table holds {period:g} s, the run takes {duration:g} s; it is repeated only where angle and "
-        "speed of the crank at its end are those at its beginning"
+        f"{repeated} is repeated, which can be only where angle and speed of the crank at its end are those "
+        "at its beginning"
     )

@@ -17,6 +17,8 @@ from tribodyn.joints import BushingJoint
 from tribodyn.mechanisms.actions import Term, crossings
 
 FORMULATIONS: Final = ("exact", "paper")
+_LEAST_RANGE: Final = 1.0e-4
+"""Of the crank, where a run ends before its table sets out [rad]."""
 IMPACT_SHARE: Final = 0.1
 """Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
 the crank; the rest is smooth motion."""
@@ -145,7 +147,9 @@ class TableDrive:
         """Return the smallest and the largest crank angle in a run of ``duration`` [s] [rad]."""
         end = min(duration, float(self.signal.knots[-1]))
         angles = self.angle(np.append(self.turns(end), end))
-        return float(angles.min()), float(angles.max())
+        low, high = float(angles.min()), float(angles.max())
+        room = max(_LEAST_RANGE - (high - low), 0.0)
+        return low - room, high + room
 
     def angle(self, times: FloatArray) -> FloatArray:
         """Return the crank angle [rad] at times [s]."""
