@@ -20,7 +20,9 @@ from tribodyn.workbench.crew import Crew, Failed, Job
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.variant import Origin, Variant
 
-_LEAST_SHARE: Final = 1e-3
+COMPILING: Final = 60.0
+"""Time that compiling usually takes [s]."""
+_LEAST_SHARE: Final = 0.01
 """Share of a long run that counts as reached when nothing was told of it."""
 DOWNLOADS: Final = ("case.toml", "result.nc", "report.html")
 Heard = Callable[[Mapping[str, Any]], None]
@@ -91,7 +93,10 @@ class Bench:
             variant = self.origin.varied({})
             if not await self.are_compiled(variant):
                 words = "compiling the equations for this machine; later starts take seconds"
-                self._tell("compiling", words, 60.0)
+                self._tell("compiling", words, COMPILING)
+                await self.prepare(variant, self.preparation(variant))
+            # Each worker loads them for itself.
+            await asyncio.gather(*(self.crew.do(self.preparation(variant)) for _ in self.crew.workers))
             await asyncio.gather(*(self._try(variant) for _ in self.crew.workers))
             self._tell("ready", "", None)
         except (Failed, TribodynError, OSError) as error:
@@ -125,10 +130,19 @@ class Bench:
         """Tell whether the equations of a case are compiled; a worker that finds them loads them."""
         if choices_of(variant.case) in self.compiled:
             return True
-        answer = await self.crew.do(Job({"work": "load", "case": variant.toml}, self.rules.unasked))
+        answer = await self.crew.do(Job({"work": "load", "case": variant.toml}, self.rules.longest))
         if answer == b"true":
             self.compiled.add(choices_of(variant.case))
         return answer == b"true"
+
+    def preparation(self, variant: Variant) -> Job:
+        """Return the job that has the equations of a case compiled and loaded."""
+        return Job({"work": "prepare", "case": variant.toml}, self.rules.longest)
+
+    async def prepare(self, variant: Variant, job: Job) -> None:
+        """Have the equations of a case compiled."""
+        await self.crew.do(job)
+        self.compiled.add(choices_of(variant.case))
 
     def order(self, variant: Variant, seconds: float, heard: Heard, *, background: bool = False) -> Job:
         """Return the job that makes the frame of a case."""

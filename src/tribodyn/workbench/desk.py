@@ -16,7 +16,7 @@ from typing import Any, Final
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.workbench import frame
-from tribodyn.workbench.bench import Bench, refusal
+from tribodyn.workbench.bench import COMPILING, Bench, refusal
 from tribodyn.workbench.cost import in_words, refuse_rows
 from tribodyn.workbench.crew import Failed, GivenUp, Job
 from tribodyn.workbench.messages import (
@@ -41,8 +41,6 @@ _CALM: Final = 0.3
 """Time without a wish after which neighbours are computed [s]."""
 _TOLD: Final = 1.0
 """Expected time from which a page is told what it waits for [s]."""
-_COMPILING: Final = 60.0
-"""Time that compiling usually takes [s]."""
 
 Send = Callable[[str | bytes], None]
 
@@ -176,26 +174,42 @@ class Desk:
         if kept is not None:
             self._deliver(kept, wish.number, frame.KEPT)
             return True
-        compiled = await self.bench.are_compiled(variant)
+        if not await self._is_compiled(wish, variant):
+            return False
         expected = self.bench.costs.expected(variant.case) or 0.0
-        reason = self._why_ask(variant, compiled, expected)
+        reason = self._why_ask(variant, expected)
         if reason and (not wish.agreed or expected > self.bench.rules.longest):
-            self._ask(wish, reason, expected if compiled else _COMPILING)
+            self._ask(wish, reason, expected)
             return False
         if not reason and expected > self.bench.rules.dragged and not wish.rest:
             words = f"a run takes about {in_words(expected)}: it begins when you let go"
             self._state("waiting", words, expected, wish.number)
             return False
-        self._tell_of_run(wish, compiled, expected)
+        if expected > _TOLD:
+            self._state("running", "", expected, wish.number)
         content = await self._made(wish, variant)
         self.visitor.keep(variant.run, variant.toml, content)
         self._deliver(content, wish.number, 0)
         return True
 
-    def _why_ask(self, variant: Variant, compiled: bool, expected: float) -> str:
+    async def _is_compiled(self, wish: Wish, variant: Variant) -> bool:
+        """Have the equations compiled, if somebody agreed; False if the page was asked whether to."""
+        if await self.bench.are_compiled(variant):
+            return True
+        if not wish.agreed:
+            words = "the equations of this case are not compiled yet: that takes about a minute, once"
+            self._ask(wish, words, COMPILING)
+            return False
+        self._state("compiling", "compiling the equations of this case", COMPILING, wish.number)
+        self.job = self.bench.preparation(variant)
+        try:
+            await self.bench.prepare(variant, self.job)
+        finally:
+            self.job = None
+        return True
+
+    def _why_ask(self, variant: Variant, expected: float) -> str:
         """Return why a run is not to be made unasked, empty if it may be."""
-        if not compiled:
-            return "the equations of this case are not compiled yet: that takes about a minute, once"
         if variant.case.campaign_cycles:
             return (
                 f"a wear campaign is not live: it takes up to {in_words(expected)} for each cycle that it "
@@ -213,12 +227,6 @@ class Desk:
             self.tell(refusal(wish.number, TribodynError(words)))
             return
         self.tell({"type": "ask", "number": wish.number, "seconds": expected, "message": reason})
-
-    def _tell_of_run(self, wish: Wish, compiled: bool, expected: float) -> None:
-        if not compiled:
-            self._state("compiling", "compiling the equations of this case", _COMPILING, wish.number)
-        elif expected > _TOLD:
-            self._state("running", "", expected, wish.number)
 
     async def _made(self, wish: Wish, variant: Variant) -> bytes:
         """Have a run made."""

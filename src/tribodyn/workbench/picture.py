@@ -100,6 +100,14 @@ def load(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -
     return json.dumps(load_equations(case)).encode()
 
 
+def prepared(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
+    """Have the equations of a case compiled, if they are not, and load them."""
+    from tribodyn.simulation import prepare
+
+    prepare(case, stop)
+    return b""
+
+
 def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     from tribodyn.simulation import simulate
 
@@ -109,5 +117,11 @@ def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     return dataset
 
 
-WORK: Final = {"picture": picture, "result.nc": result, "report.html": report, "load": load}
+WORK: Final = {
+    "picture": picture,
+    "result.nc": result,
+    "report.html": report,
+    "load": load,
+    "prepare": prepared,
+}
 """Everything that a worker does, by name."""

@@ -54,6 +54,9 @@ class Pretending(Crew):
     async def do(self, job: Job) -> bytes:
         if job.order["work"] == "load":
             return json.dumps(self.compiled).encode()
+        if job.order["work"] == "prepare":
+            self.compiled = True
+            return b""
         asyncio.get_running_loop().call_later(self.seconds, job.settle, self._content(job))
         try:
             content = await job.answer

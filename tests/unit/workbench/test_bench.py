@@ -1,0 +1,68 @@
+"""What happens before the first picture."""
+
+from __future__ import annotations
+
+import pytest
+from tests.unit.workbench.host import Pretending, hosting, in_loop
+
+from tribodyn.workbench.crew import Failed, Job
+
+
+class Noting(Pretending):
+    """A crew that remembers what was asked for."""
+
+    def __init__(self, **options: bool) -> None:
+        super().__init__(**options)
+        self.asked: list[str] = []
+
+    async def do(self, job: Job) -> bytes:
+        self.asked.append(str(job.order["work"]))
+        return await super().do(job)
+
+
+class Slow(Pretending):
+    """A crew whose runs are stopped after ten seconds, a twentieth of the way."""
+
+    async def do(self, job: Job) -> bytes:
+        if job.order["work"] != "picture":
+            return await super().do(job)
+        job.heard({"reached": 0.05 * 4.0 * 3.141592653589793})
+        job.took, job.verdict = 10.0, Failed("stopped")
+        raise job.verdict
+
+
+@in_loop
+async def test_equations_are_compiled_before_a_run_is_made() -> None:
+    crew = Noting(compiled=False)
+    async with hosting(crew) as host:
+        page = await host.open()
+        told = await page.until("state")
+        while told["state"] != "ready":
+            assert told["state"] in ("loading", "compiling")
+            told = await page.until("state")
+    assert crew.asked[:2] == ["load", "prepare"]
+    assert crew.asked[-1] == "picture"
+
+
+@in_loop
+async def test_what_a_long_case_takes_is_known_without_running_it_to_its_end() -> None:
+    async with hosting(Slow()) as host:
+        page = await host.greeted()
+        await page.run(1, rest=True)
+        assert (await page.until("ask"))["seconds"] == pytest.approx(200.0, rel=1e-6)
+
+
+@in_loop
+async def test_a_case_that_fails_says_so_and_the_page_stays() -> None:
+    class Failing(Pretending):
+        async def do(self, job: Job) -> bytes:
+            if job.order["work"] == "picture" and not job.order["told"]["values"]:
+                raise Failed("the start cannot be found")
+            return await super().do(job)
+
+    async with hosting(Failing()) as host:
+        page = await host.greeted()
+        while (await page.until("state"))["state"] != "failed":
+            pass
+        await page.run(1, {"joint.clearance": "30 um"}, rest=True)
+        assert (await page.picture()).number == 1
