@@ -303,6 +303,34 @@ def test_while_equations_are_compiled_the_page_says_so(at: Opened) -> None:
     person.wait_until_shown({})
 
 
+def test_before_something_long_it_asks(at: Opened) -> None:
+    def line(route: WebSocketRoute) -> None:
+        server = route.connect_to_server()
+
+        def said(message: str | bytes) -> None:
+            wish = json.loads(message)
+            if wish["type"] == "run" and wish["values"] and not wish["agreed"]:
+                question = {"type": "ask", "number": wish["number"], "seconds": 40, "message": "takes 40 s"}
+                route.send(json.dumps(question))
+            else:
+                server.send(message)
+
+        route.on_message(said)
+
+    person = at(line=line)
+    person.wait_until_shown({})
+    question = person.page.locator("#ask")
+    for answer, wished in (("Leave it", {}), ("Run it", {CLEARANCE: "30 um"})):
+        person.type_into(CLEARANCE, "30 um")
+        question.wait_for(timeout=SOON)
+        assert "takes 40 s" in question.inner_text()
+        assert person.shown()["values"] == {}
+        question.get_by_role("button", name=answer).click()
+        person.wait_until_shown(wished)
+        assert not question.is_visible()
+        assert person.page.evaluate("bench.values") == wished
+
+
 def test_over_a_slow_line_the_last_wish_is_shown_last(at: Opened) -> None:
     delayed: list[tuple[WebSocketRoute, Any]] = []
 

@@ -187,7 +187,7 @@ function drawField(pen, field) {
     Object.assign(picture, { width, height });
     field.places = { i: between(data.angle, x, left, width, 1), k: between(data.height, y, top, height, -1) };
   }
-  const ink = picture.getContext("2d");
+  const ink = picture.getContext("2d", ON_PROCESSOR);
   const image = ink.createImageData(width, height);
   fillField(new Uint32Array(image.data.buffer), field, width, height);
   ink.putImageData(image, 0, 0);

@@ -27,13 +27,10 @@ function askFirst({ number: mine, message }) {
   const box = document.getElementById("ask");
   box.querySelector("span").textContent = message;
   box.hidden = false;
-  box.querySelector("[data-yes]").onclick = () => {
-    box.hidden = true;
-    wishes.send(true, true);
-  };
+  box.querySelector("[data-yes]").onclick = () => wishes.send(true, true);
   box.querySelector("[data-no]").onclick = () => {
     box.hidden = true;
-    bench.undo();
+    bench.gesture(bench.shown ? bench.shown.values : {});
   };
   tellState();
 }

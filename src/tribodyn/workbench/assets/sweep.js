@@ -92,7 +92,7 @@ function drawTrack(canvas, control, sweep) {
   canvas.classList.toggle("there", sweep.points.length > 0);
   const ratio = devicePixelRatio || 1;
   Object.assign(canvas, { width: canvas.clientWidth * ratio, height: canvas.clientHeight * ratio });
-  const pen = canvas.getContext("2d");
+  const pen = canvas.getContext("2d", ON_PROCESSOR);
   pen.scale(ratio, ratio);
   const points = placedPoints(canvas, control, sweep);
   Object.assign(pen, { strokeStyle: theme.colour("accent"), fillStyle: theme.colour("accent"), lineWidth: 1.5 });

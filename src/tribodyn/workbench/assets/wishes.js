@@ -24,6 +24,7 @@ const wishes = {
       return;
     }
     wishes.last = performance.now();
+    document.getElementById("ask").hidden = true;
     wishes.sent = bench.values;
     wishes.ask(bench.values, rest, agreed);
     wishes.own = wishes.number;
