@@ -54,6 +54,9 @@ class Run(Group):
     period: float | None = quantity(
         None, "time of one cycle; that of the first drive that has one without it", "", gt=0, example="12 ms"
     )
+    start: Literal["equilibrium", "centred"] = choice(
+        "equilibrium", "where shafts are in their sockets at the start", "manual, any mechanism"
+    )
     output_interval: float | None = quantity(
         None,
         f"time between rows of the result; a {ROWS}th of the run or cycle without it",

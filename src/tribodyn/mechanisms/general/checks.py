@@ -40,6 +40,17 @@ def of_ledgers(energy: float, gaps: FloatArray) -> list[str]:
     ]
 
 
+def of_start(asked: str, began: Mapping[str, str]) -> list[str]:
+    """Return what is to be said of a start in equilibrium that was asked for and not found."""
+    if began.get("start") != "centred" or asked == "centred":
+        return []
+    return [
+        "No place was found in which the loads on all shafts balance, so they start in the middle of their "
+        "sockets, and first impacts are those of the start. Is there a shaft that nothing holds along its "
+        "axis?"
+    ]
+
+
 def of_surfaces(
     names: Sequence[str], roughness: Sequence[float], peaks: Mapping[str, FloatArray], t_end: float
 ) -> list[str]:

@@ -31,6 +31,7 @@ from tribodyn.mechanisms.general.parts import FLANGE, BodyKeys, ClearanceKeys, J
 SIZES: Mapping[str, tuple[str, ...]] = {
     "cylinder": ("radius", "radial", "length", "axial", "axial_upper", "axial_lower", "flange"),
     "sphere": ("radius", "radial", "band"),
+    "ball": ("radius", "radial"),
     "mesh": ("gap",),
 }
 """Which keys of a clearance are dimensions of its shape."""

@@ -42,7 +42,7 @@ KINDS: Final[dict[str, JointKind]] = {
     "prismatic": JointKind("slides along its axis", "axis", False, ("position",)),
     "universal": JointKind("turns about an axis of each body", "axis", True),
     "pin-slot": JointKind(
-        "a ball that slides along a pin", "axis of the pin", False, ("position",), ("cylinder",)
+        "a ball that slides along a pin", "axis of the pin", False, ("position",), ("ball", "cylinder")
     ),
     "planar": JointKind("slides and turns in a plane", "normal of the plane", False, ("angle",)),
     "spring-damper": JointKind("moves against six stiffnesses", coordinates=("angle", "position")),

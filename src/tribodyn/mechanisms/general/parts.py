@@ -25,6 +25,7 @@ from tribodyn.mechanisms.general.kinds import KINDS
 NEEDED: Final = {
     "cylinder": {"radius": "its radius", "radial": "its clearance", "length": "the length of the bore"},
     "sphere": {"radius": "its radius", "radial": "its clearance"},
+    "ball": {"radius": "its radius", "radial": "its clearance"},
     "mesh": {"facets": 'triangles, such as mesh = "socket.stl"', "gap": "its gap"},
 }
 """Keys that each shape needs, with what they are."""
@@ -101,8 +102,8 @@ class ClearanceKeys(NamedGroup):
     band: float = quantity(
         "40 deg", "half the width of the race of a ball, as latitude", "assumed", gt=0, le="90 deg"
     )
-    shape: Literal["cylinder", "sphere", "mesh"] | None = choice(
-        None, "if it is not that of the type: a mesh", "", example="mesh"
+    shape: Literal["cylinder", "sphere", "ball", "mesh"] | None = choice(
+        None, "if it is not the usual one of the type", "", example="mesh"
     )
     mesh: str | None = file("STL file of the socket in the drawing, outsides anticlockwise", "socket.stl")
     mesh_unit: float = quantity("1 mm", "what a unit of that file is", "assumed", gt=0)

@@ -42,6 +42,7 @@ def mechanism_problem(
     duration: float,
     rtol: float,
     atol: Tolerances | None = None,
+    state: FloatArray | None = None,
     carried: Carried | None = None,
     dense: bool = False,
 ) -> Problem:
@@ -59,13 +60,16 @@ def mechanism_problem(
     atol
         Absolute tolerances of positions [m], orientations [rad], velocities [m/s], angular velocities
         [rad/s]; from ``rtol``, :func:`length_scale` and the speed of the mechanism by default.
+    state
+        Where it begins, shape (13 n,); that of the assembly by default, whose shafts are in the middle.
     carried
-        State and remembered entry velocities to go on from.
+        State and remembered entry velocities to go on from instead.
     dense
         Whether the Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
     """
     data, bodies, n = assembly.data, assembly.description.bodies, len(assembly.description.bodies)
-    start = (assembly.state if carried is None else carried.state).copy()
+    begin = assembly.state if state is None else state
+    start = (begin if carried is None else carried.state).copy()
     memory, kinks = memory_of(assembly, start), data.signals.kinks
     if carried is not None:
         memory.contact.entry_velocity[:] = carried.entry_velocity

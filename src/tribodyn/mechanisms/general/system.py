@@ -23,8 +23,10 @@ from tribodyn.mechanisms.general.description import Clearance, Description
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.problem import mechanism_problem, stored_energy
+from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import AXES, BODIES, JOINTS, Observed, observed
 from tribodyn.mechanisms.playback import frame_times, shown
+from tribodyn.results.attributes import CARRIED
 
 _STATES: Final = 13
 """Of a body."""
@@ -88,10 +90,16 @@ class MechanismSystem:
             self.assembly if worn is None else self._assembled(worn.depth),
             duration=duration,
             rtol=self.case.solver.rtol,
+            state=self.start if worn is None or worn.carried is None else None,
             carried=None if worn is None else worn.carried,
             # Of all integrators one knows the structure of these equations.
             dense=self.case.solver.name != "mebdf",
         )
+
+    @cached_property
+    def start(self) -> FloatArray | None:
+        """State in which a run begins, shape (13 n,); None for the one with all shafts in the middle."""
+        return initial_state(self.assembly) if self.case.run.start == "equilibrium" else None
 
     def output_times(self, duration: float) -> FloatArray:
         """Return the times of the rows [s], the end included."""
@@ -145,10 +153,12 @@ class MechanismSystem:
             fields={"clearance": self._clearances(), **peaks, **self._pressure(run)},
             attributes={
                 "energy_residual": energy,
+                **self._began(run),
                 **({"cycle_period": self.case.period} if self.case.period is not None else {}),
             },
             warnings=checks.said(
                 [*self.assembly.warnings],
+                checks.of_start(self.case.run.start, self._began(run)),
                 checks.of_ledgers(energy, found.whole["gap"]),
                 checks.of_surfaces(self.maps.names, self._roughness, peaks, float(run.solution.t_end))
                 if peaks
@@ -157,6 +167,13 @@ class MechanismSystem:
             ),
             failure=run.solution.failure or "",
         )
+
+    def _began(self, run: Run) -> dict[str, str]:
+        """Return how a run with clearances began."""
+        if not self.real:
+            return {}
+        found = "equilibrium" if self.start is not None else "centred"
+        return {"start": CARRIED if run.carried else found}
 
     def _observed(self, run: Run) -> Observed:
         return observed(run.solution.rows, len(self.description.bodies))

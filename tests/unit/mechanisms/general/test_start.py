@@ -1,0 +1,83 @@
+"""Where a mechanism with clearance begins: shafts against their sockets, as loads and motion ask."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
+
+import tribodyn as td
+from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanisms.general.system import MechanismSystem
+
+DRIVEN = IDEAL.split("[pairs")[0] + '[drives.motor]\njoint = "main"\nspeed = "5000 rpm"\n'
+WRIST = """
+[joints.wrist.clearance]
+radius = "9.5 mm"
+radial = "20 um"
+length = "20 mm"
+friction_coefficient = 0.0
+[run]
+duration = "10 us"
+"""
+
+
+def force(result, joint: str) -> float:
+    return float(np.linalg.norm(result["reaction_force"].sel(joint=joint).isel(time=0)))
+
+
+def test_a_wrist_at_speed_begins_with_the_force_of_the_ideal_one() -> None:
+    result = td.simulate(parsed(DRIVEN + WRIST))
+    assert result.attrs["start"] == "equilibrium"
+    # At dead centre, to the clearance over the length of the rod and what surfaces give way.
+    assert force(result, "wrist") == pytest.approx(2718.7105, rel=1e-3)
+    assert float(result["acceleration"].sel(body="slider", axis="x")[0]) == pytest.approx(-19419.36, rel=1e-3)
+
+
+def test_a_chain_that_hangs_begins_at_rest() -> None:
+    chain = Mechanism("Chain", gravity="0, 0, -9.81 m/s^2", run={"duration": "5 ms"})
+    above = "ground"
+    for k in range(3):
+        name, height = f"link{k}", -100 * k
+        centre, point = f"0, 0, {height - 50} mm", f"0, 0, {height} mm"
+        chain.body(name, mass="1 kg", centre=centre, inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        chain.revolute(f"pin{k}", above, name, point=point, axis=[0, 1, 0])
+        chain.clearance(f"pin{k}", radius="6 mm", radial="20 um", length="20 mm", axial="50 um")
+        above = name
+    result = td.simulate(chain.case())
+    weights = 9.81 * np.array([3.0, 2.0, 1.0])
+    assert [force(result, f"pin{k}") for k in range(3)] == pytest.approx(weights, rel=1e-6)
+    # A weight of 1 kg falls 120 µm in that time; surfaces that balance move by no thousandth of σ.
+    moved = result["position"].isel(time=-1) - result["position"].isel(time=0)
+    assert float(abs(moved).max()) < 1e-9
+
+
+def test_friction_is_that_of_the_motion_that_begins() -> None:
+    # A trunnion with clearance that a torque sets turning: friction acts against it from the first instant.
+    drawn = Mechanism("Shaft", gravity="0, 0, -9.81 m/s^2", run={"duration": "1 us"})
+    drawn.body("shaft", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.cylindrical("bore", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 1, 0])
+    drawn.clearance("bore", radius="6 mm", radial="20 um", length="20 mm", friction_coefficient=0.2)
+    drawn.drive("motor", "bore", torque="1 N m")
+    place = td.simulate(drawn.case())["displacement"].isel(time=0).sel(joint="bore").values
+    # Under a weight a turning shaft climbs the wall by the angle of friction.
+    climbed = math.atan2(*sorted(abs(place[:2])))
+    assert climbed == pytest.approx(math.atan(0.2), rel=1e-2)
+
+
+def test_a_shaft_that_nothing_holds_starts_in_the_middle_and_says_so() -> None:
+    drawn = Mechanism("Drop", gravity="0, 0, -9.81 m/s^2", run={"duration": "1 ms"})
+    drawn.body("shaft", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.revolute("bore", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.clearance("bore", radius="6 mm", radial="20 um", length="20 mm", axial_lower="50 um")
+    result = td.simulate(drawn.case())
+    assert result.attrs["start"] == "centred"
+    assert "nothing holds along its axis" in str(result.attrs["warnings"])
+
+
+def test_who_asks_for_the_middle_gets_it() -> None:
+    system = MechanismSystem(parsed(DRIVEN + WRIST + 'start = "centred"\n'))
+    assert system.start is None
+    np.testing.assert_array_equal(system.problem(1e-3).y0, system.assembly.state)
