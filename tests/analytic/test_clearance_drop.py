@@ -14,7 +14,7 @@ from tribodyn.contact.bounce import undamped_depth
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import assemble, pose_at, shape_of, table_of
 from tribodyn.kernels.joints.surface.data import SurfaceData
-from tribodyn.kernels.joints.surface.joint import stored, update_entry_velocity, wrench
+from tribodyn.kernels.joints.surface.joint import report, update_entry_velocity, wrench
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.mechanisms.general.description import Clearance
 
@@ -74,7 +74,9 @@ def test_over_the_surface(
     data = assemble([clearance])
 
     def energy(place: float) -> float:
-        return float(stored(data, new_memory(data), 0, pose_at(place * along)))
+        memory = new_memory(data)
+        report(data, memory, 0, pose_at(place * along))
+        return float(np.sum(memory.reports["energy_contact"]))
 
     onset = GAP - 4.0 * sigma
     deepest = GAP - undamped_depth(clearance.table, 50e6) * sigma

@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.clearances import assemble, pose_at
 from tribodyn.kernels.joints.surface.data import SurfaceData
-from tribodyn.kernels.joints.surface.joint import report, stored, update_entry_velocity, wrench
+from tribodyn.kernels.joints.surface.joint import report, update_entry_velocity, wrench
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 from tribodyn.mechanisms.general.description import Clearance
 
@@ -86,7 +86,8 @@ class Pair:
         """Return momentum, angular momentum about the origin, and energy with the heat."""
         state = y[:-1].reshape(2, 13)
         rotation, momentum, spin = turned(state), np.zeros(3), np.zeros(3)
-        energy = y[-1] + stored(self.data, self.memory, 0, self.pose(state))
+        report(self.data, self.memory, 0, self.pose(state))
+        energy = y[-1] + np.sum(self.memory.reports["energy_contact"])
         for body in range(2):
             own = MASS[body] * state[body, 7:10]
             turning = rotation[body] @ (INERTIA[body] * (rotation[body].T @ state[body, 10:]))

@@ -108,6 +108,16 @@ def test_a_load_against_the_motion_brakes_to_rest() -> None:
     assert result.joint(0, "d_z") == pytest.approx(wanted, abs=1e-4)
 
 
+def test_a_load_against_the_motion_along_a_line_brakes_only_along_it() -> None:
+    # A weight of 10 N along x, and a brake of 5 N along (0.6, 0.8).
+    thrown = free_body(gravity=np.array([5.0, 0.0, 0.0]), loads=(load("line", 3.0, 4.0, slip=1e-9),))
+    result = run(thrown, TIMES, RTOL)
+    # The weight is more than the brake along its line holds, 6 N.
+    assert result.body(0, "v_x") == pytest.approx((5.0 - 2.5 * 0.6) * TIMES, abs=1e-5)
+    assert result.body(0, "v_y") == pytest.approx(-2.5 * 0.8 * TIMES, abs=1e-5)
+    assert result.imbalance < 1e-5
+
+
 def test_a_torque_and_a_spring_with_damper_on_a_shaft() -> None:
     inertia, stiffness, damping, torque = 0.04, 4.0, 0.08, 0.5
     springs = np.array([0.0, 0.0, 0.0, stiffness, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, damping, 0.0, 0.0])

@@ -36,16 +36,20 @@ SPRING: Final = 2
 LOAD_GROUND: Final = 3
 LOAD_BODY: Final = 4
 LOAD_MOTION: Final = 5
-CONTACT: Final = 6
+LOAD_LINE: Final = 6
+CONTACT: Final = 7
 """Kinds of forces, see ``kernels/mechanism/forces.py``."""
 
 NONE: Final = -1
 """Number of a signal, node, block or coupling that is not there."""
 
-PLAIN: Final = 0
-SLOPES: Final = 1
-REPORTS: Final = 2
-"""What forces are asked for: themselves, their derivatives too, or what is told about them."""
+PLAIN: Final = 0.0
+SLOPES: Final = 1.0
+REPORTS: Final = 2.0
+"""What forces are asked for: themselves, their derivatives too, or what is told about them.
+
+Not integers: numba compiles a kernel again for each one that stands in a call.
+"""
 
 WORK: Final = 0
 DAMPING: Final = 1
@@ -88,6 +92,7 @@ Coupling: Final = record_type(
     ("signals", "i8", (6,)),
     ("follows", "i8"),
     ("follows_position", "i8"),
+    ("follows_sign", "f8"),
     ("effort", "i8", (2,)),
     ("contact", "i8"),
     ("rows_block", "i8", (2, 2)),
@@ -115,7 +120,7 @@ length, slip_velocity
     Of a spring without force [m]; of a load against the motion [m/s].
 signals
     Of the six components of a load; of ``follows``, the coupling whose coordinate they follow (``NONE``:
-    time), its angle, or its position where ``follows_position`` is 1.
+    time), its angle, or its position where ``follows_position`` is 1, times ``follows_sign``.
 effort
     Signals of torque about and force along the axis.
 contact
@@ -220,7 +225,6 @@ powers, stored
 Course: Final = record_type(
     ("begin", "f8"),
     ("until", "f8"),
-    ("settled_at", "f8"),
     ("wait", "i8"),
     ("times", "f8", (3,)),
     ("kinetic", "f8"),
@@ -228,9 +232,8 @@ Course: Final = record_type(
     ("momentum", "f8", (6,)),
     ("external", "f8", (6,)),
 )
-"""What the motion has come to: the segment [begin, until] whose pieces of tables hold; the time for which
-bodies and couplings stand settled on the constraints; accepted steps until redundant rows are chosen again;
-energies [J], momentum and external force with moments about the origin."""
+"""What the motion has come to: the segment [begin, until] whose pieces of tables hold; accepted steps until
+redundant rows are chosen again; energies [J], momentum and external force with moments about the origin."""
 
 
 Book: Final = record_type(("marks", "f8", (3, 3)), ("sums", "f8", (3,)))
@@ -323,7 +326,7 @@ class MechanismMemory(NamedTuple):
     independence
         Products of all rows, shape (n_rows, n_rows); of no size without redundant rows.
     settled
-        State on the constraints at ``course.settled_at``, shape (n,).
+        State on the constraints that ``advance`` or ``enter`` has left, shape (n,).
     books
         Powers and works, see ``kernels/mechanism/ledger.py``.
     contact

@@ -12,7 +12,7 @@ from typing import Any
 
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
@@ -22,6 +22,7 @@ from tribodyn.kernels.mechanism.data import (
     FRICTION,
     LOAD_BODY,
     LOAD_GROUND,
+    LOAD_LINE,
     LOAD_MOTION,
     NONE,
     REPORTS,
@@ -37,7 +38,7 @@ from tribodyn.kernels.signals import Signals, evaluate
 
 @kernel
 def force(
-    data: MechanismData, memory: MechanismMemory, number: int, t: float, within: float, mode: int
+    data: MechanismData, memory: MechanismMemory, number: int, t: float, within: float, mode: float
 ) -> None:
     """Fill wrench, slope, powers and stored energy of a coupling; what ``mode`` asks for of a contact."""
     coupling, now = data.parts.couplings[number], memory.now.couplings[number]
@@ -52,7 +53,7 @@ def force(
         _springs(coupling, now)
     elif kind == SPRING:
         _spring(coupling, now)
-    elif kind in (LOAD_GROUND, LOAD_BODY, LOAD_MOTION):
+    elif kind in (LOAD_GROUND, LOAD_BODY, LOAD_MOTION, LOAD_LINE):
         _load(coupling, now, memory.now.couplings, data.signals, t, within)
     elif kind == CONTACT:
         _contact(coupling.contact, now, data.contact, memory.contact, mode)
@@ -64,19 +65,21 @@ def force(
             now.powers[WORK] += value * now.twist[entry]
 
 
-@kernel
-def _contact(j: int, now: Record, joints: SurfaceData, memory: SurfaceMemory, mode: int) -> None:
+@inlined
+def _contact(j: int, now: Record, joints: SurfaceData, memory: SurfaceMemory, mode: float) -> None:
     """Fill the forces of a joint with clearance."""
     if mode == SLOPES:
         surfaces.wrench_and_jacobian(joints, memory, j, now.pose, now.wrench, now.slope)
-        return
-    surfaces.wrench(joints, memory, j, now.pose, now.wrench)
-    if mode == REPORTS:
+    elif mode == REPORTS:
         surfaces.report(joints, memory, j, now.pose)
-        now.stored = surfaces.stored(joints, memory, j, now.pose)
         for s in range(joints.joints[j], joints.joints[j + 1]):
-            now.powers[DAMPING] += memory.reports[s].damping_power
-            now.powers[FRICTION] -= memory.reports[s].friction_power
+            report = memory.reports[s]
+            surfaces.add_reported(report, now.wrench)
+            now.stored += report.energy_contact
+            now.powers[DAMPING] += report.damping_power
+            now.powers[FRICTION] -= report.friction_power
+    else:
+        surfaces.wrench(joints, memory, j, now.pose, now.wrench)
 
 
 @kernel
@@ -143,6 +146,7 @@ def _load(coupling: Record, now: Record, couplings: Any, signals: Signals, t: fl
     if coupling.follows != NONE:
         followed = couplings[coupling.follows]
         x = followed.pose.d[2] if coupling.follows_position == 1 else followed.angle
+        x *= coupling.follows_sign
         within = x
     for i in range(6):
         if coupling.signals[i] != NONE:
@@ -153,6 +157,9 @@ def _load(coupling: Record, now: Record, couplings: Any, signals: Signals, t: fl
     elif coupling.force == LOAD_MOTION:
         _oppose(now, now.wrench[0], 0, coupling.slip_velocity)
         _oppose(now, now.wrench[3], 3, coupling.slip_velocity)
+    elif coupling.force == LOAD_LINE:
+        _oppose_along(now, 0, coupling.slip_velocity)
+        _oppose_along(now, 3, coupling.slip_velocity)
     for i in range(6):
         now.powers[WORK] += now.wrench[i] * now.twist[i]
 
@@ -184,3 +191,23 @@ def _oppose(now: Record, size: float, first: int, slip: float) -> None:
         for j in range(3):
             now.slope[first + i, 6 + first + j] = slope * u[first + i] * u[first + j] / square
         now.slope[first + i, 6 + first + i] -= slope
+
+
+@kernel
+def _oppose_along(now: Record, first: int, slip: float) -> None:
+    """Turn three components, a force along a line, against the part of the (angular) velocity along it."""
+    w, u = now.wrench[first : first + 3], now.twist[first : first + 3]
+    size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    if size == 0.0:
+        return
+    n_x, n_y, n_z = w[0] / size, w[1] / size, w[2] / size
+    speed = n_x * u[0] + n_y * u[1] + n_z * u[2]
+    square = speed * speed + slip * slip
+    if square == 0.0:
+        square = 1.0
+    push, slope = -size * speed / math.sqrt(square), -size * slip * slip / square / math.sqrt(square)
+    n = (n_x, n_y, n_z)
+    for i in range(3):
+        w[i] = push * n[i]
+        for j in range(3):
+            now.slope[first + i, 6 + first + j] = slope * n[i] * n[j]

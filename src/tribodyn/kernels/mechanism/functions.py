@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
-from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.memory import note_peaks
 from tribodyn.kernels.mechanism import ledger
@@ -41,7 +41,7 @@ def rhs(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, f
     rates(memory.now.bodies, f)
 
 
-@kernel
+@inlined
 def _differentiate(
     t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, f: FloatArray
 ) -> None:
@@ -135,23 +135,13 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: MechanismData, memory
 
 @entry
 def observe(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, row: FloatArray) -> None:
-    """Fill ``row``, see ``kernels/mechanism/quantities.py``."""
-    _stand_at(data, memory, t, y)
+    """Fill ``row``, see ``kernels/mechanism/quantities.py``, with what stands settled since ``advance``."""
     fill_row(data, memory, row)
-
-
-@kernel
-def _stand_at(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray) -> None:
-    """Settle, if evaluations in between have moved bodies elsewhere."""
-    if memory.now.course.settled_at != t:
-        settle(data, memory, t, y)
-        ledger.fill_totals(data.parts, memory.now)
 
 
 @entry
 def accept(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
     """Put the state on the constraints, count turns, let contact begin and end."""
-    _stand_at(data, memory, t, y)
     copy(memory.settled, y)
     _mark_angles(memory.now.couplings)
     touch(data, memory, 0.0)
@@ -174,7 +164,6 @@ def picture(
     t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, fields: FloatArray
 ) -> None:
     """Fill the contact pressure at the nodes of all joints [Pa], shape (n_nodes,)."""
-    _stand_at(data, memory, t, y)
     for k in range(data.parts.couplings.size):
         if data.parts.couplings[k].force == CONTACT:
             pose = memory.now.couplings[k].pose

@@ -18,12 +18,11 @@ free.
 
 from __future__ import annotations
 
-import math
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mechanism.blocks import factorise, solve
 from tribodyn.kernels.mechanism.bodies import collect, move, own_force, place
 from tribodyn.kernels.mechanism.constraints import fill_rows, prescribe
@@ -63,7 +62,7 @@ def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
 
 
 @kernel
-def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: int) -> None:
+def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: float) -> None:
     """Fill the forces of all couplings, and what else ``mode`` asks for, and sum them up at the bodies."""
     parts, now = data.parts, memory.now
     within = min(max(t, now.course.begin), now.course.until)
@@ -165,12 +164,11 @@ def _take_multipliers(coupling: Record, state: Record, x: FloatArray) -> None:
         state.constraint[i] = total
 
 
-@kernel
-def accelerations(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray, mode: int) -> None:
+@inlined
+def accelerations(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray, mode: float) -> None:
     """Fill kinematics, forces, accelerations and multipliers at a state."""
     parts, now = data.parts, memory.now
     place(y, now.bodies)
-    now.course.settled_at = math.nan
     kinematics(parts, now, data.signals, t)
     forces(data, memory, t, mode)
     assemble(parts, now, data.mass, memory.blocks)
@@ -235,7 +233,7 @@ def correct_velocities(
     kinematics(parts, now, signals, t)
 
 
-@kernel
+@inlined
 def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray) -> None:
     """Fill ``memory.settled`` with the state on the constraints next to ``y``, and all that holds there.
 
@@ -252,7 +250,6 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
         close(parts, now, data.signals, data.mass, blocks, t)
         correct_velocities(parts, now, data.signals, data.mass, blocks, t)
     collect(now.bodies, memory.settled)
-    now.course.settled_at = t
     forces(data, memory, t, REPORTS)
     redundant = parts.constants.rank < n_rows
     if redundant:

@@ -77,7 +77,9 @@ class LoadKeys(NamedGroup):
     point: Vector | None = vector(
         None, "where the force acts, as drawn; the mass centre without it", "", unit="mm", example=POINT
     )
-    direction: Vector | None = vector(None, "of force and moment", "", example="[-1, 0, 0]")
+    direction: Vector | None = vector(
+        None, "of force and moment; against the motion: only along it", "", example="[-1, 0, 0]"
+    )
     frame: Literal["ground", "body", "motion"] = choice(
         "ground", "direction stands still, turns with the body, or is always against the motion", "assumed"
     )
@@ -99,8 +101,6 @@ class LoadKeys(NamedGroup):
         against = self.frame == "motion"
         words = "a load needs its direction in the drawing, such as direction = [-1, 0, 0]"
         demand(against or self.direction is not None, "direction", words)
-        words = "a load against the motion has no direction of its own"
-        demand(not against or self.direction is None, "direction", words)
         words = "against the motion acts a force or a moment; write two loads"
         demand(not against or len(self.given) == 1, "frame", words)
         if self.direction is not None:

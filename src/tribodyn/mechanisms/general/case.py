@@ -229,7 +229,7 @@ class MechanismCase(RoughCase):
     def _check_campaign(self) -> None:
         if self.wear.cycles == 0:
             return
-        real = [joint.clearance for joint in self.joints.values() if joint.clearance is not None]
+        real = [joint.real for joint in self.joints.values() if joint.real is not None]
         words = 'a wear campaign needs a joint with clearance whose contact is "surface"'
         demand(any(clearance.contact == "surface" for clearance in real), "wear.cycles", words)
         cycles = self.run.cycles or 0.5

@@ -212,8 +212,7 @@ class System:
             coupling, now = self.parts.couplings[k], self.now.couplings[k]
             row = np.zeros(6 * (self.n + 1))
             entry = 5 if coordinate == "angle" else 2
-            clearance = self.description.joints[k].clearance
-            given = -value if clearance is not None and clearance.socket == 1 else value
+            given = value * self.description.joints[k].sign
             for side, body in enumerate((coupling.socket, coupling.shaft)):
                 row[6 * body : 6 * body + 6] += now.H[entry, 6 * side : 6 * side + 6]
             over = row[: 6 * self.n] @ root

@@ -63,7 +63,7 @@ def _body(name: str, body: BodyKeys) -> Body:
 
 
 def _joint(case: MechanismCase, name: str, joint: JointKeys, bodies: Mapping[str, int]) -> Joint:
-    clearance = joint.clearance
+    clearance = joint.real
     return Joint(
         name=name,
         kind=joint.type,
@@ -155,7 +155,7 @@ def _load(
         name=name,
         body=bodies[load.body],
         point=np.array(load.point or case.bodies[load.body].centre),
-        frame=load.frame,
+        frame="line" if load.frame == "motion" and load.direction is not None else load.frame,
         signals=_components(load),
         joint=-1 if load.along is None else joints[load.along],
         slip_velocity=load.slip_rate

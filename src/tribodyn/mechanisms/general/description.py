@@ -119,6 +119,11 @@ class Joint:
     stiffness: FloatArray
     damping: FloatArray
 
+    @property
+    def sign(self) -> float:
+        """−1 where the second body carries the socket, so that its motion is against that of the shaft."""
+        return -1.0 if self.clearance is not None and self.clearance.socket == 1 else 1.0
+
 
 @dataclass(frozen=True)
 class Drive:
@@ -161,14 +166,14 @@ class Load:
         Where the force acts, as drawn [m], shape (3,).
     frame
         ``ground``: the components are global. ``body``: they turn with the body. ``motion``: the first is the
-        size of a force against
-        the velocity of the point, the fourth that of a moment against the angular velocity.
+        size of a force against the velocity of the point, the fourth that of a moment against the angular
+        velocity. ``line``: force and moment, global, act along a line each, against the velocity along it.
     signals
         Force [N] and moment [N m], six components.
     joint
         Number of the joint whose coordinate the signals follow; −1 for time.
     slip_velocity
-        For ``motion``: speed [m/s], or [rad/s], below which the force grows in proportion.
+        For ``motion`` and ``line``: speed [m/s], or [rad/s], below which the force grows in proportion.
     """
 
     name: str

@@ -26,7 +26,12 @@ from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 
-_LOADS: Final = {"ground": kinds.LOAD_GROUND, "body": kinds.LOAD_BODY, "motion": kinds.LOAD_MOTION}
+_LOADS: Final = {
+    "ground": kinds.LOAD_GROUND,
+    "body": kinds.LOAD_BODY,
+    "motion": kinds.LOAD_MOTION,
+    "line": kinds.LOAD_LINE,
+}
 _COORDINATES: Final = ("angle", "position")
 _NOWHERE: Final = -1
 
@@ -162,7 +167,7 @@ def _fill_joint(record: Any, description: Description, joint: Joint) -> None:
     if joint.kind == "universal":
         across = frame(joint.axes[1], joint.axes[0])  # z along the shaft's own axis
         shaft = np.column_stack([across[:, 2], -across[:, 1], across[:, 0]])
-    order = [0, 1] if joint.clearance is None or joint.clearance.socket == 0 else [1, 0]
+    order = [0, 1] if joint.sign > 0.0 else [1, 0]
     _place(record, description, [joint.bodies[k] for k in order], joint.points[order], (socket, shaft))
     if joint.clearance is not None:
         return
@@ -193,7 +198,7 @@ def _add_drive(record: Any, joint: Joint, drive: Drive, signals: SignalList) -> 
     It moves the second body against the first; where that carries the socket, the shaft goes the other way.
     """
     pieces = pieces_of(drive.signal)
-    if joint.clearance is not None and joint.clearance.socket == 1:
+    if joint.sign < 0.0:
         pieces = negated(pieces)
     number = signals.add(integral_of(pieces) if drive.level == 1 else pieces, drive.signal.kinks)
     which = _COORDINATES.index(drive.coordinate)
@@ -218,9 +223,10 @@ def _fill_load(record: Any, description: Description, load: Load, signals: Signa
     _place(record, description, bodies, np.array([load.point, load.point]), (np.eye(3), np.eye(3)))
     record.force, record.slip_velocity = _LOADS[load.frame], load.slip_velocity
     record.follows = load.joint
-    record.follows_position = int(
-        load.joint >= 0 and KINDS[description.joints[load.joint].kind].coordinates == ("position",)
-    )
+    if load.joint >= 0:
+        followed = description.joints[load.joint]
+        record.follows_position = int(KINDS[followed.kind].coordinates == ("position",))
+        record.follows_sign = followed.sign
     for i, signal in enumerate(load.signals):
         record.signals[i] = signals.add(pieces_of(signal), signal.kinks if load.joint < 0 else np.zeros(0))
 

@@ -18,6 +18,7 @@ from tribodyn.cases.fields import (
     number,
     quantity,
     series,
+    switch,
     vector,
 )
 from tribodyn.mechanisms.general.kinds import KINDS
@@ -130,6 +131,7 @@ class ClearanceKeys(NamedGroup):
         "",
         example="steel-ptfe",
     )
+    ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "")
     nodes_around: int | None = count(
         None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
     )
@@ -270,6 +272,11 @@ class JointKeys(NamedGroup):
             demand(self.type == "revolute" or getattr(clearance, key) is None, f"clearance.{key}", words)
         words = f"this is neither {self.between[0]} nor {self.between[1]}"
         demand(clearance.socket in (None, *self.between), "clearance.socket", words)
+
+    @property
+    def real(self) -> ClearanceKeys | None:
+        """Its clearance, if it is not ideal."""
+        return None if self.clearance is None or self.clearance.ideal else self.clearance
 
     @property
     def shape(self) -> str:

@@ -115,7 +115,7 @@ def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:
     first = joint.between[0]
     axis = np.array(unit(joint.axis, "axis")) if joint.axis is not None and KINDS[joint.type].axis else None
     body = -1 if first == GROUND else bodies.index(first)
-    return Mark(name, body, np.array(joint.point), axis, joint.clearance is not None)
+    return Mark(name, body, np.array(joint.point), axis, joint.real is not None)
 
 
 def rotated(quaternion: FloatArray, vectors: FloatArray) -> FloatArray:

@@ -25,7 +25,7 @@ from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceD
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
-from tribodyn.kernels.mechanism.data import CONTACT, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
+from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import DEPENDENT, System
 from tribodyn.mechanisms.general.description import Joint
@@ -138,11 +138,12 @@ class _Loads:
         couplings = self.data.parts.couplings
         self.couplings = self.memory.now.couplings
         self.contacts = _contacts(self.data.contact, np.flatnonzero(couplings.force == CONTACT))
-        self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION))
+        self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE))
         parts = newton.N_PLACES + newton.N_BODY
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
         self.ideal, self.real = ideal, System(assembly.description)
         self.speeds, self.largest = assembly.description.speeds, 0.0
+        self.ahead: FloatArray | None = None
 
     def look(self) -> None:
         """Look at the motions that clearances allow where the bodies are, and at how these are to move.
@@ -165,18 +166,20 @@ class _Loads:
         self.motions, self.asked = self.root @ self.held @ allowed, allowed.T @ (self.held.T @ self.wanted)
         self.velocity = self.slipping = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
         if not np.any(self._slips() > _MOVING):
-            self._look_ahead()
+            # Once, from the middle: traction itself must not decide where it points.
+            self.ahead = self._ahead() if self.ahead is None else self.ahead
+            self.slipping = self.ahead
 
-    def _look_ahead(self) -> None:
-        """Let slip be that of the motion that begins: of the accelerations of the ideal mechanism."""
+    def _ahead(self) -> FloatArray:
+        """Return velocities along the accelerations that motion begins with, shape (n, 6), or none."""
         free = self.root @ self._evaluated()
         begins = self.wanted + free - self.held @ (self.held.T @ free)
         if np.linalg.norm(begins) <= _ROUNDING * np.linalg.norm(free):
-            return
+            return self.velocity
         self.slipping = (self.root @ begins).reshape(-1, 6)
         slips = self._slips()
         moving = slips[slips > _MOVING * np.max(slips, initial=0.0)]
-        self.slipping = self.slipping * (_SLIDING / moving.min() if moving.size else 0.0)
+        return self.slipping * (_SLIDING / moving.min() if moving.size else 0.0)
 
     def _evaluate(self, velocity: FloatArray) -> FloatArray:
         """Fill forces and slopes of all couplings at given velocities; return the force on bodies (6 n,)."""
@@ -196,10 +199,10 @@ class _Loads:
 
     def _evaluated(self) -> FloatArray:
         """Return the force on all bodies, slip as it is looked at, all else as bodies move."""
-        still = self._evaluate(self.velocity)
-        still -= self._of_slip()
+        rest = self._evaluate(self.velocity)
+        rest -= self._of_slip()
         self._evaluate(self.slipping)
-        return np.asarray(still + self._of_slip())
+        return np.asarray(rest + self._of_slip())
 
     def _slips(self) -> FloatArray:
         """Return the largest slip of each joint over the one at which its traction is developed."""

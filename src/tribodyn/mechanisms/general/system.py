@@ -179,9 +179,16 @@ class MechanismSystem:
         return observed(run.solution.rows, len(self.description.bodies))
 
     def _of_joints(self, found: Observed) -> dict[str, FloatArray]:
-        """Return what is observed of the joints alone, which come before springs and loads."""
-        n = len(self.description.joints)
-        return {name: values[:, :n] for name, values in found.couplings.items()}
+        """Return what is observed of the joints alone, which come before springs and loads.
+
+        Kernels tell all of the shaft.
+        """
+        n, signs = len(self.description.joints), [joint.sign for joint in self.description.joints]
+        turned = {entry for kept in JOINTS.values() if kept.of_second for entry in kept.entries}
+        return {
+            name: values[:, :n] * signs if name in turned else values[:, :n]
+            for name, values in found.couplings.items()
+        }
 
     @property
     def _real_numbers(self) -> list[int]:

@@ -32,12 +32,16 @@ class Kept:
         As of a :class:`Variable`.
     dims
         Of the components; none of a number.
+    of_second
+        Whether it is told of the second body of a joint: observed of the shaft, it changes its sign where
+        that body carries the socket.
     """
 
     entries: tuple[str, ...]
     units: str
     long_name: str
     dims: tuple[str, ...] = ()
+    of_second: bool = False
 
     def variable(self, part: str) -> Variable:
         """Return what a reader needs to know about it, over the bodies or the joints."""
@@ -50,12 +54,12 @@ class Kept:
         return np.stack([observed[entry] for entry in self.entries], axis=-1)
 
 
-def _vector(prefix: str, units: str, long_name: str) -> Kept:
-    return Kept(tuple(f"{prefix}{axis}" for axis in AXES), units, long_name, _VECTOR)
+def _vector(prefix: str, units: str, long_name: str, *, of_second: bool = False) -> Kept:
+    return Kept(tuple(f"{prefix}{axis}" for axis in AXES), units, long_name, _VECTOR, of_second)
 
 
-def _number(entry: str, units: str, long_name: str) -> Kept:
-    return Kept((entry,), units, long_name)
+def _number(entry: str, units: str, long_name: str, *, of_second: bool = False) -> Kept:
+    return Kept((entry,), units, long_name, (), of_second)
 
 
 BODIES: Final[dict[str, Kept]] = {
@@ -70,18 +74,36 @@ BODIES: Final[dict[str, Kept]] = {
 }
 """Of each body."""
 JOINTS: Final[dict[str, Kept]] = {
-    "joint_angle": _number("angle", "rad", "angle of the joint about its axis, from the drawing"),
-    "displacement": _vector("d_", "m", "displacement in the joint, axes of the joint"),
-    "tilt_x": _number("tilt_x", "rad", "tilt in the joint about its x"),
-    "tilt_y": _number("tilt_y", "rad", "tilt in the joint about its y"),
-    "relative_velocity": _vector("u_", "m s-1", "relative velocity in the joint, axes of the joint"),
-    "relative_rate": _vector("w_", "rad s-1", "relative angular velocity in the joint, axes of the joint"),
-    "reaction_force": _vector("F_", "N", "force of the joint on the shaft's body, axes of the joint"),
-    "reaction_moment": _vector("M_", "N m", "moment of the joint at the shaft, axes of the joint"),
-    "reaction_force_global": _vector("R_", "N", "force of the joint on the shaft's body, global axes"),
-    "reaction_moment_global": _vector("T_", "N m", "moment of the joint at the shaft, global axes"),
-    "drive_moment": _number("drive_moment", "N m", "moment of the drive of the joint's angle"),
-    "drive_force": _number("drive_force", "N", "force of the drive of the joint's position"),
+    "joint_angle": _number(
+        "angle", "rad", "angle of the second body about the axis, from the drawing", of_second=True
+    ),
+    "displacement": _vector("d_", "m", "displacement of the shaft in its socket, axes of the joint"),
+    "tilt_x": _number("tilt_x", "rad", "tilt of the shaft in its socket about the x of the joint"),
+    "tilt_y": _number("tilt_y", "rad", "tilt of the shaft in its socket about the y of the joint"),
+    "relative_velocity": _vector(
+        "u_", "m s-1", "velocity of the second body in the joint, axes of the joint", of_second=True
+    ),
+    "relative_rate": _vector(
+        "w_", "rad s-1", "angular velocity of the second body in the joint, axes of the joint", of_second=True
+    ),
+    "reaction_force": _vector(
+        "F_", "N", "force of the joint on the second body, axes of the joint", of_second=True
+    ),
+    "reaction_moment": _vector(
+        "M_", "N m", "moment on the second body at the shaft, axes of the joint", of_second=True
+    ),
+    "reaction_force_global": _vector(
+        "R_", "N", "force of the joint on the second body, global axes", of_second=True
+    ),
+    "reaction_moment_global": _vector(
+        "T_", "N m", "moment on the second body at the shaft, global axes", of_second=True
+    ),
+    "drive_moment": _number(
+        "drive_moment", "N m", "moment of the drive of the angle on the second body", of_second=True
+    ),
+    "drive_force": _number(
+        "drive_force", "N", "force of the drive of the position on the second body", of_second=True
+    ),
     "joint_damping": _number("damping", "J", "heat of damping in the joint"),
     "joint_friction": _number("friction", "J", "heat of friction in the joint"),
     "joint_energy": _number("stored", "J", "energy stored in the joint"),

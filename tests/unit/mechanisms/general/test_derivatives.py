@@ -43,7 +43,7 @@ def _everything() -> Description:
         Drive("slide", 2, "position", 1, signal()),
         Drive("push", 3, "position", 2, signal()),
     )
-    frames = ("ground", "body", "motion")
+    frames = ("ground", "body", "motion", "line")
     loads = tuple(
         Load(frame, k, rng.normal(size=3), frame, tuple(signal() for _ in range(6)), -1, 0.3)
         for k, frame in enumerate(frames)

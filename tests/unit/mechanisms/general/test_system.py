@@ -20,7 +20,7 @@ PLAIN = parsed(
 """Slider-crank of ideal joints at 5000 rpm under gravity."""
 
 
-def bob(**clearance: str) -> Mechanism:
+def bob(**clearance: object) -> Mechanism:
     """Return a bob of 1 kg on an arm of 0.2 m, let go 30° from the lowest point."""
     drawn = Mechanism("Pendulum", gravity="0, 0, -9.81 m/s^2", run={"duration": "20 ms"})
     drawn.body("bob", mass="1 kg", centre="100, 0, -173.205081 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
@@ -64,6 +64,27 @@ def test_a_pendulum_on_a_pin_presses_it_down(tmp_path: Path) -> None:
     told = results.summarise(again)
     # The pin ends up below the middle, its mean planes a little apart.
     assert 5.0 < told["offset_max_um_pivot"] < 22.0
+
+
+def test_the_second_body_is_told_of_whichever_carries_the_socket() -> None:
+    told = [
+        td.simulate(bob(socket=body, friction_coefficient=0).case()).sel(joint="pivot")
+        for body in ("ground", "bob")
+    ]
+    for result in told:
+        # The bob falls forward about y and is held up; 1 kg at 30°, g cos 30° along the arm.
+        assert 0.0 < float(result["joint_angle"][-1]) < 0.1
+        assert float(result["relative_rate"].sel(axis="z")[-1]) > 0.0
+        held = np.linalg.norm(result["reaction_force"].isel(time=0))
+        assert held == pytest.approx(9.81 * math.cos(math.radians(30.0)), rel=0.02)
+        assert float(result["reaction_force_global"].sel(axis="z")[0]) > 0.0
+    np.testing.assert_allclose(told[0]["joint_angle"], told[1]["joint_angle"], atol=1e-5)
+
+
+def test_a_clearance_may_be_kept_for_later() -> None:
+    result = td.simulate(bob(ideal=True).case())
+    assert "surface" not in result.dims
+    assert float(abs(result["displacement"]).max()) < 1e-12
 
 
 def test_a_campaign_wears_and_goes_on_where_it_was(tmp_path: Path) -> None:

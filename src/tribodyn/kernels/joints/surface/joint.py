@@ -132,8 +132,19 @@ def _fill_parts(memory: SurfaceMemory, out: Record) -> None:
 
 
 @kernel
+def add_reported(report: Record, out: FloatArray) -> None:
+    """Add the wrench that a report tells to ``out`` (6,)."""
+    out[0] += report.F_cx + report.F_fx
+    out[1] += report.F_cy + report.F_fy
+    out[2] += report.F_cz + report.F_fz
+    out[3] += report.M_cx + report.M_fx
+    out[4] += report.M_cy + report.M_fy
+    out[5] += report.M_cz + report.M_fz
+
+
+@kernel
 def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> None:
-    """Fill the reports of the surfaces of joint ``j``, but for their stored energy, see ``stored``."""
+    """Fill the reports of the surfaces of joint ``j``."""
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
         memory.reports[s] = memory.scratch.blank
@@ -150,22 +161,6 @@ def slide(data: SurfaceData, memory: SurfaceMemory, j: int, h: float) -> None:
     """Add what slides in ``h`` [s], as at the last report, to the sliding load."""
     for s in range(data.joints[j], data.joints[j + 1]):
         over_surface.slide(data, s, memory, h)
-
-
-@kernel
-def stored(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> float:
-    """Return the energy stored in joint ``j`` [J] and note it in the reports of its surfaces."""
-    total = 0.0
-    for s in range(data.joints[j], data.joints[j + 1]):
-        surface = data.surfaces[s]
-        _look(surface, memory.scratch, pose)
-        if surface.points > 0.0:
-            energy = point.stored(data, surface, memory, memory.scratch.station)
-        else:
-            energy = over_surface.stored(data, surface, memory, memory.scratch.station)
-        memory.reports[s].energy_contact = energy
-        total += energy
-    return total
 
 
 @kernel

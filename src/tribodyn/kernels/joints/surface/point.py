@@ -133,6 +133,8 @@ def _add_point(
         for i in range(3):
             scratch.rigid[i] -= rigid * n[i]
             scratch.rigid[3 + i] -= rigid * arm[i]
+        gap = (surface.clearance - rho) / surface.roughness
+        out.energy_contact += surface.roughness * stored_energy(table_of(data, surface), gap)
         out.damping_power += (force - rigid) * approach
         out.friction_power -= drag * _dot(unit, slip)
         out.contact_fraction += 1.0
@@ -193,18 +195,6 @@ def _add_column(
         else:
             scratch.friction_slip[i, column] -= mu * pull[i]
             scratch.friction_slip[3 + i, column] -= mu * lever[i]
-
-
-@kernel
-def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> float:
-    """Return the stored energy of all points [J]."""
-    total = 0.0
-    for k in range(int(surface.points)):
-        e = _offset(surface, surface.heights[k], _vector(station.d), _vector(memory.scratch.tilt.phi))
-        gap = surface.clearance - math.sqrt(_dot(e, e))
-        if gap < 0.0:
-            total += surface.roughness * stored_energy(table_of(data, surface), gap / surface.roughness)
-    return total
 
 
 @kernel

@@ -6,6 +6,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.core.tables import ContactTable
 from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel, summing
 from tribodyn.kernels.joints.pressure import reference_velocity, total_pressure
@@ -20,19 +21,21 @@ from tribodyn.kernels.lookup import stored_energy
 
 @kernel
 def report(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) -> None:
-    """Fill the report of surface ``s`` but for its forces, left in the scratch, and the stored energy.
+    """Fill the report of surface ``s`` but for its forces, left in the scratch.
 
     What slides is kept in ``memory`` until the next report, for ``slide``.
     """
     surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
     for k in range(6):
         scratch.normal[k] = scratch.rigid[k] = scratch.friction[k] = 0.0
-    cubics, work, kept = table_of(data, surface).cubics, scratch.listed.work, 0
+    table, work, kept = table_of(data, surface), scratch.listed.work, 0
+    cubics = table.cubics
     nearest, out.p_max = math.inf, 0.0
     rewind(surface, memory)
     n = gather(data, surface, memory, station, 1.0)
     while n > 0:
         look_up(cubics, work, n)
+        out.energy_contact += surface.roughness * _energy(table, surface, work, n)
         nearest = min(nearest, _add_nodes(surface, scratch, station, n, out))
         _keep(memory, surface.first_node + kept, n)
         kept += n
@@ -144,15 +147,12 @@ def _add_nodes(surface: Record, scratch: Record, station: Record, n: int, out: R
 
 
 @kernel
-def stored(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> float:
-    """Return the energy stored in the contact of a surface [J]."""
-    table, work, total = table_of(data, surface), memory.scratch.listed.work, 0.0
-    rewind(surface, memory)
-    n = gather(data, surface, memory, station, 0.0)
-    while n > 0:
-        for k in range(n):
-            place = work[listed.INTERVAL + k] + work[listed.FRACTION + k]
-            h_star = surface.h_first + (place - 1.0) / surface.inverse_step
-            total += work[listed.AREA + k] * stored_energy(table, h_star)
-        n = gather(data, surface, memory, station, 0.0)
-    return surface.roughness * total
+def _energy(table: ContactTable, surface: Record, work: FloatArray, n: int) -> float:
+    """Return the stored energy over σ of the ``n`` nodes in the list [N]."""
+    total = 0.0
+    for k in range(n):
+        place = work[listed.INTERVAL + k] + work[listed.FRACTION + k]
+        total += work[listed.AREA + k] * stored_energy(
+            table, surface.h_first + (place - 1.0) / surface.inverse_step
+        )
+    return total
