@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -16,6 +16,8 @@ from tribodyn.simulation import simulate
 
 CLEARANCES: Final = (20e-6, 25e-6, 30e-6, 35e-6, 40e-6)
 """Clearances of section 5.3 [m]."""
+JOINTS: Final = ("crank-pivot", "crank-ball", "ring-ball", "guide", "pin", "trunnion")
+"""Joints of the mechanism, as the built-in case ``vsv-joints`` calls them; Eq. 11 counts these six."""
 LAWS: Final = ("rsdc", "ke")
 """Contact laws that section 4 compares."""
 FORMULATIONS: Final = ("paper", "exact")
@@ -53,6 +55,14 @@ class Runs:
     ) -> xr.Dataset:
         """Return two cycles of the mechanism with a clearance [m]."""
         return self.run("vsv", _vsv_changes(formulation, clearance) | dict(changes or {}))
+
+    def joints(self, clearance: float, real: Iterable[str] = JOINTS) -> xr.Dataset:
+        """Return two cycles of the mechanism as a drawing, with a clearance [m] in some of its joints."""
+        changes: dict[str, object] = {}
+        for joint in JOINTS:
+            changes[f"joints.{joint}.clearance.radial"] = f"{clearance * 1e6:g} um"
+            changes[f"joints.{joint}.clearance.ideal"] = joint not in real
+        return self.run("vsv-joints", changes)
 
     def over_laws(self, name: str) -> xr.Dataset:
         """Return the runs of a journal with both laws of section 4 along a dimension ``law``."""

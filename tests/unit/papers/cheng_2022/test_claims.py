@@ -105,4 +105,4 @@ def test_what_is_not_measured_is_not_tested():
 def test_a_claim_on_no_mechanism_has_one_finding(claim):
     row = Row(claim, found(9.0))
     assert row.verdict == row.exact_verdict == "contradicted"
-    assert row.found[1] == "not about the mechanism"
+    assert row.found[1] == "alike"

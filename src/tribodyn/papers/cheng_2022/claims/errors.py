@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims import all_joints
 from tribodyn.papers.cheng_2022.claims.base import (
     ENTRY_VELOCITY,
     FRICTION,
@@ -19,13 +20,10 @@ from tribodyn.papers.cheng_2022.claims.base import (
     listed,
 )
 from tribodyn.papers.cheng_2022.claims.bounds import above, near
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, is_smooth, smooth
+from tribodyn.papers.cheng_2022.claims.smooth import trend
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, smooth
 
 _DEGREES: Final = float(np.rad2deg(1.0))
-_TREND: Final = 0.2
-"""Time over which the speed error is averaged [s]: several periods of what rings after the reversals."""
-_STEP: Final = 5e-3
-"""Time between the instants at which the trend is taken [s]."""
 
 
 def _angle_error(run: xr.Dataset) -> FloatArray:
@@ -38,17 +36,8 @@ def mean_angle_error(run: xr.Dataset) -> float:
 
 
 def speed_trend(run: xr.Dataset) -> float:
-    """Return the median size of the speed error, averaged over 0.2 s, in smooth motion [deg/s].
-
-    The mean of a speed over a time is the difference of its angle over it.
-    """
-    time, half = run["time"].values, 0.5 * _TREND
-    middle = np.arange(half, float(time[-1]) - half, _STEP)
-    inside = is_smooth(run, middle - half) & is_smooth(run, middle + half)
-    middle = middle[inside & (middle % (0.5 * float(run.attrs["cycle_period"])) > half)]
-    error = _angle_error(run)
-    change = np.interp(middle + half, time, error) - np.interp(middle - half, time, error)
-    return float(np.median(np.abs(change)) / _TREND)
+    """Return the median size of the speed error, averaged over 0.2 s, in smooth motion [deg/s]."""
+    return trend(run["time"].values, _angle_error(run), run)
 
 
 def angle_error(trial: Trial, clearance: float) -> Finding:
@@ -86,23 +75,9 @@ def _claims(clearance: float, angle: float, speed: float, about: str) -> tuple[C
             "median of its mean over 0.2 s in smooth motion; the rest rings after the reversals, and the "
             "paper does not say at which instant it was read", varies=(FRICTION, ENTRY_VELOCITY),
         ),
-        Claim(
-            f"angle error of all joints, {at}", "5.3",
-            f"at {at} it is about {7 * angle:.3g}° with clearance in all joints",
-            near(7 * angle, "°"), reason=_SEVEN,
-        ),
-        Claim(
-            f"speed error of all joints, {at}", "5.3",
-            f"at {at} it is about {7 * speed:.3g} °/s with clearance in all joints",
-            near(7 * speed, "°/s"), reason=_SEVEN,
-        ),
+        *all_joints.claims(clearance, angle, speed),
     )  # fmt: skip
 
-
-_SEVEN: Final = (
-    "the paper multiplies the error of one joint by seven, though Eq. 11 counts six; the mechanism with "
-    "clearance in every joint is not part of this table yet"
-)
 
 CLAIMS: Final = (
     *_claims(CLEARANCES[0], 0.02, 2.5e-4, "about "),

@@ -12,7 +12,7 @@ from tribodyn.papers.cheng_2022.claims.bounds import Verdict
 from tribodyn.papers.cheng_2022.runs import Runs
 
 _WIDTH: Final = 100
-_ALIKE: Final = "not about the mechanism"
+_ALIKE: Final = "alike"
 Spread = tuple[Assumption, float, float]
 """An assumption with the smallest and the largest number over the values tried."""
 
