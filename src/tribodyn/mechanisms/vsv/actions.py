@@ -61,6 +61,9 @@ class Drive(Group):
         )
 
 
+COMPONENTS: Final = ("force_x", "force_y", "force_z", "moment")
+
+
 class VaneLoad(NamedGroup):
     """A load on the vane from tables, added to those of the paper."""
 
@@ -95,12 +98,7 @@ class VaneLoad(NamedGroup):
     @property
     def given(self) -> dict[str, ForceMap | TorqueMap]:
         """Its forces and its moment, as far as it has them."""
-        found = {
-            "force_x": self.force_x,
-            "force_y": self.force_y,
-            "force_z": self.force_z,
-            "moment": self.moment,
-        }
+        found = {key: getattr(self, key) for key in COMPONENTS}
         return {key: signal for key, signal in found.items() if signal is not None}
 
     @property
@@ -137,12 +135,7 @@ class _Shaken(NamedGroup):
     @property
     def given(self) -> dict[str, float]:
         """What is given of it [N, N m]."""
-        found = {
-            "force_x": self.force_x,
-            "force_y": self.force_y,
-            "force_z": self.force_z,
-            "moment": self.moment,
-        }
+        found = {key: getattr(self, key) for key in COMPONENTS}
         return {key: size for key, size in found.items() if size is not None}
 
 

@@ -18,7 +18,7 @@ from tribodyn.cases.groups import (
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.core.errors import Faults
-from tribodyn.mechanisms.vsv.actions import DRIVE_TABLES, Drive, Surge, VaneLoad, VanePassing
+from tribodyn.mechanisms.vsv.actions import COMPONENTS, DRIVE_TABLES, Drive, Surge, VaneLoad, VanePassing
 
 if TYPE_CHECKING:
     from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths
@@ -248,7 +248,7 @@ class VsvCase(BushingCase):
             drive=("drive.angle", "rad"),
             loads={
                 name: (f"loads.more.function-{name}.{name}", "N m" if name == "moment" else "N")
-                for name in ("force_x", "force_y", "force_z", "moment")
+                for name in COMPONENTS
             },
             silenced={
                 "force_x": ("loads.air_force_x", "0 N"),
