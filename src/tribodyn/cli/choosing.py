@@ -22,6 +22,11 @@ def add_case_arguments(parser: ArgumentParser, *, required: bool = True) -> None
         help="a built-in case (see `tribodyn cases`) or a TOML file"
         + ("" if required else " (default: the first of the built-in ones)"),
     )
+    add_changes(parser)
+
+
+def add_changes(parser: ArgumentParser) -> None:
+    """Add the options that change a case."""
     parser.add_argument(
         "--set",
         dest="changes",

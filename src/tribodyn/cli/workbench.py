@@ -39,12 +39,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Serve the page until Ctrl-C."""
-    if args.case is None:
-        from tribodyn.mechanisms.catalogue import built_in
-
-        args.case = next(iter(built_in()))
+    args.case = first_case() if args.case is None else args.case
     fork_server.start(name=args.case, changes=changes(args))
-    _check(args)
+    check_numbers(args)
     case = chosen_case(args)
     import asyncio
 
@@ -88,7 +85,15 @@ def _show(address: str, args: Namespace, stack: ExitStack) -> None:
     threading.Thread(target=show, daemon=True).start()
 
 
-def _check(args: Namespace) -> None:
+def first_case() -> str:
+    """Return the name of the first built-in case."""
+    from tribodyn.mechanisms.catalogue import built_in
+
+    return next(iter(built_in()))
+
+
+def check_numbers(args: Namespace) -> None:
+    """Refuse a port or a number of workers that there cannot be."""
     if not 0 <= args.port <= _PORTS:
         raise InputError(f"given {args.port}; allowed: 0 to {_PORTS}", key="--port")
     if args.workers is not None and not 1 <= args.workers <= _MOST_WORKERS:

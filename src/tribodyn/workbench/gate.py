@@ -28,6 +28,11 @@ _REFUSED: Final = b"403: this is not for you\n"
 class Keyring(Protocol):
     """Who has which key."""
 
+    @property
+    def welcoming(self) -> bool:
+        """Whether somebody without any key may ask for the page: another one has looked at who it is."""
+        ...
+
     def visitor(self, cookie: str) -> Visitor | None:
         """Return whose cookie it is."""
         ...
@@ -57,6 +62,7 @@ class OnePerson:
     token: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
     _cookie: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
     _traded: bool = False
+    welcoming: bool = False
 
     def visitor(self, cookie: str) -> Visitor | None:
         """Return the person, if it is their cookie."""
@@ -159,7 +165,9 @@ class Gate(Router):
             return False
         if self.keys.visitor(self.door.cookie_of(request)) is not None:
             return True
-        return request.path == "/" and "Upgrade" not in headers and self.keys.admits(token_of(request))
+        if request.path != "/" or "Upgrade" in headers:
+            return False
+        return self.keys.welcoming or self.keys.admits(token_of(request))
 
 
 def token_of(request: HTTPServerRequest) -> str | None:

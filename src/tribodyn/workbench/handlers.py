@@ -16,6 +16,7 @@ from tribodyn.workbench.bench import DOWNLOADS, Bench
 from tribodyn.workbench.crew import Failed, GivenUp, Job
 from tribodyn.workbench.desk import Desk
 from tribodyn.workbench.gate import Door, Keyring, token_of
+from tribodyn.workbench.guests import NEW
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.visitor import Visitor
 
@@ -36,6 +37,8 @@ _ARRIVED: Final = (
     b'<p><a href="/">The workbench</a></html>\n'
 )
 """A page that goes on to ours: sent on at once, a browser from elsewhere would leave the cookie out."""
+_ASK_AGAIN: Final = _ARRIVED.replace(b"url=/", b"url=/?token=" + NEW.encode())
+"""A page that asks for itself again: what a link from elsewhere led to was asked without the cookie."""
 _BACKLOG: Final = 200_000_000
 """Bytes on their way to a page that does not read them, at most."""
 _BURST: Final = 1.0
@@ -118,16 +121,17 @@ class Page(_Handler):
     def get(self) -> None:
         """Answer."""
         self.set_header("Content-Type", _KINDS[".html"])
-        token = token_of(self.request)
-        if self.house.keys.visitor(self.house.door.cookie_of(self.request)) is None:
-            if not self.house.keys.admits(token):
-                raise HTTPError(403)
-            self._set_cookie(self.house.keys.admit())
-            self.finish(_ARRIVED)
-        elif token is not None:
-            self.finish(_ARRIVED)
+        keys, token = self.house.keys, token_of(self.request)
+        if keys.visitor(self.house.door.cookie_of(self.request)) is not None:
+            self.finish(self.house.assets[PAGE] if token is None else _ARRIVED)
+        elif keys.admits(token):
+            self._set_cookie(keys.admit())
+            # Where cookies are refused, to be sent on would never end.
+            self.finish(self.house.assets[PAGE] if keys.welcoming else _ARRIVED)
+        elif keys.welcoming and token is None:
+            self.finish(_ASK_AGAIN)
         else:
-            self.finish(self.house.assets[PAGE])
+            raise HTTPError(403)
 
     def _set_cookie(self, value: str) -> None:
         secure = self.house.door.scheme == "https"
@@ -162,9 +166,10 @@ class Download(_Handler):
 
     async def _made(self, name: str, toml: str) -> bytes:
         bench = self.house.bench
-        self.job = Job({"work": name, "case": toml}, bench.rules.longest)
         try:
-            return await bench.crew.do(self.job)
+            async with self.visitor.downloading:
+                self.job = Job({"work": name, "case": toml}, bench.rules.longest)
+                return await bench.crew.do(self.job)
         except Failed as error:
             raise HTTPError(500, reason=str(error).splitlines()[0][:200]) from None
         except GivenUp:
@@ -185,14 +190,17 @@ class Socket(_Handler, WebSocketHandler):
 
     def prepare(self) -> None:
         """Refuse a socket too many."""
-        if self.house.sockets >= self.house.bench.rules.sockets:
+        rules = self.house.bench.rules
+        if self.house.sockets >= rules.sockets or self.visitor.sockets >= rules.each:
             raise HTTPError(503)
 
     def open(self, *_: str, **__: str) -> None:
         """Greet the page."""
         self.set_nodelay(True)
+        self.guest = self.visitor
         self.house.sockets += 1
-        self.desk = Desk(self.house.bench, self.visitor, self._send, self.house.complain)
+        self.guest.sockets += 1
+        self.desk = Desk(self.house.bench, self.guest, self._send, self.house.complain)
         self.desk.open()
 
     async def on_message(self, message: str | bytes) -> None:
@@ -208,6 +216,7 @@ class Socket(_Handler, WebSocketHandler):
         """Forget the page."""
         if self.desk is not None:
             self.house.sockets -= 1
+            self.guest.sockets -= 1
             self.desk.close()
             self.desk = None
 
@@ -252,5 +261,6 @@ def application(house: House) -> Application:
         headers=house.door.headers,
         log_function=lambda handler: None,
         websocket_max_message_size=LARGEST,
-        websocket_ping_interval=30,
+        # Who does not answer for as long has gone; on a busy machine answers are late.
+        websocket_ping_interval=120,
     )

@@ -24,6 +24,7 @@ from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.workbench.bench import Bench, Rules
 from tribodyn.workbench.crew import Crew
 from tribodyn.workbench.gate import TOKEN, Door, Gate, Keyring, OnePerson
+from tribodyn.workbench.guests import Guests
 from tribodyn.workbench.handlers import House, application, assets
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
@@ -34,6 +35,8 @@ _ADDRESS_6: Final = "::1"
 _ATTEMPTS: Final = 20
 _BACKLOG: Final = 128
 _NAME_BYTES: Final = 16
+SHARED: Final = Rules(longest=60.0, sockets=200, each=4, room=16_000_000)
+"""What each of many may ask for."""
 _LISTEN: Final = 0.2
 """Time between two looks at whether to stop [s]."""
 _LARGEST_HEADER: Final = 16_384
@@ -42,9 +45,10 @@ _WORKERS: Final = 2
 _MOST_WORKERS: Final = 4
 
 
-def workers() -> int:
-    """Return how many workers one person gets by default."""
-    return min(max(machine.processors(), _WORKERS), _MOST_WORKERS)
+def workers(*, many: bool = False) -> int:
+    """Return how many workers there are by default, for one person or for many."""
+    found = max(machine.processors(), _WORKERS)
+    return found if many else min(found, _MOST_WORKERS)
 
 
 def own_name() -> str:
@@ -88,7 +92,7 @@ def _bound(port: int, address: str, family: socket.AddressFamily) -> list[socket
     try:
         made = socket.create_server((address, port), family=family, backlog=_BACKLOG)
     except OSError as error:
-        if family == socket.AF_INET6 and error.errno in (errno.EADDRNOTAVAIL, errno.EAFNOSUPPORT):
+        if address == _ADDRESS_6 and error.errno in (errno.EADDRNOTAVAIL, errno.EAFNOSUPPORT):
             return []
         reason = f"port {port} cannot be had: {error.strerror}; allowed: another one, or 0 for any"
         raise InputError(reason, key="--port") from None
@@ -130,6 +134,40 @@ async def attended(
     bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits()), chosen)
     opened_at = f"http://{name}:{port}/?{TOKEN}={person.token}"
     await serve(bench, door, person, listeners, lambda: opened(opened_at), stop, complain)
+
+
+def public(address: str, port: int) -> list[socket.socket]:
+    """Return a socket that listens where a proxy finds it.
+
+    Raises
+    ------
+    InputError
+        The address or the port cannot be had.
+    """
+    family = socket.AF_INET6 if ":" in address else socket.AF_INET
+    return _bound(port, address, family)
+
+
+async def many(
+    origin: Origin,
+    listeners: Sequence[socket.socket],
+    hosts: frozenset[str],
+    *,
+    size: int,
+    opened: Callable[[], None],
+    stop: Callable[[], bool],
+    complain: Callable[[str], None],
+) -> None:
+    """Serve many, whom a proxy with a certificate has authenticated; see :func:`attended`.
+
+    Parameters
+    ----------
+    hosts
+        Names that browsers know it by, with their ports where these are not 443.
+    """
+    bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits()), SHARED)
+    door = Door("https", hosts, "__Host-tribodyn")
+    await serve(bench, door, Guests(SHARED.room), listeners, opened, stop, complain)
 
 
 async def serve(

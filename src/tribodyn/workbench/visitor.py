@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections import Counter, OrderedDict
 from dataclasses import dataclass, field
 from typing import Final
@@ -23,12 +24,18 @@ class Visitor:
         Bodies of frames, likewise.
     pins
         How often each pinned run is pinned; neither its case nor its frame is forgotten.
+    sockets
+        Pages that are open.
+    downloading
+        Held while a file is made: one at a time.
     """
 
     room: int
     cases: OrderedDict[str, str] = field(default_factory=OrderedDict)
     frames: OrderedDict[str, bytes] = field(default_factory=OrderedDict)
     pins: Counter[str] = field(default_factory=Counter)
+    sockets: int = 0
+    downloading: asyncio.Lock = field(default_factory=asyncio.Lock)
     _size: int = 0
 
     def keep(self, run: str, toml: str, content: bytes) -> None:

@@ -20,12 +20,15 @@ from tribodyn.workbench import frame
 from tribodyn.workbench.bench import Bench, Rules
 from tribodyn.workbench.crew import Crew, GivenUp, Job
 from tribodyn.workbench.gate import Door, Gate, OnePerson
+from tribodyn.workbench.guests import Guests
 from tribodyn.workbench.handlers import PAGE, House, application
 from tribodyn.workbench.server import listening
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker import Limits
 
+PUBLIC = "vanes.example.org"
+"""Name of a server for many."""
 SOON = 20.0
 """Time within which everything must have happened, on a machine that does other things too [s]."""
 
@@ -190,7 +193,10 @@ class Host:
 
 @asynccontextmanager
 async def hosting(
-    crew: Crew | None = None, case: str = "vsv", rules: Rules | None = None
+    crew: Crew | None = None,
+    case: str = "vsv",
+    rules: Rules | None = None,
+    guests: Guests | None = None,
 ) -> AsyncIterator[Host]:
     """Serve while the block runs; no error of our own may be told of."""
     chosen = rules or Rules()
@@ -198,12 +204,15 @@ async def hosting(
     port = listeners[0].getsockname()[1]
     hosts = frozenset((f"127.0.0.1:{port}", f"ours.localhost:{port}"))
     door = Door("http", hosts, f"tribodyn-{port}")
+    if guests is not None:
+        door = Door("https", frozenset({PUBLIC}), "__Host-tribodyn")
     person = OnePerson(Visitor(chosen.room))
     origin = Origin(load_case(case), case)
     bench = Bench(origin, MECHANISMS[origin.case.kind()], crew or Pretending(), chosen)
     complaints: list[str] = []
-    house = House(bench, door, person, {PAGE: b"<!doctype html>the page", "a.js": b"1"}, complaints.append)
-    server = HTTPServer(Gate(door, person, application(house)), max_body_size=0)
+    keys = guests or person
+    house = House(bench, door, keys, {PAGE: b"<!doctype html>the page", "a.js": b"1"}, complaints.append)
+    server = HTTPServer(Gate(door, keys, application(house)), max_body_size=0)
     server.add_sockets(listeners)
     warm = asyncio.create_task(bench.warm())
     host = Host(bench, house, person, port, complaints)

@@ -1,0 +1,103 @@
+"""A server for many: behind a proxy that speaks https, each with a cookie, and nothing in common."""
+
+from __future__ import annotations
+
+import pytest
+from tests.unit.workbench.host import PUBLIC, Host, Page, hosting, in_loop
+from tests.unit.workbench.test_server import UPGRADE
+from tornado.web import HTTPError
+
+from tribodyn.workbench.bench import Rules
+from tribodyn.workbench.guests import NEW, Guests
+
+HTTPS = f"https://{PUBLIC}"
+
+
+async def admitted(host: Host) -> str:
+    """Come as a browser does, and return the cookie."""
+    first = await host.get("/", {"Host": PUBLIC})
+    assert f"/?token={NEW}".encode() in first.body
+    assert "Set-Cookie" not in first.headers
+    second = await host.get(f"/?token={NEW}", {"Host": PUBLIC})
+    assert b"the page" in second.body
+    cookie = second.headers["Set-Cookie"]
+    for part in ("__Host-tribodyn=", "Secure", "HttpOnly", "SameSite=Strict", "Path=/"):
+        assert part in cookie
+    return cookie.partition(";")[0]
+
+
+async def opened(host: Host, cookie: str) -> Page:
+    page = await host.open({"Host": PUBLIC, "Origin": HTTPS, "Cookie": cookie})
+    await page.until("hello")
+    return page
+
+
+@in_loop
+async def test_visitors_have_nothing_in_common() -> None:
+    async with hosting(guests=Guests(10**6)) as host:
+        first, second = await admitted(host), await admitted(host)
+        assert first != second
+        page = await opened(host, first)
+        await page.run(1, {"joint.clearance": "31 um"}, rest=True)
+        run = (await page.picture()).header["run"]
+        path = f"/download/case.toml?run={run}"
+        assert (await host.get(path, {"Host": PUBLIC, "Cookie": first})).code == 200
+        assert (await host.get(path, {"Host": PUBLIC, "Cookie": second})).code == 404
+        other = await opened(host, second)
+        await other.run(1, {"joint.clearance": "31 um"}, rest=True)
+        assert (await other.picture()).flags == 0, "what the first visitor had made is not the second one's"
+
+
+@in_loop
+async def test_only_the_public_name_and_https_are_let_in() -> None:
+    async with hosting(guests=Guests(10**6)) as host:
+        cookie = await admitted(host)
+        ours = {"Host": PUBLIC, "Cookie": cookie, "Origin": HTTPS}
+        assert (await host.get("/", ours)).code == 200
+        wrong = (
+            {"Host": f"127.0.0.1:{host.port}"},
+            {"Host": f"{PUBLIC}:443"},
+            {"Host": f"evil.{PUBLIC}"},
+            {"Origin": f"http://{PUBLIC}"},
+            {"Origin": "null"},
+        )
+        for change in wrong:
+            for path in ("/", "/assets/a.js", "/socket"):
+                assert (await host.get(path, {**ours, **change})).code == 403, (path, change)
+                assert (await host.get(path, {**ours, **change, **UPGRADE})).code == 403, (path, change)
+        for path in ("/assets/a.js", "/socket", "/download/case.toml"):
+            assert (await host.get(path, {"Host": PUBLIC})).code == 403
+            assert (await host.get(path, {"Host": PUBLIC, "Origin": HTTPS, **UPGRADE})).code == 403
+        assert (await host.get("/?token=other", {"Host": PUBLIC})).code == 403
+
+
+@in_loop
+async def test_a_visitor_has_so_many_pages_and_no_more() -> None:
+    async with hosting(guests=Guests(10**6), rules=Rules(each=2)) as host:
+        cookie = await admitted(host)
+        for _ in range(2):
+            await opened(host, cookie)
+        asked = {"Host": PUBLIC, "Origin": HTTPS, "Cookie": cookie, **UPGRADE}
+        assert (await host.get("/socket", asked)).code == 503
+        await opened(host, await admitted(host))
+
+
+def test_who_is_gone_is_forgotten_and_who_has_a_page_open_is_not():
+    now = [0.0]
+    guests = Guests(1, most=2, stay=60.0, clock=lambda: now[0])
+    first, second = guests.admit(), guests.admit()
+    present = guests.visitor(first)
+    assert present is not None
+    present.sockets = 1
+    third = guests.admit()
+    assert guests.visitor(first) is present
+    assert guests.visitor(second) is None, "without room who was seen longest ago has to go"
+    gone = guests.visitor(third)
+    assert gone is not None
+    gone.sockets = 1
+    with pytest.raises(HTTPError, match="503"):
+        guests.admit()
+    gone.sockets, now[0] = 0, 61.0
+    guests.admit()
+    assert guests.visitor(third) is None
+    assert guests.visitor("") is None
