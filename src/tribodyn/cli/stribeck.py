@@ -5,8 +5,6 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-import numpy as np
-
 from tribodyn.cli.choosing import add_case_arguments, chosen_case, without_quotes
 from tribodyn.cli.console import Console, show_json
 from tribodyn.core.errors import InputError
@@ -32,6 +30,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Print a line for each speed."""
+    import numpy as np
+
     case, console = chosen_case(args), Console.of(args)
     speeds = np.geomspace(*_ends(args.speed), max(2, args.points))
     import tribodyn

@@ -43,6 +43,7 @@ from tribodyn.figures.style import (
     plain,
     sheet,
 )
+from tribodyn.views.numbers import as_read
 from tribodyn.views.series import finite
 
 SAMPLES: Final = "point"
@@ -130,7 +131,7 @@ def _names(coordinate: xr.DataArray) -> list[str]:
 
 
 def _unit(coordinate: xr.DataArray) -> str:
-    return str(coordinate.attrs.get("shown_unit", "")).replace("um", "µm").replace("deg", "°")
+    return as_read(str(coordinate.attrs.get("shown_unit", "")))
 
 
 def _label(coordinate: xr.DataArray) -> str:

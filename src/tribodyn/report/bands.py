@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import known, read
-from tribodyn.views.numbers import in_words
+from tribodyn.views.numbers import as_read, in_words
 
 FOLDER: Final = "assumptions"
 """Folder beside a result in which its report looks for the sweep."""
@@ -93,6 +93,9 @@ def _band(values: FloatArray, digits: int) -> str:
 
 def _range(values: xr.DataArray) -> str:
     """Return between which values a key was varied."""
-    scale, unit = float(values.attrs.get("shown_scale", 1.0)), str(values.attrs.get("shown_unit", ""))
+    scale, unit = (
+        float(values.attrs.get("shown_scale", 1.0)),
+        as_read(str(values.attrs.get("shown_unit", ""))),
+    )
     low, high = (in_words(float(end) / scale) for end in (values.min(), values.max()))
-    return f"{low} to {high} {unit}".rstrip()
+    return f"{low} to {high} {as_read(unit)}".rstrip()

@@ -15,7 +15,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.store import POINTS
 from tribodyn.views.encode import packed
-from tribodyn.views.numbers import in_words
+from tribodyn.views.numbers import as_read, in_words
 from tribodyn.views.section import Payload
 
 _MOST_AT_FIRST: Final = 6
@@ -65,7 +65,7 @@ def axes_of(dataset: xr.Dataset) -> list[Axis]:
 def _parameter(dataset: xr.Dataset, name: str, dims: tuple[Any, ...]) -> Axis:
     """Return the axis of a parameter, in the unit it was given in."""
     flat = dataset[name].broadcast_like(dataset["failure"]).transpose(*dims).values.ravel()
-    unit = str(dataset[name].attrs.get("shown_unit", ""))
+    unit = as_read(str(dataset[name].attrs.get("shown_unit", "")))
     label = f"{name} [{unit}]" if unit else name
     if flat.dtype.kind in "fiu":
         values = flat / float(dataset[name].attrs.get("shown_scale", 1.0))

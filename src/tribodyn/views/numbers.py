@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from typing import Final
 
+_UNIT: Final = re.compile(r"(?<![A-Za-z])(u(?=[mNs](?![A-Za-z]))|deg(?![A-Za-z]))")
 _RAISED: Final = str.maketrans("+-0123456789", " ⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -29,3 +31,8 @@ def in_words(value: object, digits: int = 4) -> str:
     mantissa, _, power = f"{rounded(value, digits) + 0.0:.4g}".partition("e")
     text = mantissa.replace("-", "−")
     return f"{text} × 10{str(int(power)).translate(_RAISED)}" if power else text
+
+
+def as_read(unit: str) -> str:
+    """Return a unit of a case file as it stands in print: µm, °."""
+    return _UNIT.sub(lambda found: {"u": "µ", "deg": "°"}[found[1]], unit)

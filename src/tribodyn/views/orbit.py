@@ -66,7 +66,9 @@ SECTION: Final = Section(
     title="The trunnion in its bushing",
     caption=(
         "Seen along the axis: the circle is the clearance, the marks are the top, middle and bottom of the "
-        "trunnion axis now, the lines their paths. Beyond the circle the mean planes of the surfaces overlap."
+        "trunnion axis now, the lines their paths. Beyond the circle the mean planes of the surfaces "
+        "overlap. Angles at the wall are those of the pressure map: 0° is the point of the bushing on the "
+        "left, at −X, 90° that below, at −Y."
     ),
     needs=("e_x", "e_y", "phi_x", "phi_y"),
     widget="orbit",

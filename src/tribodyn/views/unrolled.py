@@ -9,15 +9,17 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 
-CUTS: Final = (90.0, 270.0, 180.0, 0.0)
+CUTS: Final = (90.0, 270.0, 180.0, 0.0, 45.0, 135.0, 225.0, 315.0)
 """Angles at which the bushing may be cut open [deg], the preferred one first."""
+_BORDERS: Final = (30.0, 15.0, 5.0)
+"""What should be free on both sides of a cut [deg], or at least."""
 
 _MOST_STEPS: Final = 3
 """Labelled stretches between the middle and an edge."""
 
 
 def best_cut(theta: FloatArray, load: FloatArray) -> float:
-    """Return the angle [deg] of :data:`CUTS` with the least load within 30° of it.
+    """Return the angle [deg] of :data:`CUTS` with no load around it, or else with the least at it.
 
     Parameters
     ----------
@@ -27,11 +29,16 @@ def best_cut(theta: FloatArray, load: FloatArray) -> float:
         What should not be cut, at each angle, shape (n_theta,).
     """
     size = np.nan_to_num(np.abs(load))
-    near = [np.abs((np.rad2deg(theta) - cut + 180.0) % 360.0 - 180.0) <= 30.0 for cut in CUTS]
-    loads = [float(size[window].max(initial=0.0)) for window in near]
-    # What is below a hundredth of the peak may be cut: the preferred cut then wins.
-    tidy = [0.0 if value <= 0.01 * size.max(initial=0.0) else value for value in loads]
-    return CUTS[int(np.argmin(tidy))]
+    away = [np.abs((np.rad2deg(theta) - cut + 180.0) % 360.0 - 180.0) for cut in CUTS]
+    loads = [0.0]
+    for border in _BORDERS:
+        loads = [float(size[distance <= border].max(initial=0.0)) for distance in away]
+        # What is below a hundredth of the peak may be cut: the preferred cut then wins.
+        if min(loads) <= 0.01 * size.max(initial=0.0):
+            return next(
+                cut for cut, load in zip(CUTS, loads, strict=True) if load <= 0.01 * size.max(initial=0.0)
+            )
+    return CUTS[int(np.argmin(loads))]
 
 
 def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray, FloatArray]:

@@ -22,6 +22,14 @@ def test_the_cut_avoids_the_load(centres, cut):
     assert best_cut(THETA, _hump(*centres)) == cut
 
 
+def test_a_worn_bushing_is_not_cut_where_it_carries():
+    # All four quarters carry, as in a bushing that has worn in; between two of them is room.
+    load = _hump(0, 90, 180, 270, 315)
+    cut = best_cut(THETA, load)
+    near = np.abs((np.rad2deg(THETA) - cut + 180.0) % 360.0 - 180.0) <= 5.0
+    assert load[near].max() <= 0.01
+
+
 def test_the_cut_of_nothing_is_the_preferred_one():
     assert best_cut(THETA, np.zeros_like(THETA)) == 90.0
 

@@ -260,6 +260,7 @@ KEY_NUMBERS: Final = (
     "contact_force_outside_N",
     "contact_force_max_N",
     "peak_pressure_MPa",
+    "drive_moment_outside_Nm",
     "wear_depth_rate_nm_per_1000_cycles",
     "clearance_energy_residual_percent",
 )

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import tomllib
 from string import ascii_lowercase
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
+from tribodyn.cases.units import UnitProblem, to_si
 from tribodyn.mechanisms.vsv.sections.vane_error import DEG
 from tribodyn.views.chart import Chart
 from tribodyn.views.curves import Curve, Marks, Panel
@@ -16,7 +19,7 @@ from tribodyn.views.series import series
 def panels(dataset: xr.Dataset) -> list[Panel]:
     """Return angles [°], speeds [°/s] and drive moment [N m]."""
     return [
-        Panel("angle [°]", _pair(dataset, "theta"), marks=_snapshots(dataset)),
+        Panel("angle [°]", [*_pair(dataset, "theta"), *_switch(dataset)], marks=_snapshots(dataset)),
         Panel("speed [°/s]", _pair(dataset, "omega")),
         Panel("drive moment\non the crank [N m]", [Curve("drive moment", series(dataset, "M_d"))]),
     ]
@@ -27,6 +30,20 @@ def _pair(dataset: xr.Dataset, symbol: str) -> list[Curve]:
         Curve("vane", series(dataset, f"{symbol}_v", DEG), "blue"),
         Curve("crank", series(dataset, f"{symbol}_a", DEG), "vermilion", "dash"),
     ]
+
+
+def _switch(dataset: xr.Dataset) -> list[Curve]:
+    """Return the vane angle at which the air force changes its sign, where the motion passes it."""
+    vane = series(dataset, "theta_v")
+    try:
+        loads = tomllib.loads(str(dataset.attrs["case"]))["loads"]
+        angle = to_si(str(loads["switch_angle"]), "rad")
+        acts = to_si(str(loads["air_force_x"]), "N") != 0.0
+    except (KeyError, UnitProblem, tomllib.TOMLDecodeError):
+        return []
+    if not (acts and np.nanmin(vane) < angle < np.nanmax(vane)):
+        return []
+    return [Curve("air force changes sign", np.full(vane.shape, angle * DEG), "grey", "dot", 1.0)]
 
 
 def _snapshots(dataset: xr.Dataset) -> Marks | None:
@@ -42,7 +59,8 @@ MOTION: Final = Chart(
     title="Drive and vane motion",
     caption=(
         "Where the crank drives the vane, how fast, and the moment this takes. "
-        "Letters mark the positions of the pressure snapshots."
+        "Letters mark the positions of the pressure snapshots, the dotted line the vane angle at which the "
+        "air force along X changes its sign."
     ),
     needs=("theta_a", "theta_v", "omega_a", "omega_v", "omega_v_ideal", "M_d"),
     panels=panels,
