@@ -337,7 +337,7 @@ def test_a_point_of_a_sweep_opens_its_report(opened: Opened, tmp_path: Path, wid
     )
     reader.page.mouse.move(*place)
     reader.settle()
-    assert "joint.clearance [um] = 50" in reader.page.locator("#parallel .readout").inner_text()
+    assert "joint.clearance [µm] = 50" in reader.page.locator("#parallel .readout").inner_text()
     reader.page.mouse.click(*place)
     reader.page.wait_for_url(f"**/points/{plan.points[-1].name}/report.html")
 

@@ -28,7 +28,7 @@ def sweep():
 
 def test_axes_hold_parameters_in_their_units_and_numbers(sweep):
     axes = {axis.name: axis for axis in axes_of(sweep)}
-    assert axes["joint.clearance"].label == "joint.clearance [um]"
+    assert axes["joint.clearance"].label == "joint.clearance [µm]"
     assert axes["joint.clearance"].values == pytest.approx([20.0, 20.0, 30.0, 30.0, 40.0, 40.0])
     assert axes["contact.law"].categories == ("ke", "rsdc")
     assert axes["contact.law"].texts == ("ke", "rsdc") * 3
