@@ -236,6 +236,12 @@ def test_what_cannot_be_is_said_beside_its_box(at: Opened) -> None:
     person.wait_until_shown({CLEARANCE: "40 um"})
     assert not fault.is_visible()
     assert person.slider().input_value() == "40"
+    # Without its space this would be another number.
+    person.type_into("asperities.density", "0.05 1/um^2")
+    values = {CLEARANCE: "40 um", "asperities.density": "0.05 1/um^2"}
+    person.wait_until_shown(values)
+    person.page.reload()
+    person.wait_until_shown(values)
 
 
 def test_a_pinned_run_stays_behind_with_differences(at: Opened) -> None:

@@ -81,9 +81,9 @@ const bench = {
   },
 };
 
-/** Return a text without what does not count in a value. */
+/** Return a text without what does not count in a value: the space before a letter, and which micro it is. */
 function plain(text) {
-  return String(text).replaceAll(" ", "").replaceAll("µ", "u").replaceAll("μ", "u");
+  return String(text).trim().replace(/ +(?=[a-zA-Zµμ])/g, "").replace(/[µμ]/g, "u");
 }
 
 /** Tell whether two sets of values are the same. */
@@ -100,7 +100,9 @@ function valuesInWords(values) {
 
 /** Write what differs from the case into the address. */
 function writeAddress() {
-  const parts = Object.entries(bench.values).map(([key, text]) => `${key}=${encodeURIComponent(plain(text))}`);
+  // A space goes before a letter only: "0.038 1/um^2" is no "0.0381/um^2".
+  const short = (text) => String(text).replace(/^(\S*\d) (?=[a-zA-Zµ])/, "$1");
+  const parts = Object.entries(bench.values).map(([key, text]) => `${key}=${encodeURIComponent(short(text))}`);
   history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname);
 }
 

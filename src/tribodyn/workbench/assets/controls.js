@@ -20,6 +20,7 @@ function makeControls() {
     all.setAttribute("aria-pressed", String(all.getAttribute("aria-pressed") !== "true"));
     find();
   });
+  bench.on("wished", find);
   find();
 }
 
@@ -33,7 +34,8 @@ function findControls(text, all) {
   const shown = [...new Set([...changed, ...(all ? found : found.slice(0, MOST_FOUND))])];
   const place = document.querySelector("#controls .others");
   const there = [...place.children].map((one) => one.dataset.key).join();
-  if (there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
+  const used = place.contains(document.activeElement);
+  if (!used && there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
   const more = found.length > MOST_FOUND && !all ? `, the first ${MOST_FOUND} are shown` : "";
   document.getElementById("found").textContent = words.length ? `${found.length} of ${others.length} keys${more}` : "";
   fillControls();
@@ -148,10 +150,9 @@ function shownText(key) {
 
 /** Set a slider; a text in another unit leaves it where it is until the run says its number. */
 function fillSlider(slider, control, text) {
-  const own = control.unit ? plain(text).endsWith(plain(control.unit)) : true;
-  const value = parseFloat(text);
-  if (own && Number.isFinite(value) && slider !== document.activeElement) slider.value = value;
-  else if (own && Number.isFinite(value) && Number(slider.value) !== value) slider.value = value;
+  const [, value, unit] = /^([-+\d.eE]+)\s*(.*)$/.exec(text) ?? [];
+  const own = value !== undefined && plain(unit) === plain(control.unit);
+  if (own && Number(slider.value) !== Number(value)) slider.value = value;
   slider.setAttribute("aria-valuetext", shownText(control.key));
 }
 

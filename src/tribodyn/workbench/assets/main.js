@@ -51,14 +51,14 @@ line.hear = {
   slope: slopeArrived,
   down: () => {
     server.connected = false;
+    for (const sweep of sweeps.values()) sweep.finished = true;
+    slope.finished = true;
     tellState();
+    drawTracks();
   },
 };
 
-bench.on("wished", () => {
-  fillControls();
-  drawTracks();
-});
+bench.on("wished", drawTracks);
 bench.on("wished", forgetSlope);
 bench.on("shown", tellState);
 bench.on("shown", tellNumbers);

@@ -41,6 +41,7 @@ const wishes = {
   /** Draw a run with the next picture of the screen, and say so. */
   arrived(run) {
     wishes.typed.delete(run.number);
+    if (server.state === "running") Object.assign(server, { state: "ready", message: "", seconds: null, share: null });
     if (run.number === wishes.awaited) wishes.awaited = 0;
     // From here on values are written as the case model writes them: "0.03 mm" as "30 um".
     if (run.number === wishes.own && bench.values === wishes.sent) bench.values = wishes.sent = run.values;
@@ -89,8 +90,8 @@ function stateInWords(busy) {
   if (!server.connected) return "The server does not answer; trying again. What is shown stays usable.";
   const { state, message, seconds, share } = server;
   if (state === "failed") return message;
-  if (!busy && (state === "ready" || state === "running")) return "";
-  const parts = [message || (busy ? "running" : "")];
+  if (state === "ready" || (state === "running" && !busy)) return "";
+  const parts = [message];
   if (share !== null) parts.push(`${Math.round(100 * share)} %`);
   if (seconds !== null) parts.push(`about ${number(seconds, 2)} s`);
   if (bench.shown && busy) parts.push("what is shown is of the run before");
