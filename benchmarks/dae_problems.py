@@ -58,10 +58,11 @@ class DaeBenchmark:
         return np.array(columns).T
 
     def digits(self, y: FloatArray) -> float:
-        """Return the number of correct digits at the end."""
-        m = self.compared
-        size = np.abs(self.end[:m]) + (0.0 if self.relative else 1.0)
-        return float(-np.log10(max(np.max(np.abs(y[:m] - self.end[:m]) / size), 1e-16)))
+        """Return the number of correct digits at the end; where they are relative, of what is not zero."""
+        y, end = y[: self.compared], self.end[: self.compared]
+        size = np.abs(end) + (0.0 if self.relative else 1.0)
+        errors = np.abs(y - end)[size > 0.0] / size[size > 0.0]
+        return float(-np.log10(max(np.max(errors), 1e-16)))
 
 
 def pendulum(index: int) -> DaeBenchmark:

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from scipy.sparse import eye_array, kron
 
-from tribodyn.integrate import MEBDF
+from tribodyn.integrate import MEBDF, mebdf_jacobian
 
 Law = tuple[Callable[[float, float], float], Callable[[float, float], float], float, Callable[[float], float]]
 """Rate f(t, z), its derivative ∂f/∂z, start z(0) and solution z(t)."""
@@ -265,6 +266,70 @@ MIXED = (110, 131, 292, 373, 895, 934, 8070, 8356, 8485)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_no_success_where_the_error_hides_best():
     assert_honest(BELOW_ROUNDING + MODERATE + NARROW + TOO_LARGE + MIXED, 3000, 0.0)
+
+
+TOO_LARGE_BY = (1e1, 1e2, 1e3, 1e4, 1e6, 1e8, 1e12)
+"""By what the Jacobian is wrong; the worst are those beside which a correction is small, but not tiny."""
+
+
+def largest_error(seed: int, most: int, copies: int = 1) -> float:
+    """Return the largest error at any accepted step, in units of the tolerance, with a Jacobian too large.
+
+    ``copies`` of the equations beside each other make a large system with a sparse Jacobian.
+    """
+    rng = np.random.default_rng(10**6 + seed)
+    n, factor = int(rng.choice([1, 1, 2, 3])), TOO_LARGE_BY[seed % len(TOO_LARGE_BY)]
+    laws = [((SMOOTH if rng.random() < 0.75 else SWITCHES[1:4:2])[rng.integers(2)])(rng) for _ in range(n)]
+    turn = np.linalg.qr(rng.normal(size=(n, n)))[0] if n > 1 else np.ones((1, 1))
+    t_end, rtol = 10.0 ** rng.uniform(-5, 0), 10.0 ** rng.uniform(-8, -2)
+    atol = rtol * 10.0 ** rng.uniform(-4, 0)
+    size = max(np.linalg.norm([law[3](t) for law in laws]) for t in np.linspace(0.0, t_end, 9))
+
+    def rates(t, y):
+        return turn @ np.array([law[0](t, z) for law, z in zip(laws, turn.T @ y, strict=True)])
+
+    def slopes(t, y):
+        diagonal = [law[1](t, z) for law, z in zip(laws, turn.T @ y, strict=True)]
+        return factor * turn @ np.diag(diagonal) @ turn.T
+
+    def fun(t, y):
+        return np.tile(rates(t, y[:n]), copies)
+
+    def jac(t, y):
+        matrix = slopes(t, y[:n])
+        return matrix if copies == 1 else kron(eye_array(copies), matrix)
+
+    y0 = np.tile(turn @ np.array([law[2] for law in laws]), copies)
+    solver, worst = MEBDF(fun, 0.0, y0, t_end, rtol=rtol, atol=atol, jac=jac), 0.0
+    while solver.status == "running" and solver.nfev < most:
+        solver.step()
+        exact = turn @ np.array([law[3](solver.t) for law in laws])
+        worst = max(worst, float(np.linalg.norm(solver.y[:n] - exact) / (atol + rtol * size)))
+    return worst
+
+
+HIDDEN = (81, 165, 333, 374, 599)
+"""Where errors stay hidden longest."""
+
+
+@pytest.fixture
+def _undoubted(monkeypatch):
+    """Have nobody compare the Jacobian with the rates, as compiled mechanisms and large systems have it."""
+    monkeypatch.setattr(mebdf_jacobian, "Doubted", lambda given, *others: given)
+
+
+@pytest.mark.usefixtures("_undoubted")
+@pytest.mark.parametrize("copies", [1, 70])
+def test_the_core_itself_lets_no_error_through(copies):
+    # At most 20 were found, and up to 219 before residuals were summed up.
+    assert max(largest_error(seed, 200, copies) for seed in HIDDEN) <= 100.0
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("_undoubted")
+def test_two_thousand_jacobians_that_are_too_large():
+    errors = {seed: largest_error(seed, 1500) for seed in range(2000)}
+    assert {seed: error for seed, error in errors.items() if not error <= 100.0} == {}
 
 
 @pytest.mark.parametrize("rate", [1e6, 1e10, 1e14])

@@ -31,7 +31,9 @@ SHORT: Final = (0.0, 1.0e-5, 1.0e-3)
 CERTAIN: Final = 4.0
 """How many times as large as its own error a difference must be to break an equation."""
 DEPENDS: Final = 1.0e-7
-"""Least slope, relative to the steepest, of an equation that depends on algebraic variables."""
+"""Least slope of a derivative that depends on algebraic variables, relative to the steepest."""
+ROUNDING: Final = 1.0e3 * float(np.finfo(np.float64).eps)
+"""The same of an equation itself, relative to the terms whose rounding may look like a slope."""
 UNCHANGED: Final = 1.0e-3
 """Change, relative to the largest algebraic variable, that is left alone: differences are no better."""
 ITERATIONS: Final = 40
@@ -176,21 +178,28 @@ class _Start:
         """Return how a derivative changes along each column of ``directions``, shape (m, columns)."""
         base = self.derivative(y, order)
         found = np.empty((base.size, directions.shape[1]))
-        size = VARIATION[order] * max(1.0, float(np.max(np.abs(directions.T @ y))))
+        size = self._variation(y, order, directions)
         for k, direction in enumerate(directions.T):
             found[:, k] = (self.derivative(y + size * direction, order) - base) / size
         return found
 
+    def _variation(self, y: FloatArray, order: int, directions: FloatArray) -> float:
+        return VARIATION[order] * max(1.0, float(np.max(np.abs(directions.T @ y))))
+
     def levels(self, y: FloatArray) -> NDArray[np.int64]:
         """Return how often each equation must be differentiated until it holds an algebraic variable."""
-        m = len(self._split.constraints)
-        levels = np.full(m, -1)
+        levels = np.full(len(self._split.constraints), -1)
         for order in range(self._highest + 1):
             steep = np.max(np.abs(self.slopes(y, order, self._split.free)), axis=1)
-            size = self.slopes(y, 0, np.eye(y.size)) if order == 0 else steep
-            least = DEPENDS * float(np.max(np.abs(size)))
+            least = self._rounding(y) if order == 0 else DEPENDS * np.max(steep)
             levels[(levels < 0) & (steep > least)] = order
         return levels
+
+    def _rounding(self, y: FloatArray) -> FloatArray:
+        """Return what rounding may leave of the slopes of equations along algebraic variables, shape (m,)."""
+        terms = np.abs(self.slopes(y, 0, np.eye(y.size))) @ np.abs(y) + np.abs(self.derivative(y, 0))
+        least: FloatArray = ROUNDING * terms / self._variation(y, 0, self._split.free)
+        return least
 
     def solved(self, scale: FloatArray) -> FloatArray:
         """Return values with consistent algebraic variables, shape (n,)."""

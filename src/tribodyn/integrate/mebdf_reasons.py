@@ -58,8 +58,8 @@ def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
     n = state.rows.shape[1]
     matrix = -float(state.real[entry.SCALED]) * state.matrices[entry.LAST_JACOBIAN]
     if state.places.size:
-        row = np.repeat(np.arange(n), np.diff(state.places[: n + 1]))
-        matrix[row, state.places[n + 1 :]] += state.mass
+        row, size = np.repeat(np.arange(n), np.diff(state.places[: n + 1])), state.places[n]
+        matrix[row, state.places[n + 1 : n + 1 + size]] += state.mass[:size]
     else:
         matrix += np.eye(n)
     if not np.isfinite(matrix).all() or not matrix.any():

@@ -25,7 +25,8 @@ from tribodyn.integrate.mebdf_checks import (
     warn_extraneous,
 )
 from tribodyn.integrate.mebdf_consistent import consistent
-from tribodyn.integrate.mebdf_jacobian import make_jacobian
+from tribodyn.integrate.mebdf_implicit import ImplicitFull, Residual, fill_mass, mass_at_start
+from tribodyn.integrate.mebdf_jacobian import LARGEST_IN_CORE, Linear, make_jacobian
 from tribodyn.integrate.mebdf_mass import read_mass
 from tribodyn.integrate.mebdf_reasons import reason
 from tribodyn.kernels.mebdf import state as entry
@@ -88,6 +89,10 @@ class MEBDF(OdeSolver):
     breakpoints
         Times at which the right-hand side jumps or kinks, where the integration begins anew; those outside of
         the interval are dropped. No evaluation for a step before one of them lies at it or behind it.
+    slope
+        y' at the start, shape (n,). Where it is given the equation is the implicit one F(t, y, y') = 0, with
+        ``fun(t, y, slope)`` for F; zeros will do where F determines y'. ``jac(t, y, slope)`` then gives ∂F/∂y
+        and ∂F/∂y', both dense.
     max_order
         Largest order, 2 to 8.
 
@@ -116,27 +121,39 @@ class MEBDF(OdeSolver):
         index: ArrayLike | None = None,
         test_algebraic: bool | None = None,
         breakpoints: ArrayLike = (),
+        slope: ArrayLike | None = None,
         max_order: int = MAX_K + 1,
         **extraneous: Any,
     ) -> None:
         warn_extraneous(extraneous)
         span(t0, t_bound)
+        self._residual: Residual | None = None
+        if slope is not None:
+            if any(option is not None for option in (mass, jac_sparsity, lband, uband)) or vectorized:
+                raise ValueError(
+                    "`slope` excludes `mass`, `jac_sparsity`, `lband`, `uband` and `vectorized`."
+                )
+            fun = self._residual = Residual(fun, slope, jac, np.size(y0))
         super().__init__(fun, t0, y0, t_bound, vectorized)
         self.max_step = largest_step(max_step)
         self.rtol, self.atol = tolerances(rtol, atol, self.n)
         resolved(self.y, self.rtol, self.atol)
-        self._mass = read_mass(mass, index, test_algebraic, self.n)
+        self._index, self._test_algebraic = index, test_algebraic
+        self._mass = None if self._residual else read_mass(mass, index, test_algebraic, self.n)
         self._names = [f"component {i}" for i in range(self.n)]
         self._ends = [*inner_times(breakpoints, self.t, self.t_bound), float(self.t_bound)]
-        self._jacobian, self._algebra, evaluations = make_jacobian(
-            self,
-            jac,
-            jac_sparsity,
-            bands(lband, uband, self.n),
-            (self.rtol, self.atol),
-            self._mass,
-            self._in_trouble,
-        )
+        if self._residual:
+            self._jacobian, self._algebra, evaluations = self._implicit_jacobian(self._residual)
+        else:
+            self._jacobian, self._algebra, evaluations = make_jacobian(
+                self,
+                jac,
+                jac_sparsity,
+                bands(lband, uband, self.n),
+                (self.rtol, self.atol),
+                self._mass,
+                self._in_trouble,
+            )
         self._options: dict[str, Any] = {
             "max_step": self.max_step,
             "largest_k": order(max_order, MAX_K + 1) - 1,
@@ -150,18 +167,48 @@ class MEBDF(OdeSolver):
 
     def _new_state(self, first_step: float) -> entry.MebdfState:
         """Begin at the present time, up to the next breakpoint or the end."""
-        mass, t = None, float(self.t)
-        if self._mass is not None:
+        mass, told, t = None, "", float(self.t)
+        if self._residual:
+            mass, told = self._implicit_start(self._residual)
+        elif self._mass is not None:
             scale = self.atol + self.rtol * np.abs(self.y)
             self.y, slope, told = consistent(
                 self.fun_single, t, self.y, self._ends[0], self._mass, scale, self._names
             )
             mass = self._mass.for_core(slope)
-            if told:
-                warn(told, stacklevel=4)
+        if told:
+            warn(told, stacklevel=4)
         return new_state(
             t, self.y, self._ends[0], self.rtol, self.atol, first_step=first_step, mass=mass, **self._options
         )
+
+    def _implicit_start(self, residual: Residual) -> tuple[entry.Mass, str]:
+        """Find consistent values and the slope; return ∂F/∂y' there, and what was changed."""
+        t, left, tolerances = float(self.t), self._ends[0] - float(self.t), (self.rtol, self.atol)
+        self.y, told = residual.consistent(t, self.y, left, tolerances, self._names)
+        of_slope = residual.linearise(t, self.y, self.atol / self.rtol, left)[1]
+        return mass_at_start(of_slope, residual.slope, self._index, self._test_algebraic), told
+
+    def _implicit_jacobian(self, residual: Residual) -> Linear:
+        """Return the Jacobian of an implicit equation, and who solves with it."""
+
+        def pair(t: float, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+            residual.move_to_newest(self._state)
+            h = float(self._state.real[entry.H])
+            return residual.linearise(t, y, self.atol / self.rtol, h)
+
+        def jacobian(t: float, y: FloatArray) -> FloatArray:
+            """Renew the mass matrix, too, unless one of them is not finite."""
+            of_y, of_slope = pair(t, y)
+            if not np.isfinite(of_slope).all():
+                return np.full_like(of_y, np.nan)
+            if np.isfinite(of_y).all():
+                fill_mass(self._state.mass, self._state.places, of_slope)
+            return of_y
+
+        if self.n <= LARGEST_IN_CORE:
+            return Linear(jacobian, None, residual.evaluations)
+        return Linear(jacobian, ImplicitFull(pair, self.atol / self.rtol), residual.evaluations)
 
     def _step_impl(self) -> tuple[bool, str | None]:
         """Take one step; return whether it succeeded, and why not."""
@@ -180,11 +227,15 @@ class MEBDF(OdeSolver):
                 break
             t, y = self._inside(float(state.real[entry.T_EVAL])), state.rows[entry.Y].copy()
             if request == NEED_F:
+                if self._residual:
+                    self._residual.move(state)
                 state.rows[entry.F] = self._rates(t, y)
             elif self._algebra is None:
                 state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
             else:
                 _answer(request, state, self._algebra, t, y)
+                if isinstance(self._algebra, ImplicitFull) and request == NEED_JACOBIAN:
+                    fill_mass(state.mass, state.places, self._algebra.dense_mass)
         self.njev, self.nlu = (self._costs + state.counts[[entry.N_J, entry.N_LU]]).tolist()
         if request == FAILED:
             return False, reason(state, self._names, self._entry_not_finite)

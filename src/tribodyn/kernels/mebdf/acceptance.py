@@ -27,9 +27,11 @@ from tribodyn.kernels.mebdf.state import (
     LAST_NORM,
     MAGNITUDE,
     OVERSHOT,
+    OWED,
     RESIDUAL,
     ROW_WEIGHT,
     SEEN,
+    SMALL,
     STAGE,
     TINY,
     UNSOLVED,
@@ -75,6 +77,7 @@ def judge(real: FloatArray, count: NDArray[np.int64], size: float) -> int:
         return SOLVED if abs(unsolved / (real[OVERSHOT] * before) - 1.0) <= PROVED else FALSE
     if _left(real, count) <= PROVED:
         real[EXPLAINED] = max(real[EXPLAINED], before)
+        real[OWED] = 0.0
         return SOLVED
     if unsolved <= NOTHING or (count[WARY] == 0 and not _is_doubtful(real, size)):
         return SOLVED
@@ -139,11 +142,19 @@ def judge_beside_rounding(real: FloatArray, count: NDArray[np.int64], rows: Floa
 
 @inlined
 def _is_doubtful(real: FloatArray, size: float) -> bool:
-    """Tell whether a correction is tiny, or small beside a residual larger than any removed lately."""
-    unsolved, enough, tiny = real[UNSOLVED], real[DOUBTFUL], real[TINY]
-    if unsolved <= enough or size <= tiny:
-        return unsolved > enough
-    return unsolved > TRUSTED * real[EXPLAINED] and size <= tiny * math.sqrt(unsolved / enough)
+    """Tell whether a small correction leaves more than may be left without a proof; else note what it leaves.
+
+    One that is not tiny is trusted where a Jacobian was lately seen to remove a tenth of such a residual.
+    """
+    unsolved, enough = real[UNSOLVED], real[DOUBTFUL]
+    if size <= real[TINY] and unsolved > enough:
+        return True
+    if size > real[SMALL] * math.sqrt(unsolved) or unsolved <= TRUSTED * real[EXPLAINED]:
+        return False
+    owed = real[OWED] + unsolved
+    if owed <= enough:
+        real[OWED] = owed
+    return owed > enough
 
 
 @kernel

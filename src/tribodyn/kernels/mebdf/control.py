@@ -14,6 +14,7 @@ from tribodyn.kernels.mebdf.history import rescale
 from tribodyn.kernels.mebdf.mass import weigh
 from tribodyn.kernels.mebdf.phases import ERROR_TEST, NEWTON, STEP
 from tribodyn.kernels.mebdf.state import (
+    AHEAD,
     ATOL,
     CARRIED,
     CAUSE,
@@ -146,10 +147,13 @@ def reject(
 
 
 @kernel
-def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
-    """Try again with a new Jacobian, or with a shorter step where it was new already."""
+def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool) -> None:
+    """Try again with a new Jacobian, or with a shorter step where it was new already.
+
+    However short the step, the values of algebraic equations may lie behind a kink. So with a mass matrix the
+    Jacobian is by turns that of the newest value and that of the predicted one.
+    """
     if count[FRESH] == 0:
-        count[JACOBIAN_AGE] = int(real[OLD_JACOBIAN]) + 1
         real[FACTORED] = 0.0
         count[CARRIED] = 0
         count[PHASE] = STEP
@@ -157,6 +161,11 @@ def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
         count[WARY] = min(2 * count[WARY] + CAUTION, MOST_CAUTION)
         count[VAIN] += 1
         reject(real, count, rows, FAILED_NEWTON, DELTA, WEIGHT)
+        if not massive:
+            return
+        count[AHEAD] = 1 - count[AHEAD]
+        count[FRESH] = 0
+    count[JACOBIAN_AGE] = int(real[OLD_JACOBIAN]) + 1
 
 
 @kernel

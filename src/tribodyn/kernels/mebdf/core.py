@@ -54,6 +54,7 @@ from tribodyn.kernels.mebdf.phases import (
 )
 from tribodyn.kernels.mebdf.start import start
 from tribodyn.kernels.mebdf.state import (
+    AHEAD,
     BAD,
     CARRIED,
     DIFFERENCED,
@@ -70,6 +71,7 @@ from tribodyn.kernels.mebdf.state import (
     MATRIX_AGE,
     N_J,
     OLD_JACOBIAN,
+    OWED,
     PHASE,
     RATE,
     RATE_AGE,
@@ -133,7 +135,7 @@ def resume(
         elif phase == FACTORISE:
             request = renew_matrix(real, count, rows, matrices, mass, places)
         elif phase == FACTORISED:
-            begin_stages(real, count, rows)
+            begin_stages(real, count, rows, places.size > 0)
         elif phase == ACCEPT:
             _accept(real, count, rows, places)
             request = STEP_ACCEPTED
@@ -183,9 +185,13 @@ def _begin_step(
     old = count[JACOBIAN_AGE] >= real[OLD_JACOBIAN] or slow or count[N_J] == 0
     if not old or count[FRESH] == 1:
         return 0
+    # Its value ahead is that of the polynomial through the history: the sum of its differences.
+    ahead = count[AHEAD] == 1
     for i in range(rows.shape[1]):
         rows[Y, i] = rows[HISTORY, i]
-    real[T_EVAL] = real[T]
+        for m in range(1, count[K] + 1 if ahead else 0):
+            rows[Y, i] += rows[HISTORY + m, i]
+    real[T_EVAL] = real[T] + h if ahead else real[T]
     count[N_J] += 1
     count[JACOBIAN_AGE] = 0
     count[FRESH] = 1
@@ -221,15 +227,17 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places
     count[K_LAST] = count[K]
     count[STEPS] += 1
     count[EQUAL_STEPS] += 1
-    count[JACOBIAN_AGE] += 1
+    count[JACOBIAN_AGE] += 1 - count[DIFFERENCED]
     count[MATRIX_AGE] += 1
     count[RATE_AGE] += 1
     count[FRESH] = 0
+    count[AHEAD] = 0
     # Algebraic variables do not heed the history: its noise can make each new step fail, however short.
     if places.size == 0 or count[EQUAL_STEPS] > 1:
         count[FAILURES] = 0
     count[WARY] = max(count[WARY] - 1, 0)
     real[EXPLAINED] *= FADING
+    real[OWED] *= FADING
     if places.size > 0:
         for i in range(rows.shape[1]):
             rows[SEEN, i] *= FADING

@@ -54,6 +54,7 @@ from tribodyn.kernels.mebdf.state import (
     CONSTANT,
     CONSTANT_3,
     DELTA,
+    DIFFERENCED,
     DISAGREEMENT,
     ERROR,
     EXPLAINED,
@@ -66,8 +67,10 @@ from tribodyn.kernels.mebdf.state import (
     FRESH,
     HIGHER,
     HISTORY,
+    IMPLICIT,
     ITERATION,
     JACOBIAN,
+    JACOBIAN_AGE,
     KAPPA,
     LAST,
     LAST_JACOBIAN,
@@ -158,12 +161,12 @@ def renew_matrix(
 
 
 @inlined
-def begin_stages(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def begin_stages(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool) -> None:
     """Begin with stage 1 if the matrix was regular."""
     count[STAGE] = 1
     count[PHASE] = START_STAGE
     if count[REGULAR] == 0:
-        newton_failed(real, count, rows)
+        newton_failed(real, count, rows, massive)
         count[CAUSE] = SINGULAR
 
 
@@ -281,9 +284,10 @@ def iterate(
         if verdict == FALSE:
             count[WARY] = max(count[WARY], CAUTION)
             real[EXPLAINED] = 0.0
-        newton_failed(real, count, rows)
+        newton_failed(real, count, rows, places.size > 0)
         return 0
     count[N_F] += 1
+    count[JACOBIAN_AGE] += count[DIFFERENCED]
     count[PHASE] = ITERATE
     return NEED_F
 
@@ -326,6 +330,8 @@ def _set_residual_with_mass(
     """Fill the row RESIDUAL and note its norm over the equations with derivatives."""
     n = rows.shape[1]
     scaled, total = real[SCALED], 0.0
+    # What the caller has evaluated of an implicit equation is the whole of it.
+    whole = count[IMPLICIT] == 1 and (count[STAGE] < 3 or count[ITERATION] > 0 or count[HIGHER] == 1)
     for i in range(n):
         rows[SCRATCH, i] = rows[CONSTANT, i] - rows[Y, i]
     for i in range(n):
@@ -334,7 +340,9 @@ def _set_residual_with_mass(
             if count[ITERATION] > 0:
                 note_removed(rows, i, residual)
         else:
-            residual = scaled * rows[F, i] + product(mass, places, rows, SCRATCH, i)
+            residual = scaled * rows[F, i]
+            if not whole:
+                residual += product(mass, places, rows, SCRATCH, i)
         rows[RESIDUAL, i] = residual
         total += (residual * rows[ROW_WEIGHT, i]) ** 2
     real[UNSOLVED_BEFORE] = real[UNSOLVED]

@@ -42,7 +42,9 @@ EXPLAINED: Final = 18
 """Largest residual, in units of the tolerance, that the Jacobian was seen to remove; it fades."""
 OVERSHOT: Final = 19
 """What the last correction was magnified by to rise above rounding, 0 where it was not."""
-SETTINGS: Final = 20
+OWED: Final = 20
+"""Residuals, in units of the tolerance, that small corrections left since the last proof; their sum fades."""
+SETTINGS: Final = 21
 """First of the entries that hold the settings of the controllers."""
 
 # Settings, in ``real[SETTINGS + ...]``; their values stand in ``DEFAULTS``.
@@ -51,13 +53,15 @@ KAPPA: Final = SETTINGS - 1
 SLOW: Final = SETTINGS + 3
 """Convergence rate above which a new matrix takes a new Jacobian."""
 OLD_JACOBIAN: Final = SETTINGS + 4
-"""Steps after which a new matrix takes a new Jacobian."""
+"""Age of the Jacobian at which a new matrix takes a new one."""
 SAME_MATRIX: Final = SETTINGS + 5
 """Relative change of step times β up to which the matrix is kept."""
 SAFETY_LOWER: Final = SETTINGS + 6
 SAFETY: Final = SETTINGS + 7
 SAFETY_HIGHER: Final = SETTINGS + 8
 LEAST_GROWTH: Final = SETTINGS + 9
+LEAST_GROWTH_WITH_MASS: Final = 1.2
+"""Where algebraic equations converge by what the matrix knows of them, a longer step saves less."""
 LARGEST_GROWTH: Final = SETTINGS + 10
 """Largest growth of the step at once; its square where there is one back value."""
 DISAGREEMENT: Final = SETTINGS + 11
@@ -77,25 +81,30 @@ EARLY: Final = SETTINGS + 17
 TIGHT: Final = SETTINGS + 18
 """Share of the tolerances that the method uses: errors of steps add up."""
 DOUBTFUL: Final = SETTINGS + 19
-"""Residual of the formula, in units of the tolerance, above which a small correction may prove nothing."""
+"""Residual of the formula, or a sum of them, in units of the tolerance, small corrections may not leave."""
 TINY: Final = SETTINGS + 20
-"""Correction, in units of the tolerance, that proves nothing beside a residual of DOUBTFUL."""
+"""Correction, in units of the tolerance, that is small beside any such residual."""
+SMALL: Final = SETTINGS + 21
+"""Correction that is small, over the square root of the residual, both in units of the tolerance."""
 DEFAULTS: Final = (
     *(0.24, 0.42, 0.20),
     *(0.05, 40.0, 0.05),
     *(1.44, 1.54, 1.62, 1.05, 6.0),
     *(1.9, 0.28, 2.0, 1.9, 20.0, 3.0, 0.9),
     0.3,
-    *(10.0, 0.02),
+    *(10.0, 0.02, 0.05),
 )
 N_REAL: Final = SETTINGS + len(DEFAULTS)
 
-# A Jacobian by many differences must be worse and older before it is renewed.
-EVALUATIONS: Final = 200
+# A Jacobian by many differences must be worse before it is renewed.
+EVALUATIONS: Final = 40
 """Evaluations a Jacobian costs, over the convergence rate at which it is renewed."""
 SLOWEST: Final = 0.5
-OLDEST: Final = 100
-"""Largest rate, and age in steps, up to which a Jacobian is kept for its price."""
+"""Largest of these rates."""
+PRICE: Final = 4
+"""Iterations beyond the first of stages, over the evaluations a Jacobian costs, until it is renewed."""
+LEAST_PRICE: Final = 10
+"""Least number of these iterations."""
 
 # Entries of ``MebdfState.counts``.
 PHASE: Final = 0
@@ -109,6 +118,7 @@ N_F: Final = 7
 N_J: Final = 8
 N_LU: Final = 9
 JACOBIAN_AGE: Final = 10
+"""Steps since the Jacobian was evaluated; where it is differenced, iterations beyond the first of a stage."""
 CARRIED: Final = 11
 """Whether stage 2 of the last step predicts stage 1 of this one, with its derivative."""
 FAILURES: Final = 12
@@ -151,7 +161,11 @@ VERDICT: Final = 32
 """Whether the stage solves its formula, as far as is known."""
 HIGHER: Final = 33
 """Whether a variable has an index above 1: constraints must then hold better than the tolerance."""
-PIVOTS: Final = 34
+IMPLICIT: Final = 34
+"""Whether the caller evaluates the whole residual of an equation in t, y and y'."""
+AHEAD: Final = 35
+"""Whether the next Jacobian is that of the predicted value."""
+PIVOTS: Final = 36
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -245,6 +259,9 @@ class Mass(NamedTuple):
         Index of each variable, shape (n,).
     tested
         Whether a variable is in the error test, shape (n,).
+    implicit
+        Whether the mass matrix is −∂f/∂y' of a residual f(t, y, y') = 0 that the caller evaluates, and renews
+        with the Jacobian ∂f/∂y.
     """
 
     entries: FloatArray
@@ -252,6 +269,7 @@ class Mass(NamedTuple):
     slope: FloatArray
     indices: NDArray[np.int64]
     tested: NDArray[np.bool_]
+    implicit: bool = False
 
 
 def new_state(
@@ -310,7 +328,8 @@ def new_state(
     count[INSIDE] = inside
     count[DIFFERENCED] = min(differenced, 1)
     real[SLOW] = max(real[SLOW], min(differenced / EVALUATIONS, SLOWEST))
-    real[OLD_JACOBIAN] = max(real[OLD_JACOBIAN], min(differenced, OLDEST))
+    if differenced > 0:
+        real[OLD_JACOBIAN] = max(PRICE * differenced, LEAST_PRICE)
     count[OUTSIDE] = outside
     count[[BAD, WORST]] = -1
     rows = np.zeros((N_ROWS, n))
@@ -323,7 +342,9 @@ def new_state(
     rows[F_1] = mass.slope
     rows[POWER] = np.maximum(mass.indices - 1, 0)
     rows[TESTED] = mass.tested
+    count[IMPLICIT] = mass.implicit
     if np.any(mass.indices > 1):
         count[HIGHER] = 1
         real[SAME_MATRIX] = 0.0  # algebraic equations know no step that a correction could be adapted to
+    real[LEAST_GROWTH] = LEAST_GROWTH_WITH_MASS
     return MebdfState(real, count, rows, matrices, mass.entries, mass.places)
