@@ -27,6 +27,7 @@ from tribodyn.workbench.messages import (
     Pin,
     Slope,
     Sweep,
+    Values,
     Wish,
     understood,
 )
@@ -64,6 +65,7 @@ class Desk:
         self.bench, self.visitor, self.send, self.complain = bench, visitor, send, complain
         self.newest: Wish | None = None
         self.served: Wish | None = None
+        self.before: Values = {}
         self.job: Job | None = None
         self.pins: set[str] = set()
         self.series: dict[type[Message], Series] = {}
@@ -154,7 +156,9 @@ class Desk:
             self._woken.clear()
             if self.newest is None:
                 continue
-            wish, self.newest, before = self.newest, None, self.served
+            wish, self.newest = self.newest, None
+            if self.served is not None and self.served.values != wish.values:
+                self.before = self.served.values
             self.served = wish
             try:
                 variant = self.bench.origin.varied(wish.values)
@@ -166,7 +170,7 @@ class Desk:
                 self.tell(refusal(wish.number, error))
                 continue
             if granted and wish.rest and self.newest is None:
-                self._ahead = self._begin(self._compute_neighbours(wish, before))
+                self._ahead = self._begin(self._compute_neighbours(wish))
 
     async def _granted(self, wish: Wish, variant: Variant) -> bool:
         """Send the answer to a wish; False if the page was told why there is none."""
@@ -282,10 +286,10 @@ class Desk:
 
     # What nobody waits for
 
-    async def _compute_neighbours(self, wish: Wish, before: Wish | None) -> None:
+    async def _compute_neighbours(self, wish: Wish) -> None:
         """Compute what the next step of the slider that moved last would ask for."""
         await asyncio.sleep(_CALM)
-        for values in neighbours(self.bench.origin, wish.values, {} if before is None else before.values):
+        for values in neighbours(self.bench.origin, wish.values, self.before):
             with suppress(TribodynError, Failed, GivenUp):
                 await self._kept_ahead(self.bench.origin.varied(values))
 

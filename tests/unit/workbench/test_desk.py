@@ -159,6 +159,9 @@ async def test_when_the_hand_rests_the_next_steps_of_its_slider_are_computed_ahe
         page = await host.greeted()
         await page.run(1, {}, rest=True)
         await page.picture()
+        # Dragged there, and let go.
+        await page.run(12, wide(25))
+        await page.picture()
         await page.run(2, wide(25), rest=True)
         await page.picture()
         await asyncio.sleep(1.0)
