@@ -85,7 +85,7 @@ _EXAMPLES: Final = {
     "materials": "tribodyn materials ptfe-liner bronze-c93200",
     "stribeck": "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'",
     "bounce": "tribodyn bounce vsv --law rsdc",
-    "completion": 'eval "$(tribodyn completion bash)"',
+    "completion": "tribodyn completion bash",
 }
 """How the help of each command ends."""
 _EPILOG: Final = """\
