@@ -133,6 +133,7 @@ class System:
             return []
         starts = [self._value(i) for i in numbers]
         n_steps = 1 + int(max((abs(s) for s in starts), default=0.0) / _LONGEST)
+        drawn = self._drawn_gaps()
         kept = pieces.c.copy()
         for step in range(n_steps + 1):
             pieces.c[:] = kept
@@ -141,7 +142,24 @@ class System:
             self.refresh()
             gap = self.close()
         pieces.c[:] = kept
-        return [] if gap < CLOSED else [self.open_joint()]
+        if gap < CLOSED:
+            return []
+        return [self.open_joint() if np.max(drawn) < CLOSED * self.size else self._drawn_open(drawn)]
+
+    def _drawn_gaps(self) -> FloatArray:
+        """Return how far apart the two points of each joint are in the drawing [m], shape (n_joints,)."""
+        joints = self.description.joints
+        return np.array([np.linalg.norm(joint.points[1] - joint.points[0]) for joint in joints])
+
+    def _drawn_open(self, gaps: FloatArray) -> Finding:
+        """Return which joint is open in the drawing; closing spreads its gap over others."""
+        joint = self.description.joints[int(np.argmax(gaps))]
+        first, second = (_name(self.description, b) for b in joint.bodies)
+        text = (
+            f"joint {joint.name} between {first} and {second} does not close: its points stand "
+            f"{np.max(gaps) * 1e3:.4g} mm apart in the drawing, and no motion of bodies brings them together"
+        )
+        return Finding(f"joints.{joint.name}", text)
 
     def _value(self, number: int) -> float:
         """Return a signal at the start."""
