@@ -261,6 +261,4 @@ def application(house: House) -> Application:
         headers=house.door.headers,
         log_function=lambda handler: None,
         websocket_max_message_size=LARGEST,
-        # Who does not answer for as long has gone; on a busy machine answers are late.
-        websocket_ping_interval=120,
     )
