@@ -206,6 +206,7 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
     person.control(CLEARANCE).locator("label").dblclick()
     person.wait_until_shown({})
     assert person.control(CLEARANCE).get_attribute("class") == "control"
+    assert person.control(CLEARANCE).locator(".entry").input_value() == "20 um"
 
 
 def _drag(person: Person, begin: float, end: float, steps: int = 12) -> None:

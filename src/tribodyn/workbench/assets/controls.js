@@ -122,6 +122,8 @@ function giveBack(key) {
   complain(key, "");
   bench.gesture(bench.changed(key, bench.controls.get(key).text));
   fillControls();
+  // A double click on the name has put the focus into the box, which is else left as it is.
+  controlAt(key).querySelector(".entry").value = shownText(key);
 }
 
 /** Write what is wished into the controls, and mark what differs from the case. */
