@@ -123,7 +123,8 @@ function giveBack(key) {
   bench.gesture(bench.changed(key, bench.controls.get(key).text));
   fillControls();
   // A double click on the name has put the focus into the box, which is else left as it is.
-  controlAt(key).querySelector(".entry").value = shownText(key);
+  const entry = controlAt(key)?.querySelector(".entry");
+  if (entry) entry.value = shownText(key);
 }
 
 /** Write what is wished into the controls, and mark what differs from the case. */
