@@ -81,7 +81,7 @@ def _used(case: Case, keys: dict[str, Key], surface: str, prefix: str) -> Iterat
 def _of_asperities(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
     rough = [f"{prefix}surfaces.{surface}.roughness" for surface in SURFACES]
     left = [f"{prefix}asperities.{name}" for name in ("density", "radius")]
-    if not _as_built_in(case, keys, rough) and _as_built_in(case, keys, left):
+    if not _as_built_in(case, keys, rough) and _left(case, keys, left):
         yield (
             "The roughness is another one, the asperities are still those of the paper's surfaces: "
             f"give {left[0]} and {left[1]}, or a scan."
@@ -92,7 +92,7 @@ def _of_wear(case: Case, keys: dict[str, Key]) -> Iterator[str]:
     bushing = [f"surfaces.bushing.{name}" for name in ("young_modulus", "poisson_ratio", "hardness")]
     if _WEAR not in keys or case.at(f"surfaces.bushing.{MATERIAL}") is not None:
         return
-    if not _as_built_in(case, keys, bushing) and _as_built_in(case, keys, [_WEAR]):
+    if not _as_built_in(case, keys, bushing) and _left(case, keys, [_WEAR]):
         yield f"The bushing is another one, and wears as that of the paper: give {_WEAR} of its material."
 
 
@@ -104,6 +104,11 @@ def _of_heights(case: Case, prefix: str) -> Iterator[str]:
                 f"{given.strip()} of the {surface} was taken for {RZ_OVER_RA:g} Ra of Gaussian heights; "
                 "surfaces have 4 to 7 Ra."
             )
+
+
+def _left(case: Case, keys: dict[str, Key], paths: list[str]) -> bool:
+    """Tell whether keys hold what they do by default, and nobody wrote that down."""
+    return _as_built_in(case, keys, paths) and all(case.given(path) is None for path in paths)
 
 
 def _as_built_in(case: Case, keys: dict[str, Key], paths: list[str]) -> bool:

@@ -42,6 +42,7 @@ _VALUES: Final = {
     "loads.more.gas.force_y.value": ("1.2 N", "paper, Table 3"),
     "loads.more.gas.span.positions": ("10, 70, 150 mm", "assumed: from the bushing's end to the tip"),
     "loads.more.gas.span.values": ("8, 9, 7 N/m", "assumed"),
+    "wear.specific_wear_rate": ("1.1e-15 m^2/N", "the paper's; at 300 degC it is not known"),
     "solver.grid.z": (24, "assumed: chamfers have points of their own"),
 }
 
