@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 
 import pytest
-from tests.unit.workbench.host import SOON, Host, Page, Pretending, hosting
+from tests.unit.workbench.host import SOON, Host, Page, Pretending, finished, hosting
 
 from tribodyn.core import fork_server
 from tribodyn.workbench.bench import Rules
@@ -211,7 +211,7 @@ def test_a_page_that_says_anything_is_answered_and_nothing_is_touched(number: in
             assert len(host.person.who.frames) < 400
         assert watch.touched == []
 
-    asyncio.run(test())
+    finished(test())
 
 
 @pytest.mark.usefixtures("quiet")
@@ -235,7 +235,7 @@ def test_strangers_are_refused_whatever_they_send(number: int, watch: Watch) -> 
             assert (await host.get("/")).code == 200
         assert watch.touched == []
 
-    asyncio.run(test())
+    finished(test())
 
 
 @pytest.mark.long
@@ -254,4 +254,4 @@ def test_real_workers_outlive_ten_thousand_messages() -> None:
             await page.run(2**32 - 1, {"joint.clearance": "33 um"}, rest=True, agreed=True)
             await asyncio.wait_for(hearing, 10 * SOON)
 
-    asyncio.run(test())
+    finished(test())

@@ -32,7 +32,9 @@ from tribodyn.cases.tables import (
     Tables,
     alternatives,
     expanded,
+    is_empty_table,
     keys_in,
+    nested,
     of_components,
     plain_path,
     value_at,
@@ -260,8 +262,8 @@ def build(
     entries = {
         path if entry.value == {} else plain_path(path, keys): entry for path, entry in entries.items()
     }
-    given = {path: entry for path, entry in entries.items() if not _is_empty_table(path, entry, declared)}
-    entries = {path: entry for path, entry in given.items() if not _is_empty_table(path, entry, keys)}
+    given = {path: entry for path, entry in entries.items() if not is_empty_table(path, entry, declared)}
+    entries = {path: entry for path, entry in given.items() if not is_empty_table(path, entry, keys)}
     faults = Faults(found)
     entries = _known(entries, keys, declared, faults)
     with faults.noted():
@@ -271,7 +273,7 @@ def build(
         entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
         entries = with_meshes_read(entries, keys)
     values = _values(entries, keys, faults)
-    tables = {path: entry for path, entry in given.items() if _is_empty_table(path, entry, keys)}
+    tables = {path: entry for path, entry in given.items() if is_empty_table(path, entry, keys)}
     there = [path for path in given if path not in declared and (path in keys or path in tables)]
     named = [path.rpartition(".")[0] if path in keys else path for path in there]
     case = _validated(model, values, named, Asked(keys, entries, source), faults)
@@ -307,7 +309,7 @@ def _validated(
     """Return the case, or raise all that is wrong."""
     sound = not faults.found
     try:
-        tree = _nested({**_defaults(model, values, asked), **values}, named)
+        tree = nested({**_defaults(model, values, asked), **values}, named)
         case = model.model_validate(tree, context=asked)
     except InputError as error:
         # What does not go together may only follow from what is wrong by itself, and what is missing from
@@ -380,11 +382,6 @@ def beside(model: type[Case], kept: Mapping[str, Entry], new: Mapping[str, Entry
     return {path: entry for path, entry in kept.items() if path not in taken} | dict(new)
 
 
-def _is_empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:
-    """Tell whether an entry is a table of the case that a file left empty."""
-    return entry.value == {} and not entry.text and any(key.startswith(f"{path}.") for key in keys)
-
-
 def _one_of_each(model: type[Case], entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> None:
     for first, second in _alternatives(model, keys):
         if first in entries and second in entries:
@@ -400,20 +397,3 @@ def _alternatives(model: type[Case], keys: Mapping[str, Key]) -> tuple[tuple[str
         for first, second in scans.ALTERNATIVES
     )
     return (*alternatives(model, keys), *of_scans)
-
-
-def _nested(values: Mapping[str, Value], tables: Iterable[str]) -> dict[str, Any]:
-    """Turn dotted paths into nested tables, of which some are there even without a value."""
-    tree: dict[str, Any] = {}
-    for path in tables:
-        _branch(tree, path.split("."))
-    for path, value in values.items():
-        *above, name = path.split(".")
-        _branch(tree, above)[name] = value
-    return tree
-
-
-def _branch(tree: dict[str, Any], tables: Iterable[str]) -> dict[str, Any]:
-    for table in tables:
-        tree = tree.setdefault(table, {})
-    return tree

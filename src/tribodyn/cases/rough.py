@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from tribodyn.cases import materials
 from tribodyn.cases.case import Case, Remarks, demand
-from tribodyn.cases.groups import Asperities, Contact, PlainJoint, Surfaces
+from tribodyn.cases.groups import Asperities, Contact, Surfaces
+from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import Value, keys_of
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.temperature import Temperature

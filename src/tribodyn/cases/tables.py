@@ -15,7 +15,8 @@ from typing import Any, Final, NoReturn
 
 from pydantic import BaseModel
 
-from tribodyn.cases.keys import ANY_NAME, Key, groups_of, keys_of
+from tribodyn.cases.entry import Entry
+from tribodyn.cases.keys import ANY_NAME, Key, Value, groups_of, keys_of
 from tribodyn.cases.lists import AXES
 from tribodyn.cases.units import from_si
 
@@ -200,3 +201,25 @@ def _paths(values: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
             yield from _paths(value, f"{prefix}{name}.")
         else:
             yield prefix + name
+
+
+def is_empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:
+    """Tell whether an entry is a table of the case that a file left empty."""
+    return entry.value == {} and not entry.text and any(key.startswith(f"{path}.") for key in keys)
+
+
+def nested(values: Mapping[str, Value], tables: Iterable[str]) -> dict[str, Any]:
+    """Turn dotted paths into nested tables, of which some are there even without a value."""
+    tree: dict[str, Any] = {}
+    for path in tables:
+        _branch(tree, path.split("."))
+    for path, value in values.items():
+        *above, name = path.split(".")
+        _branch(tree, above)[name] = value
+    return tree
+
+
+def _branch(tree: dict[str, Any], tables: Iterable[str]) -> dict[str, Any]:
+    for table in tables:
+        tree = tree.setdefault(table, {})
+    return tree

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Final, Literal, cast
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Numbers, choice, quantity, series
-from tribodyn.cases.groups import Bushing, PlainJoint, Surfaces
+from tribodyn.cases.groups import Bushing, Surfaces
+from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.materials import between
 

@@ -29,7 +29,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Print the lines for a shell."""
-    print(_library("argcomplete.shell_integration").shellcode(["tribodyn"], shell=args.shell))
+    print(_library("argcomplete.shell_integration").shellcode(["tribodyn"], True, args.shell))
     return 0
 
 

@@ -10,6 +10,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from tribodyn.cases import groups
+from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.temperature import Temperature
 from tribodyn.contact import HasSurfacePair
 from tribodyn.core.arrays import FloatArray
@@ -34,7 +35,7 @@ class HasBushing(HasSurfacePair, Protocol):
         """Its table ``[contact]``."""
 
     @property
-    def joint(self) -> groups.PlainJoint:
+    def joint(self) -> PlainJoint:
         """Its table ``[joint]``."""
 
     @property

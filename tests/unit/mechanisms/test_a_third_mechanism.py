@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn
+from tribodyn.kernels.cache import folder
 
 HERE = Path(__file__).parent
 SOURCE = Path(tribodyn.__file__).parent
@@ -21,14 +22,14 @@ SOURCE = Path(tribodyn.__file__).parent
 @pytest.fixture(scope="module")
 def house(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a copy of the package to which the disc was added."""
-    folder = tmp_path_factory.mktemp("house")
-    copy = folder / "tribodyn"
+    place = tmp_path_factory.mktemp("house")
+    copy = place / "tribodyn"
     shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(HERE / "disc", copy / "mechanisms" / "disc")
     catalogue = copy / "mechanisms" / "catalogue.py"
     text = catalogue.read_text(encoding="utf-8")
     catalogue.write_text(text.replace('    "journal",\n', '    "journal",\n    "disc",\n'), encoding="utf-8")
-    return folder
+    return place
 
 
 COMMANDS = [
@@ -47,12 +48,25 @@ ALL = (
 
 
 @pytest.fixture(scope="module")
-def said(house: Path) -> str:
+def machine_code(house: Path) -> Path:
+    """Return a place with a copy of the machine code: types of the disc mean nothing to other processes."""
+    place = house / "cache"
+    known = folder()
+    if known is not None:
+        shutil.copytree(known, place / "tribodyn" / known.name)
+    for path in (place, place / "tribodyn"):
+        path.mkdir(exist_ok=True)
+        path.chmod(0o700)
+    return place
+
+
+@pytest.fixture(scope="module")
+def said(house: Path, machine_code: Path) -> str:
     """Return what all commands, given in one process, print."""
     done = subprocess.run(
         [sys.executable, "-c", ALL, json.dumps(COMMANDS)],
         cwd=house,
-        env=os.environ | {"PYTHONPATH": str(house)},
+        env=os.environ | {"PYTHONPATH": str(house), "NUMBA_CACHE_DIR": str(machine_code)},
         capture_output=True,
         text=True,
     )

@@ -6,6 +6,7 @@ import asyncio
 import json
 import struct
 from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -228,11 +229,17 @@ async def hosting(
     assert complaints == []
 
 
+def finished(test: Coroutine[Any, Any, None]) -> None:
+    """Run a test to its end in a thread of its own: a browser may hold the event loop of this one."""
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(asyncio.run, test).result()
+
+
 def in_loop(test: Callable[..., Coroutine[Any, Any, None]]) -> Callable[[], None]:
     """Make a test of a coroutine."""
 
     def run() -> None:
-        asyncio.run(asyncio.wait_for(test(), 6 * SOON))
+        finished(asyncio.wait_for(test(), 6 * SOON))
 
     run.__name__, run.__doc__ = test.__name__, test.__doc__
     return run

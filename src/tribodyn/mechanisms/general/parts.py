@@ -131,7 +131,7 @@ class ClearanceKeys(NamedGroup):
         "",
         example="steel-ptfe",
     )
-    ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "")
+    ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "assumed")
     nodes_around: int | None = count(
         None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
     )

@@ -11,12 +11,11 @@ from tribodyn.cases.fields import choice, number, quantity, switch, tables, text
 from tribodyn.cases.film import Film
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
-    FormKeys,
-    PlainJoint,
     Solver,
     Tolerances,
     check_output_interval,
 )
+from tribodyn.cases.joint import FormKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.signals import ForceMap, SpeedTable, TorqueMap

@@ -10,11 +10,11 @@ from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, switch, tables, text
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
-    PlainJoint,
     Solver,
     Wear,
     check_output_interval,
 )
+from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.core.errors import Faults

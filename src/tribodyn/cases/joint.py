@@ -1,0 +1,136 @@
+"""Tables of keys of a clearance joint: a shaft in a bushing, its sleeve and its form."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from tribodyn.cases.case import Group, demand
+from tribodyn.cases.fields import choice, number, quantity
+from tribodyn.cases.groups import TABLE_1, Bushing
+from tribodyn.cases.keys import ASSUMED
+from tribodyn.cases.signals import BoreMap, ProfileTable
+
+if TYPE_CHECKING:
+    from tribodyn.contact import Liner
+    from tribodyn.joints import Form
+
+
+class LinerKeys(Group):
+    """An elastic sleeve in a rigid bore; without a thickness the bushing is rigid below its asperities."""
+
+    thickness: float | None = quantity(None, "thickness t", ASSUMED, gt=0, example="1.5 mm")
+    young_modulus: float | None = quantity(
+        None, "Young's modulus; by default that of the bushing", ASSUMED, gt=0, example="7.17 GPa"
+    )
+    poisson_ratio: float | None = number(
+        None, "Poisson's ratio; by default that of the bushing", ASSUMED, gt=0, lt=0.5, example="0.34"
+    )
+
+    def layer(self, bushing: Bushing) -> Liner | None:
+        """Return the layer, or None where the bushing is rigid below its asperities."""
+        from tribodyn.contact import Liner
+
+        if self.thickness is None:
+            return None
+        modulus = bushing.young_modulus if self.young_modulus is None else self.young_modulus
+        ratio = bushing.poisson_ratio if self.poisson_ratio is None else self.poisson_ratio
+        demand(
+            ratio < 0.5,
+            "joint.liner.poisson_ratio",
+            "a thin layer that cannot change its volume does not yield: below 0.5 is needed",
+        )
+        return Liner(self.thickness, modulus, ratio)
+
+
+class FormKeys(Group):
+    """What trunnion and bushing stand back from cylinders; the clearance is that in the middle."""
+
+    crown: float = quantity(
+        "0 um", "drop of a parabola at the ends, of both surfaces together", ASSUMED, ge=0
+    )
+    chamfer_length: float | None = quantity(
+        None, "straight run-out at both ends", ASSUMED, gt=0, example="0.5 mm"
+    )
+    chamfer_depth: float | None = quantity(
+        None, "depth of the run-out at the end", ASSUMED, gt=0, example="20 um"
+    )
+    bushing: BoreMap | None = None
+    trunnion: ProfileTable | None = None
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that a chamfer is whole."""
+        demand(
+            (self.chamfer_length is None) == (self.chamfer_depth is None),
+            "joint.form.chamfer_depth",
+            "a chamfer has a length and a depth: give both or neither",
+        )
+
+    def form(self) -> Form:
+        """Return the form of the joint."""
+        from tribodyn.joints.form import Bore, Form
+
+        bore = self.bushing
+        return Form(
+            self.crown,
+            self.chamfer_length or 0.0,
+            self.chamfer_depth or 0.0,
+            None if bore is None else Bore(bore.angles or (), bore.positions or (), bore.values or ()),
+            None if self.trunnion is None else self.trunnion.curve(),
+        )
+
+    def check_length(self, length: float) -> None:
+        """Refuse measured forms that end before the bushing does, ``length`` [m]."""
+        for name, measured in (("bushing", self.bushing), ("trunnion", self.trunnion)):
+            places = () if measured is None else measured.positions or ()
+            demand(
+                not places or (places[0] <= -0.5 * length and 0.5 * length <= places[-1]),
+                f"joint.form.{name}.positions",
+                f"they count from the middle of the bushing and must reach its ends at {500 * length:g} mm",
+            )
+
+
+class PlainJoint(Group):
+    """The clearance joint: a shaft in a bushing."""
+
+    clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
+    radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
+    length: float = quantity("20 mm", "length of the bushing l_z", TABLE_1, gt=0)
+    contact: str = choice(
+        "surface",
+        "contact over the surface, or at one point of the clearance circle at each end",
+        "paper, Eq. 44",
+        family="tribodyn.joints:CONTACTS",
+    )
+    friction_coefficient: float = number(0.1, "coefficient of friction mu_f", ASSUMED, ge=0, le=2)
+    friction: Literal["traction", "moment"] = choice(
+        "traction",
+        "traction along the actual slip, or the paper's moment alone",
+        "depends on mechanism.formulation",
+    )
+    slip_velocity: float = quantity("10 um/s", "slip at which traction is fully developed u_s", ASSUMED, gt=0)
+    liner: LinerKeys = LinerKeys()
+    form: FormKeys = FormKeys()
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that the clearance is small against the radius."""
+        demand(
+            self.clearance <= 0.1 * self.radius,
+            "joint.clearance",
+            "the clearance must not exceed a tenth of joint.radius",
+        )
+        demand(
+            self.contact == "surface" or self.liner.thickness is None,
+            "joint.liner.thickness",
+            'a contact at points stands on no liner: joint.contact = "surface" is needed',
+        )
+        demand(
+            self.contact == "surface" or self.form == FormKeys(),
+            "joint.form",
+            'a contact at points has no form: joint.contact = "surface" is needed',
+        )
+        self.form.check_length(self.length)
+        demand(
+            (self.form.chamfer_length or 0.0) <= 0.4 * self.length,
+            "joint.form.chamfer_length",
+            "two chamfers leave too little of joint.length: at most 0.4 of it each",
+        )
