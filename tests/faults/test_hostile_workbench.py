@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import importlib
 import json
 import logging
 import random
@@ -76,6 +77,8 @@ class Watch:
 
 @pytest.fixture(scope="module")
 def watch() -> Watch:
+    # Units that few cases are written in are read from their file once, when the first is asked for.
+    importlib.import_module("tribodyn.cases.other_units")
     return Watch()
 
 

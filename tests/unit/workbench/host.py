@@ -5,9 +5,9 @@ from __future__ import annotations
 import asyncio
 import json
 import struct
-from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -229,10 +229,21 @@ async def hosting(
     assert complaints == []
 
 
-def finished(test: Coroutine[Any, Any, None]) -> None:
-    """Run a test to its end in a thread of its own: a browser may hold the event loop of this one."""
+@contextmanager
+def own_loop() -> Iterator[Callable[[Coroutine[Any, Any, None]], None]]:
+    """Have an event loop in a thread of its own: a browser may hold the loop of this one."""
     with ThreadPoolExecutor(1) as thread:
-        thread.submit(asyncio.run, test).result()
+        runner = asyncio.Runner()
+        try:
+            yield lambda test: thread.submit(runner.run, test).result()
+        finally:
+            thread.submit(runner.close).result()
+
+
+def finished(test: Coroutine[Any, Any, None]) -> None:
+    """Run a test to its end."""
+    with own_loop() as run:
+        run(test)
 
 
 def in_loop(test: Callable[..., Coroutine[Any, Any, None]]) -> Callable[[], None]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import psutil
 import pytest
-from tests.unit.workbench.host import SOON
+from tests.unit.workbench.host import SOON, own_loop
 
 from tribodyn.core import fork_server
 from tribodyn.mechanisms.catalogue import load_case
@@ -34,12 +34,12 @@ def job(case=SHORT, seconds=SOON, **more):
 def crew(**limits: int) -> Iterator[Test]:
     """Have one worker, and what runs tests with it."""
     fork_server.start(name="vsv")
-    with asyncio.Runner() as runner:
+    with own_loop() as run:
         made = Crew(1, Limits(**limits))
-        runner.run(made.start())
-        yield lambda test: runner.run(test(made))
+        run(made.start())
+        yield lambda test: run(test(made))
         (pid,) = (worker.process.pid for worker in made.workers)
-        runner.run(made.end())
+        run(made.end())
     assert not psutil.pid_exists(pid)
 
 

@@ -85,13 +85,19 @@ class Figure {
 
   come() {
     this.near = true;
-    if (!this.widget) {
-      this.widget = widgets[this.box.dataset.widget](this.box);
-      this.box.classList.add("drawn");
-      new ResizeObserver(() => this.repaint()).observe(this.box);
-    }
+    if (!this.widget) this.make();
     if (this.stale) this.repaint();
     else this.show(clock.frame);
+  }
+
+  /** Make what draws; a focus that waits for it on the empty box goes to the plot. */
+  make() {
+    const awaited = document.activeElement === this.box;
+    this.box.removeAttribute("tabindex");
+    this.widget = widgets[this.box.dataset.widget](this.box);
+    this.box.classList.add("drawn");
+    new ResizeObserver(() => this.repaint()).observe(this.box);
+    if (awaited) this.box.querySelector(".plot")?.focus();
   }
 
   repaint() {
@@ -124,6 +130,9 @@ function watchFigures() {
     const figure = new Figure(box, page.figures[box.dataset.name]);
     figures.push(figure);
     watcher.observe(box);
+    // The keyboard goes faster than the page scrolls: it must not jump over what is not yet made.
+    box.tabIndex = 0;
+    box.addEventListener("focus", () => figure.come());
   }
 }
 
