@@ -136,11 +136,13 @@ def mutants(dataset: xr.Dataset) -> Iterator[tuple[str, Callable[[], xr.Dataset]
 def originals(tmp_path_factory: pytest.TempPathFactory) -> dict[str, xr.Dataset]:
     """Return one brief result of each kind."""
     brief = {"run.duration": "2 ms", "run.output_interval": "0.2 ms"}
-    vsv, journal = (load_case(name).replace(brief) for name in ("vsv", "journal-dry"))
+    names = ("vsv", "journal-dry", "slider-crank")
+    vsv, journal, mechanism = (load_case(name).replace(brief) for name in names)
     kept = {"joint.clearance": "20,30 um", "contact.law": "ke,rsdc"}
     return {
         "vsv": simulate(vsv),
         "journal": simulate(journal),
+        "mechanism": simulate(mechanism),
         "sweep": sweep(vsv, kept, workers=0),
     }
 

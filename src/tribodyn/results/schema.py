@@ -64,8 +64,10 @@ def check(dataset: xr.Dataset, kinds: Kinds) -> None:
     if dataset.attrs.get("kind") == SWEEP:
         _check_sweep(dataset)
     else:
-        known = {**VARIABLES, **_variables_of(dataset, kinds)}
+        case = _case(dataset)
+        known = {**VARIABLES, **_variables_of(dataset, case, kinds)}
         _check_run(dataset, known)
+        _check_names(dataset, known, case)
 
 
 def is_summary(content: object) -> bool:
@@ -136,22 +138,21 @@ def _in_bounds(values: Any, form: str) -> bool:
     return whole and float(np.abs(array[good]).max(initial=0.0)) <= LARGEST
 
 
-def _kind_of_case(dataset: xr.Dataset) -> str | None:
-    """Return the kind of the case that a result is of; nothing where its text does not say it."""
+def _case(dataset: xr.Dataset) -> Mapping[str, Any]:
+    """Return the tables of the case that a result is of; nothing where its text cannot be read."""
     try:
-        kind = toml.parse(str(dataset.attrs.get("case", ""))).get("case")
+        return toml.parse(str(dataset.attrs.get("case", "")))
     except ValueError:
-        return None
-    return kind if isinstance(kind, str) else None
+        return {}
 
 
-def _variables_of(dataset: xr.Dataset, kinds: Kinds) -> Mapping[str, Variable]:
+def _variables_of(dataset: xr.Dataset, case: Mapping[str, Any], kinds: Kinds) -> Mapping[str, Variable]:
     """Return what its kind of result may hold; refuse a kind that is unknown, or not that of its case."""
-    named = _kind_of_case(dataset)
+    named = case.get("case")
     kind = str(dataset.attrs.get("kind", ""))
     if kind not in kinds:
         raise ValueError(f"its kind is {brief(kind)}; known: {', '.join(kinds)}")
-    if named is not None and kind != named:
+    if isinstance(named, str) and kind != named:
         raise ValueError(f"its kind is {brief(kind)}, that of its case {brief(named)}")
     return kinds[kind]
 
@@ -214,6 +215,18 @@ def _check_coordinates(dataset: xr.Dataset, named: Container[str]) -> None:
     for pictures in ("snapshot", "frame"):
         if dataset.sizes.get(pictures) and not dataset.sizes["time"]:
             raise ValueError(f"it holds values of {pictures}, but none of time")
+
+
+def _check_names(dataset: xr.Dataset, known: Mapping[str, Variable], case: Mapping[str, Any]) -> None:
+    """Compare names along a dimension with those that it must have, in their order."""
+    for dim in dataset.dims:
+        names = known[str(dim)].names
+        if isinstance(names, str):
+            table = case.get(names)
+            names = tuple(table) if isinstance(table, dict) else ()
+        found = tuple(dataset.variables[dim].values.tolist()) if names else ()
+        if found != names:
+            raise ValueError(f"its names of {dim} are {brief(found)}, not {brief(names)}")
 
 
 def _check_sweep(dataset: xr.Dataset) -> None:

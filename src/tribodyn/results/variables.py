@@ -37,12 +37,15 @@ class Variable:
         Dimensions of the array.
     named
         Whether it holds names instead of numbers: what a dimension counts, such as bodies.
+    names
+        The names that it then must hold, or the table of the case that gives them; empty where any will do.
     """
 
     units: str
     long_name: str
     dims: tuple[str, ...] = TIME
     named: bool = False
+    names: tuple[str, ...] | str = ()
 
 
 COORDINATES: Final[dict[str, Variable]] = {

@@ -41,7 +41,7 @@ def offset(dataset: xr.Dataset) -> FloatArray:
 
 def _power(dataset: xr.Dataset) -> float:
     time, work = column(dataset, "time"), column(dataset, "energy_in")
-    return float((work[-1] - work[0]) / (time[-1] - time[0]))
+    return float((work[-1] - work[0]) / (time[-1] - time[0])) if time.size > 1 else np.nan
 
 
 HEADLINES: Final[dict[str, Headline]] = {

@@ -24,7 +24,7 @@ from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.problem import mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.start import initial_state
-from tribodyn.mechanisms.general.variables import AXES, BODIES, JOINTS, Observed, observed
+from tribodyn.mechanisms.general.variables import AXES, BODIES, ENTRIES, JOINTS, Observed, observed
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED
 
@@ -221,7 +221,7 @@ class MechanismSystem:
             "body": [body.name for body in self.description.bodies],
             "joint": [joint.name for joint in self.description.joints],
             "axis": list(AXES),
-            "entry": ["w", *AXES],
+            "entry": list(ENTRIES),
         }
         if not self.real:
             return dict(parts)

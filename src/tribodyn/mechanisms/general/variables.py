@@ -15,6 +15,7 @@ from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
 from tribodyn.results.variables import FRAME, JUMP, STAGE, Variable, described
 
 AXES: Final = ("x", "y", "z")
+ENTRIES: Final = ("w", *AXES)
 _VECTOR: Final = ("axis",)
 _QUATERNION: Final = ("entry",)
 _MAP: Final = ("surface", "row", "column")
@@ -155,11 +156,11 @@ OF_CYCLE: Final[dict[str, Variable]] = {
 """What a wear campaign writes down about each cycle."""
 
 VARIABLES: Final[dict[str, Variable]] = {
-    "body": Variable("", "name of the body", ("body",), named=True),
-    "joint": Variable("", "name of the joint", ("joint",), named=True),
+    "body": Variable("", "name of the body", ("body",), named=True, names="bodies"),
+    "joint": Variable("", "name of the joint", ("joint",), named=True, names="joints"),
     "surface": Variable("", "joint and surface of it", ("surface",), named=True),
-    "axis": Variable("", "component of a vector", _VECTOR, named=True),
-    "entry": Variable("", "entry of a quaternion", _QUATERNION, named=True),
+    "axis": Variable("", "component of a vector", _VECTOR, named=True, names=AXES),
+    "entry": Variable("", "entry of a quaternion", _QUATERNION, named=True, names=ENTRIES),
     "row": Variable("1", "number of the row of nodes", ("row",)),
     "column": Variable("1", "number of the node in its row", ("column",)),
     "row_place": Variable(

@@ -25,11 +25,11 @@ def draw(dataset: xr.Dataset) -> Figure:
     figure = sheet(dataset, TITLE, 4.2)
     axes = figure.subplots()
     axes.set_aspect("equal")
-    case = case_of(dataset)
-    if case is None or dataset["time"].size < 2:
+    case, motion = case_of(dataset), at_frames(dataset)
+    if case is None or motion is None:
         note(axes, "nothing to draw")
         return figure
-    drawn, (position, orientation) = skeleton(case), at_frames(dataset)
+    drawn, (position, orientation) = skeleton(case), motion
     eye, up = view(MM * position.reshape(-1, 3))
     plane = _plane(eye, up)
     first, *others = np.linspace(0, position.shape[0] - 1, _MOMENTS + 1).astype(int)[1:]

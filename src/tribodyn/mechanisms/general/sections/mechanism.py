@@ -18,13 +18,21 @@ _ROOM: Final = 0.08
 """Room around the mechanism, as a share of its size."""
 
 
-def at_frames(dataset: xr.Dataset) -> tuple[FloatArray, FloatArray]:
-    """Return positions [m] and unit quaternions at the frames, (n_frames, n_bodies, 3) and (…, 4)."""
+def at_frames(dataset: xr.Dataset) -> tuple[FloatArray, FloatArray] | None:
+    """Return positions [m] and unit quaternions at the frames, (n_frames, n_bodies, 3) and (…, 4).
+
+    None where there is no motion to draw: a single row, or a body that is nowhere.
+    """
     time, frames = dataset["time"].values, playback_times(dataset)
+    if min(time.size, frames.size) < 2:
+        return None
     position, orientation = (
         _between(frames, time, dataset[name].values) for name in ("position", "orientation")
     )
-    return position, orientation / np.linalg.norm(orientation, axis=-1, keepdims=True)
+    length = np.linalg.norm(orientation, axis=-1, keepdims=True)
+    if not (np.isfinite(position).all() and np.all(length > 0.0)):
+        return None
+    return position, orientation / length
 
 
 def _between(frames: FloatArray, time: FloatArray, values: FloatArray) -> FloatArray:
@@ -36,10 +44,10 @@ def _between(frames: FloatArray, time: FloatArray, values: FloatArray) -> FloatA
 
 def data(dataset: xr.Dataset) -> Payload | None:
     """Return the points of bodies and joints at the frames [mm], and from where to look."""
-    case = case_of(dataset)
-    if case is None or playback_times(dataset).size < 2:
+    case, motion = case_of(dataset), at_frames(dataset)
+    if case is None or motion is None:
         return None
-    drawn, (position, orientation) = skeleton(case), at_frames(dataset)
+    drawn, (position, orientation) = skeleton(case), motion
     bodies = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
     marks = [_mark(drawn, mark, position, orientation) for mark in drawn.marks]
     everywhere = np.concatenate([part.reshape(-1, 3) for part in (*bodies, *(mark[:, 0] for mark in marks))])
