@@ -120,15 +120,18 @@ class Walk:
         for number, t_end in enumerate(self.schedule.edges[1:].tolist()):
             self.statistics.restarts = number
             self.enter()
-            if self.marks[self.next_mark] <= self.t:  # only at the initial time; later ones are taken
-                self.take()
             segment(t_end)
 
     def enter(self) -> None:
         """Begin a segment; refuse one whose first rate is not finite, which SciPy would try for ever."""
         self.functions.enter(self.t, self.y, self.problem.data, self.problem.memory)
+        kept = self.n_rows, self.n_pictures
+        if self.marks[self.next_mark] <= self.t:  # only at the initial time; later ones are taken
+            # At once, since a rate may leave in the memory what no row is to be made of.
+            self.take()
         for what, values in (("value", self.y), ("rate", self.binding.rhs(self.t, self.y))):
             if name := self.binding.first_not_finite(values):
+                self.n_rows, self.n_pictures = kept
                 self.binding.note = ""
                 raise IntegrationFailure(self.t, f"the {what} of {name} is not finite where a segment starts")
 

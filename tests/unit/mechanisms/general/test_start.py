@@ -52,6 +52,10 @@ def test_a_chain_that_hangs_begins_at_rest() -> None:
     # A weight of 1 kg falls 120 µm in that time; surfaces that balance move by no thousandth of σ.
     moved = result["position"].isel(time=-1) - result["position"].isel(time=0)
     assert float(abs(moved).max()) < 1e-9
+    # What surfaces store is there from the first row on, and no energy is missed.
+    stored = result["energy_stored"].values
+    assert stored[0] == pytest.approx(stored[-1], rel=1e-6)
+    assert "Energy" not in result.attrs["warnings"]
 
 
 def test_friction_is_that_of_the_motion_that_begins() -> None:
