@@ -18,10 +18,11 @@ from tribodyn.mechanisms.general.inspection import Finding, sound_drives
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
 DEPENDENT: Final = 1.0e-6
-"""Singular value of the scaled rows, relative to the largest, below which rows depend on each other."""
+"""Singular value of rows over ways and turns, relative to the largest, below which they depend on each other."""
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
+_TINY: Final = 1.0e-300
 _NEAR: Final = 0.03
 """Distance of positions near by, in the same units."""
 
@@ -93,6 +94,27 @@ class System:
         length[length == 0.0] = 1.0
         return g / length[:, None], root, length
 
+    def over_sizes(self, rows: FloatArray) -> FloatArray:
+        """Return rows (m, 6 n) over ways in units of the size and turns, each of length one.
+
+        Whether rows depend on each other is told by these: it is a matter of places, not of masses.
+        """
+        g = rows * np.tile(np.repeat([self.size, 1.0], 3), self.n)
+        length = np.linalg.norm(g, axis=1, keepdims=True)
+        return np.asarray(g / np.where(length == 0.0, 1.0, length))
+
+    def rank(self, rows: FloatArray | None = None) -> int:
+        """Return how many of these rows, or of the constraints, are independent."""
+        return rank_of(
+            np.linalg.svd(self.over_sizes(self.matrix() if rows is None else rows), compute_uv=False)
+        )
+
+    def inverse(self, scaled: FloatArray, rows: FloatArray) -> FloatArray:
+        """Return the pseudo-inverse of rows that were scaled by mass, with the rank of the ``rows`` themselves."""
+        rank = self.rank(rows)
+        u, values, v = np.linalg.svd(scaled, full_matrices=False)
+        return np.asarray((v[:rank].T / values[:rank]) @ u[:, :rank].T)
+
     def step(self, change: FloatArray) -> None:
         """Move the bodies by a change (6 n,), not too far at once."""
         ways = np.abs(change.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
@@ -113,7 +135,7 @@ class System:
             if gap < CLOSED:
                 break
             g, root, length = self.scaled()
-            change, *_ = np.linalg.lstsq(g, -self.entries("residual") / length, rcond=DEPENDENT)
+            change = self.inverse(g, self.matrix()) @ (-self.entries("residual") / length)
             self.step(root @ change)
             gap = self.gap()
         return gap
@@ -187,7 +209,9 @@ class System:
         return Finding(f"joints.{joint.name}", text)
 
     def independence(self) -> tuple[int, FloatArray]:
-        """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
+        """Return how many rows are independent, and the combinations of them, each of length one, that vanish.
+
+        These have shape (m, n_rows).
 
         Taken here and at two positions near by, because where a mechanism is drawn rows may depend on each
         other that elsewhere do not.
@@ -201,7 +225,7 @@ class System:
         rng = np.random.default_rng(1)
         for _ in range(2):
             g, root, _ = self.scaled()
-            free = np.eye(6 * self.n) - np.linalg.pinv(g, rcond=DEPENDENT) @ g
+            free = np.eye(6 * self.n) - self.inverse(g, self.matrix()) @ g
             way = root @ free @ rng.normal(size=6 * self.n)
             ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
             if np.max(ways) > 1.0e-12:
@@ -215,41 +239,44 @@ class System:
         return rank, vanishing
 
     def _rank(self) -> tuple[int, FloatArray]:
-        """Return rank and vanishing combinations of the rows here."""
-        g, _, length = self.scaled()
-        u, values, _ = np.linalg.svd(g)
-        rank = int(np.sum(values > DEPENDENT * values[0]))
-        return rank, u[:, rank:].T / length
+        """Return rank and vanishing combinations of the rows, each of length one, here."""
+        u, values, _ = np.linalg.svd(self.over_sizes(self.matrix()))
+        rank = rank_of(values)
+        return rank, u[:, rank:].T
 
     def start(self, speeds: tuple[tuple[int, str, float], ...]) -> list[Finding]:
         """Fill the velocities that drives and given speeds ask for, with the least kinetic energy."""
-        g, root, length = self.scaled()
-        wanted = [-self.entries("rate") / length] if self.rows else []
-        matrices = [g]
+        root, matrices = self.metric(), [self.matrix()]
+        wanted = [-self.entries("rate")] if self.rows else []
         for k, coordinate, value in speeds:
             coupling, now = self.parts.couplings[k], self.now.couplings[k]
             row = np.zeros(6 * (self.n + 1))
             entry = 5 if coordinate == "angle" else 2
-            given = value * self.description.joints[k].sign
             for side, body in enumerate((coupling.socket, coupling.shaft)):
                 row[6 * body : 6 * body + 6] += now.H[entry, 6 * side : 6 * side + 6]
-            over = row[: 6 * self.n] @ root
-            matrices.append(over[None] / max(float(np.linalg.norm(over)), 1e-300))
-            wanted.append(np.array([given / max(float(np.linalg.norm(over)), 1e-300)]))
+            matrices.append(row[None, : 6 * self.n])
+            wanted.append(np.array([value * self.description.joints[k].sign]))
         if not wanted:
             return []
-        matrix, target = np.vstack(matrices), np.concatenate(wanted)
-        solution, *_ = np.linalg.lstsq(matrix, target, rcond=DEPENDENT)
-        velocity = (root @ solution).reshape(-1, 6)
-        self.now.bodies.v[:-1], self.now.bodies.w[:-1] = velocity[:, :3], velocity[:, 3:]
+        rows, target = np.vstack(matrices), np.concatenate(wanted)
+        scaled = rows @ root
+        length = np.maximum(np.linalg.norm(scaled, axis=1), _TINY)
+        velocity = root @ (self.inverse(scaled / length[:, None], rows) @ (target / length))
+        v = velocity.reshape(-1, 6)
+        self.now.bodies.v[:-1], self.now.bodies.w[:-1] = v[:, :3], v[:, 3:]
         self.refresh()
-        left = float(np.max(np.abs(matrix @ solution - target)))
-        if left > DEPENDENT * float(np.max(np.abs(target), initial=1.0e-300)):
+        left = float(np.max(np.abs(rows @ velocity - target)))
+        if left > DEPENDENT * float(np.max(np.abs(target), initial=_TINY)):
             asked = [self.description.joints[k].name for k, _, _ in speeds]
             text = "no motion has the speeds at the start that drives and joints ask for"
             key = f"joints.{asked[0]}" if asked else "drives"
             return [Finding(key, f"{text}; given are those of {', '.join(asked)}" if asked else text)]
         return []
+
+
+def rank_of(values: FloatArray) -> int:
+    """Return how many of these singular values, falling, are those of independent rows."""
+    return int(np.sum(values > DEPENDENT * np.max(values, initial=0.0)))
 
 
 def row_is_turn(parts: Parts, coupling: int, row: int) -> bool:

@@ -27,7 +27,7 @@ from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
-from tribodyn.mechanisms.general.closing import DEPENDENT, System
+from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.description import Joint
 
 _HELD: Final = {"sphere": "spherical", "ball": "pin-slot"}
@@ -160,9 +160,10 @@ class _Loads:
         self.ideal.start(self.speeds)
         collect(self.ideal.now.bodies, self.state)
         g, self.root, length = self.ideal.scaled()
-        self.wanted = np.linalg.pinv(g, rcond=DEPENDENT) @ (self.ideal.entries("gamma") / length)
-        self.held, _ = _spaces(g)
-        _, allowed = _spaces(self.real.scaled()[0] @ self.held)
+        self.wanted = self.ideal.inverse(g, self.ideal.matrix()) @ (self.ideal.entries("gamma") / length)
+        self.held, _ = _spaces(g, self.ideal.rank())
+        # Where real joints hold something, so do the ideal ones.
+        _, allowed = _spaces(self.real.scaled()[0] @ self.held, self.real.rank())
         self.motions, self.asked = self.root @ self.held @ allowed, allowed.T @ (self.held.T @ self.wanted)
         self.velocity = self.slipping = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
         if not np.any(self._slips() > _MOVING):
@@ -297,10 +298,9 @@ def _contacts(joints: SurfaceData, couplings: IntArray) -> list[_Contact]:
     return found
 
 
-def _spaces(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _spaces(matrix: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:
     """Return orthonormal columns that span the rows of a matrix, and what is at right angles to them."""
-    _, values, rows = np.linalg.svd(matrix)
-    rank = int(np.sum(values > DEPENDENT * np.max(values, initial=0.0)))
+    _, _, rows = np.linalg.svd(matrix)
     return rows[:rank].T, rows[rank:].T
 
 

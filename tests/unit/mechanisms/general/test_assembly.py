@@ -70,6 +70,24 @@ def test_freedoms_and_redundancy(description: Description, freedoms: int, redund
     assert (f"{redundant} constraint" in "".join(assembly.warnings)) == (redundant > 0)
 
 
+@pytest.mark.parametrize("light", [1e-3, 1e-9])
+def test_masses_do_not_decide_what_is_redundant(light: float) -> None:
+    # A bead of nothing between two heavy links: a matter of places, whatever they weigh.
+    links = chain(3)
+    bodies = [
+        replace(body, mass=body.mass * k, inertia=body.inertia * k)
+        for body, k in zip(links.bodies, (1e3, light, 1e3), strict=True)
+    ]
+    speeds = tuple((k, "angle", 1.0) for k in range(3))
+    assembly = assemble(replace(links, bodies=tuple(bodies), speeds=speeds))
+    assembly.require_sound()
+    assert assembly.freedoms == 3
+    assert assembly.redundancy is None
+    # Axes of neighbours stand at right angles.
+    turned = assembly.state.reshape(3, -1)[:, -3:]
+    np.testing.assert_allclose(np.linalg.norm(turned, axis=1), np.sqrt([1.0, 2.0, 5.0]), rtol=1e-6)
+
+
 def test_redundancy_names_the_joints_of_the_loop_alone() -> None:
     loop = four_bar()
     bodies = (*loop.bodies, rod("tail", (0.6, 0.0, 0.0), (0.9, 0.0, 0.0)))
