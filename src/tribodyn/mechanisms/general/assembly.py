@@ -121,6 +121,7 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
         names = dict.fromkeys(description.joints[k].name for k, _ in rows)
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
     system.parts.constants.rank = rank
+    findings += system.unequal(rank)
     findings += system.start(description.speeds)
     moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
     state = np.zeros(N_STATES * len(description.bodies))

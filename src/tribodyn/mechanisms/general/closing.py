@@ -18,11 +18,17 @@ from tribodyn.mechanisms.general.inspection import Finding, sound_drives
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
 DEPENDENT: Final = 1.0e-6
-"""Singular value of rows over ways and turns, relative to the largest, below which they depend on each other."""
+"""Singular value of rows over ways and turns, relative to the largest, below which rows are
+dependent."""
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
+SOLVABLE: Final = 1.0e-9
+"""Square of the least singular value of rows scaled by mass, relative to the largest, with which they can be
+solved: kernels give every row a compliance of 1e-8 and iterate it away three times."""
 _TINY: Final = 1.0e-300
+_TAKES_PART: Final = 0.1
+"""Share of a row in a combination of unit length from which on it counts."""
 _NEAR: Final = 0.03
 """Distance of positions near by, in the same units."""
 
@@ -105,12 +111,11 @@ class System:
 
     def rank(self, rows: FloatArray | None = None) -> int:
         """Return how many of these rows, or of the constraints, are independent."""
-        return rank_of(
-            np.linalg.svd(self.over_sizes(self.matrix() if rows is None else rows), compute_uv=False)
-        )
+        given = self.over_sizes(self.matrix() if rows is None else rows)
+        return rank_of(np.asarray(np.linalg.svd(given, compute_uv=False), np.float64))
 
     def inverse(self, scaled: FloatArray, rows: FloatArray) -> FloatArray:
-        """Return the pseudo-inverse of rows that were scaled by mass, with the rank of the ``rows`` themselves."""
+        """Return the pseudo-inverse of rows that were scaled by mass, of the rank of the ``rows``."""
         rank = self.rank(rows)
         u, values, v = np.linalg.svd(scaled, full_matrices=False)
         return np.asarray((v[:rank].T / values[:rank]) @ u[:, :rank].T)
@@ -209,9 +214,9 @@ class System:
         return Finding(f"joints.{joint.name}", text)
 
     def independence(self) -> tuple[int, FloatArray]:
-        """Return how many rows are independent, and the combinations of them, each of length one, that vanish.
+        """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
 
-        These have shape (m, n_rows).
+        They combine rows of length one.
 
         Taken here and at two positions near by, because where a mechanism is drawn rows may depend on each
         other that elsewhere do not.
@@ -243,6 +248,23 @@ class System:
         u, values, _ = np.linalg.svd(self.over_sizes(self.matrix()))
         rank = rank_of(values)
         return rank, u[:, rank:].T
+
+    def unequal(self, rank: int) -> list[Finding]:
+        """Return a finding where bodies that ideal joints tie differ too much in mass for their equations."""
+        places = np.linalg.svd(self.over_sizes(self.matrix()), compute_uv=False)
+        u, values, _ = np.linalg.svd(self.scaled()[0])
+        shares = [0.0 if rank == 0 else float(v[rank - 1] / v[0]) ** 2 for v in (values, places)]
+        if rank == 0 or shares[0] >= SOLVABLE or shares[1] < SOLVABLE:
+            return []
+        rows = np.flatnonzero(np.abs(u[:, rank - 1]) > _TAKES_PART)
+        tied = {b for i in rows for b in self.description.joints[self.rows[i][0]].bodies if b != GROUND}
+        light, heavy = (pick(tied, key=lambda b: self.description.bodies[b].mass) for pick in (min, max))
+        first, second = self.description.bodies[light], self.description.bodies[heavy]
+        text = (
+            f"{first.name} with {first.mass:.3g} kg is too light beside {second.name} with {second.mass:.3g} "
+            "kg for the ideal joints that tie them: give it more mass, or make a joint of it a spring-damper"
+        )
+        return [Finding(f"bodies.{first.name}.mass", text)]
 
     def start(self, speeds: tuple[tuple[int, str, float], ...]) -> list[Finding]:
         """Fill the velocities that drives and given speeds ask for, with the least kinetic energy."""

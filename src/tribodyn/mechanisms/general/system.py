@@ -22,7 +22,7 @@ from tribodyn.mechanisms.general.describe import describe
 from tribodyn.mechanisms.general.description import Clearance, Description
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
-from tribodyn.mechanisms.general.problem import mechanism_problem, stored_energy
+from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import AXES, BODIES, ENTRIES, JOINTS, Observed, observed
 from tribodyn.mechanisms.playback import frame_times, shown
@@ -140,7 +140,7 @@ class MechanismSystem:
         """Return what the mechanism knows about a run."""
         found = self._observed(run)
         ledger = ledger_columns(found.whole)
-        energy = WHOLE.fraction(ledger)
+        energy = WHOLE.fraction(ledger, self._least_energy(found))
         peaks = self._peaks(run)
         return Part(
             coordinates=self._coordinates(run),
@@ -166,6 +166,16 @@ class MechanismSystem:
                 cost=run.cost,
             ),
             failure=run.solution.failure or "",
+        )
+
+    def _least_energy(self, found: Observed) -> float:
+        """Return the work of the largest force over the way to which positions are resolved [J].
+
+        Where nothing moves there is no more to balance than that.
+        """
+        forces = JOINTS["reaction_force"].values(found.couplings)
+        return (
+            float(np.max(np.abs(forces), initial=0.0)) * self.case.solver.rtol * length_scale(self.assembly)
         )
 
     def _began(self, run: Run) -> dict[str, str]:
