@@ -1,8 +1,7 @@
 """Random mechanisms, each from its seed: chains, stars and loops of all joints, ideal or with clearance.
 
-Bodies are bars of steel-like proportions between the points of a random drawing. What moves them, drives,
-weights, loads, springs and speeds at the start, is drawn with them. ``SPOILED`` makes mechanisms wrong or extreme
-on purpose.
+Bodies are bars between the points of a random drawing. What moves them, drives, weights, loads, springs,
+is drawn with them. ``SPOILED`` makes mechanisms wrong or extreme on purpose.
 """
 
 from __future__ import annotations

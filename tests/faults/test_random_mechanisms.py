@@ -1,7 +1,7 @@
 """Random mechanisms of any joints: each runs and obeys mechanics, or is refused in words.
 
-What a run says of itself, ledgers and residuals, is not taken for granted: joints are put together anew from the
-motion of the bodies, and every body that nothing but joints and weight acts on obeys Newton's law.
+What a run says of itself, ledgers and residuals, is not taken for granted: joints are put together anew from
+the motion of the bodies, and every body that nothing but joints and weight acts on obeys Newton's law.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from tribodyn.simulation import simulate
 CLOSED = 1e-10
 """Distance [m] and sine of an angle that no joint may come apart by."""
 BALANCED = 1e-7
-"""Force missing in Newton's law over the largest one: rounding, 1e-14, but where masses differ by millions."""
+"""Force missing in Newton's law over the largest one: 1e-14, more where masses differ by millions."""
 REST = 1e-9
-"""Way that is none [m]: energies are then the rounding of forces that balance, and a run says that it misses them."""
+"""Way that is none [m]: energies are then the rounding of forces that balance, and a run says so."""
 PATIENCE = 120.0
 """Time after which a run counts as one that hangs [s]; bodies of 1e-8 kg among others take a minute."""
 TOO_LIGHT = "is too light beside"
@@ -135,14 +135,14 @@ def at_rest(result: xr.Dataset) -> bool:
 
 
 def complaint(seed: int) -> str:
-    """Run the mechanism of a seed; return what is wrong, nothing where it is sound or refused as it must be."""
+    """Run the mechanism of a seed; return what is wrong, nothing where it is sound or must be refused."""
     drawing, words = drawn(seed)
     began = time.monotonic()
     try:
         result = simulate(drawing.case(), stop=lambda: time.monotonic() - began > PATIENCE)
     except InputError as error:
         said = str(error)
-        return "" if words and words in said or TOO_LIGHT in said else f"refused: {said}"
+        return "" if (words and words in said) or TOO_LIGHT in said else f"refused: {said}"
     return f"not refused: {words}" if words else "; ".join(wrong(drawing, result))
 
 
