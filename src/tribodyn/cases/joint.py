@@ -26,8 +26,8 @@ class LinerKeys(Group):
         None, "Poisson's ratio; by default that of the bushing", ASSUMED, gt=0, lt=0.5, example="0.34"
     )
 
-    def layer(self, bushing: Bushing) -> Liner | None:
-        """Return the layer, or None where the bushing is rigid below its asperities."""
+    def layer(self, bushing: Bushing, key: str = "joint.liner") -> Liner | None:
+        """Return the layer, or None where the bushing is rigid below its asperities; ``key`` is its table."""
         from tribodyn.contact import Liner
 
         if self.thickness is None:
@@ -36,7 +36,7 @@ class LinerKeys(Group):
         ratio = bushing.poisson_ratio if self.poisson_ratio is None else self.poisson_ratio
         demand(
             ratio < 0.5,
-            "joint.liner.poisson_ratio",
+            f"{key}.poisson_ratio",
             "a thin layer that cannot change its volume does not yield: below 0.5 is needed",
         )
         return Liner(self.thickness, modulus, ratio)

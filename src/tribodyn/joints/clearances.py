@@ -9,13 +9,13 @@ from typing import Final, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tribodyn.contact import tabulate
+from tribodyn.contact import Liner
 from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.core.tables import ContactTable
-from tribodyn.joints.point_contact import SURFACE, point_table
+from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
 from tribodyn.joints.shapes import SHAPES, Shape, Surface
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
@@ -106,11 +106,17 @@ def shape_of(clearance: Clearance) -> Shape:
 
 
 def table_of(
-    contact: str, law: ContactLaw, shape: Shape, *, onset: float, smoothing_width: float
+    contact: str,
+    law: ContactLaw,
+    shape: Shape,
+    *,
+    onset: float,
+    smoothing_width: float,
+    liner: Liner | None = None,
 ) -> ContactTable:
     """Return the contact table of a shape; arguments as for ``joints.contact_table``."""
     if contact == SURFACE:
-        return tabulate(law, onset=onset, smoothing_width=smoothing_width)
+        return surface_table(law, onset=onset, smoothing_width=smoothing_width, liner=liner)
     points = shape.points()
     if not points.length and contact != SPHERE:
         raise InputError(f"{contact} is for cylinders; a ball has {SPHERE}", key="contact")

@@ -108,9 +108,16 @@ def contact_table(
         What the asperities stand on, if it is not rigid; below a point contact it is.
     """
     if contact == SURFACE:
-        table = tabulate(law, onset=onset, smoothing_width=smoothing_width)
-        return table if liner is None else lined(table, liner.stiffness * law.pair.roughness_rms)
+        return surface_table(law, onset=onset, smoothing_width=smoothing_width, liner=liner)
     return point_table(contact, law, cylinders)
+
+
+def surface_table(
+    law: ContactLaw, *, onset: float, smoothing_width: float, liner: Liner | None
+) -> ContactTable:
+    """Tabulate the pressure over the surface; arguments as for :func:`contact_table`."""
+    table = tabulate(law, onset=onset, smoothing_width=smoothing_width)
+    return table if liner is None else lined(table, liner.stiffness * law.pair.roughness_rms)
 
 
 def point_table(name: str, law: ContactLaw, cylinders: Cylinders, points: int = 2) -> ContactTable:

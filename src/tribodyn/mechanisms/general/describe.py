@@ -70,7 +70,7 @@ def _joint(case: MechanismCase, name: str, joint: JointKeys, bodies: Mapping[str
         bodies=_two(joint.between, bodies),
         points=np.array([joint.point, joint.other_point or joint.point]),
         axes=_axes(joint),
-        clearance=None if clearance is None else _clearance(case, joint, clearance),
+        clearance=None if clearance is None else _clearance(case, name, joint, clearance),
         stiffness=_six(joint, joint.stiffness, joint.angular_stiffness),
         damping=_six(joint, joint.damping, joint.angular_damping),
     )
@@ -96,8 +96,9 @@ def _six(joint: JointKeys, along: Vector | None, about: Vector | None) -> FloatA
     return np.array([*(along or (0.0,) * 3), *(about or (0.0,) * 3)])
 
 
-def _clearance(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) -> Clearance:
+def _clearance(case: MechanismCase, name: str, joint: JointKeys, clearance: ClearanceKeys) -> Clearance:
     contact, surfaces = _pair(case, clearance)
+    soft = (case if clearance.pair is None else case.pairs[clearance.pair]).surfaces.bushing
     given = {key: getattr(clearance, key) for key in SIZES[joint.shape]}
     sizes = {key: float(size) for key, size in given.items() if size is not None}
     if clearance.has_faces and clearance.flange is None:
@@ -118,6 +119,7 @@ def _clearance(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) 
             SHAPES[joint.shape](**sizes, **({"facets": facets} if facets.size else {})),
             onset=contact.onset_separation,
             smoothing_width=contact.smoothing_width,
+            liner=clearance.liner.layer(soft, f"joints.{name}.clearance.liner"),
         ),
         friction_coefficient=clearance.friction_coefficient,
         slip_velocity=clearance.slip_velocity,

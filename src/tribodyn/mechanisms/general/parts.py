@@ -21,8 +21,11 @@ from tribodyn.cases.fields import (
     switch,
     vector,
 )
+from tribodyn.cases.joint import LinerKeys
 from tribodyn.mechanisms.general.kinds import KINDS
 
+SURFACE: Final = "surface"
+"""The contact that is over the surface."""
 NEEDED: Final = {
     "cylinder": {"radius": "its radius", "radial": "its clearance", "length": "the length of the bore"},
     "sphere": {"radius": "its radius", "radial": "its clearance"},
@@ -123,7 +126,7 @@ class ClearanceKeys(NamedGroup):
         "1 mm/s", "slip at which traction is fully developed u_s", "assumed", gt=0
     )
     contact: str = choice(
-        "surface", "over the surface, or at a point", "assumed", family="tribodyn.joints:CONTACTS"
+        SURFACE, "over the surface, or at a point", "assumed", family="tribodyn.joints:CONTACTS"
     )
     pair: str | None = name(
         None,
@@ -131,6 +134,7 @@ class ClearanceKeys(NamedGroup):
         "",
         example="steel-ptfe",
     )
+    liner: LinerKeys = LinerKeys()
     ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "assumed")
     nodes_around: int | None = count(
         None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
@@ -142,6 +146,11 @@ class ClearanceKeys(NamedGroup):
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several sizes."""
         demand(len(self.facets or ()) % 9 == 0, "facets", "a triangle has nine coordinates")
+        demand(
+            self.contact == SURFACE or self.liner.thickness is None,
+            "liner.thickness",
+            'a contact at points stands on no liner: contact = "surface" is needed',
+        )
         if self.radius is None or self.radial is None:
             return
         demand(

@@ -12,7 +12,9 @@ from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
 
 import tribodyn as td
 from tribodyn.mechanisms import results
+from tribodyn.mechanisms.bushing import bushing_of
 from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanisms.general.describe import describe
 
 PLAIN = parsed(
     IDEAL.split("[pairs")[0] + '[drives.motor]\njoint = "main"\nspeed = "5000 rpm"\n[run]\ncycles = 1\n'
@@ -94,6 +96,22 @@ def test_a_load_follows_the_angle_of_the_second_body_whichever_carries_the_socke
     assert turned[0] > 0.5
     # With clearance to the scatter of contact at the default tolerance.
     assert turned[1] == pytest.approx(turned[0], rel=1e-2 if real else 1e-9)
+
+
+def test_a_liner_is_that_of_the_vane_mechanism() -> None:
+    free = td.load_case("vsv-free").replace({"joints.trunnion.clearance.liner.thickness": "1 mm"})
+    vane = td.load_case("vsv").replace({"joint.liner.thickness": "1 mm"})
+    joint = next(joint for joint in describe(free).joints if joint.clearance is not None)
+    for found, wanted in zip(joint.clearance.table, bushing_of(vane).table, strict=True):
+        np.testing.assert_array_equal(found, wanted)
+
+
+def test_a_pin_on_a_liner_sinks_deeper_and_misses_no_energy() -> None:
+    hard, soft = (td.simulate(bob(liner=liner).case()) for liner in ({}, {"thickness": "2 mm"}))
+    down = [float(result["displacement"].sel(joint="pivot").isel(time=0).max()) for result in (hard, soft)]
+    assert down[1] > down[0] + 1e-9
+    assert soft.attrs["energy_residual"] < 1e-3
+    assert float(soft["pressure_max"].isel(time=0).max()) < float(hard["pressure_max"].isel(time=0).max())
 
 
 def test_a_clearance_may_be_kept_for_later() -> None:
