@@ -64,7 +64,7 @@ def execute(args: Namespace) -> int:
         raise InputError(
             f"{as_given(args.vary)}; allowed: PATH=A..B, such as joint.clearance=10..60um", key="--vary"
         )
-    asked = question(case, path, values, limit(args.until, case.kind(), "--until"))
+    asked = question(case, path, values, limit(args.until, case, "--until"))
     directory = OutputDirectory(f"find-{Path(args.case).stem}" if args.output is None else args.output)
     with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
         last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")

@@ -29,6 +29,7 @@ from tribodyn.core.quoting import as_given, meant
 if TYPE_CHECKING:
     import xarray as xr
 
+    from tribodyn.cases import Case
     from tribodyn.studies import Arrival, Means, Plan, Tls
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
@@ -105,8 +106,8 @@ def execute(args: Namespace) -> int:
 
     console = Console.of(args)
     case = chosen_case(args)
-    shown = _shown(args.show, case.kind())
-    limits = [limit(text, case.kind(), "--limit") for text in args.limits]
+    shown = _shown(args.show, case)
+    limits = [limit(text, case, "--limit") for text in args.limits]
     plan = make_plan(case, _variations(args.vary), Sampling(args.samples, args.method, args.seed))
     means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
     directory = OutputDirectory(folder)
@@ -155,12 +156,12 @@ def _finite(numbers: dict[str, float]) -> dict[str, float]:
     return {name: value for name, value in numbers.items() if math.isfinite(value)}
 
 
-def _shown(asked: str | None, kind: str) -> list[str]:
+def _shown(asked: str | None, case: Case) -> list[str]:
     """Return the names of the headline numbers that the user wants to see."""
-    from tribodyn.mechanisms.results import headlines_of
+    from tribodyn.mechanisms.results import headlines_of_case
 
     names = [name.strip() for name in (asked or "").split(",") if name.strip()]
-    known = headlines_of(kind)
+    known = headlines_of_case(case)
     for name in names:
         if name not in known:
             raise InputError(

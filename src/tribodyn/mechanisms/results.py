@@ -7,6 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from tribodyn.cases.case import Case
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.base import Mechanism
 from tribodyn.mechanisms.catalogue import MECHANISMS
@@ -65,6 +66,12 @@ def headlines_of(kind: str) -> dict[str, Headline]:
     chosen = [MECHANISMS[kind]] if kind in MECHANISMS else list(MECHANISMS.values())
     own = {name: headline for mechanism in chosen for name, headline in mechanism.headlines.items()}
     return own | summary.EFFORT
+
+
+def headlines_of_case(case: Case) -> dict[str, Headline]:
+    """Return the headline numbers of the results of a case, those of each of its joints among them."""
+    known = MECHANISMS[case.kind()].headlines_of(getattr(case, "joints", ()))
+    return known | summary.EFFORT
 
 
 def key_numbers_of(kind: str) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from tribodyn.cases.units import with_shared_unit
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.results import headlines_of
+from tribodyn.mechanisms.results import headlines_of_case
 from tribodyn.results.headline import Headline
 from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
@@ -70,7 +70,7 @@ class Question:
     @property
     def headline(self) -> Headline:
         """What is known of the number."""
-        return headlines_of(self.case.kind())[self.until.name]
+        return headlines_of_case(self.case)[self.until.name]
 
 
 @dataclass
@@ -208,7 +208,7 @@ def find(
         The number does not pass the limit, or a run failed.
     """
     chosen = case if isinstance(case, Case) else load_case(case)
-    asked = question(chosen, vary, between, limit(until, chosen.kind(), "until"))
+    asked = question(chosen, vary, between, limit(until, chosen, "until"))
     with TemporaryDirectory() as place:
         means = Means(workers=workers, keep_results=False)
         return Search(asked, Path(directory or place), means, Watcher()).root(within)
@@ -253,8 +253,8 @@ def _read(key: Key, text: str) -> float:
     return value
 
 
-def limit(text: str, kind: str, option: str) -> Limit:
-    """Return a limit that is written ``NAME=NUMBER``, the number in the unit of the headline number.
+def limit(text: str, case: Case, option: str) -> Limit:
+    """Return a limit on a number of a case, written ``NAME=NUMBER``, in the unit of the headline number.
 
     A part of the name will do: ``contact_max_N`` is ``contact_force_max_N``, the first with all its words.
 
@@ -264,7 +264,7 @@ def limit(text: str, kind: str, option: str) -> Limit:
         There is no such headline number, or what follows is no number.
     """
     name, equals, number = (part.strip() for part in text.partition("="))
-    known = headlines_of(kind)
+    known = headlines_of_case(case)
     words = name.split("_")
     full = name if name in known else next((n for n in known if set(words) <= set(n.split("_"))), None)
     try:

@@ -12,8 +12,8 @@ from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.results import headlines_of_case
 from tribodyn.results import Headline
-from tribodyn.results.summary import EFFORT
 from tribodyn.workbench.controls import controls
 from tribodyn.workbench.cost import Costs
 from tribodyn.workbench.crew import Crew, Failed, Job
@@ -198,7 +198,7 @@ class Bench:
     def _headlines(self) -> list[dict[str, Any]]:
         """Return the headline numbers, those that hold first: impacts depend on what was before."""
         key = self.mechanism.key_numbers
-        known = self.mechanism.headlines_of(getattr(self.origin.case, "joints", ())) | EFFORT
+        known = headlines_of_case(self.origin.case)
         found = [_headline(name, about, name in key) for name, about in known.items()]
         return sorted(found, key=lambda number: (not number["robust"], not number["key"]))
 

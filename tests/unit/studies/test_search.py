@@ -11,7 +11,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.studies.search import Limit, question
+from tribodyn.studies.search import Limit, limit, question
 
 FIND = ["find", "vsv", "--vary", "joint.clearance=10..29 um", "--until"]
 
@@ -62,6 +62,15 @@ def test_a_component_of_a_vector_is_asked_for_by_its_name() -> None:
         td.load_case("slider-crank"), "gravity.z", "-10..-9 m/s^2", Limit("energy_residual", 0.1)
     )
     assert (asked.key.path, asked.low, asked.high) == ("gravity.z", -10.0, -9.0)
+
+
+def test_a_number_of_a_joint_is_asked_for_by_its_name() -> None:
+    crank = td.load_case("slider-crank")
+    until = limit("offset_max_um_wrist=30", crank, "--until")
+    asked = question(crank, "joints.wrist.clearance.radial", "20..60 um", until)
+    assert asked.headline.label == "Offset, largest, wrist"
+    with pytest.raises(InputError, match='did you mean "offset_max_um_wrist"'):
+        limit("offset_max_um_wrisd=30", crank, "--until")
 
 
 def test_the_command_prints_the_answer(
