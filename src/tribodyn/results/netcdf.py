@@ -11,12 +11,15 @@ from typing import Any, Final
 import netCDF4
 import numpy as np
 import xarray as xr
+from xarray.backends import NetCDF4DataStore
 
 from tribodyn.core.quoting import brief
 
 _ONE_AT_A_TIME: Final = threading.Lock()
 _MARK: Final = b"\ntribodyn crc32 "
 """Stands behind the NetCDF file, before the checksum of all of it; what reads NetCDF does not look there."""
+_FIRST_ROOM: Final = 1024
+"""What a file in memory begins with [bytes]; it grows."""
 _DIGITS: Final = 8
 _CHARACTER: Final = 4
 """Bytes that a character of a text takes in an array."""
@@ -39,7 +42,10 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
     encoding = {name: {"fletcher32": True} for name, values in dataset.variables.items() if _summable(values)}
     # The NetCDF library is for one thread at a time, and xarray does not see to that for a file in memory.
     with _ONE_AT_A_TIME:
-        content = bytes(dataset.to_netcdf(engine="netcdf4", encoding=encoding))
+        file = netCDF4.Dataset("result", mode="w", memory=_FIRST_ROOM)
+        # As to_netcdf does it, which would load all of distributed to find out that nobody uses it.
+        dataset.dump_to_store(NetCDF4DataStore(file), encoding=encoding)
+        content = bytes(file.close())
     return content + _MARK + _checksum(content)
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import Final, TypeAlias
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.surfaces.holes import filled

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.surfaces.holes import filled
