@@ -7,7 +7,8 @@ DEMO := out/demo
 DOCS := docs/_build/html
 # Every script that draws for the manual; demo.py draws for the README, on demand.
 PLOTS := $(filter-out docs/plots/demo.py,$(wildcard docs/plots/*.py))
-PYTEST := $(BIN)/python -m pytest -n 2
+# One more than there are cores: many tests wait for processes that they watch.
+PYTEST := $(BIN)/python -m pytest -n 3
 
 .DELETE_ON_ERROR:
 .PHONY: help demo assumptions test test-long golden lint format docs bench lock clean

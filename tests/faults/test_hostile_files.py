@@ -22,7 +22,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.mechanisms.catalogue import load_case
 
-FEW, MANY = 30, 5000
+FEW, MANY = 15, 5000
 Maker = Callable[[Path, random.Random], None]
 
 

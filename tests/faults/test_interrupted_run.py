@@ -14,7 +14,18 @@ from tribodyn.mechanisms.results import read
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_stopped_run_saves_what_it_has(number: signal.Signals, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "tribodyn", "run", "vsv", "--set", "run.cycles=4", "-o", "out"]
+    command = [
+        sys.executable,
+        "-m",
+        "tribodyn",
+        "run",
+        "vsv",
+        "--set",
+        "run.cycles=4",
+        "--no-figures",
+        "-o",
+        "out",
+    ]
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=tmp_path
     )

@@ -57,7 +57,9 @@ def test_a_load_that_the_contact_cannot_carry_stops_the_run_and_is_explained(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     target = tmp_path / "out"
-    assert main(["run", "journal-dry", "--set", "loads.force_x=200 kN", "-o", str(target)]) == 1
+    assert (
+        main(["run", "journal-dry", "--set", "loads.force_x=200 kN", "--no-figures", "-o", str(target)]) == 1
+    )
     message = capsys.readouterr().err
     assert "closer than the contact law reaches (-4 sigma)" in message
     summary = json.loads((target / "summary.json").read_text(encoding="utf-8"))

@@ -22,7 +22,7 @@ from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
-FEW, MANY = 12, 2000
+FEW, MANY = 8, 2000
 DRAWN = 0.2
 """Share of the runs whose figures are drawn too, which takes thirty times as long as all else."""
 Mutation = Callable[[xr.Dataset, str], xr.Dataset]

@@ -9,8 +9,13 @@ import pytest
 
 from benchmarks.__main__ import NAMES
 
+LASTING = ("long_run", "vsv", "workbench")
+"""These take many seconds even so."""
 
-@pytest.mark.parametrize("name", NAMES)
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.long) if name in LASTING else name for name in NAMES]
+)
 def test_a_benchmark_runs(name: str) -> None:
     found = importlib.import_module(f"benchmarks.{name}").run(quick=True)
     assert found

@@ -101,7 +101,7 @@ def chain(n, own, compiled=True, breakpoints=(0.5,)):
     )
 
 
-@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize("compiled", [pytest.param(True, marks=pytest.mark.long), False])
 def test_its_own_algebra_takes_the_steps_of_the_dense_one(compiled):
     times = np.linspace(0.0, 1.0, 6)
     runs = [integrate(chain(30, own, compiled), rtol=1e-6, output_times=times) for own in (False, True)]
