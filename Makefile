@@ -5,8 +5,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 DEMO := out/demo
 DOCS := docs/_build/html
-# Every script that draws for the manual; demo.py draws for the README, on demand.
-PLOTS := $(filter-out docs/plots/demo.py,$(wildcard docs/plots/*.py))
+# Every script that draws for the manual; demo.py and tour.py draw what is kept, on demand.
+PLOTS := $(filter-out docs/plots/demo.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
+DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
+PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
 # One more than there are cores: many tests wait for processes that they watch.
 PYTEST := $(BIN)/python -m pytest -n 3
 
@@ -60,9 +62,18 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 docs: $(VENV)/.docs
-	echo $(PLOTS) | tr ' ' '\n' | xargs -P 2 -I {} $(BIN)/python {} docs/_static/generated
+	$(MAKE) --jobs 2 $(DRAWN) docs/_build/unread
 	$(BIN)/sphinx-build -W --keep-going -j 2 -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
+
+# What the program draws and prints for the manual is made anew where the program has changed.
+docs/_build/drawn/%: docs/plots/%.py $(PROGRAM)
+	$(BIN)/python $< docs/_static/generated
+	@mkdir -p $(@D) && touch $@
+
+docs/_build/unread: $(PROGRAM)
+	rm -rf $(DOCS)/.doctrees
+	@mkdir -p $(@D) && touch $@
 
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks.work_precision
