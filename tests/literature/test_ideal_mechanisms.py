@@ -68,7 +68,8 @@ def test_slider_crank_on_stiff_springs_tends_to_ideal_joints_with_their_stiffnes
 
 
 def test_two_four_bars_pass_the_position_where_constraints_degenerate() -> None:
-    result = run(two_four_bars(), np.linspace(0.0, 10.0, 101), RTOL)
+    # What passes near the degenerate position is magnified: 1.3e-7 at RTOL, and in proportion to it.
+    result = run(two_four_bars(), np.linspace(0.0, 10.0, 101), RTOL / 5.0)
     place = 2.0 * np.array([result.body(0, "x"), result.body(0, "y")])
     speed = 2.0 * np.array([result.body(0, "v_x"), result.body(0, "v_y")])
     for found, wanted in (

@@ -179,4 +179,14 @@ class _KernelCache(caching.FunctionCache):
             self._impl.locator.ensure_cache_path()
             with locked(place):
                 if fingerprint() == place.name:
-                    super().save_overload(signature, compiled)
+                    self._save(signature, compiled)
+
+    def _save(self, signature: Any, compiled: Any) -> None:
+        try:
+            super().save_overload(signature, compiled)
+        except OSError:
+            raise
+        except Exception:
+            # Another process has kept it for types of a package that this one does not have.
+            self.flush()
+            super().save_overload(signature, compiled)

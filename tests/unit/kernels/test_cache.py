@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
+import pickle
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
@@ -56,6 +57,18 @@ def test_damaged_files_are_compiled_again_and_mended(place: Path, pattern: str) 
     again, later = compiled(), compiled()
     assert again(2.0) == later(2.0) == 4.0
     assert (misses(again), misses(later)) == (1, 0)
+
+
+def test_an_index_of_types_that_are_unknown_here_is_written_anew(place: Path) -> None:
+    function = compiled()
+    function(2.0)
+    (index,), ((signature, code),) = place.glob("*.nbi"), function.overloads.items()
+    # As another process leaves it that knows more packages, between reading it and saving.
+    index.write_bytes(pickle.dumps(nb.__version__, protocol=-1) + b"cno_such_package\nNumber\n.")
+    function._cache.save_overload(signature, code)
+    later = compiled()
+    assert later(2.0) == 4.0
+    assert misses(later) == 0
 
 
 def test_a_folder_that_another_process_removed_is_made_again(place: Path) -> None:

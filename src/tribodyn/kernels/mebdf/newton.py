@@ -61,6 +61,7 @@ from tribodyn.kernels.mebdf.state import (
     F_1,
     F_2,
     FACTORED,
+    FAILURES,
     FINITE,
     FIXED,
     FORGET,
@@ -114,6 +115,10 @@ from tribodyn.kernels.mebdf.state import (
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
+LATE: Final = 5
+"""Failures in a row after which an error may be that of the algebraic values which the step starts from."""
+FORGIVEN: Final = 10.0
+"""Most that such values may be wrong, in units of the tolerance."""
 
 
 @inlined
@@ -278,7 +283,7 @@ def iterate(
         if verdict == UNPROVED or (verdict == SOLVED and places.size > 0):
             verdict = judge_algebraic(rows, places, real[SCALED])
     if verdict == SOLVED:
-        finish_stage(real, count, rows, error_weight(places))
+        finish_stage(real, count, rows, mass, places)
         return 0
     if verdict in (DIVERGED, FALSE) or count[ITERATION] >= MAX_ITERATIONS[count[STAGE]]:
         if verdict == FALSE:
@@ -377,14 +382,20 @@ def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool
 
 
 @inlined
-def finish_stage(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weight: int) -> None:
+def finish_stage(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
-    stage = count[STAGE]
+    stage, weight = count[STAGE], error_weight(places)
     count[PHASE] = START_STAGE
     count[STAGE] = stage + 1
     if stage == 1:
         _keep(real, rows, Y_1, F_1)
-        _test_error(real, count, rows, weight)
+        _test_error(real, count, rows, mass, places)
     elif stage == 2:
         _keep(real, rows, Y_2, F_2)
     else:
@@ -406,14 +417,43 @@ def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
 
 
 @inlined
-def _test_error(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weight: int) -> None:
+def _test_error(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> None:
     """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
-    k = count[K]
+    k, weight = count[K], error_weight(places)
     push(rows, Y_1, k + 2, STAGE_HISTORY)
     error = SCALARS[k, 3] * norm(rows, STAGE_HISTORY + k + 1, weight)
     real[ERROR] = error
-    if error > 1.0 and count[FIXED] == 0:
+    if error > 1.0 and count[FIXED] == 0 and not _is_of_the_start(count, rows, mass, places, error):
         shrink = 1.0 / (real[SHRINK] * error ** (1.0 / (k + 1)))
         reject(real, count, rows, min(0.9, max(0.1, shrink)), STAGE_HISTORY + k + 1, weight)
     elif count[LAST] == 1:
         count[PHASE] = ACCEPT
+
+
+@inlined
+def _is_of_the_start(
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+    error: float,
+) -> bool:
+    """Tell whether an error is that of the algebraic values which the step starts from.
+
+    They may have been left beside their equations by more than a tolerance. No step is so short that it
+    would not lead back to them; M y, which has an error of its own, hardly changes in it.
+    """
+    k = count[K]
+    if places.size == 0 or count[FAILURES] < LATE or k > 1 or error > FORGIVEN:
+        return False
+    for i in range(rows.shape[1]):
+        change = SCALARS[k, 3] * product(mass, places, rows, STAGE_HISTORY + k + 1, i)
+        if abs(change) * rows[ROW_WEIGHT, i] > 1.0:
+            return False
+    return True
