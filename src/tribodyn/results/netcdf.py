@@ -44,7 +44,8 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
     with _ONE_AT_A_TIME:
         file = netCDF4.Dataset("result", mode="w", memory=_FIRST_ROOM)
         # As to_netcdf does it, which would load all of distributed to find out that nobody uses it.
-        dataset.dump_to_store(NetCDF4DataStore(file), encoding=encoding)
+        store = NetCDF4DataStore(file)  # type: ignore[no-untyped-call]
+        dataset.dump_to_store(store, encoding=encoding)
         content = bytes(file.close())
     return content + _MARK + _checksum(content)
 
