@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass, field
+from statistics import median
 from typing import Final
 
 from tribodyn.cases.case import Case
@@ -13,6 +15,8 @@ from tribodyn.core.errors import InputError
 
 MOST_ROWS: Final = 100_000
 """Rows of a result that a page is sent, at most."""
+_LAST: Final = 5
+"""How many runs say what the next one takes: one alone, that the machine held up, would say too much."""
 _NO_GRID: Final = ("run", "wear")
 """Tables whose whole numbers do not say how fine a grid is."""
 _TOLERANCE_POWER: Final = -0.2
@@ -26,21 +30,21 @@ class Costs:
     Attributes
     ----------
     seconds
-        Of the last run with these equations, for a case of size one.
+        Of the last runs with these equations, for a case of size one.
     """
 
-    seconds: dict[Choices, float] = field(default_factory=dict)
+    seconds: dict[Choices, deque[float]] = field(default_factory=dict)
 
     def note(self, case: Case, seconds: float) -> None:
         """Remember what a run took."""
-        self.seconds[choices_of(case)] = seconds / size(case)
+        self.seconds.setdefault(choices_of(case), deque(maxlen=_LAST)).append(seconds / size(case))
 
     def expected(self, case: Case) -> float | None:
         """Return what a run will take [s], as if all equations cost the same; None before any run."""
         if not self.seconds:
             return None
         last = next(reversed(self.seconds.values()))
-        return self.seconds.get(choices_of(case), last) * size(case)
+        return median(self.seconds.get(choices_of(case), last)) * size(case)
 
 
 def size(case: Case) -> float:

@@ -40,6 +40,8 @@ _UNDRAWN: Final = 5.0
 """Time after which a page that says nothing is taken to have drawn [s]."""
 _CALM: Final = 0.3
 """Time without a wish after which neighbours are computed [s]."""
+_UNHURRIED: Final = 0.25
+"""Time between two looks at wishes that are not granted while a slider is dragged [s]."""
 _TOLD: Final = 1.0
 """Expected time from which a page is told what it waits for [s]."""
 
@@ -188,6 +190,7 @@ class Desk:
         if not reason and expected > self.bench.rules.dragged and not wish.rest:
             words = f"a run takes about {in_words(expected)}: it begins when you let go"
             self._state("waiting", words, expected, wish.number)
+            await asyncio.sleep(_UNHURRIED)
             return False
         if expected > _TOLD:
             self._state("running", "", expected, wish.number)

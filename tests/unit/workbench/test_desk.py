@@ -131,7 +131,12 @@ async def test_what_would_take_long_is_asked_before_and_too_long_is_refused() ->
         await page.run(3, {"solver.grid.theta": 4096})
         assert (await page.until("state"))["state"] == "waiting"
         assert len(crew.made) == made
+        # Each look at a wish reads a case anew: a slider that is dragged on must not keep the server busy.
+        for place in range(30):
+            await page.run(3, {"solver.grid.theta": 4066 + place})
+            await asyncio.sleep(0.002)
         await page.run(4, many, rest=True, agreed=True)
+        assert (await page.until("state"))["state"] == "running"
         assert (await page.picture()).number == 4
         await page.run(5, {"run.cycles": 5000}, rest=True)
         assert (await page.until("refused"))["faults"][0]["key"] == "run.output_interval"
