@@ -58,6 +58,19 @@ class Camera {
   }
 }
 
+/** Make the stage of a figure that keys and the pointer turn. */
+function turnableStage(box) {
+  const moved = (change) => {
+    change(stage.camera);
+    stage.draw();
+  };
+  const hint = "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.";
+  const area = plotArea(box, isNarrow() ? 320 : 430, cameraKeys(moved), hint);
+  const stage = new Stage(area);
+  cameraPointer(area, moved);
+  return stage;
+}
+
 /** Return what keys do in a scene. */
 function cameraKeys(moved) {
   const turn = (around, rise) => () => moved((camera) => camera.turn(around, rise));

@@ -38,9 +38,13 @@ class Lines {
       box,
       this.legend,
       element("span", { class: "gap" }),
-      button("Zoom in", () => this.zoom(0.5)),
-      button("Zoom out", () => this.zoom(2)),
-      button("Whole", () => this.whole()),
+      element(
+        "span",
+        { class: "buttons" },
+        button("Zoom in", () => this.zoom(0.5)),
+        button("Zoom out", () => this.zoom(2)),
+        button("Whole", () => this.whole()),
+      ),
     );
     this.note = element("p", { class: "readout" });
     box.append(this.note);

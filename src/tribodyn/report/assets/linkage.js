@@ -4,14 +4,7 @@
 const THICK = { rod: 0.011, joint: 0.019, pin: 0.05, block: 0.03 };
 
 widgets.linkage = (box) => {
-  const moved = (change) => {
-    change(stage.camera);
-    stage.draw();
-  };
-  const hint = "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.";
-  const area = plotArea(box, isNarrow() ? 320 : 430, cameraKeys(moved), hint);
-  const stage = new Stage(area);
-  cameraPointer(area, moved);
+  const stage = turnableStage(box);
   const key = tools(box);
   const state = { data: null, ghosts: [] };
 
@@ -29,7 +22,6 @@ widgets.linkage = (box) => {
     const solid = new Solid();
     addLinkage(solid, data, frame, 1);
     stage.set([solid, others], jointNames(data, frame));
-    area.plotted = stage;
   };
   return { take, paint: () => clock.frames || show(0), show };
 };

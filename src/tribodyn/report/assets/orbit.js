@@ -2,6 +2,8 @@
 
 const ORBIT = { left: 56, right: 10, top: 10, below: 42 };
 const MARK = 6;
+/** Room between the circle and the angles beside it [px]. */
+const BESIDE = 4;
 
 widgets.orbit = (box) => {
   const area = plotArea(box, isNarrow() ? 310 : 380, {}, "Follows the time slider.");
@@ -70,8 +72,8 @@ function drawOrbitAxes(pen, { data, ghosts, frame, x, y }) {
   inside(pen, frame, () => {
     for (const ghost of ghosts) drawClearance(pen, ghost.data.clearance, x, y, ghost.strength, [4, 3]);
     drawClearance(pen, data.clearance, x, y, 1, []);
-    if (data.clearance > 0) nameAngles(pen, data, x, y);
   });
+  if (data.clearance > 0) nameAngles(pen, data, x, y);
   drawBelow(pen, frame, marks, x, "X [µm]");
   pen.save();
   pen.translate(frame.left - ORBIT.left, 0);
@@ -98,9 +100,13 @@ function nameAngles(pen, data, x, y) {
   Object.assign(pen, { fillStyle: theme.colour("quiet"), textAlign: "center", textBaseline: "middle" });
   pen.font = theme.font(TEXT);
   for (const theta of [0, 90, 180, 270]) {
-    const far = data.wall * 1.12 * data.clearance;
     const angle = (theta * Math.PI) / 180;
-    pen.fillText(`${theta}°`, x.at(far * Math.cos(angle)), y.at(far * Math.sin(angle)));
+    const [right, up] = [Math.cos(angle), Math.sin(angle)].map((part) => data.wall * Math.round(part));
+    const text = `${theta}°`;
+    const beyond = right ? 0.5 * pen.measureText(text).width + BESIDE : BESIDE + 6;
+    // Those at the sides stand above the axis, where no mark of it is.
+    const above = right ? 9 : 0;
+    pen.fillText(text, x.at(right * data.clearance) + right * beyond, y.at(up * data.clearance) - up * beyond - above);
   }
 }
 

@@ -4,14 +4,7 @@ const RING = { before: 0.3, after: 0.22, half: 5, parts: 64 };
 const BLADE = { chord: 34, thick: 6 };
 
 widgets.scene = (box) => {
-  const moved = (change) => {
-    change(stage.camera);
-    stage.draw();
-  };
-  const hint = "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.";
-  const area = plotArea(box, isNarrow() ? 320 : 430, cameraKeys(moved), hint);
-  const stage = new Stage(area);
-  cameraPointer(area, moved);
+  const stage = turnableStage(box);
   const state = { view: "whole", magnification: 0, data: null, ghosts: [] };
 
   const views = Object.keys(VIEWS).map((name) =>
@@ -39,7 +32,6 @@ widgets.scene = (box) => {
     stage.camera ??= new Camera(view.ranges(data), view.from, [0, 0, 1], stage.wide());
     const load = loadOn(data, page.figures.pressure, frame, state.magnification);
     stage.set([movingParts(data, frame, state.magnification), clearParts(state, frame), load], names(data, state));
-    area.plotted = stage;
   };
   return { take, paint: () => clock.frames || show(0), show };
 };

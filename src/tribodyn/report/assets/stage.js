@@ -2,6 +2,8 @@
 
 const AMBIENT = 0.62;
 const DIFFUSE = 0.42;
+/** Height of a line of names [px]. */
+const LINE = 15;
 const VERTEX = `#version 300 es
 uniform mat4 see;
 in vec3 point;
@@ -51,6 +53,7 @@ class Stage {
   set(solids, names) {
     this.solids = solids.map((solid) => solid.packed());
     this.names = names;
+    this.area.plotted = this;
     this.draw();
   }
 
@@ -61,7 +64,8 @@ class Stage {
     if (this.gl) drawByCard(this, matrix, light);
     else drawByHand(this, matrix, light);
     const pen = this.words.fresh();
-    for (const name of this.names) this.write(pen, matrix, name);
+    const written = [];
+    for (const name of this.names) this.write(pen, matrix, name, written);
     this.showDirections(pen);
   }
 
@@ -76,16 +80,22 @@ class Stage {
     ];
   }
 
-  /** Write a name with a line to what it names. */
-  write(pen, matrix, { text, at, aside }) {
+  /** Write a name with a line to what it names, farther away where another is written already. */
+  write(pen, matrix, { text, at, aside }, written) {
     const [x, y] = this.project(matrix, at);
-    const [a, b] = [x + aside[0], y + aside[1]];
+    pen.font = theme.font();
+    const a = x + aside[0];
+    const wide = pen.measureText(text).width;
+    const near = (other, b) => Math.abs(other.a - a) < 0.5 * (other.wide + wide) && Math.abs(other.b - b) < LINE;
+    let b = y + aside[1];
+    while (written.some((other) => near(other, b))) b += (Math.sign(aside[1]) || -1) * LINE;
+    written.push({ a, b, wide });
     Object.assign(pen, { strokeStyle: theme.colour("quiet"), lineWidth: 1, fillStyle: theme.colour("ink") });
     pen.beginPath();
     pen.moveTo(x, y);
     pen.lineTo(a, b);
     pen.stroke();
-    Object.assign(pen, { font: theme.font(), textBaseline: "middle" });
+    pen.textBaseline = "middle";
     pen.textAlign = Math.abs(aside[0]) < 15 ? "center" : aside[0] < 0 ? "right" : "left";
     const up = pen.textAlign === "center" ? Math.sign(aside[1]) * 9 : 0;
     pen.fillText(text, a + Math.sign(aside[0]) * 3, b + up);
