@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import shlex
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +22,10 @@ from .conftest import NO_WEBGL, Reader, Watched
 
 SOON = 60_000.0
 """Time within which everything must have happened, on a machine that does other things too [ms]."""
+TRIBODYN = [sys.executable, "-m", "tribodyn"]
 CASE = ["vsv", "--set", "run.duration=6.5 s"]
 CLEARANCE = "joint.clearance"
+TIMES = ("wall_time_s", "real_time_factor")
 PAGE_BYTES = 300_000
 """Promised: what a browser loads before the first run, without pictures."""
 
@@ -38,17 +42,14 @@ class Workbench:
 @pytest.fixture(scope="module")
 def server() -> Iterator[Workbench]:
     """A workbench of a run of one drive cycle."""
-    command = [
-        sys.executable,
-        "-m",
-        "tribodyn",
-        "workbench",
-        *CASE,
-        "--json",
-        "--no-browser",
-        "--workers",
-        "1",
-    ]
+    with serving(CASE) as found:
+        yield found
+
+
+@contextmanager
+def serving(case: Sequence[str]) -> Iterator[Workbench]:
+    """Have a workbench of a case."""
+    command = [*TRIBODYN, "workbench", *case, "--json", "--no-browser", "--workers", "1"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     try:
@@ -110,7 +111,13 @@ def at(browser: Browser, server: Workbench) -> Iterator[Opened]:
     contexts, heard = [], []
 
     def open_page(
-        fragment: str = "", *, width: int = 1280, dark: bool = False, webgl: bool = True, line: Any = None
+        fragment: str = "",
+        *,
+        width: int = 1280,
+        dark: bool = False,
+        webgl: bool = True,
+        line: Any = None,
+        server: Workbench = server,
     ) -> Person:
         context = browser.new_context(
             viewport={"width": width, "height": 800},
@@ -124,7 +131,7 @@ def at(browser: Browser, server: Workbench) -> Iterator[Opened]:
             page.goto(server.entrance)
             page.wait_for_url(server.address)
             server.state = context.storage_state()
-        heard.append(Watched(page))
+        heard.append((server, Watched(page)))
         if not webgl:
             page.add_init_script(NO_WEBGL)
         if line is not None:
@@ -136,7 +143,7 @@ def at(browser: Browser, server: Workbench) -> Iterator[Opened]:
     yield open_page
     for context in contexts:
         context.close()
-    for one in heard:
+    for server, one in heard:
         assert one.faults == []
         assert all(url.startswith((server.address, "about:")) for url in one.requests)
 
@@ -209,9 +216,9 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
     assert person.control(CLEARANCE).locator(".entry").input_value() == "20 um"
 
 
-def _drag(person: Person, begin: float, end: float, steps: int = 12) -> None:
-    """Drag the slider of the clearance between two shares of its length."""
-    box = person.slider().bounding_box()
+def _drag(person: Person, begin: float, end: float, steps: int = 12, key: str = CLEARANCE) -> None:
+    """Drag a slider, that of the clearance, between two shares of its length."""
+    box = person.slider(key).bounding_box()
     y = box["y"] + 0.5 * box["height"]
     mouse = person.page.mouse
     mouse.move(box["x"] + begin * box["width"], y)
@@ -220,6 +227,38 @@ def _drag(person: Person, begin: float, end: float, steps: int = 12) -> None:
         mouse.move(box["x"] + (begin + (end - begin) * step / steps) * box["width"], y)
         person.page.wait_for_timeout(60)
     mouse.up()
+
+
+@pytest.mark.parametrize(
+    ("case", "key", "figure"),
+    [
+        (["journal-oil", "--set", "run.duration=0.01 s"], CLEARANCE, "path"),
+        (["slider-crank", "--set", "run.duration=6 ms"], "joints.wrist.clearance.radial", "orbits"),
+    ],
+    ids=["journal", "mechanism"],
+)
+def test_every_kind_of_mechanism_has_its_workbench(
+    at: Opened, case: list[str], key: str, figure: str
+) -> None:
+    with serving(case) as server:
+        person = at(width=400, server=server)
+        person.wait_until_shown({})
+        assert person.overflow() == 0
+        _drag(person, 0.39, 0.75, steps=3, key=key)
+        person.wait_for("!wishes.awaited && bench.past.length === 1")
+        wished = person.page.evaluate("bench.values")
+        person.wait_until_shown(wished)
+        assert person.page.evaluate("location.hash") == f"#{key}={wished[key].replace(' ', '')}"
+        person.look_at(figure)
+        circles = (
+            "[plot.plotted.data, ...plot.plotted.ghosts.map(({data}) => data)].map(one => one.clearance)"
+        )
+        # The first picture shines through.
+        assert {float(wished[key].removesuffix(" um")), 20.0} <= set(person.plot(figure, circles))
+        person.draw_everything()
+        assert person.faults() == []
+        person.keep_picture(f"workbench-{case[0]}")
+        person.page.close()
 
 
 def test_what_cannot_be_is_said_beside_its_box(at: Opened) -> None:
@@ -284,6 +323,26 @@ def test_a_run_that_fails_says_so_and_can_be_left(at: Opened) -> None:
     person.press("Escape", "u")
     person.wait_until_shown({CLEARANCE: "30 um"})
     assert not trouble.is_visible()
+
+
+@pytest.mark.parametrize("by", ["pointer", "keyboard"])
+def test_a_run_under_way_can_be_stopped(at: Opened, by: str) -> None:
+    person = at("#joint.clearance=30um")
+    person.wait_until_shown({CLEARANCE: "30 um"})
+    stop = person.page.locator("#stop")
+    assert not stop.is_visible()
+    # Sixty cycles, to which somebody has agreed.
+    person.page.evaluate("bench.values = {'run.duration': '400 s'}; wishes.send(true, true)")
+    stop.wait_for(timeout=SOON)
+    if by == "pointer":
+        stop.click()
+    else:
+        person.press("Escape")
+    person.wait_until_shown({CLEARANCE: "30 um"})
+    assert not stop.is_visible()
+    # The worker is free again.
+    person.type_into(CLEARANCE, "31 um")
+    person.wait_until_shown({CLEARANCE: "31 um"})
 
 
 def test_while_equations_are_compiled_the_page_says_so(at: Opened) -> None:
@@ -382,7 +441,8 @@ def test_without_webgl_it_draws_on_a_plain_canvas(at: Opened) -> None:
     assert person.plot("mechanism", "plot.plotted.solids[0].corners.length") > 1000
 
 
-@pytest.mark.parametrize(("width", "dark"), [(1280, True), (400, False)], ids=["wide, dark", "narrow, light"])
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 400], ids=["wide", "narrow"])
 def test_axe_finds_nothing_serious(at: Opened, width: int, dark: bool) -> None:
     person = at("#joint.clearance=25um", width=width, dark=dark)
     person.wait_until_shown({CLEARANCE: "25 um"})
@@ -431,7 +491,7 @@ def _find_the_clearance_by_keyboard(person: Person) -> None:
     assert 1.0 < slope < 1.6
 
 
-def test_six_tasks_by_pointer_alone(at: Opened) -> None:
+def test_six_tasks_by_pointer_alone(at: Opened, tmp_path: Path) -> None:
     person = at()
     person.wait_until_shown({})
     _find_the_clearance_by_pointer(person)
@@ -442,6 +502,7 @@ def test_six_tasks_by_pointer_alone(at: Opened) -> None:
     assert person.page.locator("#wear .readout").inner_text()[0].isdigit()
     take_away = person.page.locator("#take-away")
     _reproduce(person, take_away.click)
+    _run_the_command(person, tmp_path / "again")
     _share(person, at)
     take_away.click()
     _save(person, "report.html", person.page.get_by_role("link", name="report.html").click)
@@ -512,16 +573,29 @@ def _reproduce(person: Person, open_dialog: Callable[[], None]) -> None:
     person.page.get_by_role("button", name="Copy", exact=True).nth(1).click()
     person.wait_for("document.querySelector('#away').textContent.includes('Copied')")
     text = person.page.evaluate("navigator.clipboard.readText()")
-    shown = person.shown()
     names: dict[str, Any] = {}
     exec(text, names)
-    again = summarise(names["result"])
-    effort = ("wall_time_s", "real_time_factor")
-    for name, value in shown["headlines"].items():
-        assert name in effort or again[name] == value, name
-    command = person.page.locator("#away code").first.inner_text()
-    assert command.startswith("tribodyn run vsv --set 'run.duration=6.5 s'")
+    _same_numbers(person, summarise(names["result"]))
     person.press("Escape")
+
+
+def _run_the_command(person: Person, folder: Path) -> None:
+    """Run the copied command as a shell would: the same numbers to the bit."""
+    person.press("c")
+    command = shlex.split(person.page.locator("#away code").first.inner_text())
+    person.press("Escape")
+    assert command[:2] == ["tribodyn", "run"]
+    subprocess.run(
+        [*TRIBODYN, *command[1:], "--no-figures", "--no-report", "--quiet", "--output", str(folder)],
+        check=True,
+    )
+    _same_numbers(person, json.loads((folder / "summary.json").read_text(encoding="utf-8")))
+
+
+def _same_numbers(person: Person, again: Mapping[str, Any]) -> None:
+    """Find the headline numbers of the run shown, but for what it took."""
+    for name, value in person.shown()["headlines"].items():
+        assert name in TIMES or again[name] == value, name
 
 
 def _share(person: Person, at: Opened) -> None:

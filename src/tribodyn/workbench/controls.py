@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from fnmatch import fnmatchcase
@@ -10,7 +11,7 @@ from typing import Any, Final
 from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key, Value
 from tribodyn.cases.lists import LISTS
-from tribodyn.cases.tables import keys_in, with_components
+from tribodyn.cases.tables import VALUE, Tables, keys_in, with_components
 from tribodyn.cases.units import number_in
 from tribodyn.studies.variation import written
 from tribodyn.workbench.ranges import track
@@ -33,7 +34,7 @@ def controls(case: Case, patterns: Sequence[str]) -> list[dict[str, Any]]:
     keys = {path: key for path, key in turnable(case).items() if _stands(case, path)}
     first = list(dict.fromkeys(_matching(case, keys, patterns)))[:FIRST]
     others = [path for path in keys if path not in first]
-    return [_control(keys[path], case.at(path), path in first) for path in (*first, *others)]
+    return [_control(case, keys[path], path in first) for path in (*first, *others)]
 
 
 def _stands(case: Case, path: str) -> bool:
@@ -74,11 +75,26 @@ def _number(value: Value | None) -> float | None:
     return float(value) if plain else None  # type: ignore[arg-type]
 
 
-def _control(key: Key, value: Value | None, first: bool) -> dict[str, Any]:
+def label(case: Case, key: Key) -> str:
+    """Return what a key is called where there is little room.
+
+    In a table that the user has named its path says more than its meaning, which all such tables share.
+    """
+    parts = key.path.split(".")
+    for place in range(1, len(parts) - 1):
+        if isinstance(case.at(".".join(parts[:place])), Tables):
+            words = [part.replace("_", " ") for part in parts[place + 1 :] if part != VALUE]
+            return f"{parts[place]}: {', '.join(words)}"
+    return re.split("[;:]", key.description)[0]
+
+
+def _control(case: Case, key: Key, first: bool) -> dict[str, Any]:
+    value = case.at(key.path)
     found = track(key, _number(value))
     return {
         "key": key.path,
-        "label": key.description,
+        "label": label(case, key),
+        "meaning": key.description,
         "kind": "list" if key.kind in LISTS else key.kind,
         "unit": key.unit,
         "text": text(key, value),

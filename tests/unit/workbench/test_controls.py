@@ -70,3 +70,22 @@ def test_what_has_no_size_has_no_slider():
     keys = keys_in(load_case("vsv"))
     assert track(keys["joint.form.crown"], 0.0) is None
     assert track(keys["contact.law"], None) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "expected"),
+    [
+        ("slider-crank", "drives.motor.speed.value", "motor: speed"),
+        ("slider-crank", "joints.wrist.clearance.radial", "wrist: clearance, radial"),
+        ("vsv", "surfaces.bushing.roughness", "root mean square roughness sigma_2"),
+    ],
+)
+def test_controls_have_short_names_that_tell_them_apart(name, path, expected):
+    labels = {control["key"]: control["label"] for control in found(name)[1]}
+    assert labels[path] == expected
+
+
+@pytest.mark.parametrize("name", built_in())
+def test_no_two_first_controls_have_one_name(name):
+    labels = [control["label"] for control in found(name)[1] if control["first"]]
+    assert len(set(labels)) == len(labels)

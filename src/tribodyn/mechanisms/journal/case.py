@@ -64,8 +64,8 @@ class Drive(Group):
 class Loads(Group):
     """Loads on the centre of the journal."""
 
-    force_x: float = quantity("200 N", "W_x", SECTION_4)
-    force_y: float = quantity("100 N", "W_y", SECTION_4)
+    force_x: float = quantity("200 N", "load W_x", SECTION_4)
+    force_y: float = quantity("100 N", "load W_y", SECTION_4)
     moment_x: float = quantity("0 N m", "moment about X, right-handed; used with tilt", SECTION_4)
     moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", SECTION_4)
     more: Mapping[str, ShaftLoad] = tables("loads from tables, beside these")

@@ -10,7 +10,7 @@ const gesture = { key: "", ended: -Infinity, before: null };
 /** Make all controls anew. */
 function makeControls() {
   bench.controls = new Map(bench.hello.controls.map((control) => [control.key, control]));
-  const first = document.querySelector("#controls .first");
+  const first = document.getElementById("first");
   first.replaceChildren(...bench.hello.controls.filter((one) => one.first).map(controlOf));
   const search = document.getElementById("search");
   const all = document.getElementById("all-keys");
@@ -28,7 +28,7 @@ function makeControls() {
 function findControls(text, all) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const others = bench.hello.controls.filter((one) => !one.first);
-  const fits = ({ key, label }) => words.every((word) => `${key} ${label}`.toLowerCase().includes(word));
+  const fits = ({ key, label, meaning }) => words.every((word) => `${key} ${label} ${meaning}`.toLowerCase().includes(word));
   const found = words.length || all ? others.filter(fits) : [];
   const changed = others.filter(({ key }) => key in bench.values);
   const shown = [...new Set([...changed, ...(all ? found : found.slice(0, MOST_FOUND))])];
@@ -49,11 +49,11 @@ function controlAt(key) {
 
 /** Make a control. */
 function controlOf(control) {
-  const { key, label, limits, source } = control;
+  const { key, label, meaning, limits, source } = control;
   const id = `of-${key.replaceAll(".", "-")}`;
   const box = element("div", { class: "control", "data-key": key, role: "group", "aria-label": label });
-  const name = element("label", { for: id, title: `${label}. ${[limits, source].filter(Boolean).join(". ")}` });
-  name.append(label[0].toUpperCase() + label.slice(1), " ", element("code", {}, key));
+  const name = element("label", { for: id, title: [meaning, limits, source].filter(Boolean).join(". ") });
+  name.append(label[0].toUpperCase() + label.slice(1), " ", element("code", {}, ...breakable(key)));
   name.addEventListener("dblclick", () => giveBack(key));
   const fault = element("p", { class: "fault", id: `${id}-fault`, role: "alert", hidden: "" });
   const back = button("↺", () => giveBack(key), { class: "back", "aria-label": `${label}: back to the case's value`, title: "Back to the case's value" });
@@ -62,6 +62,11 @@ function controlOf(control) {
   const track = element("div", { class: "track" }, ...(control.least === null ? [] : trackOf(control)), ...sweepButton(control));
   box.append(row, track, readout, fault);
   return box;
+}
+
+/** Return a key that lines may break at its dots and underscores. */
+function breakable(key) {
+  return key.split(/(?<=[._])/).flatMap((part) => [part, element("wbr")]);
 }
 
 /** Return the box, list or switch of a control. */

@@ -5,6 +5,7 @@ const KEYS = [
   { keys: ["p"], does: "pin the run, or let it go", act: () => togglePin() },
   { keys: ["u", "Ctrl+z"], does: "undo", act: () => bench.undo() },
   { keys: ["r", "Ctrl+y", "Ctrl+Z"], does: "redo", act: () => bench.redo() },
+  { keys: ["Escape"], does: "stop the run that is waited for", act: () => wishes.stop() },
   { keys: ["c"], does: "copy or save the run", act: () => openAway() },
   { keys: ["/"], does: "search any key", act: () => document.getElementById("search").focus() },
   { keys: ["1"], shown: "1 … 8", does: "go to a slider", act: () => focusControl(0) },
@@ -29,7 +30,7 @@ const ELSEWHERE = [
 
 /** Put the focus on one of the first controls. */
 function focusControl(n) {
-  const box = document.querySelectorAll("#controls .first .control")[n];
+  const box = document.querySelectorAll("#first .control")[n];
   (box?.querySelector("input[type=range]") ?? box?.querySelector(".entry"))?.focus();
 }
 

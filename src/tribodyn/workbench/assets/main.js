@@ -71,7 +71,7 @@ bench.on("shown", () => {
   if (key && slope.key !== key) askSlope(key);
 });
 
-for (const [id, act] of Object.entries({ undo: bench.undo, redo: bench.redo, pin: togglePin, "take-away": openAway })) {
+for (const [id, act] of Object.entries({ undo: bench.undo, redo: bench.redo, pin: togglePin, stop: wishes.stop, "take-away": openAway })) {
   document.getElementById(id).addEventListener("click", act);
 }
 document.getElementById("all").addEventListener("click", (event) => {

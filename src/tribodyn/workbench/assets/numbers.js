@@ -1,7 +1,7 @@
 // The headline numbers of the run that is shown, beside a pinned one; of peaks the range over the last runs.
 
-/** Numbers that are shown before they are asked for: the robust ones and those that matter most. */
-const MOST_AT_FIRST = 7;
+/** Numbers that are shown before they are asked for, the robust ones and those that matter most: beside controls, below them. */
+const MOST_AT_FIRST = { wide: 7, narrow: 4 };
 const chosen = { curve: null, all: false, against: null };
 
 /** Return a headline number in words. */
@@ -42,12 +42,13 @@ function tellNumbers() {
   const focused = document.activeElement?.dataset.number;
   const table = document.querySelector("#numbers table");
   const other = compared();
-  const heads = ["number", "", other ? "from the pinned run" : "", "over the last runs", slope.key ? "slope" : ""];
+  const heads = ["number", "", other ? "from the pinned run" : "", bench.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
   table.tHead.replaceChildren(element("tr", {}, ...heads.map((text) => element("td", {}, text))));
   for (const [k, robust] of [true, false].entries()) {
     const rows = known.filter((one) => one.robust === robust);
     table.tBodies[k].replaceChildren(...(chosen.all ? rows : atFirst(rows, robust)).map(numberRow));
   }
+  document.getElementById("about-peaks").hidden = !table.tBodies[1].rows.length;
   if (focused) document.querySelector(`[data-number="${focused}"]`)?.focus();
   document.getElementById("slopes").textContent = slopeInWords();
 }
@@ -55,7 +56,7 @@ function tellNumbers() {
 /** Return the numbers that are shown before all are asked for. */
 function atFirst(rows, robust) {
   if (!robust) return rows.filter(({ key }) => key);
-  return rows.filter(({ key, name }) => key || !Number.isInteger(bench.shown.headlines[name])).slice(0, MOST_AT_FIRST);
+  return rows.filter(({ key, name }) => key || !Number.isInteger(bench.shown.headlines[name])).slice(0, MOST_AT_FIRST[isNarrow() ? "narrow" : "wide"]);
 }
 
 /** Return the row of a number; a press of its name chooses it for the curves of sweeps. */

@@ -3,6 +3,9 @@
 /** Least time between two wishes of a drag [ms]. */
 const APART = 35;
 
+/** States of the server in which a run, or what it needs, is under way. */
+const STOPPABLE = new Set(["running", "compiling", "waiting"]);
+
 const wishes = {
   number: 0,
   /** Number of the wish that is waited for; none while what is shown is what is wished. */
@@ -55,6 +58,16 @@ const wishes = {
     });
   },
 
+  /** Give up the run that is waited for; what is shown is wished again. */
+  stop() {
+    if (!wishes.awaited) return;
+    line.say({ type: "cancel", number: wishes.awaited });
+    wishes.awaited = 0;
+    Object.assign(server, { state: "ready", message: "", seconds: null, share: null });
+    if (bench.shown && !sameValues(bench.values, bench.shown.values)) bench.gesture(bench.shown.values);
+    tellState();
+  },
+
   /** Take back what cannot be, and say why beside it; what is shown stays. */
   refused({ number, faults, message }) {
     if (number === wishes.awaited) wishes.awaited = 0;
@@ -83,6 +96,7 @@ function tellState() {
   const place = document.getElementById("state");
   const busy = wishes.awaited > 0;
   place.textContent = stateInWords(busy);
+  document.getElementById("stop").hidden = !(busy && server.connected && STOPPABLE.has(server.state));
   document.documentElement.classList.toggle("waiting", busy || !bench.shown);
 }
 
