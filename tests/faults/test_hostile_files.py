@@ -22,7 +22,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.mechanisms.catalogue import load_case
 
-FEW, MANY = 15, 5000
+FEW, PARTS, EACH = 15, 10, 500
 Maker = Callable[[Path, random.Random], None]
 
 
@@ -144,9 +144,13 @@ READERS: dict[str, tuple[list[Maker], str, list[list[str]]]] = {
 }
 
 
-@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])
-def test_hostile_files_are_refused(count: int, tmp_path: Path) -> None:
-    draw = random.Random(count)
+# In parts, each a test: what takes an hour shows how far it is.
+@pytest.mark.parametrize(
+    ("part", "count"),
+    [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long) for part in range(PARTS))],
+)
+def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path) -> None:
+    draw = random.Random(part)
     found = []
     with watched() as process:
         for number in range(count):
