@@ -1,7 +1,7 @@
 // A mechanism of any bodies and joints in space: rods between joints. Lengths in mm.
 
 /** Sizes of what is drawn, over the size of the mechanism. */
-const THICK = { rod: 0.011, joint: 0.019, pin: 0.05, block: 0.03 };
+const THICK = { rod: 0.011, joint: 0.019, pin: 0.08, block: 0.03 };
 
 widgets.linkage = (box) => {
   const stage = turnableStage(box);
@@ -72,7 +72,14 @@ function addJoint(solid, data, joint, frame, colour) {
   solid.rod(...ends, THICK.joint * data.size, colour, ball ? 8 : 16);
 }
 
-/** Return the joints' names where the joints are. */
+/** Return the joints' names where the joints are; those of one place stand side by side. */
 function jointNames(data, frame) {
-  return data.joints.map(({ name, points }) => ({ text: name, at: pointAt(points, 2, frame, 0), aside: [8, -12] }));
+  const names = [];
+  for (const { name, points } of data.joints) {
+    const at = pointAt(points, 2, frame, 0);
+    const here = names.find((other) => Math.hypot(...minus(other.at, at)) < THICK.joint * data.size);
+    if (here) here.text += `, ${name}`;
+    else names.push({ text: name, at, aside: [8, -12] });
+  }
+  return names;
 }
