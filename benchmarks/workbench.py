@@ -153,7 +153,7 @@ class Hand:
         """Ask for a run."""
         self.number += 1
         self.sent[self.number] = time.perf_counter()
-        said = {"type": "run", "number": self.number, "values": values, "rest": rest}
+        said = {"type": "run", "number": self.number, "values": values, "rest": rest, "agreed": rest}
         await self.socket.write_message(json.dumps(said))
 
     async def picture(self) -> dict[str, float]:
