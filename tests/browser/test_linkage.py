@@ -1,0 +1,41 @@
+"""The report of a drawn mechanism in a real browser."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.unit.mechanisms.general.made_up import N, result
+
+from tribodyn.report import write
+
+SEEN = """PLACES.map(place =>
+  plot.plotted.project(plot.plotted.camera.matrix(plot.plotted.wide()), place).slice(0, 2))"""
+
+
+def test_bodies_and_joints_move_with_the_slider(opened: Callable[..., Any], tmp_path: Path) -> None:
+    reader = opened(write(result(), tmp_path))
+    reader.draw_everything()
+    reader.keep_picture("linkage")
+    for frame in (N // 8, N // 3):
+        reader.look_at("mechanism")
+        reader.go_to_frame(frame)
+        turn = 2.0 * np.pi * frame / (N - 1)
+        pin = 50.0 * np.array([np.cos(turn), np.sin(turn), 0.0])
+        wrist = np.array([pin[0] + np.sqrt(120.0**2 - pin[1] ** 2), 0.0, 0.0])
+        aside = np.array([0.0, 60.0, 0.0])
+        places = [0.5 * pin, 0.5 * (pin + wrist), wrist, wrist + aside]
+        shown = SEEN.replace("PLACES", json.dumps([place.tolist() for place in places]))
+        crank, rod, joint, nothing = reader.colours("mechanism", shown)
+        # Blue and vermilion of the style sheet in any light; the real wrist stands out of the slider's block.
+        assert crank[2] > crank[1] > crank[0] + 20
+        assert rod[0] > rod[1] + 40
+        assert joint[0] > joint[1] + 40
+        assert min(nothing) > 240
+        reader.look_at("orbits")
+        place = [22.0 * np.cos(turn), 21.0 * np.sin(turn)]
+        assert reader.plot("orbits", "plot.plotted.now[0]") == pytest.approx(place, abs=1e-3)
