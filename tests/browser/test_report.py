@@ -219,8 +219,12 @@ def test_the_colours_follow_the_system_while_it_is_open(opened: Opened, report: 
     reader = opened(report)
     reader.look_at("orbit")
     reader.page.emulate_media(color_scheme="dark")
-    reader.settle()
-    assert _ink(reader) == [232, 232, 230]
+    dark = [232, 232, 230]
+    for _ in range(20):  # a busy machine tells it late
+        reader.settle()
+        if _ink(reader) == dark:
+            break
+    assert _ink(reader) == dark
 
 
 def test_hostile_names_are_shown_as_text(opened: Opened, result: xr.Dataset, tmp_path: Path) -> None:

@@ -427,8 +427,17 @@ def _deliver(person: Person, delayed: list[tuple[WebSocketRoute, Any]], truth: s
 def test_a_line_that_breaks_is_taken_up_again(at: Opened) -> None:
     person = at("#joint.clearance=25um")
     person.wait_until_shown({CLEARANCE: "25 um"})
-    person.page.evaluate("line.socket.close()")
-    person.wait_for("document.getElementById('state').textContent.includes('does not answer')")
+    # It may say so for less than a moment.
+    person.page.evaluate(
+        """() => {
+          const state = document.getElementById("state");
+          window.said = [];
+          const heard = new MutationObserver(() => said.push(state.textContent));
+          heard.observe(state, { childList: true, characterData: true, subtree: true });
+          line.socket.close();
+        }"""
+    )
+    person.wait_for("said.some((text) => text.includes('does not answer'))")
     person.wait_for("server.connected && !wishes.awaited")
     person.wait_until_shown({CLEARANCE: "25 um"})
 

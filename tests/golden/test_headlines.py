@@ -23,6 +23,9 @@ CLOSE: Final = 2e-3
 """Means, angles and wear: neighbouring tolerances of the vane mechanism stay within 0.11 % of a force."""
 PEAKS: Final = 3e-2
 """What an impact decides: where steps fall moves it, from tolerance to tolerance as between processors."""
+FREE: Final = {"four-bar": (1e-2, 0.25)}
+"""The same of a case whose impacts no load holds: over six tolerances lie 1 % of the power and 21 % of the drive
+moment."""
 OF_IMPACTS: Final = ("_max_", "peak_", "rebounds", "settling", "speed_error")
 
 
@@ -43,8 +46,9 @@ def test_headline_numbers_are_those_stored(name: str) -> None:
     stored = json.loads(STORED.read_text(encoding="utf-8"))[name]
     found = numbers(name)
     assert found.keys() == stored.keys()
+    close, peaks = FREE.get(name, (CLOSE, PEAKS))
     for key, value in stored.items():
-        allowed = PEAKS if any(part in key for part in OF_IMPACTS) else CLOSE
+        allowed = peaks if any(part in key for part in OF_IMPACTS) else close
         assert found[key] == pytest.approx(value, rel=allowed), key
 
 
