@@ -24,8 +24,7 @@ CLOSE: Final = 2e-3
 PEAKS: Final = 3e-2
 """What an impact decides: where steps fall moves it, from tolerance to tolerance as between processors."""
 FREE: Final = {"four-bar": (1e-2, 0.25)}
-"""The same of a case whose impacts no load holds: over six tolerances lie 1 % of the power and 21 % of the drive
-moment."""
+"""The same of a case with free impacts: over six tolerances lie 1 % of its power, 21 % of its moment."""
 OF_IMPACTS: Final = ("_max_", "peak_", "rebounds", "settling", "speed_error")
 
 
