@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, number, quantity
@@ -13,6 +13,9 @@ from tribodyn.cases.signals import BoreMap, ProfileTable
 if TYPE_CHECKING:
     from tribodyn.contact import Liner
     from tribodyn.joints import Form
+
+SURFACE: Final = "surface"
+"""The contact over the surface, by its name in :data:`tribodyn.joints.CONTACTS`, which is slow to import."""
 
 
 class LinerKeys(Group):
@@ -25,6 +28,14 @@ class LinerKeys(Group):
     poisson_ratio: float | None = number(
         None, "Poisson's ratio; by default that of the bushing", ASSUMED, gt=0, lt=0.5, example="0.34"
     )
+
+    def check_contact(self, contact: str, joint: str = "joint.") -> None:
+        """Refuse a liner below a contact at points; ``joint`` is what keys of the joint begin with."""
+        demand(
+            contact == SURFACE or self.thickness is None,
+            f"{joint}liner.thickness",
+            f'a contact at points stands on no liner: {joint}contact = "surface" is needed',
+        )
 
     def layer(self, bushing: Bushing, key: str = "joint.liner") -> Liner | None:
         """Return the layer, or None where the bushing is rigid below its asperities; ``key`` is its table."""
@@ -96,7 +107,7 @@ class PlainJoint(Group):
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
     length: float = quantity("20 mm", "length of the bushing l_z", TABLE_1, gt=0)
     contact: str = choice(
-        "surface",
+        SURFACE,
         "contact over the surface, or at one point of the clearance circle at each end",
         "paper, Eq. 44",
         family="tribodyn.joints:CONTACTS",
@@ -118,13 +129,9 @@ class PlainJoint(Group):
             "joint.clearance",
             "the clearance must not exceed a tenth of joint.radius",
         )
+        self.liner.check_contact(self.contact)
         demand(
-            self.contact == "surface" or self.liner.thickness is None,
-            "joint.liner.thickness",
-            'a contact at points stands on no liner: joint.contact = "surface" is needed',
-        )
-        demand(
-            self.contact == "surface" or self.form == FormKeys(),
+            self.contact == SURFACE or self.form == FormKeys(),
             "joint.form",
             'a contact at points has no form: joint.contact = "surface" is needed',
         )

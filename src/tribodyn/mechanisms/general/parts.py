@@ -21,11 +21,9 @@ from tribodyn.cases.fields import (
     switch,
     vector,
 )
-from tribodyn.cases.joint import LinerKeys
+from tribodyn.cases.joint import SURFACE, LinerKeys
 from tribodyn.mechanisms.general.kinds import KINDS
 
-SURFACE: Final = "surface"
-"""The contact that is over the surface."""
 NEEDED: Final = {
     "cylinder": {"radius": "its radius", "radial": "its clearance", "length": "the length of the bore"},
     "sphere": {"radius": "its radius", "radial": "its clearance"},
@@ -146,11 +144,7 @@ class ClearanceKeys(NamedGroup):
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several sizes."""
         demand(len(self.facets or ()) % 9 == 0, "facets", "a triangle has nine coordinates")
-        demand(
-            self.contact == SURFACE or self.liner.thickness is None,
-            "liner.thickness",
-            'a contact at points stands on no liner: contact = "surface" is needed',
-        )
+        self.liner.check_contact(self.contact, "")
         if self.radius is None or self.radial is None:
             return
         demand(
