@@ -45,8 +45,11 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
         file = netCDF4.Dataset("result", mode="w", memory=_FIRST_ROOM)
         # As to_netcdf does it, which would load all of distributed to find out that nobody uses it.
         store = NetCDF4DataStore(file)  # type: ignore[no-untyped-call]
-        dataset.dump_to_store(store, encoding=encoding)
-        content = bytes(file.close())
+        try:
+            dataset.dump_to_store(store, encoding=encoding)
+        finally:
+            # Not when it is collected: that may be in another thread.
+            content = bytes(file.close())
     return content + _MARK + _checksum(content)
 
 
