@@ -18,8 +18,7 @@ from tribodyn.mechanisms.general.inspection import Finding, sound_drives
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
 DEPENDENT: Final = 1.0e-6
-"""Singular value of rows over ways and turns, relative to the largest, below which rows are
-dependent."""
+"""Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""

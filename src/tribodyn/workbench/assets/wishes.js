@@ -6,6 +6,9 @@ const APART = 35;
 /** States of the server in which a run, or what it needs, is under way. */
 const STOPPABLE = new Set(["running", "compiling", "waiting"]);
 
+/** What the server says of itself where nothing is under way. */
+const READY = { state: "ready", message: "", seconds: null, share: null };
+
 const wishes = {
   number: 0,
   /** Number of the wish that is waited for; none while what is shown is what is wished. */
@@ -44,7 +47,7 @@ const wishes = {
   /** Draw a run with the next picture of the screen, and say so. */
   arrived(run) {
     wishes.typed.delete(run.number);
-    if (server.state === "running") Object.assign(server, { state: "ready", message: "", seconds: null, share: null });
+    if (server.state === "running") Object.assign(server, READY);
     if (run.number === wishes.awaited) wishes.awaited = 0;
     // From here on values are written as the case model writes them: "0.03 mm" as "30 um".
     if (run.number === wishes.own && bench.values === wishes.sent) bench.values = wishes.sent = run.values;
@@ -63,7 +66,7 @@ const wishes = {
     if (!wishes.awaited) return;
     line.say({ type: "cancel", number: wishes.awaited });
     wishes.awaited = 0;
-    Object.assign(server, { state: "ready", message: "", seconds: null, share: null });
+    Object.assign(server, READY);
     if (bench.shown && !sameValues(bench.values, bench.shown.values)) bench.gesture(bench.shown.values);
     tellState();
   },
@@ -89,7 +92,7 @@ const wishes = {
   },
 };
 
-const server = { state: "loading", message: "", seconds: null, share: null, connected: false };
+const server = { ...READY, state: "loading", connected: false };
 
 /** Say what is waited for, and whose the numbers are meanwhile. */
 function tellState() {
