@@ -17,7 +17,7 @@ from llvmlite.binding import get_host_cpu_features
 
 ROOT = Path(__file__).parents[2]
 NUMERICAL = (
-    *("tests/analytic", "tests/literature", "tests/order"),
+    *("tests/analytic", "tests/golden", "tests/literature", "tests/order"),
     *(f"tests/unit/{name}" for name in ("contact", "integrate", "kernels", "lubrication", "mechanisms")),
     *("tests/unit/simulation", "tests/unit/wear", "tests/unit/studies/test_sweep.py"),
     *(

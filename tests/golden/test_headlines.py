@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from statistics import median
 from typing import Final
 
 import pytest
 
 import tribodyn as td
+from tribodyn.cases.case import Case
 from tribodyn.mechanisms.catalogue import built_in
 from tribodyn.mechanisms.results import known, summarise
 
@@ -23,18 +25,45 @@ CLOSE: Final = 2e-3
 """Means, angles and wear: neighbouring tolerances of the vane mechanism stay within 0.11 % of a force."""
 PEAKS: Final = 3e-2
 """What an impact decides: where steps fall moves it, from tolerance to tolerance as between processors."""
-FREE: Final = {"four-bar": (1e-2, 0.25)}
-"""The same of a case with free impacts: over six tolerances lie 1 % of its power, 21 % of its moment."""
-OF_IMPACTS: Final = ("_max_", "peak_", "rebounds", "settling", "speed_error")
+LASTING: Final = 2e-2
+"""What is exceeded for a hundredth of the time: that of four-bar lies in the rise of blows."""
+BOUNDS: Final = {
+    **dict.fromkeys(("_max_", "peak_", "rebounds", "settling", "speed_error"), PEAKS),
+    "_lasting_": LASTING,
+}
+"""By parts of names; :data:`CLOSE` holds for the others."""
+ONE_RUN: Final = (1.0,)
+SEVERAL: Final = (0.75, 0.87, 1.0, 1.15, 1.33)
+"""Tolerances over that of the case whose median is asked for."""
+STRUCK: Final = dict.fromkeys(("four-bar", "slider-crank", "vsv"), SEVERAL)
+"""Cases whose single runs scatter by impacts, see :func:`numbers`."""
+AT_A_THRESHOLD: Final = {"journal-dry": {"settling_time_ms"}}
+"""Numbers that jump: the last rebound ends at 1.0 to 1.1 ms in 22 of 32 runs, at up to 2.2 ms in others."""
 
 
 def numbers(name: str) -> dict[str, float]:
-    """Return the headline numbers of a built-in case that the physics decides, not the machine."""
-    result = td.simulate(td.load_case(name))
-    summary = summarise(result)
+    """Return the headline numbers of a built-in case that the physics decides, not the machine.
+
+    Where single runs scatter it is the median of five tolerances. Over 32 tolerances within 1.4 of the
+    default, half of them with code for a generic processor, single runs lie from their median: four-bar 0.5 %
+    in peaks, 1.0 % in what lasts, 0.11 % in the rest; slider-crank 1.4 %, 0.4 %, 0.15 %; vsv (16 tolerances)
+    1.8 % in the pressure of impacts.
+    """
+    case = td.load_case(name)
+    runs = [
+        _numbers(case.replace({"solver.rtol": case.solver.rtol * factor}))
+        for factor in STRUCK.get(name, ONE_RUN)
+    ]
+    asked = runs[0].keys() - AT_A_THRESHOLD.get(name, set())
+    return {key: float(f"{median(run[key] for run in runs):.6g}") for key in runs[0] if key in asked}
+
+
+def _numbers(case: Case) -> dict[str, float]:
+    """Return those of one run."""
+    summary = summarise(result := td.simulate(case))
     groups = {key: headline.group for key, headline in known(summary, result.attrs["kind"]).items()}
     return {
-        key: float(f"{value:.6g}")
+        key: value
         for key, value in summary.items()
         if not isinstance(value, str | list) and groups[key] not in OF_THE_MACHINE
     }
@@ -45,9 +74,8 @@ def test_headline_numbers_are_those_stored(name: str) -> None:
     stored = json.loads(STORED.read_text(encoding="utf-8"))[name]
     found = numbers(name)
     assert found.keys() == stored.keys()
-    close, peaks = FREE.get(name, (CLOSE, PEAKS))
     for key, value in stored.items():
-        allowed = peaks if any(part in key for part in OF_IMPACTS) else close
+        allowed = next((bound for part, bound in BOUNDS.items() if part in key), CLOSE)
         assert found[key] == pytest.approx(value, rel=allowed), key
 
 

@@ -119,7 +119,8 @@ class Following:
     most
         Rows kept of each; more are thinned.
     watched
-        Places in a row of what must keep its peaks when rows are thinned.
+        Places in a row of what must keep its peaks when rows are thinned; several together are the components
+        of a vector, of which the length is meant.
     stride
         Every how many steps give a row.
     wanted
@@ -129,7 +130,7 @@ class Following:
 
     windows: FloatArray
     most: int
-    watched: tuple[int, ...]
+    watched: tuple[tuple[int, ...], ...]
     stride: int = 1
     wanted: FloatArray = field(default_factory=lambda: np.zeros(1))
 

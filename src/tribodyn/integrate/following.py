@@ -66,8 +66,16 @@ class Followed:
 
     def _thinned(self, rows: Rows) -> Rows:
         """Return what is kept of the rows of a stretch."""
-        kept = thinning(rows[1][:, self.following.watched], self.following.most)
+        kept = thinning(self._watched(rows[1]), self.following.most)
         return rows[0][kept], rows[1][kept]
+
+    def _watched(self, rows: FloatArray) -> FloatArray:
+        """Return what must keep its peaks, a column each: numbers as they are, vectors by their lengths."""
+        columns = [
+            rows[:, places[0]] if len(places) == 1 else np.linalg.norm(rows[:, places], axis=1)
+            for places in self.following.watched
+        ]
+        return np.column_stack(columns)
 
 
 def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:

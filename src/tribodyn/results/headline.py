@@ -29,7 +29,9 @@ class Headline:
     digits
         How many digits of it hold: neighbouring tolerances agree in them, or nearly.
     over
-        Of a peak, the name of the headline number that says after how many reversals it was looked for.
+        Of a peak, the name of the headline number that says in how much of the motion it was looked for.
+    span
+        That in words; a plural s follows them.
     """
 
     label: str
@@ -40,10 +42,11 @@ class Headline:
     count: bool = False
     digits: int = 3
     over: str = ""
+    span: str = "after {} reversal"
 
     def label_in(self, summary: Mapping[str, object]) -> str:
-        """Return the label in a summary: a peak says after how many reversals it was looked for."""
+        """Return the label in a summary: a peak says in how much of the motion it was looked for."""
         if self.over not in summary:
             return self.label
         n = summary[self.over]
-        return f"{self.label} after {n} reversal" + ("" if n == 1 else "s")
+        return f"{self.label} {self.span.format(n)}" + ("" if n == 1 else "s")

@@ -55,7 +55,7 @@ def inside(t, windows=WINDOWS):
 def test_every_step_in_the_windows_gives_one_row(solver):
     outputs = np.array([0.0, 0.1, 0.5, 1.0, 1.1, 2.0])
     solution = integrate(
-        oscillator(Following(WINDOWS, 10**6, (0,))), solver=solver, rtol=1e-6, output_times=outputs
+        oscillator(Following(WINDOWS, 10**6, ((0,),))), solver=solver, rtol=1e-6, output_times=outputs
     )
     assert np.all(np.diff(solution.t) > 0.0)
     at_steps = ~np.isin(solution.t, outputs)
@@ -73,14 +73,14 @@ def test_every_step_in_the_windows_gives_one_row(solver):
 def test_following_changes_no_step(solver):
     plain = integrate(oscillator(None), solver=solver, rtol=1e-6, output_times=[0.0, 2.0])
     followed = integrate(
-        oscillator(Following(WINDOWS, 10**6, (0,))), solver=solver, rtol=1e-6, output_times=[0.0, 2.0]
+        oscillator(Following(WINDOWS, 10**6, ((0,),))), solver=solver, rtol=1e-6, output_times=[0.0, 2.0]
     )
     assert followed.y_end.tobytes() == plain.y_end.tobytes()
     assert followed.statistics.steps == plain.statistics.steps
 
 
 def test_many_steps_are_thinned_and_keep_their_peaks():
-    everything = oscillator(Following(np.array([[0.0, 2.0]]), 10**6, (0,)))
+    everything = oscillator(Following(np.array([[0.0, 2.0]]), 10**6, ((0,),)))
     whole = integrate(everything, rtol=1e-11, output_times=[0.0])
     assert whole.t.size > CHUNK
     assert everything.following is not None
@@ -113,8 +113,8 @@ def test_thinning_keeps_the_extremes_of_every_column():
 @pytest.mark.parametrize("solver", ["mebdf", "bdf"])
 def test_every_third_step_gives_a_row_and_those_that_are_wanted(solver):
     windows, wanted = np.array([[0.0, 2.0]]), np.zeros(1)
-    every = integrate(oscillator(Following(windows, 10**6, (0,))), solver=solver, rtol=1e-6).t
-    third = Following(windows, 10**6, (0,), 3, wanted)
+    every = integrate(oscillator(Following(windows, 10**6, ((0,),))), solver=solver, rtol=1e-6).t
+    third = Following(windows, 10**6, ((0,),), 3, wanted)
     # The breakpoint and the end are steps, too, and have their turn.
     assert integrate(oscillator(third), solver=solver, rtol=1e-6).t.tolist() == every[2::3].tolist()
     problem = oscillator(third)
@@ -138,7 +138,7 @@ def walked(lengths):
     """Return the rows that are kept of 5000 steps when visits come after these numbers of them."""
     t = np.linspace(0.0, 0.3, 5000, endpoint=False)
     rows = np.column_stack([np.sin(300.0 * t), np.cos(11.0 * t)])
-    followed = Followed(Following(WINDOWS, 60, (0,)), 2)
+    followed = Followed(Following(WINDOWS, 60, ((0,),)), 2)
     begin = 0
     for length in lengths:
         end = min(begin + length, t.size)

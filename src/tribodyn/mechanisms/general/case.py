@@ -64,6 +64,13 @@ class Run(Group):
         gt=0,
         example="0.1 ms",
     )
+    step_rows: int = count(
+        2000,
+        "rows of each cycle that follow the steps, at most: those with the peaks; none with 0",
+        ASSUMED,
+        ge=0,
+        le=1_000_000,
+    )
 
 
 class Nodes(Group):

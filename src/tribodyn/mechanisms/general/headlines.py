@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -12,14 +13,65 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByJoint
+from tribodyn.mechanisms.general.ledger import WHOLE
 from tribodyn.results.headline import Headline
 from tribodyn.results.reading import column, peak, time_mean
 
+SHORT: Final = 0.01
+"""Share of the time that blows may last; what is exceeded no longer counts as lasting."""
+_ROUNDING: Final = 1e-9
+
+
+def _in_settled(dataset: xr.Dataset) -> NDArray[np.bool_]:
+    """Tell which rows are looked at: of several cycles none of the first, in which the start dies away."""
+    time, period = column(dataset, "time"), _period(dataset)
+    whole = time.size > 0 and time[-1] >= (2.0 - _ROUNDING) * period
+    return np.asarray(time >= period) if whole else np.full(time.shape, True)
+
 
 def settled(dataset: xr.Dataset, values: FloatArray) -> FloatArray:
-    """Return values over time; of two cycles and more without the first, in which the start dies away."""
-    time, period = column(dataset, "time"), float(dataset.attrs.get("cycle_period", math.inf))
-    return values[time >= period] if time.size and time[-1] >= (2.0 - 1e-9) * period else values
+    """Return values over time, those of the rows that are looked at."""
+    return values[_in_settled(dataset)]
+
+
+def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the largest size that is not that of a blow: one that is exceeded for a hundredth of the time.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+    values
+        Quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
+    """
+    time = settled(dataset, column(dataset, "time"))
+    found = np.abs(settled(dataset, values).reshape(time.size, -1))
+    steps = np.diff(time)
+    weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
+    order = np.argsort(found, axis=0)
+    share = np.cumsum(weights[order], axis=0) / weights.sum()
+    rising = np.take_along_axis(found, order, axis=0)
+    return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))
+
+
+def _period(dataset: xr.Dataset) -> float:
+    """Return the time of one cycle [s]; without end where nothing says it."""
+    return float(dataset.attrs.get("cycle_period", math.inf))
+
+
+def _cycles(dataset: xr.Dataset) -> float:
+    """Return how many whole cycles are looked at; NaN where there is none."""
+    whole = math.floor(column(dataset, "time")[-1] / _period(dataset) + _ROUNDING)
+    return _above_zero(whole if _in_settled(dataset)[0] else whole - 1)
+
+
+def _scatter(dataset: xr.Dataset) -> float:
+    """Return by how much the largest forces of the cycles looked at differ, of their mean [%]."""
+    time, n = settled(dataset, column(dataset, "time")), int(_cycles(dataset))
+    force = settled(dataset, sizes(dataset, "reaction_force").max(axis=1))
+    edges = np.searchsorted(time, time[0] + _period(dataset) * np.arange(1, n))
+    found = np.array([part.max() for part in np.split(force, edges)])
+    return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 else math.nan
 
 
 def sizes(dataset: xr.Dataset, name: str) -> FloatArray:
@@ -40,41 +92,108 @@ def offset(dataset: xr.Dataset) -> FloatArray:
 
 
 def _power(dataset: xr.Dataset) -> float:
-    time, work = column(dataset, "time"), column(dataset, "energy_in")
-    return float((work[-1] - work[0]) / (time[-1] - time[0])) if time.size > 1 else np.nan
+    """Return the mean power put in [W]: by the ledger what was stored and what became heat.
+
+    The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
+    """
+    time = column(dataset, "time")
+    gains = np.sum([column(dataset, name) for name in WHOLE.gained], axis=0)
+    works = np.ptp(column(dataset, "energy_in")) > _ROUNDING * np.ptp(column(dataset, "energy_kinetic"))
+    return float((gains[-1] - gains[0]) / (time[-1] - time[0])) if works else math.nan
+
+
+def _pair(
+    names: tuple[str, str],
+    label: str,
+    unit: str,
+    group: str,
+    meaning: str,
+    values: Callable[[xr.Dataset], FloatArray],
+    *,
+    scale: float = 1.0,
+    of: str = "",
+) -> dict[str, Headline]:
+    """Return a maximum without the blows and one with them, by their names.
+
+    Parameters
+    ----------
+    names
+        Of the two.
+    label, unit, group, meaning
+        As of a :class:`~tribodyn.results.headline.Headline`; the meaning goes on with "but for ...".
+    values
+        The quantities over time, shape (n_t,) or (n_t, n).
+    scale
+        Their unit over that of the number.
+    of
+        What the labels end with.
+    """
+    quiet, loud = names
+    return {
+        quiet: Headline(
+            f"{label}, lasting{of}",
+            unit,
+            group,
+            f"{meaning}, but for the hardest hundredth of the time.",
+            lambda d: _above_zero(lasting(d, values(d))) * scale,
+        ),
+        loud: Headline(
+            f"{label}, peak{of}",
+            unit,
+            group,
+            "The same at any step of the integration, blows of shafts against their sockets among them.",
+            lambda d: _above_zero(peak(settled(d, values(d)))) * scale,
+            digits=2,
+            over="cycles",
+            span="over {} cycle",
+        ),
+    }
 
 
 HEADLINES: Final[dict[str, Headline]] = {
-    "joint_force_max_N": Headline(
-        "Force in a joint, largest",
+    "cycles": Headline(
+        "Cycles held",
+        "",
+        "Load",
+        "Whole cycles that peaks are taken over: of several not the first, in which the start dies away.",
+        _cycles,
+        count=True,
+    ),
+    **_pair(
+        ("joint_force_lasting_N", "joint_force_max_N"),
+        "Force in a joint",
         "N",
         "Load",
-        "Largest force that any joint carries.",
-        lambda d: peak(settled(d, sizes(d, "reaction_force"))),
+        "Largest force that any joint carries",
+        lambda d: sizes(d, "reaction_force"),
     ),
-    "peak_pressure_MPa": Headline(
-        "Peak pressure",
+    **_pair(
+        ("pressure_lasting_MPa", "peak_pressure_MPa"),
+        "Contact pressure",
         "MPa",
         "Load",
-        "Highest pressure in any joint; compare it with the hardness.",
-        lambda d: _above_zero(peak(settled(d, column(d, "pressure_max")))) * 1e-6,
+        "Highest pressure in any joint, to compare with the hardness",
+        lambda d: column(d, "pressure_max"),
+        scale=1e-6,
     ),
-    "drive_moment_max_Nm": Headline(
-        "Drive moment, largest",
+    **_pair(
+        ("drive_moment_lasting_Nm", "drive_moment_max_Nm"),
+        "Drive moment",
         "N m",
         "Drive",
-        "What a motor must give.",
-        lambda d: _of_drives(d, "drive_moment"),
+        "What a motor must give",
+        lambda d: column(d, "drive_moment"),
     ),
-    "drive_force_max_N": Headline(
-        "Drive force, largest",
+    **_pair(
+        ("drive_force_lasting_N", "drive_force_max_N"),
+        "Drive force",
         "N",
         "Drive",
-        "What an actuator must give.",
-        lambda d: _of_drives(d, "drive_force"),
+        "What an actuator must give",
+        lambda d: column(d, "drive_force"),
     ),
     "power_mean_W": Headline(
-        "Power put in, mean", "W", "Drive", "Work of drives and loads over the time of the run.", _power
+        "Power put in, mean", "W", "Drive", "What drives and loads give over the time of the run.", _power
     ),
     "offset_max_um": Headline(
         "Offset in a joint, largest",
@@ -97,6 +216,14 @@ HEADLINES: Final[dict[str, Headline]] = {
         "What is worn off at the deepest point of any joint.",
         lambda d: peak(column(d, "wear_depth")) * 1e9,
     ),
+    "cycle_scatter_percent": Headline(
+        "Scatter of the cycles",
+        "%",
+        "Trust",
+        "By how much the largest force of one cycle differs from that of another, three cycles and more.",
+        _scatter,
+        digits=2,
+    ),
     "energy_residual_percent": Headline(
         "Energy residual",
         "%",
@@ -106,10 +233,11 @@ HEADLINES: Final[dict[str, Headline]] = {
     ),
 }
 KEY_NUMBERS: Final = (
+    "joint_force_lasting_N",
     "joint_force_max_N",
     "offset_max_um",
     "peak_pressure_MPa",
-    "drive_moment_max_Nm",
+    "drive_moment_lasting_Nm",
     "energy_residual_percent",
 )
 
@@ -117,11 +245,6 @@ KEY_NUMBERS: Final = (
 def _above_zero(value: float) -> float:
     """Return a number that is zero only where there is nothing to tell; NaN then."""
     return value if value > 0.0 else math.nan
-
-
-def _of_drives(dataset: xr.Dataset, name: str) -> float:
-    """Return the largest effort of drives; NaN where there is none."""
-    return _above_zero(peak(settled(dataset, column(dataset, name))))
 
 
 def _named(
@@ -133,13 +256,40 @@ def _named(
     return made
 
 
+def _pair_named(
+    names: tuple[str, str],
+    label: str,
+    unit: str,
+    meaning: str,
+    values: Callable[[xr.Dataset, int], FloatArray],
+    *,
+    scale: float = 1.0,
+) -> dict[str, ByJoint]:
+    """Return the pair of numbers of a joint, see :func:`_pair`."""
+
+    def made(name: str, joint: str) -> Headline:
+        pair = _pair(
+            names,
+            label,
+            unit,
+            "Joints",
+            meaning,
+            lambda d: values(d, of_joint(d, joint)),
+            scale=scale,
+            of=f", {joint}",
+        )
+        return pair[name]
+
+    return {name: partial(made, name) for name in names}
+
+
 BY_JOINT: Final[dict[str, ByJoint]] = {
-    "force_max_N": _named(
-        "Force, largest",
+    **_pair_named(
+        ("force_lasting_N", "force_max_N"),
+        "Force",
         "N",
-        "Joints",
-        "Largest force in this joint.",
-        lambda d, j: peak(settled(d, sizes(d, "reaction_force")[:, j])),
+        "Largest force in this joint",
+        lambda d, j: sizes(d, "reaction_force")[:, j],
     ),
     "force_mean_N": _named(
         "Force, mean",
@@ -155,12 +305,13 @@ BY_JOINT: Final[dict[str, ByJoint]] = {
         "How far the shaft leaves the middle of the bore.",
         lambda d, j: peak(settled(d, offset(d)[:, j])) * 1e6,
     ),
-    "peak_pressure_MPa": _named(
-        "Peak pressure",
+    **_pair_named(
+        ("pressure_lasting_MPa", "peak_pressure_MPa"),
+        "Contact pressure",
         "MPa",
-        "Joints",
-        "Highest pressure in this joint.",
-        lambda d, j: _above_zero(peak(settled(d, column(d, "pressure_max")[:, j]))) * 1e-6,
+        "Highest pressure in this joint",
+        lambda d, j: column(d, "pressure_max")[:, j],
+        scale=1e-6,
     ),
     "friction_heat_J": _named(
         "Friction heat",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.problem import Problem
+from tribodyn.core.problem import Following, Problem
 from tribodyn.joints.clearances import places
 from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
 from tribodyn.mechanisms.general import checks
@@ -24,7 +24,15 @@ from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.start import initial_state
-from tribodyn.mechanisms.general.variables import AXES, BODIES, ENTRIES, JOINTS, Observed, observed
+from tribodyn.mechanisms.general.variables import (
+    AXES,
+    BODIES,
+    ENTRIES,
+    JOINTS,
+    Observed,
+    observed,
+    place,
+)
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED
 
@@ -86,7 +94,7 @@ class MechanismSystem:
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
-        return mechanism_problem(
+        problem = mechanism_problem(
             self.assembly if worn is None else self._assembled(worn.depth),
             duration=duration,
             rtol=self.case.solver.rtol,
@@ -95,6 +103,22 @@ class MechanismSystem:
             # Of all integrators one knows the structure of these equations.
             dense=self.case.solver.name != "mebdf",
         )
+        return replace(problem, following=self._following(duration))
+
+    def _following(self, duration: float) -> Following | None:
+        """Return where rows follow the steps: where shafts may strike, faster than output times see."""
+        most, n_bodies = self.case.run.step_rows, len(self.description.bodies)
+        if not self.real or most == 0:
+            return None
+        joints, drives = range(len(self.description.joints)), self.description.drives
+        watched = (
+            *(tuple(place(f"F_{axis}", k, n_bodies) for axis in AXES) for k in joints),
+            *((place("pressure_max", k, n_bodies),) for k in self._real_numbers),
+            *((place(f"drive_{name}", d.joint, n_bodies),) for d in drives for name in ("moment", "force")),
+        )
+        n = min(max(round(duration / self.period), 1), self.output_times(duration).size)
+        edges = np.linspace(0.0, duration, n + 1)
+        return Following(np.column_stack([edges[:-1], edges[1:]]), max(most, 2 * len(watched) + 1), watched)
 
     @cached_property
     def start(self) -> FloatArray | None:

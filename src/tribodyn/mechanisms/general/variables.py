@@ -144,6 +144,11 @@ def observed(rows: FloatArray, n_bodies: int) -> Observed:
     )
 
 
+def place(name: str, coupling: int, n_bodies: int) -> int:
+    """Return where an observed quantity of a coupling stands in a row."""
+    return len(WHOLE) + n_bodies * len(BODY) + coupling * len(COUPLING) + names(COUPLING).index(name)
+
+
 def _parts(rows: FloatArray, table: Table) -> dict[str, FloatArray]:
     values = rows.reshape(rows.shape[0], rows.shape[1] // len(table), len(table))
     return {name: values[..., i] for i, name in enumerate(names(table))}

@@ -20,8 +20,10 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Settling time",
         "ms",
         "Settling",
-        "Time after which the centre stays within 1 % of the clearance of its static equilibrium.",
+        "Time after which the centre stays within 1 % of the clearance of its static equilibrium; a rebound "
+        "that just gets there moves it by its length.",
         _one("settling_time", 1e3),
+        digits=1,
     ),
     "contact_start_ms": Headline(
         "Contact begins",
@@ -39,24 +41,24 @@ HEADLINES: Final[dict[str, Headline]] = {
         count=True,
     ),
     "contact_force_max_N": Headline(
-        "Contact force, largest",
+        "Contact force, peak",
         "N",
         "Impact",
-        "Peak load on the bushing, at any step of the integration.",
+        "Load on the bushing in the hardest impact, at any step of the integration.",
         _one("contact_force_peak"),
     ),
     "film_force_max_N": Headline(
-        "Film force, largest", "N", "Impact", "What the oil carries at most.", _one("film_force_peak")
+        "Film force, peak", "N", "Impact", "What the oil carries at most.", _one("film_force_peak")
     ),
     "peak_pressure_MPa": Headline(
-        "Contact pressure, largest",
+        "Contact pressure, peak",
         "MPa",
         "Impact",
-        "Compare it with the hardness of the bushing.",
+        "The same for the pressure; compare it with the hardness of the bushing.",
         _one("pressure_peak", 1e-6),
     ),
     "eccentricity_max_um": Headline(
-        "Eccentricity, largest",
+        "Eccentricity, peak",
         "µm",
         "Impact",
         "How far the centre moves off the axis; beyond the clearance the mean planes overlap.",

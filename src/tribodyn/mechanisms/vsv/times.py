@@ -19,7 +19,7 @@ from tribodyn.mechanisms.vsv.parameters import Drive, Lengths, TableDrive, Vsv
 from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
 
 _WATCHED: Final = tuple(
-    OBSERVED.index(name) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
+    (OBSERVED.index(name),) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
 )
 """What keeps its peaks where there are more steps than rows."""
 _STRIDE: Final = 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -53,8 +54,41 @@ def test_numbers_are_told_of_each_joint_by_its_name() -> None:
     assert told["peak_pressure_MPa_wrist"] == pytest.approx(40.0)
     assert "offset_max_um_main" not in told
     labels = results.known(told, "mechanism")
-    assert labels["force_max_N_guide"].label == "Force, largest, guide"
+    assert labels["force_max_N_guide"].label == "Force, peak, guide"
     assert set(labels) == {name for name, value in told.items() if isinstance(value, int | float)}
+
+
+def test_a_blow_is_a_peak_and_does_not_last() -> None:
+    near = np.sort(np.append(RESULT["time"], 0.003 + 1e-5 * np.array([-1.0, 1.0])))
+    smooth = RESULT.interp(time=near).assign_attrs(cycle_period=0.012)
+    force = smooth["reaction_force"].copy(deep=True)
+    force[N // 4 + 1, :, 0] = 1e5
+    told, whole = results.summarise(smooth.assign(reaction_force=force)), results.summarise(RESULT)
+    assert told["force_max_N_wrist"] == pytest.approx(1e5)
+    # A triangle 20 µs wide of a turn of 12 ms; a cosine is above cos(π/200) for a hundredth of the time, and
+    # rows stand at every six degrees.
+    assert told["force_lasting_N_wrist"] == pytest.approx(whole["force_lasting_N_wrist"], rel=2e-3)
+    assert whole["force_lasting_N_wrist"] == pytest.approx(2700.0 * math.cos(math.pi / 200.0), rel=2e-3)
+    known = results.known(told, "mechanism")
+    assert known["force_max_N_wrist"].label_in(told) == "Force, peak, wrist over 1 cycle"
+
+
+def test_cycles_that_are_not_alike_scatter() -> None:
+    t, period = RESULT["time"].values, 0.012
+    cycles = xr.concat(
+        [RESULT.isel(time=slice(0, N - 1)).assign_coords(time=t[:-1] + k * period) for k in range(4)],
+        "time",
+        data_vars="minimal",
+    )
+    end = RESULT.isel(time=[N - 1]).assign_coords(time=[4.0 * period])
+    four = xr.concat([cycles, end], "time", data_vars="minimal").assign_attrs(cycle_period=period)
+    told = results.summarise(four)
+    assert told["cycles"] == 3
+    assert told["cycle_scatter_percent"] == pytest.approx(0.0, abs=1e-9)
+    scale = xr.where(four["time"] < 2.0 * period, 1.0, xr.where(four["time"] < 3.0 * period, 1.1, 1.2))
+    grown = four.assign(reaction_force=four["reaction_force"] * scale)
+    # 1.0, 1.1 and 1.2; the last row of a cycle is the first of the next one.
+    assert results.summarise(grown)["cycle_scatter_percent"] == pytest.approx(100.0 * 0.2 / 1.1, rel=1e-6)
 
 
 def test_bodies_are_drawn_where_they_are() -> None:

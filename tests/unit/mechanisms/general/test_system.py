@@ -80,7 +80,10 @@ def test_the_second_body_is_told_of_whichever_carries_the_socket() -> None:
         held = np.linalg.norm(result["reaction_force"].isel(time=0))
         assert held == pytest.approx(9.81 * math.cos(math.radians(30.0)), rel=0.02)
         assert float(result["reaction_force_global"].sel(axis="z")[0]) > 0.0
-    np.testing.assert_allclose(told[0]["joint_angle"], told[1]["joint_angle"], atol=1e-5)
+    # Rows at output times are those of both.
+    first, second = xr.align(*(result["joint_angle"].drop_duplicates("time") for result in told))
+    assert first.size > 500
+    np.testing.assert_allclose(first, second, atol=1e-5)
 
 
 @pytest.mark.parametrize("real", [False, True])
@@ -112,6 +115,34 @@ def test_a_pin_on_a_liner_sinks_deeper_and_misses_no_energy() -> None:
     assert down[1] > down[0] + 1e-9
     assert soft.attrs["energy_residual"] < 1e-3
     assert float(soft["pressure_max"].isel(time=0).max()) < float(hard["pressure_max"].isel(time=0).max())
+
+
+def test_no_blow_falls_between_rows() -> None:
+    four = td.load_case("four-bar").replace({"run.cycles": 1})
+    told = [
+        results.summarise(td.simulate(four.replace(changes)))
+        for changes in (
+            {},
+            {"run.output_interval": "4 ms"},
+            {"run.output_interval": "4 ms", "run.step_rows": 30},
+            {"run.step_rows": 0},
+        )
+    ]
+    # Blows of 0.1 ms, rows 0.4 ms and 4 ms apart. Over 24 tolerances the peak lies within 0.5 %.
+    for coarse in told[1:3]:
+        assert coarse["force_max_N_coupler_pin"] == pytest.approx(
+            told[0]["force_max_N_coupler_pin"], rel=0.01
+        )
+    assert told[3]["force_max_N_coupler_pin"] < 0.6 * told[0]["force_max_N_coupler_pin"]
+    assert told[0]["force_lasting_N_coupler_pin"] < 0.2 * told[0]["force_max_N_coupler_pin"]
+
+
+def test_power_is_what_the_ledger_says_and_not_the_error_of_a_sum_of_works() -> None:
+    crank = td.load_case("slider-crank")
+    told = [results.summarise(td.simulate(crank.replace({"solver.rtol": rtol}))) for rtol in (1e-4, 1e-6)]
+    # The work goes to and fro by 150 J, of which the sum over steps misses 0.1 %, and 5.4 J are lost: such a
+    # sum scatters by 8 % at 1e-4, what became heat by 0.13 %.
+    assert told[0]["power_mean_W"] == pytest.approx(told[1]["power_mean_W"], rel=5e-3)
 
 
 def test_a_clearance_may_be_kept_for_later() -> None:

@@ -75,7 +75,10 @@ MOTION: Final = Chart(
 JOINT_FORCES: Final = Chart(
     name="joint_forces",
     title="Forces in the joints",
-    caption="Sizes of the forces that the joints carry, and what the drives give.",
+    caption=(
+        "Sizes of the forces that the joints carry, and what the drives give. Where joints have clearance, "
+        "rows follow the steps of the integration: a spike is a blow of a shaft against its socket."
+    ),
     needs=("reaction_force", "drive_moment", "drive_force", "joint"),
     panels=joint_forces,
 )
