@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from tribodyn.contact.base import DESIGN_PRESSURE
@@ -70,6 +69,8 @@ def bounce(
     clip
         Whether the total pressure is kept from becoming tensile.
     """
+    from scipy.integrate import solve_ivp
+
     depth = undamped_depth(table, design_pressure)
     if depth >= onset:
         raise InputError(

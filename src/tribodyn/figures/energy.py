@@ -116,6 +116,7 @@ def _sizes(axes: Axes, dataset: xr.Dataset, terms: Mapping[str, str]) -> None:
     bars[-1].set_edgecolor("white")
     axes.set_xscale("log")
     axes.set_xlim(floor, max(sizes.max() * 30.0, floor * 1e3))
+    axes.minorticks_off()
     for row, size in enumerate(sizes.tolist()):
         place = 1.25 * max(size, floor)
         axes.text(place, row, _joule(size), va="center", size=SMALL - 0.5, color=INK)

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import ArrayLike
 
@@ -61,7 +62,10 @@ def _variable(name: str, values: ArrayLike, known: Mapping[str, Variable]) -> xr
     array = np.asarray(values)
     if array.ndim != len(about.dims):
         raise ValueError(f"{name} has shape {array.shape} but its line says it runs over {about.dims}")
-    return xr.Variable(about.dims, array, {"units": about.units, "long_name": about.long_name})
+    # Of an array xarray would make the index itself, but import all of pint to see what kind of array it is.
+    counts = about.dims == (name,) and not about.named
+    held = pd.Index(array) if counts else array
+    return xr.Variable(about.dims, held, {"units": about.units, "long_name": about.long_name})
 
 
 def plain_attribute(value: object) -> str | int | float:

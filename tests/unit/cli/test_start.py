@@ -91,3 +91,20 @@ def test_the_package_itself_is_light() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     ).stdout
     assert output == "good\n"
+
+
+def test_a_result_is_built_without_the_libraries_that_only_some_need() -> None:
+    """Each would cost every short run a tenth of its time."""
+    program = (
+        "import sys, numpy as np\n"
+        "import tribodyn.simulation\n"
+        "from tribodyn.results import build\n"
+        "times = np.linspace(0.0, 1.0, 3)\n"
+        "dataset = build(coordinates={'time': times, 'snapshot': [0, 1]}, columns={})\n"
+        "assert dataset.indexes['snapshot'].dtype == int\n"
+        "print([name for name in ('pint', 'scipy.integrate', 'matplotlib') if name in sys.modules])"
+    )
+    output = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout
+    assert output == "[]\n"
