@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from tribodyn.views.section import Chapter
 
 
+Stop: TypeAlias = Callable[[], bool] | None
+"""Asked while a run goes on; when true the run ends there."""
+
+
 @dataclass(frozen=True)
 class Carried:
     """What a run hands on to the next one, which begins where it ended in the drive's cycle.
@@ -201,8 +205,14 @@ class System(Protocol):
         """
         ...
 
-    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
-        """Return the initial value problem over ``duration`` [s]; where nothing wears ``worn`` is None."""
+    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
+        """Return the initial value problem over ``duration`` [s]; where nothing wears ``worn`` is None.
+
+        Raises
+        ------
+        Stopped
+            If ``stop`` was true while a place to begin at was looked for.
+        """
         ...
 
     def output_times(self, duration: float) -> FloatArray:

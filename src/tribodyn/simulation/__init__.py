@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -12,10 +13,10 @@ from tribodyn.cases.groups import Contact
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.base import Part, SystemCase
+from tribodyn.mechanisms.base import Part, Stop, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
-from tribodyn.simulation.session import Progress, Session, Stop
+from tribodyn.simulation.session import Progress, Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 
 if TYPE_CHECKING:
@@ -93,32 +94,36 @@ def _with_law(case: Case, law: OwnLaw) -> Case:
 def _simulated(
     case: Case, progress: Progress = None, stop: Stop = None, checkpoint: Path | None = None
 ) -> xr.Dataset:
-    session = _session(case, progress, stop)
+    session = _session(case, progress, stop, stop)
     if not session.mechanism.of_cycle:
         return session.dataset(session.integrated(case.duration), Part())
     return simulate_campaign(session, checkpoint) if case.campaign_cycles else simulate_plain(session)
 
 
-def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Session:
+def _session(case: Case, progress: Progress = None, stop: Stop = None, before: Stop = None) -> Session:
     kind: str = getattr(case, "case", "")
     if kind not in MECHANISMS:
         raise InputError(f"given {kind!r}; allowed: {', '.join(MECHANISMS)}", key="case")
     mechanism = MECHANISMS[kind]
     known = cast(SystemCase, case)
-    return Session(known, mechanism, mechanism.system(known), progress, stop)
+    return Session(known, mechanism, mechanism.system(known), progress, stop, before)
 
 
-def _first_steps(case: Case) -> str:
-    """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did."""
-    session = _session(case, stop=lambda: True)
+def _first_steps(case: Case, before: Stop = None) -> str:
+    """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did.
+
+    ``before`` is asked until the first one.
+    """
+    session = _session(case, stop=lambda: True, before=before)
     return str(session.dataset(session.integrated(case.duration), Part()).attrs["failure"])
 
 
 def prepare(case: Case, stop: Stop = None) -> None:
     """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
-    if not loaded(case, _first_steps):
+    first_steps = partial(_first_steps, before=stop)
+    if not loaded(case, first_steps):
         compile_elsewhere(case, stop)
-        loaded(case, _first_steps)
+        loaded(case, first_steps)
 
 
 def check(case: Case, *, deep: bool = False) -> Sequence[str]:

@@ -61,6 +61,8 @@ def loaded(case: Case, first_steps: Steps) -> bool:
                 first_steps(case)
         except NotCompiled:
             return False
+        except Stopped:
+            raise
         except Exception:  # the run itself will say
             return True
         _loaded.add(choices)

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 import xarray as xr
 
 from tribodyn.integrate import integrate
-from tribodyn.mechanisms.base import Mechanism, Part, Run, System, SystemCase, Worn
+from tribodyn.mechanisms.base import Mechanism, Part, Run, Stop, System, SystemCase, Worn
 from tribodyn.results import build
 from tribodyn.simulation.provenance import provenance
 
 Progress = Callable[[float], None] | None
 """Called with the simulated time [s] after every accepted step."""
-Stop = Callable[[], bool] | None
-"""Asked while a run goes on; when true the run ends there."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +26,8 @@ class Session:
         What is simulated.
     progress, stop
         As for :func:`tribodyn.simulation.simulate`.
+    before
+        Asked while a place to begin at is looked for; when true the search raises ``Stopped``.
     """
 
     case: SystemCase
@@ -35,11 +35,12 @@ class Session:
     system: System
     progress: Progress = None
     stop: Stop = None
+    before: Stop = None
 
     def integrated(self, duration: float, worn: Worn | None = None, progress: Progress = None) -> Run:
         """Integrate the system over ``duration`` [s] from its start, or from where another run ended."""
         system, solver = self.system, self.case.solver
-        problem = system.problem(duration, worn)
+        problem = system.problem(duration, worn, self.before)
         solution = integrate(
             problem,
             solver=solver.name,

@@ -21,11 +21,13 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.errors import Stopped
 from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
+from tribodyn.mechanisms.base import Stop
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.description import Joint
@@ -60,10 +62,15 @@ _FAR: Final = 0.5
 _TINY: Final = 1.0e-300
 
 
-def initial_state(assembly: Assembly) -> FloatArray | None:
+def initial_state(assembly: Assembly, stop: Stop = None) -> FloatArray | None:
     """Return the state in which the loads on all shafts balance, shape (13 n,); None if none is found.
 
     Without clearance it is that of the assembly.
+
+    Raises
+    ------
+    Stopped
+        If ``stop`` was true before the end of the search.
     """
     description = assembly.description
     if all(joint.clearance is None for joint in description.joints):
@@ -72,7 +79,7 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     place(assembly.state, ideal.now.bodies)
     ideal.refresh()
     ideal.close()
-    return _settled(_Loads(assembly, ideal))
+    return _settled(_Loads(assembly, ideal, stop))
 
 
 def _ideal(joint: Joint) -> Joint:
@@ -130,7 +137,8 @@ class _Contact:
 class _Loads:
     """The loads on bodies that are displaced within the clearances."""
 
-    def __init__(self, assembly: Assembly, ideal: System) -> None:
+    def __init__(self, assembly: Assembly, ideal: System, stop: Stop) -> None:
+        self.stop = stop
         self.data, self.n = assembly.data, ideal.n
         self.state = np.zeros(N_STATES * self.n)
         collect(ideal.now.bodies, self.state)
@@ -150,6 +158,7 @@ class _Loads:
 
         Ideal joints are closed; shafts rest in their sockets.
         """
+        self._ask()
         self.state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
         place(self.state, self.real.now.bodies)
         self.real.refresh()
@@ -170,6 +179,10 @@ class _Loads:
             # Once, from the middle: traction itself must not decide where it points.
             self.ahead = self._ahead() if self.ahead is None else self.ahead
             self.slipping = self.ahead
+
+    def _ask(self) -> None:
+        if self.stop is not None and self.stop():
+            raise Stopped
 
     def _ahead(self) -> FloatArray:
         """Return velocities along the accelerations that motion begins with, shape (n, 6), or none."""
@@ -252,6 +265,7 @@ class _Loads:
 
     def change(self, step: FloatArray) -> tuple[float, float]:
         """Return by how much a step (m,) changes gaps at most, over the roughness and over gaps as drawn."""
+        self._ask()
         moved = self.motions @ step
         over_roughness = over_gap = 0.0
         for contact in self.contacts:

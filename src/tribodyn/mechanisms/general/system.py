@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
 from tribodyn.joints.clearances import places
-from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
+from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Stop, Worn
 from tribodyn.mechanisms.general import checks
 from tribodyn.mechanisms.general.assembly import Assembly, assemble, closes_until
 from tribodyn.mechanisms.general.case import MechanismCase
@@ -92,13 +92,13 @@ class MechanismSystem:
             raise InputError(f"at t = {time:.4g} s {finding.text}", key=finding.key)
         return self.assembly.remarks
 
-    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
         problem = mechanism_problem(
             self.assembly if worn is None else self._assembled(worn.depth),
             duration=duration,
             rtol=self.case.solver.rtol,
-            state=self.start if worn is None or worn.carried is None else None,
+            state=self.start(stop) if worn is None or worn.carried is None else None,
             carried=None if worn is None else worn.carried,
             # Of all integrators one knows the structure of these equations.
             dense=self.case.solver.name != "mebdf",
@@ -120,10 +120,19 @@ class MechanismSystem:
         edges = np.linspace(0.0, duration, n + 1)
         return Following(np.column_stack([edges[:-1], edges[1:]]), max(most, 2 * len(watched) + 1), watched)
 
+    def start(self, stop: Stop = None) -> FloatArray | None:
+        """Return the state in which a run begins, shape (13 n,); None for that of the drawing.
+
+        It is looked for once; ``stop`` ends that by :class:`~tribodyn.core.errors.Stopped`.
+        """
+        if not self._starts:
+            wanted = self.case.run.start == "equilibrium"
+            self._starts.append(initial_state(self.assembly, stop) if wanted else None)
+        return self._starts[0]
+
     @cached_property
-    def start(self) -> FloatArray | None:
-        """State in which a run begins, shape (13 n,); None for the one with all shafts in the middle."""
-        return initial_state(self.assembly) if self.case.run.start == "equilibrium" else None
+    def _starts(self) -> list[FloatArray | None]:
+        return []
 
     def output_times(self, duration: float) -> FloatArray:
         """Return the times of the rows [s], the end included."""
@@ -206,8 +215,9 @@ class MechanismSystem:
         """Return how a run with clearances began."""
         if not self.real:
             return {}
-        found = "equilibrium" if self.start is not None else "centred"
-        return {"start": CARRIED if run.carried else found}
+        if run.carried:
+            return {"start": CARRIED}
+        return {"start": "equilibrium" if self.start() is not None else "centred"}
 
     def _observed(self, run: Run) -> Observed:
         return observed(run.solution.rows, len(self.description.bodies))

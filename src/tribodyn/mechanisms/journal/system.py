@@ -16,7 +16,7 @@ from tribodyn.core.quantities import names
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.kernels.journal.quantities import FILM, OBSERVED, WATCHED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
-from tribodyn.mechanisms.base import Part, Run, Worn
+from tribodyn.mechanisms.base import Part, Run, Stop, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -100,7 +100,7 @@ class JournalSystem:
         assert self.journal
         return ()
 
-    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; a journal does not wear."""
         run = self.case.run
         start = np.array([run.start_x, run.start_y, 0.0, 0.0])

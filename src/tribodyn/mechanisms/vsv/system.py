@@ -19,7 +19,7 @@ from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import BEYOND
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
-from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Worn
+from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Stop, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -115,7 +115,7 @@ class VsvSystem:
         assert self.vsv
         return ()
 
-    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
         joint = self.worn_bushing(None if worn is None else worn.depth)
         problem = vsv_problem(

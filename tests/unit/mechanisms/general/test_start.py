@@ -9,6 +9,7 @@ import pytest
 from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
 
 import tribodyn as td
+from tribodyn.core.errors import Stopped
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.system import MechanismSystem
 
@@ -96,5 +97,25 @@ def test_a_shaft_that_nothing_holds_starts_in_the_middle_and_says_so() -> None:
 
 def test_who_asks_for_the_middle_gets_it() -> None:
     system = MechanismSystem(parsed(DRIVEN + WRIST + 'start = "centred"\n'))
-    assert system.start is None
+    assert system.start() is None
     np.testing.assert_array_equal(system.problem(1e-3).y0, system.assembly.state)
+
+
+def test_the_search_can_be_stopped_and_takes_up_no_memory_of_it() -> None:
+    case, asked = td.load_case("vsv-joints"), []
+
+    def at_the_third() -> bool:
+        asked.append(None)
+        return len(asked) == 3
+
+    system = MechanismSystem(case)
+    with pytest.raises(Stopped):
+        system.start(at_the_third)
+    assert len(asked) == 3
+    whole = system.start(lambda: False)
+    np.testing.assert_array_equal(whole, MechanismSystem(case).start())
+
+
+def test_a_run_that_is_stopped_before_it_begins_says_so() -> None:
+    with pytest.raises(Stopped, match="nothing was saved"):
+        td.simulate(td.load_case("four-bar"), stop=lambda: True)
