@@ -68,14 +68,6 @@ class FormKeys(Group):
     bushing: BoreMap | None = None
     trunnion: ProfileTable | None = None
 
-    def model_post_init(self, context: object, /) -> None:
-        """Check that a chamfer is whole."""
-        demand(
-            (self.chamfer_length is None) == (self.chamfer_depth is None),
-            "joint.form.chamfer_depth",
-            "a chamfer has a length and a depth: give both or neither",
-        )
-
     def form(self) -> Form:
         """Return the form of the joint."""
         from tribodyn.joints.form import Bore, Form
@@ -89,15 +81,40 @@ class FormKeys(Group):
             None if self.trunnion is None else self.trunnion.curve(),
         )
 
-    def check_length(self, length: float) -> None:
-        """Refuse measured forms that end before the bushing does, ``length`` [m]."""
+    def check(self, contact: str, length: float, joint: str = "joint.") -> None:
+        """Refuse a form that a joint cannot have.
+
+        Parameters
+        ----------
+        contact
+            Its contact.
+        length
+            Of the bushing [m].
+        joint
+            What keys of the joint begin with.
+        """
+        demand(
+            (self.chamfer_length is None) == (self.chamfer_depth is None),
+            f"{joint}form.chamfer_depth",
+            "a chamfer has a length and a depth: give both or neither",
+        )
+        demand(
+            contact == SURFACE or self == FormKeys(),
+            f"{joint}form",
+            f'a contact at points has no form: {joint}contact = "surface" is needed',
+        )
         for name, measured in (("bushing", self.bushing), ("trunnion", self.trunnion)):
             places = () if measured is None else measured.positions or ()
             demand(
                 not places or (places[0] <= -0.5 * length and 0.5 * length <= places[-1]),
-                f"joint.form.{name}.positions",
+                f"{joint}form.{name}.positions",
                 f"they count from the middle of the bushing and must reach its ends at {500 * length:g} mm",
             )
+        demand(
+            (self.chamfer_length or 0.0) <= 0.4 * length,
+            f"{joint}form.chamfer_length",
+            f"two chamfers leave too little of {joint}length: at most 0.4 of it each",
+        )
 
 
 class PlainJoint(Group):
@@ -130,14 +147,4 @@ class PlainJoint(Group):
             "the clearance must not exceed a tenth of joint.radius",
         )
         self.liner.check_contact(self.contact)
-        demand(
-            self.contact == SURFACE or self.form == FormKeys(),
-            "joint.form",
-            'a contact at points has no form: joint.contact = "surface" is needed',
-        )
-        self.form.check_length(self.length)
-        demand(
-            (self.form.chamfer_length or 0.0) <= 0.4 * self.length,
-            "joint.form.chamfer_length",
-            "two chamfers leave too little of joint.length: at most 0.4 of it each",
-        )
+        self.form.check(self.contact, self.length)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, cast
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Numbers, choice, quantity, series
 from tribodyn.cases.groups import Bushing, Surfaces
-from tribodyn.cases.joint import PlainJoint
+from tribodyn.cases.joint import LinerKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.materials import between
 
@@ -47,7 +48,17 @@ class PropertiesKeys(Group):
         return {_FOLLOWING[key]: f"temperature.properties.{key}" for key in given}
 
 
-class Temperature(Group):
+@dataclass(frozen=True)
+class Names:
+    """What keys begin with that a refusal names: of the joint, of its temperatures, of its surfaces."""
+
+    clearance: str = "joint.clearance"
+    joint: str = "joint."
+    temperature: str = "temperature."
+    surfaces: str = ""
+
+
+class Temperatures(Group):
     """Temperatures of assembly and of the run; a part without one stays at that of assembly."""
 
     assembly: float = quantity("20 degC", "at which clearance and radius are given", ASSUMED, gt=0)
@@ -62,6 +73,69 @@ class Temperature(Group):
     casing_expansion: float | None = quantity(
         None, "thermal expansion of the casing", "", ge=0, example="11e-6 1/K"
     )
+
+    @property
+    def changes(self) -> bool:
+        """Whether a part has a temperature of its own."""
+        return (self.trunnion, self.bushing, self.casing) != (None, None, None)
+
+    def strains(self, surfaces: Surfaces, names: Names = Names()) -> tuple[float, float]:
+        """Return the free thermal strains αΔT of trunnion and bushing [1]."""
+        key = f"{names.surfaces}surfaces.{{}}.thermal_expansion".format
+        return (
+            self._strain(self.trunnion, surfaces.trunnion.thermal_expansion, key("trunnion")),
+            self._strain(self.bushing, surfaces.bushing.thermal_expansion, key("bushing")),
+        )
+
+    def hot(
+        self, cold: BushingGeometry, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
+    ) -> BushingGeometry:
+        """Return the dimensions of a joint at these temperatures.
+
+        Parameters
+        ----------
+        cold
+            Those at assembly.
+        surfaces, liner
+            Of the joint.
+        names
+            Of keys that are refused.
+
+        Raises
+        ------
+        InputError
+            A thermal expansion is not given, or no clearance is left.
+        """
+        from tribodyn.joints.expansion import expanded
+
+        if not self.changes:
+            return cold
+        trunnion, bushing = self.strains(surfaces, names)
+        casing = self._casing(surfaces.bushing, liner, names) if self.fit == "bonded" else None
+        return expanded(cold, trunnion=trunnion, bushing=bushing, casing=casing, key=names.clearance)
+
+    def _casing(self, bushing: Bushing, liner: LinerKeys, names: Names) -> Casing:
+        from tribodyn.joints.expansion import Casing
+
+        layer = liner.layer(bushing, f"{names.joint}liner")
+        if layer is None:
+            demand(False, f"{names.joint}liner.thickness", "a bonded sleeve needs its thickness")
+            raise AssertionError
+        key = f"{names.temperature}casing_expansion"
+        strain = self._strain(self.casing, self.casing_expansion, key)
+        return Casing(strain, layer.thickness, layer.poisson_ratio)
+
+    def _strain(self, temperature: float | None, expansion: float | None, key: str) -> float:
+        """Return αΔT."""
+        if temperature is None or temperature == self.assembly:
+            return 0.0
+        demand(expansion is not None, key, "needed: this part is not as warm as at assembly")
+        return (expansion or 0.0) * (temperature - self.assembly)
+
+
+class Temperature(Temperatures):
+    """Temperatures of assembly and of the run, and the material over them."""
+
     properties: PropertiesKeys = PropertiesKeys()
 
     @staticmethod
@@ -81,50 +155,13 @@ class Temperature(Group):
             for key, values in columns.items()
         }
 
-    @property
-    def changes(self) -> bool:
-        """Whether a part has a temperature of its own."""
-        return (self.trunnion, self.bushing, self.casing) != (None, None, None)
-
     def dimensions(self, joint: PlainJoint, surfaces: Surfaces) -> BushingGeometry:
-        """Return the dimensions of the joint at these temperatures.
-
-        Raises
-        ------
-        InputError
-            A thermal expansion is not given, or no clearance is left.
-        """
+        """Return the dimensions of the joint of a case at these temperatures, see :meth:`hot`."""
         # Imported here: reading a case needs no compiled code.
         from tribodyn.joints import BushingGeometry
-        from tribodyn.joints.expansion import expanded
 
         cold = BushingGeometry(joint.clearance, joint.radius, joint.length)
-        if not self.changes:
-            return cold
-        key = "surfaces.{}.thermal_expansion".format
-        return expanded(
-            cold,
-            trunnion=self._strain(self.trunnion, surfaces.trunnion.thermal_expansion, key("trunnion")),
-            bushing=self._strain(self.bushing, surfaces.bushing.thermal_expansion, key("bushing")),
-            casing=self._casing(joint, surfaces.bushing) if self.fit == "bonded" else None,
-        )
-
-    def _casing(self, joint: PlainJoint, bushing: Bushing) -> Casing:
-        from tribodyn.joints.expansion import Casing
-
-        layer = joint.liner.layer(bushing)
-        if layer is None:
-            demand(False, "joint.liner.thickness", "a bonded sleeve needs its thickness")
-            raise AssertionError
-        strain = self._strain(self.casing, self.casing_expansion, "temperature.casing_expansion")
-        return Casing(strain, layer.thickness, layer.poisson_ratio)
-
-    def _strain(self, temperature: float | None, expansion: float | None, key: str) -> float:
-        """Return αΔT."""
-        if temperature is None or temperature == self.assembly:
-            return 0.0
-        demand(expansion is not None, key, "needed: this part is not as warm as at assembly")
-        return (expansion or 0.0) * (temperature - self.assembly)
+        return self.hot(cold, surfaces, joint.liner)
 
 
 def _between(places: Numbers, values: Numbers, at: float, key: str) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Any, Final, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.core.tables import ContactTable
+from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
 from tribodyn.joints.shapes import SHAPES, Shape, Surface
 from tribodyn.kernels.arrays import new_record
@@ -56,6 +57,10 @@ class Clearance(Protocol):
     @property
     def facets(self) -> FloatArray:
         """Triangles of a mesh [m], shape (n, 3, 3)."""
+
+    @property
+    def form(self) -> Form:
+        """What a cylinder stands back from one."""
 
     @property
     def friction_coefficient(self) -> float:
@@ -101,8 +106,8 @@ def shape_of(clearance: Clearance) -> Shape:
     """Return the shape of a clearance."""
     if clearance.shape not in SHAPES:
         raise InputError(f"given {clearance.shape!r}; allowed: {', '.join(SHAPES)}", key="shape")
-    facets = {"facets": clearance.facets} if clearance.shape == "mesh" else {}
-    return SHAPES[clearance.shape](**clearance.sizes, **facets)
+    more: dict[str, Any] = {"mesh": {"facets": clearance.facets}, "cylinder": {"form": clearance.form}}
+    return SHAPES[clearance.shape](**clearance.sizes, **more.get(clearance.shape, {}))
 
 
 def table_of(

@@ -34,7 +34,12 @@ class Casing:
 
 
 def expanded(
-    geometry: BushingGeometry, *, trunnion: float, bushing: float, casing: Casing | None = None
+    geometry: BushingGeometry,
+    *,
+    trunnion: float,
+    bushing: float,
+    casing: Casing | None = None,
+    key: str = "joint.clearance",
 ) -> BushingGeometry:
     """Return the dimensions at the temperatures of a run.
 
@@ -46,6 +51,8 @@ def expanded(
         Free thermal strains αΔT [1].
     casing
         What the bushing is bonded into; None for a free one.
+    key
+        What a refusal is about.
 
     Raises
     ------
@@ -59,7 +66,7 @@ def expanded(
         raise InputError(
             f"the joint would seize: hot, the trunnion is {excess:.3g} um larger in radius than its bushing; "
             f"more than {needed:.3g} um are needed at assembly",
-            key="joint.clearance",
+            key=key,
         )
     length = geometry.length * (1.0 + (bushing if casing is None else casing.strain))
     return replace(geometry, clearance=bore - radius, radius=radius, length=length)

@@ -6,14 +6,15 @@ outside the ends of the bore and rest on them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from tribodyn.core.errors import InputError
+from tribodyn.joints.form import Form
 from tribodyn.joints.shapes.annulus import Annulus
 from tribodyn.joints.shapes.base import Points, Surface, check_positive
-from tribodyn.joints.shapes.rings import Rings, across
+from tribodyn.joints.shapes.rings import Rings
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 ENDS = {"upper": 1.0, "lower": -1.0}
@@ -37,6 +38,8 @@ class Cylinder:
         The same at one end each, along the axis and against it.
     flange
         Outer radius of the end faces; the bore is their inner one.
+    form
+        What shaft and bore stand back from cylinders.
     """
 
     radius: float
@@ -46,6 +49,7 @@ class Cylinder:
     axial_upper: float | None = None
     axial_lower: float | None = None
     flange: float | None = None
+    form: Form = field(default_factory=Form)
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
@@ -65,10 +69,14 @@ class Cylinder:
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the barrel and the faces."""
         n_theta, n_z = grid
-        z, weight = across(-0.5 * self.length, 0.5 * self.length, n_z)
+        points, weights = self.form.quadrature(n_z, self.length)
+        half, edge = 0.5 * self.length, np.zeros(1)
+        z, weight = np.concatenate([[-half], points, [half]]), np.concatenate([edge, weights, edge])
         ones = np.ones(z.size)
         rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.radial) * weight)
-        barrel = replace(rings.surface("barrel", ("z", z), self.radial, n_theta, AXIS), slides=True)
+        barrel = rings.surface("barrel", ("z", z), self.radial + self.form.gap(z, self.length), n_theta, AXIS)
+        measured = self.form.measured(barrel.axes["theta"], z).ravel()
+        barrel = replace(barrel, gap=barrel.gap + measured, slides=True)
         return (
             barrel,
             *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self._faces.items()),

@@ -7,10 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from tribodyn.cases import groups
+from tribodyn.cases.case import demand
 from tribodyn.cases.fields import Vector
+from tribodyn.cases.temperature import Names
 from tribodyn.contact import SurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, constant, scaled
+from tribodyn.joints import BushingGeometry
 from tribodyn.joints.clearances import table_of
 from tribodyn.joints.shapes import SHAPES
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
@@ -106,6 +109,7 @@ def _clearance(case: MechanismCase, name: str, joint: JointKeys, clearance: Clea
     facets = _facets(joint, clearance)
     if facets.size:
         sizes["edge"] = clearance.mesh_edge or float(np.ptp(facets.reshape(-1, 3), axis=0).max())
+    sizes = _hot(case, name, clearance, sizes)
     grid = case.solver.grid
     return Clearance(
         shape=joint.shape,
@@ -128,7 +132,36 @@ def _clearance(case: MechanismCase, name: str, joint: JointKeys, clearance: Clea
         tensile_clip=contact.tensile_clip,
         contact=clearance.contact,
         facets=facets,
+        form=clearance.form.form(),
     )
+
+
+def _hot(
+    case: MechanismCase, name: str, clearance: ClearanceKeys, cold: dict[str, float]
+) -> dict[str, float]:
+    """Return the sizes of a clearance at the temperatures of the run [m].
+
+    Of faces at both ends the play between the flanges of the shaft changes, shared as drawn. Against one face
+    alone the shaft stands where it is drawn.
+    """
+    temperature = clearance.temperature
+    if not temperature.changes:
+        return cold
+    joint = f"joints.{name}.clearance."
+    pair = "" if clearance.pair is None else f"pairs.{clearance.pair}."
+    keys = Names(f"{joint}radial", joint, f"{joint}temperature.", pair)
+    surfaces = (case if clearance.pair is None else case.pairs[clearance.pair]).surfaces
+    geometry = BushingGeometry(cold["radial"], cold["radius"], cold.get("length", 0.0))
+    warm = temperature.hot(geometry, surfaces, clearance.liner, keys)
+    sizes = {"radius": warm.radius, "radial": warm.clearance, "length": warm.length}
+    gaps = [cold.get(f"axial_{end}", cold.get("axial")) for end in ("upper", "lower")]
+    if None not in gaps:
+        play = sum(filter(None, gaps))
+        left = (geometry.length + play) * (1.0 + temperature.strains(surfaces, keys)[0]) - warm.length
+        words = f"the joint would seize along its axis: more than {1e6 * (play - left):.3g} um of play"
+        demand(left > 0.0, f"{joint}temperature", f"{words} are needed at assembly")
+        sizes |= {face: cold[face] * left / play for face in cold if face.startswith("axial")}
+    return cold | {size: value for size, value in sizes.items() if size in cold}
 
 
 def _facets(joint: JointKeys, clearance: ClearanceKeys) -> FloatArray:

@@ -6,12 +6,13 @@ counted from 0, ``GROUND`` is the body that never moves.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.core.tables import ContactTable
+from tribodyn.joints.form import Form
 
 GROUND: Final = -1
 """Number of the body that never moves."""
@@ -66,6 +67,8 @@ class Clearance:
         ``surface``, or a point contact of ``joints.CONTACTS``.
     facets
         Triangles of a ``mesh`` in the socket's frame [m], shape (n, 3, 3); of no length for other shapes.
+    form
+        What a ``cylinder`` stands back from one.
     """
 
     shape: str
@@ -81,6 +84,7 @@ class Clearance:
     tensile_clip: bool
     contact: str
     facets: FloatArray
+    form: Form = field(default_factory=Form)
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,8 @@ from tribodyn.cases.fields import (
     switch,
     vector,
 )
-from tribodyn.cases.joint import SURFACE, LinerKeys
+from tribodyn.cases.joint import SURFACE, FormKeys, LinerKeys
+from tribodyn.cases.temperature import Temperatures
 from tribodyn.mechanisms.general.kinds import KINDS
 
 NEEDED: Final = {
@@ -133,6 +134,8 @@ class ClearanceKeys(NamedGroup):
         example="steel-ptfe",
     )
     liner: LinerKeys = LinerKeys()
+    form: FormKeys = FormKeys()
+    temperature: Temperatures = Temperatures()
     ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "assumed")
     nodes_around: int | None = count(
         None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
@@ -145,6 +148,7 @@ class ClearanceKeys(NamedGroup):
         """Check what involves several sizes."""
         demand(len(self.facets or ()) % 9 == 0, "facets", "a triangle has nine coordinates")
         self.liner.check_contact(self.contact, "")
+        self.form.check(self.contact, math.inf if self.length is None else self.length, "")
         if self.radius is None or self.radial is None:
             return
         demand(
@@ -269,6 +273,13 @@ class JointKeys(NamedGroup):
         for key, size in NEEDED[shape].items():
             words = f"a joint of the shape {shape} needs {size}"
             demand(getattr(clearance, key) is not None, f"clearance.{key}", words)
+        words = f"a form is that of a shaft in a bore, not of the shape {shape}"
+        demand(shape == "cylinder" or clearance.form == FormKeys(), "clearance.form", words)
+        words = "the gap of a mesh is given as it is in the run"
+        demand(shape != "mesh" or not clearance.temperature.changes, "clearance.temperature", words)
+        words = f"a bonded sleeve is that of a shaft in a bore, not of the shape {shape}"
+        bonded = clearance.temperature.fit == "bonded"
+        demand(shape == "cylinder" or not bonded, "clearance.temperature.fit", words)
         faces = ("axial", "axial_upper", "axial_lower", "flange")
         for key in faces:
             words = f"end faces are for revolute joints, not for a {self.type} one"
