@@ -7,8 +7,10 @@ never depends on the file again. Above the columns stand their names and units::
     0, 0, 1.5
     1, 250, 1.4
 
-Semicolons and tabs may stand for commas. A row that stands there twice is a kink: the slope may jump. In a
-map, which a key ``map`` names, the places across stand for the names of columns::
+Semicolons and tabs may stand for commas, which then are decimal commas; units may stand in round brackets.
+Lines above the header, blank ones, and those that begin with ``#``, ``%`` or ``//`` are passed over. A row
+that stands there twice is a kink: the slope may jump. In a map, which a key ``map`` names, the places across
+stand for the names of columns::
 
     time [ms], 60 deg [N m], 90 deg [N m]
     0, 1.5, 1.2
@@ -18,7 +20,6 @@ map, which a key ``map`` names, the places across stand for the names of columns
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -28,6 +29,7 @@ from typing import Final
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.keys import Key, ValueProblem, shown
 from tribodyn.cases.units import UnitProblem, dimension, si_unit, to_si
+from tribodyn.core.delimited import is_comment, named, separator_of, with_points
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import LONGEST, brief
@@ -44,7 +46,6 @@ LARGEST: Final = 20_000_000
 MOST_ROWS: Final = 10_000
 MOST_OF_MAP: Final = 50_000
 """Numbers that a map holds, at most."""
-_HEADER: Final = re.compile(r"\s*\"?([^\[\]\"]*?)\s*\[\s*([^\]]+?)\s*\]\s*\"?\s*")
 
 
 class TableProblem(ValueError):
@@ -99,12 +100,13 @@ def _expected(found: Mapping[str, str], knots: Sequence[str]) -> None:
 
 def _lines(text: str) -> tuple[list[str], str]:
     """Return the lines of a file that count, the header first, and what separates its columns."""
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    every = [line for line in text.splitlines() if line.strip() and not is_comment(line)]
+    lines = every[next((place for place, line in enumerate(every) if _has_units(line)), 0) :]
     if len(lines) < 3:
         raise TableProblem("it needs a header, such as time [s], force [N], and two rows of numbers at least")
     if len(lines) > MOST_ROWS:
         raise TableProblem(f"it has more than {MOST_ROWS} rows")
-    return lines, next((mark for mark in (";", "\t") if mark in lines[0]), ",")
+    return lines, separator_of(lines[0])
 
 
 def _numbers(text: str, column: str | None, unit: str) -> dict[str, str]:
@@ -219,12 +221,18 @@ def check(knots: Sequence[float], values: Sequence[float]) -> None:
 
 def _described(cell: str) -> tuple[str, str]:
     """Return name and unit of a column."""
-    match = _HEADER.fullmatch(cell)
-    if match is None:
+    name, unit = named(cell) or ("", None)
+    if unit is None:
         raise TableProblem(
             f"the header {shown(cell.strip())} names no unit; each column has one, as in time [s], force [N]"
         )
-    return match[1], match[2]
+    return name, unit
+
+
+def _has_units(line: str) -> bool:
+    """Tell whether a line may be the header: some column has a unit."""
+    columns = [named(cell) for cell in line.split(separator_of(line))]
+    return any(column is not None and column[1] is not None for column in columns)
 
 
 def _knots(unit: str) -> str:
@@ -240,9 +248,7 @@ def _knots(unit: str) -> str:
 
 
 def _row(line: str, separator: str, places: Sequence[int], number: int) -> list[str]:
-    cells = [cell.strip() for cell in line.split(separator)]
-    if separator == ";":
-        cells = [cell.replace(",", ".") for cell in cells]
+    cells = [cell.strip() for cell in with_points(line, separator).split(separator)]
     for place in places:
         try:
             finite = math.isfinite(float(cells[place]))

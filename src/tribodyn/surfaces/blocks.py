@@ -7,13 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import BinaryIO, Final
 
+from tribodyn.core.delimited import SEPARATORS, with_points
 from tribodyn.core.errors import InputError
 
-SEPARATORS: Final = (";", "\t", ",")
-"""What may stand between the fields of a line; the first one that is found does."""
 _MARKS: Final = tuple(mark.encode() for mark in SEPARATORS)
-COMMENTS: Final = ("#", "%", "//")
-"""How a line begins that is a comment."""
 BLOCK: Final = 1_000_000
 """Bytes that are read at a time."""
 
@@ -48,9 +45,9 @@ class Block:
             if begun or goes_on or (text and not text.isspace()):
                 yield Line(self.number + place, text, goes_on)
 
-    def with_points(self) -> Block:
+    def with_points(self, separator: str) -> Block:
         """Return the lines with points in the place of decimal commas."""
-        return replace(self, texts=[text.replace(",", ".") for text in self.texts])
+        return replace(self, texts=[with_points(text, separator) for text in self.texts])
 
     def after(self, number: int) -> Block:
         """Return the lines from a number on."""
@@ -98,11 +95,6 @@ def _end(content: bytes, number: int, source: str) -> int:
     if end == 0:
         raise too_long(number, source)
     return end
-
-
-def is_comment(text: str) -> bool:
-    """Tell whether a line holds no numbers but says something."""
-    return text.lstrip().startswith(COMMENTS)
 
 
 def too_long(number: int, source: str) -> InputError:

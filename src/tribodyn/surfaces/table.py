@@ -11,9 +11,10 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.delimited import is_comment
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
-from tribodyn.surfaces.blocks import Block, Line, is_comment
+from tribodyn.surfaces.blocks import Block, Line
 from tribodyn.surfaces.scan import MOST_POINTS
 
 _MISSING: Final = ("", "nan")

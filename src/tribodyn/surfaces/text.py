@@ -26,17 +26,16 @@ from typing import BinaryIO, Final, TypeAlias
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.delimited import is_comment, named, separator_of
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief
-from tribodyn.surfaces.blocks import SEPARATORS, Block, Line, blocks, is_comment, too_long
+from tribodyn.surfaces.blocks import Block, Line, blocks, too_long
 from tribodyn.surfaces.scan import Length, Scan, from_columns
 from tribodyn.surfaces.table import Table
 
 Numbers: TypeAlias = Callable[[int | None], FloatArray]
 """Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known."""
 
-_COLUMN: Final = re.compile(r"\s*\"?([^\[\](),;\"]*?)\s*(?:\[\s*([^\]]+?)\s*\]|\(\s*([^)]+?)\s*\))?\"?\s*")
-"""Name of a column with its unit in brackets."""
 _NOTE: Final = re.compile(r"#\s*(unit|spacing)\s*[:=]\s*(.+?)\s*", re.IGNORECASE)
 
 
@@ -86,7 +85,7 @@ def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Sc
     def numbers(width: int | None) -> FloatArray:
         table = Table(separator, width, late, source)
         for block in chain([first], every):
-            table.add(block if separator == "," else block.with_points())
+            table.add(block if separator == "," else block.with_points(separator))
         return table.values()
 
     if header is not None:
@@ -148,7 +147,7 @@ def _head(every: Iterator[Block], source: str) -> tuple[dict[str, str], Line | N
             if is_comment(line.text):
                 notes |= _note(line, source)
                 continue
-            separator = next((mark for mark in SEPARATORS if mark in line.text), ",")
+            separator = separator_of(line.text)
             if not _is_header(line.text.split(separator)):
                 return notes, header, separator, block.after(line.number)
             header = line
@@ -209,7 +208,7 @@ def _size(name: str, unit: str | None, length: Length, source: str) -> float:
 def _columns(header: Line, separator: str, source: str) -> dict[str, str | None]:
     """Return the unit of each column in their order: x, then h, unless they are named otherwise."""
     words = header.text.split(separator)
-    found = [match for word in words if (match := _COLUMN.fullmatch(word)) is not None]
+    found = [column for word in words if (column := named(word)) is not None]
     if len(found) != 2 or len(words) != 2:
         shown = brief(",".join(words).strip())
         raise InputError(
@@ -217,9 +216,9 @@ def _columns(header: Line, separator: str, source: str) -> dict[str, str | None]
             'such as "x [mm],z [um]", and none for a table of heights',
             source=source,
         )
-    swapped = [match[1].lower() for match in found] == ["h", "x"]
+    swapped = [name.lower() for name, _ in found] == ["h", "x"]
     names = ("h", "x") if swapped else ("x", "h")
-    return {name: match[2] or match[3] for name, match in zip(names, found, strict=True)}
+    return {name: unit for name, (_, unit) in zip(names, found, strict=True)}
 
 
 def _fields(block: Block, separator: str) -> int:

@@ -95,6 +95,21 @@ def test_a_file_is_read_once_and_stands_in_the_case(folder: Path) -> None:
     assert parse(case.to_toml(), "again", {"toy": Toy}) == case
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        "angle [deg];force [N]\n0;1,5\n180;2,5\n",
+        "angle [deg]\tforce [N]\n0\t1,5\n180\t2,5\n",
+        '\ufeffTest rig 3, cold\n% by hand\n"Angle (deg)","Force (N)"\n0,1.5\n// again\n180,2.5\n',
+        "Rig;3\n\nangle (deg);force, mean (net) [N]\n0,0;1,5\n1,8e2;2,5\n",
+    ],
+)
+def test_a_table_is_read_as_instruments_write_it(content: str, folder: Path) -> None:
+    (folder / "rig.csv").write_text(content, encoding="utf-8")
+    force = parsed('force = { table = "rig.csv" }', folder).loads["gas"].force
+    assert (force.angles, force.values) == ((0.0, math.pi), (1.5, 2.5))
+
+
 def test_a_column_is_chosen_by_name_and_the_first_may_be_an_angle(folder: Path) -> None:
     assert "torque" in refused('force = { table = "gas.csv", column = "power" }', folder)
     assert "not a unit of force" in refused('force = { table = "gas.csv", column = "torque" }', folder)

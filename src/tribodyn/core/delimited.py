@@ -1,0 +1,47 @@
+"""What all text files of numbers have in common: comments, separators, decimal commas, names with units.
+
+Scans (:mod:`tribodyn.surfaces.text`) are read block by block and may be large; tables and maps of a case
+(:mod:`tribodyn.cases.columns`) are small and keep the digits as they stand. Both ask here what a line means.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+SEPARATORS: Final = (";", "\t", ",")
+"""What may stand between the fields of a line; the first one that is found does."""
+_COMMENTS: Final = ("#", "%", "//")
+"""How a line begins that is a comment."""
+_COLUMN: Final = re.compile(r"\"?([^\[\]\"]*?)\s*(?:\[([^\]]+)\]|\(([^()]+)\))?\s*\"?")
+"""Name of a column, with its unit in brackets."""
+
+
+def is_comment(text: str) -> bool:
+    """Tell whether a line holds no numbers but says something."""
+    return text.lstrip().startswith(_COMMENTS)
+
+
+def separator_of(text: str) -> str:
+    """Return what stands between the fields of a line."""
+    return next((mark for mark in SEPARATORS if mark in text), ",")
+
+
+def with_points(text: str, separator: str) -> str:
+    """Return a line with points for commas, which are decimal commas where they do not separate fields."""
+    return text if separator == "," else text.replace(",", ".")
+
+
+def named(cell: str) -> tuple[str, str | None] | None:
+    """Return name and unit of a column as its header gives them, None where it cannot be one.
+
+    Examples
+    --------
+    >>> named('"Position (mm)"'), named("torque (net) [N m]"), named("x")
+    (('Position', 'mm'), ('torque (net)', 'N m'), ('x', None))
+    """
+    match = _COLUMN.fullmatch(cell.strip())
+    if match is None:
+        return None
+    unit = match[2] or match[3]
+    return match[1].strip(), None if unit is None else unit.strip()
