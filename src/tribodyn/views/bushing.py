@@ -47,7 +47,7 @@ class Unrolled:
         angle = rolled(self.theta, np.zeros((self.theta.size, 1)), self.cut)[0]
         half = float(self.z[-1])
         marks = np.array([-half, 0.0, half]) if self.middle else height_marks(half, self.empty)
-        turns = 45.0 * np.ceil(angle[0] / 45.0 - 1e-9) + 45.0 * np.arange(9)
+        turns = 45.0 * np.arange(np.ceil(angle[0] / 45.0 - 1e-9), np.floor(angle[-1] / 45.0 + 1e-9) + 1.0)
         return {
             "angle": packed(angle),
             "height": packed(self._drawn(self.z)),

@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.views.bushing import unrolled
 from tribodyn.views.encode import packed, quantised
 from tribodyn.views.section import Payload, Section
-from tribodyn.views.unrolled import best_cut, unloaded_middle
+from tribodyn.views.unrolled import best_cut, shares, unloaded_middle
 
 
 def data(dataset: xr.Dataset) -> Payload | None:
@@ -19,7 +19,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
     if fields.shape[0] < 2 or not fields.max(initial=0.0) > 0.0:
         return None
     envelope = fields.max(axis=0)
-    cut = best_cut(dataset["theta"].values, envelope.max(axis=1))
+    cut = best_cut(dataset["theta"].values, shares(fields))
     places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
     steps, peaks = quantised(places.reordered(fields))
     return {

@@ -10,7 +10,9 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 
 CUTS: Final = (90.0, 270.0, 180.0, 0.0, 45.0, 135.0, 225.0, 315.0)
-"""Angles at which the bushing may be cut open [deg], the preferred one first."""
+"""Angles at which the bushing is cut open [deg], the preferred one first."""
+_BETWEEN: Final = tuple(float(cut) for cut in range(0, 360, 15) if cut not in CUTS)
+"""Where it is cut, too, if there is load at all of those."""
 _BORDERS: Final = (30.0, 15.0, 5.0)
 """What should be free on both sides of a cut [deg], or at least."""
 
@@ -19,7 +21,7 @@ _MOST_STEPS: Final = 3
 
 
 def best_cut(theta: FloatArray, load: FloatArray) -> float:
-    """Return the angle [deg] of :data:`CUTS` with no load around it, or else with the least at it.
+    """Return the angle [deg] of :data:`CUTS` with no load around it, or else any with the least at it.
 
     Parameters
     ----------
@@ -29,16 +31,36 @@ def best_cut(theta: FloatArray, load: FloatArray) -> float:
         What should not be cut, at each angle, shape (n_theta,).
     """
     size = np.nan_to_num(np.abs(load))
-    away = [np.abs((np.rad2deg(theta) - cut + 180.0) % 360.0 - 180.0) for cut in CUTS]
-    loads = [0.0]
+
+    def near(cut: float, border: float) -> float:
+        distance = np.abs((np.rad2deg(theta) - cut + 180.0) % 360.0 - 180.0)
+        return float(size[distance <= border].max(initial=0.0))
+
     for border in _BORDERS:
-        loads = [float(size[distance <= border].max(initial=0.0)) for distance in away]
-        # What is below a hundredth of the peak may be cut: the preferred cut then wins.
-        if min(loads) <= 0.01 * size.max(initial=0.0):
-            return next(
-                cut for cut, load in zip(CUTS, loads, strict=True) if load <= 0.01 * size.max(initial=0.0)
-            )
-    return CUTS[int(np.argmin(loads))]
+        for cut in CUTS:
+            # What is below a hundredth of the peak may be cut: the preferred cut then wins.
+            if near(cut, border) <= 0.01 * size.max(initial=0.0):
+                return cut
+    return min((*CUTS, *_BETWEEN), key=lambda cut: near(cut, _BORDERS[-1]))
+
+
+def shares(frames: FloatArray) -> FloatArray:
+    """Return the largest share that each angle ever has of the peak of its frame: what may be seen there.
+
+    Parameters
+    ----------
+    frames
+        Fields, shape (n, n_theta, n_z).
+
+    Returns
+    -------
+    array
+        Shape (n_theta,), from 0 to 1.
+    """
+    size = np.nan_to_num(np.abs(frames))
+    peaks = size.max(axis=(1, 2), keepdims=True, initial=0.0)
+    of_frame = np.divide(size, peaks, out=np.zeros_like(size), where=peaks > 0.0)
+    return np.asarray(of_frame.max(axis=(0, 2), initial=0.0))
 
 
 def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray, FloatArray]:

@@ -3,11 +3,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tribodyn.figures.pressure import _places
 from tribodyn.figures.trajectory import centre
 from tribodyn.figures.wear import fitting_unit
 from tribodyn.results import build
-from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle
+from tribodyn.views.unrolled import CUTS, best_cut, rolled, shares, unloaded_middle
 
 THETA = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
 
@@ -28,6 +29,35 @@ def test_a_worn_bushing_is_not_cut_where_it_carries():
     cut = best_cut(THETA, load)
     near = np.abs((np.rad2deg(THETA) - cut + 180.0) % 360.0 - 180.0) <= 5.0
     assert load[near].max() <= 0.01
+
+
+def _at(cut, frames):
+    """Return the share of its peak that each frame has at a cut."""
+    near = np.abs((np.rad2deg(THETA) - cut + 180.0) % 360.0 - 180.0) <= 5.0
+    return frames[:, near].max(axis=(1, 2)) / frames.max(axis=(1, 2))
+
+
+def test_no_frame_is_cut_through_its_load():
+    # Loads of the smooth motion, and an impact ten times as large; then, small beside it, the rebound that
+    # goes round the worn bushing and leaves free none of the preferred cuts, but what lies between two.
+    small = [0.1 * _hump(0), 0.1 * _hump(270), _hump(300), 0.005 * _hump(*CUTS) ** 9]
+    frames = np.array(small)[:, :, None] * np.ones(3)
+    cut = best_cut(THETA, shares(frames))
+    assert cut not in CUTS
+    assert _at(cut, frames).max() < 0.02
+    assert np.array_equal(shares(np.zeros((2, 96, 3))), np.zeros(96))
+
+
+@pytest.mark.long
+def test_the_map_of_a_worn_bushing_is_not_cut_through_its_load():
+    worn = td.simulate(td.load_case("vsv").replace({"wear.cycles": 100_000}))
+    frames = np.nan_to_num(worn["pressure_cycle"].values)
+    cut = best_cut(worn["theta"].values, shares(frames))
+    # In the milliseconds after a reversal the shaft bounces all around: no cut is free then.
+    since = worn["frame_time"].values % np.pi
+    smooth = frames[since > 0.1 * np.pi]
+    assert len(smooth) > 100
+    assert _at(cut, smooth).max() == 0.0
 
 
 def test_the_cut_of_nothing_is_the_preferred_one():

@@ -18,7 +18,7 @@ from tribodyn.views.lines import over_time
 from tribodyn.views.playback import in_playback, playback_times
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak
-from tribodyn.views.unrolled import best_cut
+from tribodyn.views.unrolled import best_cut, shares
 
 _AXES: Final = "xyz"
 LAID_FLAT: Final = (
@@ -106,7 +106,7 @@ def _maps(
         if not largest > 0.0:
             continue
         unit, size = unit_of(largest)
-        cut = best_cut(theta, fields.max(axis=(0, 2)))
+        cut = best_cut(theta, shares(fields))
         middle = 0.5e3 * float(place[0] + place[-1])
         laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
         steps, peaks = quantised(laid.reordered(fields / size))
