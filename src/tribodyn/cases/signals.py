@@ -173,6 +173,12 @@ class PositionTable(_Timed):
     values: Numbers | None = _values("0, 10, 30 mm")
 
 
+class TemperatureTable(_Timed):
+    """A temperature over time."""
+
+    values: Numbers | None = _values("20, 200, 300 degC")
+
+
 class ProfileTable(_Rows):
     """A deviation of a radius over a position."""
 

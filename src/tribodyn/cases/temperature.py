@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Literal, cast
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Final, Literal, cast
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Numbers, choice, quantity, series
-from tribodyn.cases.groups import Bushing, Surfaces
+from tribodyn.cases.groups import Surfaces
 from tribodyn.cases.joint import LinerKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.materials import between
+from tribodyn.cases.signals import TemperatureTable
 
 if TYPE_CHECKING:
+    from tribodyn.core.signals import Signal
     from tribodyn.joints import BushingGeometry
     from tribodyn.joints.expansion import Casing
 
+PARTS: Final = ("trunnion", "bushing", "casing")
+OVER_TIME: Final = "temperature.over_time"
 _FOLLOWING: Final = {
     "young_modulus": "surfaces.bushing.young_modulus",
     "hardness": "surfaces.bushing.hardness",
@@ -77,20 +81,21 @@ class Temperatures(Group):
     @property
     def changes(self) -> bool:
         """Whether a part has a temperature of its own."""
-        return (self.trunnion, self.bushing, self.casing) != (None, None, None)
+        return any(temperature is not None for temperature in self.at_start.values())
+
+    @property
+    def at_start(self) -> dict[str, float | None]:
+        """Temperature of each part where a run begins [K]."""
+        return {part: getattr(self, part) for part in PARTS}
 
     def strains(self, surfaces: Surfaces, names: Names = Names()) -> tuple[float, float]:
         """Return the free thermal strains αΔT of trunnion and bushing [1]."""
-        key = f"{names.surfaces}surfaces.{{}}.thermal_expansion".format
-        return (
-            self._strain(self.trunnion, surfaces.trunnion.thermal_expansion, key("trunnion")),
-            self._strain(self.bushing, surfaces.bushing.thermal_expansion, key("bushing")),
-        )
+        return self._strain("trunnion", surfaces, names), self._strain("bushing", surfaces, names)
 
     def hot(
         self, cold: BushingGeometry, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
     ) -> BushingGeometry:
-        """Return the dimensions of a joint at these temperatures.
+        """Return the dimensions of a joint at these temperatures, those where a run begins.
 
         Parameters
         ----------
@@ -111,26 +116,36 @@ class Temperatures(Group):
         if not self.changes:
             return cold
         trunnion, bushing = self.strains(surfaces, names)
-        casing = self._casing(surfaces.bushing, liner, names) if self.fit == "bonded" else None
+        casing = self._casing(surfaces, liner, names)
         return expanded(cold, trunnion=trunnion, bushing=bushing, casing=casing, key=names.clearance)
 
-    def _casing(self, bushing: Bushing, liner: LinerKeys, names: Names) -> Casing:
+    def _casing(self, surfaces: Surfaces, liner: LinerKeys, names: Names) -> Casing | None:
+        if self.fit == "free":
+            return None
         from tribodyn.joints.expansion import Casing
 
-        layer = liner.layer(bushing, f"{names.joint}liner")
+        layer = liner.layer(surfaces.bushing, f"{names.joint}liner")
         if layer is None:
             demand(False, f"{names.joint}liner.thickness", "a bonded sleeve needs its thickness")
             raise AssertionError
-        key = f"{names.temperature}casing_expansion"
-        strain = self._strain(self.casing, self.casing_expansion, key)
-        return Casing(strain, layer.thickness, layer.poisson_ratio)
+        return Casing(self._strain("casing", surfaces, names), layer.thickness, layer.poisson_ratio)
 
-    def _strain(self, temperature: float | None, expansion: float | None, key: str) -> float:
-        """Return αΔT."""
+    def _strain(self, part: str, surfaces: Surfaces, names: Names) -> float:
+        """Return αΔT of a part where a run begins."""
+        temperature = self.at_start[part]
         if temperature is None or temperature == self.assembly:
             return 0.0
+        return self._expansion(part, surfaces, names) * (temperature - self.assembly)
+
+    def _expansion(self, part: str, surfaces: Surfaces, names: Names) -> float:
+        """Return α of a part [1/K]."""
+        if part == "casing":
+            key, expansion = f"{names.temperature}casing_expansion", self.casing_expansion
+        else:
+            key = f"{names.surfaces}surfaces.{part}.thermal_expansion"
+            expansion = getattr(surfaces, part).thermal_expansion
         demand(expansion is not None, key, "needed: this part is not as warm as at assembly")
-        return (expansion or 0.0) * (temperature - self.assembly)
+        return float(expansion or 0.0)
 
 
 class Temperature(Temperatures):
@@ -147,7 +162,9 @@ class Temperature(Temperatures):
         if places is None or not columns:
             demand(not columns, f"{prefix}temperatures", "one for each value is needed")
             return {}
-        where = given.get("temperature.bushing", given.get("temperature.assembly", 293.15))
+        at_assembly = given.get("temperature.assembly", 293.15)
+        table = cast("Numbers | None", given.get(f"{OVER_TIME}.bushing.values"))
+        where = table[0] if table else given.get("temperature.bushing", at_assembly)
         return {
             _FOLLOWING[key]: _between(
                 cast("Numbers", places), cast("Numbers", values), cast("float", where), key
@@ -162,6 +179,73 @@ class Temperature(Temperatures):
 
         cold = BushingGeometry(joint.clearance, joint.radius, joint.length)
         return self.hot(cold, surfaces, joint.liner)
+
+
+class OverTime(Group):
+    """Temperatures that follow time, from the start of a run on."""
+
+    trunnion: TemperatureTable | None = None
+    bushing: TemperatureTable | None = None
+    casing: TemperatureTable | None = None
+
+
+class ChangingTemperature(Temperature):
+    """Temperatures of assembly and of the run, constant or over time."""
+
+    over_time: OverTime = OverTime()
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(
+        (part, f"over_time.{part}.{key}") for part in PARTS for key in TemperatureTable.model_fields
+    )
+
+    @property
+    def tables(self) -> dict[str, TemperatureTable]:
+        """Temperatures that follow time, by the part."""
+        found = {part: getattr(self.over_time, part) for part in PARTS}
+        return {part: table for part, table in found.items() if table is not None}
+
+    @property
+    def at_start(self) -> dict[str, float | None]:
+        """Temperature of each part where a run begins [K]."""
+        return super().at_start | {part: table.curve().at_start for part, table in self.tables.items()}
+
+    def opening(self, joint: PlainJoint, surfaces: Surfaces) -> Signal | None:
+        """Return what the clearance has more than at the start, over time [m, s]; None where it keeps still.
+
+        Raises
+        ------
+        InputError
+            A table does not begin with the run, or a thermal expansion is not given.
+        """
+        if not self.tables:
+            return None
+        from tribodyn.core.signals import summed
+        from tribodyn.joints import BushingGeometry
+        from tribodyn.joints.expansion import clearance_rates
+
+        cold = BushingGeometry(joint.clearance, joint.radius, joint.length)
+        rates = clearance_rates(cold, self._casing(surfaces, joint.liner, Names()))
+        for part, table in self.tables.items():
+            key = f"{OVER_TIME}.{part}"
+            words = 'a free bushing follows no casing: temperature.fit = "bonded" is needed'
+            demand(part in rates, key, words)
+            demand(table.knots[0] == 0.0, key, f"the table begins at {table.knots[0]:g} s, a run at 0 s")
+        factors = {part: rates[part] * self._expansion(part, surfaces, Names()) for part in self.tables}
+        whole = summed([(table.curve(), factors[part]) for part, table in self.tables.items()])
+        return replace(whole, coefficients=whole.coefficients - [[0.0], [0.0], [0.0], [whole.at_start]])
+
+    def check(self, joint: PlainJoint, surfaces: Surfaces, duration: float) -> None:
+        """Refuse temperatures that leave no clearance in a run of ``duration`` [s]."""
+        opening = self.opening(joint, surfaces)
+        if opening is None:
+            return
+        clearance = self.dimensions(joint, surfaces).clearance
+        when, least = opening.least(duration)
+        words = (
+            f"the joint would seize: {when:.4g} s after the start the trunnion is "
+            f"{-1e6 * (clearance + least):.3g} um larger in radius than its bushing"
+        )
+        demand(clearance + least > 0.0, OVER_TIME, words)
 
 
 def _between(places: Numbers, values: Numbers, at: float, key: str) -> float:

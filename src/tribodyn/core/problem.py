@@ -31,6 +31,7 @@ The rules
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -172,6 +173,8 @@ class Problem:
         Index of each state, 1 to 3, shape (n,), with a mass matrix; empty where all are 1.
     following
         Where steps give rows beside those at output times; nowhere by default.
+    longest_step
+        Length that no step exceeds [s]: what acts may swing faster than the states show.
     """
 
     functions: CompiledFunctions
@@ -189,6 +192,7 @@ class Problem:
     mass: Any = None
     index: tuple[int, ...] = ()
     following: Following | None = None
+    longest_step: float = math.inf
 
 
 @dataclass

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,33 @@ class Signal:
     coefficients: FloatArray
     knots: FloatArray
     kinks: FloatArray
+
+    def __call__(self, places: FloatArray) -> FloatArray:
+        """Return the values of a table, shape of ``places``."""
+        return np.asarray(self._curve(np.clip(places, self.knots[0], self.knots[-1])))
+
+    def slope(self, places: FloatArray, order: int) -> FloatArray:
+        """Return derivatives of a table of some order inside it, shape of ``places``."""
+        return np.asarray(self._curve(places, order))
+
+    @property
+    def at_start(self) -> float:
+        """Value of a table at zero."""
+        return float(self(np.zeros(1))[0])
+
+    def least(self, until: float) -> tuple[float, float]:
+        """Return where between zero and ``until`` a table has its least value, and that value."""
+        turns = self._curve.derivative().roots(extrapolate=False)
+        places = np.concatenate([[0.0, until], self.knots, turns])
+        places = places[(places >= 0.0) & (places <= until)]
+        values = self(places)
+        return float(places[values.argmin()]), float(values.min())
+
+    @cached_property
+    def _curve(self) -> PPoly:
+        from scipy.interpolate import PPoly
+
+        return PPoly(self.coefficients, self.knots)
 
 
 def constant(value: float) -> Signal:
@@ -142,6 +174,20 @@ def repeated(signal: Signal, n: int) -> Signal:
         knots=np.append(knots, signal.knots[-1] + shifts[-1]),
         kinks=np.unique(shifts + signal.kinks[None]),
     )
+
+
+def summed(parts: Sequence[tuple[Signal, float]]) -> Signal:
+    """Return the sum of tables over the same argument, each times a factor; beyond a table its ends hold."""
+    knots = np.unique(np.concatenate([part.knots for part, _ in parts]))
+    inner = knots[:-1]
+    coefficients = np.zeros((4, inner.size))
+    for part, factor in parts:
+        coefficients[3] += factor * part(inner)
+        within = (inner >= part.knots[0]) & (inner < part.knots[-1])
+        for power, faculty in ((1, 1.0), (2, 2.0), (3, 6.0)):
+            coefficients[3 - power, within] += factor * part.slope(inner[within], power) / faculty
+    kinks = np.unique(np.concatenate([part.kinks for part, _ in parts]))
+    return Signal("table", coefficients, knots, kinks)
 
 
 def scaled(signal: Signal, factor: float) -> Signal:

@@ -22,6 +22,7 @@ The rules of a method
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple, Protocol, TypeAlias
 
@@ -75,6 +76,7 @@ class Method(Protocol):
         rtol: float,
         atol: FloatArray,
         statistics: Statistics,
+        longest: float = math.inf,
     ) -> Iterator[Step]:
         """Yield the accepted steps from ``t_start`` to ``t_end``.
 
@@ -92,5 +94,7 @@ class Method(Protocol):
             Absolute tolerance of each state, shape (n,).
         statistics
             Where LU decompositions and rejected steps are added.
+        longest
+            Length that no step exceeds [s].
         """
         ...

@@ -7,6 +7,7 @@ equation solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -35,6 +36,7 @@ class Cvode:
         rtol: float,
         atol: FloatArray,
         statistics: Statistics,
+        longest: float = math.inf,
     ) -> Iterator[Step]:
         """Yield the accepted steps, see :class:`tribodyn.integrate.base.Method`.
 
@@ -43,7 +45,7 @@ class Cvode:
         # Without a least step CVODE goes on, printing warnings, when its steps no longer change t.
         least = 4.0 * float(np.spacing(max(abs(t_start), abs(t_end))))
         functions = {"rhsfn": _filling(rhs), "jacfn": _filling_matrix(jac)}
-        bounds = {"min_step": least, "max_step": t_end - t_start}
+        bounds = {"min_step": least, "max_step": min(longest, t_end - t_start)}
         solver = _cvode_class()(**functions, **bounds, rtol=rtol, atol=atol)
         solver.init_step(t_start, y_start)
 

@@ -139,7 +139,8 @@ class Walk:
         """Integrate to the next breakpoint or to the end."""
         binding, atol = self.binding, self.problem.atol
         rhs, jac = self.listening(binding.rhs), self.listening(binding.jac)
-        for step in method.steps(rhs, jac, self.t, self.y, t_end, rtol, atol, self.statistics):
+        longest = self.problem.longest_step
+        for step in method.steps(rhs, jac, self.t, self.y, t_end, rtol, atol, self.statistics, longest):
             self.check(step)
             self.walk(step)
             self.ask()

@@ -126,8 +126,17 @@ class _CompiledWalk(Walk):
     def _new_state(self, t: float, t_end: float) -> MebdfState:
         from tribodyn.kernels.mebdf.state import new_state
 
-        atol, outside = self.problem.atol, self.problem.algebra is not None
-        return new_state(t, self.y, t_end, self._relative, atol, outside=outside, mass=self._mass)
+        problem = self.problem
+        return new_state(
+            t,
+            self.y,
+            t_end,
+            self._relative,
+            problem.atol,
+            outside=problem.algebra is not None,
+            mass=self._mass,
+            max_step=problem.longest_step,
+        )
 
     @property
     def _relative(self) -> float | FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import math
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -51,9 +52,11 @@ class ScipyMethod:
         rtol: float,
         atol: FloatArray,
         statistics: Statistics,
+        longest: float = math.inf,
     ) -> Iterator[Step]:
         """Yield the accepted steps, see :class:`tribodyn.integrate.base.Method`."""
-        solver = self._solver_class()(rhs, t_start, y_start.copy(), t_end, rtol=rtol, atol=atol, jac=jac)
+        options = {"rtol": rtol, "atol": atol, "jac": jac, "max_step": longest}
+        solver = self._solver_class()(rhs, t_start, y_start.copy(), t_end, **options)
         interpolate = self.interpolant(solver)
         decompositions = 0
         while solver.status == "running":

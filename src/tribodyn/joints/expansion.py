@@ -33,6 +33,19 @@ class Casing:
     poisson_ratio: float
 
 
+def clearance_rates(geometry: BushingGeometry, casing: Casing | None) -> dict[str, float]:
+    """Return what the clearance gains for each strain αΔT, by the part that it belongs to [m].
+
+    Arguments as for :func:`expanded`; the strain of the casing itself does not matter.
+    """
+    of_trunnion = {"trunnion": -geometry.radius}
+    if casing is None:
+        return of_trunnion | {"bushing": geometry.bore_radius}
+    squeeze = 2.0 * casing.poisson_ratio / (1.0 - casing.poisson_ratio) * casing.thickness
+    outer = geometry.bore_radius + casing.thickness
+    return of_trunnion | {"bushing": -casing.thickness - squeeze, "casing": outer + squeeze}
+
+
 def expanded(
     geometry: BushingGeometry,
     *,

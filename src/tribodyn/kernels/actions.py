@@ -17,6 +17,7 @@ from tribodyn.kernels.signals import Signals, evaluate
 NONE: Final = -1
 """Number of a signal that is not there."""
 N_OVER: Final = 3
+TIME: Final = 0
 """Coordinates that signals may follow; the first is time."""
 
 Term: Final = record_type(("target", "i8"), ("signals", "i8", (2,)), ("over", "i8", (2,)), ("against", "i8"))
@@ -81,6 +82,30 @@ def add_terms(
                 found, _, _ = evaluate(actions.signals, term.signals[k], x, held(segment, term.over[k], x))
                 value *= found
         loads[term.target] += value
+
+
+@kernel
+def add_over_time(
+    actions: Actions, segment: Record, direction: float, over: FloatArray, loads: FloatArray
+) -> None:
+    """Add the terms that follow time to ``loads[0]`` and what time alone changes in them to ``loads[1]``.
+
+    Arguments are those of :func:`add_terms`, but for ``loads`` of shape (2, n), the second row per second.
+    """
+    terms = actions.terms
+    for i in range(terms.size):
+        term = terms[i]
+        value, rate, follows = -direction if term.against == 1 else 1.0, 0.0, False
+        for k in range(2):
+            if term.signals[k] != NONE:
+                along = term.over[k]
+                x = over[along]
+                found, slope, _ = evaluate(actions.signals, term.signals[k], x, held(segment, along, x))
+                rate = rate * found + (value * slope if along == TIME else 0.0)
+                value, follows = value * found, follows or along == TIME
+        if follows:
+            loads[0, term.target] += value
+            loads[1, term.target] += rate
 
 
 @kernel

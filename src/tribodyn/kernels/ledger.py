@@ -6,6 +6,10 @@ earlier one. Forces are integrated over displacements, because between impacts c
 forces hardly do, and a constant force is then exact, whatever oscillates. Energies are functions of the
 state. What is left over measures the integration.
 
+What swings in a step, as a load of some kilohertz does, is known with its rate: it is the cubic through
+values and rates at both ends. A parabola through an earlier mark is late, and what is late makes work of a
+force that stands across its velocity.
+
 Inertia takes in ½ (p_a + p_b)·(q̇_b − q̇_a) over a part, with the momenta p = N q̇ and q̇ taken from the
 numerical solution, not from the equations of motion: exact where N does not change.
 
@@ -29,13 +33,18 @@ EARLIER: Final = 2
 POSITION: Final = 0
 SPEED: Final = 1
 MOMENTUM: Final = 2
+SWING: Final = 0
+RATE: Final = 1
+NO_SWING: Final = -1
 
 NEAR: Final = 0.2
 """Marks closer than this part of the next interval do not tell how the integrands bend."""
 
 
-def new_books(n_powers: int, n_forces: int, n: int) -> Record:
+def new_books(n_powers: int, n_forces: int, n: int, swing_of: int = NO_SWING) -> Record:
     """Return books of ``n`` coordinates that nothing has been added to, a record of these fields.
+
+    ``swing_of`` is the number of the forces whose work that of swinging forces is a part of.
 
     times
         Of the three marks [s], shape (3,).
@@ -45,19 +54,34 @@ def new_books(n_powers: int, n_forces: int, n: int) -> Record:
         On the coordinates at the three marks [N, N m], shape (3, n, n_forces).
     motion
         Coordinates, their velocities and the momenta at ``NOW`` and ``LAST``, shape (2, 3, n).
+    swing
+        Swinging forces on the coordinates and their rates at ``NOW`` and ``LAST`` [N, N/s], shape (2, 2, n).
+    swing_of
+        To which of the forces they belong; :data:`NO_SWING` where there are none.
     works
         Path integrals [J], shape (n_powers + n_forces + 1,): of the powers, of the forces, and what inertia
         has taken in.
     """
-    return new_record(
+    books = new_record(
         record_type(
             ("times", "f8", (3,)),
             ("powers", "f8", (3, n_powers)),
             ("forces", "f8", (3, n, n_forces)),
             ("motion", "f8", (2, 3, n)),
+            ("swing", "f8", (2, 2, n)),
+            ("swing_of", "i8"),
             ("works", "f8", (n_powers + n_forces + 1,)),
         )
     )
+    books.swing_of = swing_of
+    return books
+
+
+@kernel
+def swings(books: Record) -> bool:
+    """Tell whether there are swinging forces, whose entries ``NOW`` must be filled."""
+    there: bool = books.swing_of != NO_SWING
+    return there
 
 
 @kernel
@@ -79,6 +103,8 @@ def add_part(books: Record, t: float) -> None:
     known = back > NEAR * h
     _add_powers(books, h, back, known)
     _add_forces(books, h, back, known)
+    if swings(books):
+        _add_swing(books, h)
     if h > NEAR * back:
         _take_over(books, LAST, EARLIER)
         times[EARLIER] = times[LAST]
@@ -103,6 +129,10 @@ def _set_mark(books: Record, t: float) -> None:
     for k in range(3):
         for i in range(motion.shape[2]):
             motion[LAST, k, i] = motion[NOW, k, i]
+    if swings(books):
+        for k in range(2):
+            for i in range(motion.shape[2]):
+                books.swing[LAST, k, i] = books.swing[NOW, k, i]
     books.times[NOW] = books.times[LAST] = t
 
 
@@ -151,3 +181,24 @@ def _add_forces(books: Record, h: float, back: float, known: bool) -> None:
             bend = _bend(now, last, forces[EARLIER, i, k], h, back, known)
             works[first + k] += 0.5 * way * (now + last) + h / 12.0 * change * (now - last) - bend * curved
         works[inertia] += 0.5 * (before[MOMENTUM, i] + here[MOMENTUM, i]) * change
+
+
+@kernel
+def _add_swing(books: Record, h: float) -> None:
+    """Add ∫ F dq of cubic Hermite polynomials F and q.
+
+    With a = h Ḟ_a − ΔF and b = h Ḟ_b − ΔF that is Δq (F_a + F_b)/2 + h ΔF Δq̇/12 + a (Δq/10 − h q̇_b/60) −
+    b (Δq/10 − h q̇_a/60).
+    """
+    swing, here, before = books.swing, books.motion[NOW], books.motion[LAST]
+    work = books.powers.shape[1] + books.swing_of
+    for i in range(swing.shape[2]):
+        way, change = here[POSITION, i] - before[POSITION, i], here[SPEED, i] - before[SPEED, i]
+        rise = swing[NOW, SWING, i] - swing[LAST, SWING, i]
+        first, last = h * swing[LAST, RATE, i] - rise, h * swing[NOW, RATE, i] - rise
+        books.works[work] += (
+            0.5 * way * (swing[NOW, SWING, i] + swing[LAST, SWING, i])
+            + h / 12.0 * rise * change
+            + first * (0.1 * way - h / 60.0 * here[SPEED, i])
+            - last * (0.1 * way - h / 60.0 * before[SPEED, i])
+        )

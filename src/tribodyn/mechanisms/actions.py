@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -46,6 +47,12 @@ def kinks_over(terms: Iterable[Term], over: int) -> FloatArray:
     """Return where signals over one coordinate kink, increasing."""
     found = [signal.kinks for term in terms for signal, follows in term.factors if follows == over]
     return np.unique(np.concatenate([np.empty(0), *found]))
+
+
+def shortest_wave(terms: Iterable[Term]) -> float:
+    """Return the shortest period of a sinusoid over time among some loads [s]; infinite without one."""
+    waves = (s for term in terms for s, over in term.factors if over == TIME and s.kind == "sinusoid")
+    return min((2.0 * math.pi / abs(s.coefficients[2]) for s in waves if s.coefficients[2]), default=math.inf)
 
 
 def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Actions:

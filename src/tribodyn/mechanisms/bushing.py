@@ -16,6 +16,7 @@ from tribodyn.contact import HasSurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_report, joint_wrench
+from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.wear import resampled
 
 _NOT_STORED: Final = ("work_", "heat_")
@@ -83,8 +84,17 @@ def bushing_facts(case: HasBushing) -> dict[str, object]:
     }
 
 
-def of_temperature(case: HasBushing) -> list[str]:
-    """Return what the temperatures of a case change, one sentence; nothing where they change nothing."""
+def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> list[str]:
+    """Return what the temperatures of a case change, one sentence; nothing where they change nothing.
+
+    ``clearance`` is that over the rows of a run [m], where it does not keep still.
+    """
+    if clearance is not None and clearance.size:
+        begin, end, least = (f"{1e6 * c:.4g} um" for c in (clearance[0], clearance[-1], clearance.min()))
+        return [
+            f"Temperatures take the clearance from {begin} to {end}; it is {least} at least. Radius, length, "
+            "contact law, friction and wear coefficient stay those of the start."
+        ]
     hot, cold = case.temperature.dimensions(case.joint, case.surfaces).clearance, case.joint.clearance
     if hot == cold:
         return []
@@ -118,7 +128,10 @@ def loading(case: HasBushing, joint: BushingJoint, pressure: float, separation: 
 
 
 def pressure_at_rest(
-    joint: BushingJoint, rows: Mapping[str, FloatArray], wear: FloatArray | None = None
+    joint: BushingJoint,
+    rows: Mapping[str, FloatArray],
+    wear: FloatArray | None = None,
+    clearance: FloatArray | None = None,
 ) -> float:
     """Return the peak pressure of surfaces at rest where that of the run was largest [Pa]; 0 without rows.
 
@@ -126,14 +139,20 @@ def pressure_at_rest(
 
     Parameters
     ----------
-    joint, rows, wear
+    joint, rows, wear, clearance
         As for :func:`grid_force_error`.
     """
     if not rows["e_x"].size:
         return 0.0
     finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
     fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
-    return float(joint_report(fine, _attitude(rows, int(np.argmax(rows["p_max"]))))["p_max"])
+    row = int(np.argmax(rows["p_max"]))
+    return float(joint_report(_at(fine, clearance, row), _attitude(rows, row))["p_max"])
+
+
+def _at(data: BushingData, clearance: FloatArray | None, row: int) -> BushingData:
+    """Return the joint with the clearance of a row."""
+    return data if clearance is None else data._replace(clearance=float(clearance[row]))
 
 
 def _attitude(rows: Mapping[str, FloatArray], row: int) -> FloatArray:
@@ -154,7 +173,10 @@ def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
 
 
 def grid_force_error(
-    joint: BushingJoint, rows: Mapping[str, FloatArray], wear: FloatArray | None = None
+    joint: BushingJoint,
+    rows: Mapping[str, FloatArray],
+    wear: FloatArray | None = None,
+    clearance: FloatArray | None = None,
 ) -> float:
     """Return the largest error of the contact force on the run's grid against one four times finer [1].
 
@@ -168,6 +190,8 @@ def grid_force_error(
         Columns of the run, of which the attitudes are used.
     wear
         Wear depth at the nodes during the run [m], shape (n_z + 2, n_theta); none by default.
+    clearance
+        Of each row [m]; that of the joint by default.
     """
     n_rows = rows["e_x"].size
     if not n_rows:
@@ -177,8 +201,9 @@ def grid_force_error(
     coarse = joint.data(wear)
     largest = error = 0.0
     for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
-        y = _attitude(rows, int(i))
-        exact = joint_wrench(fine, y)[:2]
+        row = int(i)
+        y = _attitude(rows, row)
+        exact = joint_wrench(_at(fine, clearance, row), y)[:2]
         largest = max(largest, float(np.hypot(*exact)))
-        error = max(error, float(np.hypot(*(joint_wrench(coarse, y)[:2] - exact))))
+        error = max(error, float(np.hypot(*(joint_wrench(_at(coarse, clearance, row), y)[:2] - exact))))
     return error / largest if largest > 0.0 else 0.0

@@ -10,6 +10,10 @@ EXPANSIONS = {
     "surfaces.bushing.thermal_expansion": "50e-6 1/K",
 }
 HOT = {"temperature.trunnion": "300 degC", "temperature.bushing": "300 degC"}
+WARMING = {
+    "temperature.over_time.bushing.times": "0, 2 s",
+    "temperature.over_time.bushing.values": "20, 60 degC",
+}
 TABLE = {
     "temperature.properties.temperatures": "20, 200, 400 degC",
     "temperature.properties.young_modulus": "7, 5, 3 GPa",
@@ -52,6 +56,11 @@ def test_a_material_follows_its_table() -> None:
     assert cooler.surfaces.bushing.young_modulus == pytest.approx(5e9, rel=1e-12)
 
 
+def test_a_material_is_that_of_the_start() -> None:
+    case = td.load_case("vsv").replace(EXPANSIONS | TABLE | WARMING)
+    assert case.surfaces.bushing.young_modulus == pytest.approx(7e9, rel=1e-12)
+
+
 def test_a_key_that_is_given_goes_before_the_table() -> None:
     case = td.load_case("vsv").replace(TABLE | {"surfaces.bushing.young_modulus": "6 GPa"})
     assert case.surfaces.bushing.young_modulus == 6e9
@@ -83,6 +92,26 @@ def test_a_key_that_is_given_goes_before_the_table() -> None:
             "above the one before",
         ),
         ({"temperature.bushing": "-300 degC"}, "vsv", "temperature.bushing", "> 0"),
+        (WARMING, "vsv", "surfaces.bushing.thermal_expansion", "not as warm"),
+        (
+            EXPANSIONS | WARMING | {"temperature.over_time.bushing.times": "1, 2 s"},
+            "vsv",
+            "temperature.over_time.bushing",
+            "begins at 1 s",
+        ),
+        (EXPANSIONS | WARMING | HOT, "vsv", "temperature.over_time.bushing.times", "temperature.bushing"),
+        (
+            EXPANSIONS
+            | {
+                "temperature.over_time.casing.times": "0, 1 s",
+                "temperature.over_time.casing.values": "20, 30 degC",
+            },
+            "vsv",
+            "temperature.over_time.casing",
+            "bonded",
+        ),
+        (EXPANSIONS | WARMING | {"wear.cycles": 10}, "vsv", "temperature.over_time", "one by one"),
+        (WARMING, "journal-dry", "temperature.over_time.bushing.times", "unknown key"),
     ],
 )
 def test_what_cannot_be(changes: dict[str, object], kind: str, key: str, words: str) -> None:

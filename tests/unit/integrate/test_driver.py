@@ -25,7 +25,7 @@ class ExactSteps:
     def prepare(self):
         pass
 
-    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics):
+    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics, longest):
         t = t_start
         while t < t_end:
             t_old, t = t, min(t + 0.4, t_end)
@@ -179,11 +179,11 @@ def test_progress_is_told_the_time_of_every_step():
 class OneLongStep(ExactSteps):
     """Evaluate again and again for minutes before the first step."""
 
-    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics):
+    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics, longest):
         until = time.monotonic() + 300.0
         while time.monotonic() < until:
             rhs(t_start, y_start)
-        yield from super().steps(rhs, jac, t_start, y_start, t_end, rtol, atol, statistics)
+        yield from super().steps(rhs, jac, t_start, y_start, t_end, rtol, atol, statistics, longest)
 
 
 def test_stop_is_asked_in_the_middle_of_a_step_that_takes_long():

@@ -60,6 +60,16 @@ def test_every_solver_reports_rows_and_cost(solver):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
+def test_no_step_is_longer_than_asked(solver):
+    ends = []
+    functions = replace(PROBLEM.functions, accept=lambda t, *_: ends.append(t))
+    problem = replace(PROBLEM, functions=functions, longest_step=0.01)
+    integrate(problem, solver=solver, rtol=1e-2, output_times=[1.0])
+    # Rounding of the times.
+    assert np.diff([0.0, *ends]).max() <= 0.01 * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_rows_do_not_depend_on_each_other(solver):
     few = integrate(PROBLEM, solver=solver, rtol=1e-6, output_times=[1.0])
     many = integrate(PROBLEM, solver=solver, rtol=1e-6, output_times=np.linspace(0.0, 1.0, 101))

@@ -23,6 +23,8 @@ POSE: Final = (
     Quantity("w_y", "rad s-1", "rate of the tilt about Y"),
     Quantity("w_z", "rad s-1", "angular velocity about Z"),
     Quantity("direction", "1", "direction of rotation that a friction moment opposes: 1, -1, or 0 at rest"),
+    Quantity("opening", "m", "what the clearance of a bushing has more than that of its data"),
+    Quantity("v_opening", "m s-1", "its rate"),
 )
 Pose: Final = of_table(POSE)
 

@@ -40,6 +40,7 @@ CONSTANTS: Final = tuple(
         ("speed_amplitude", "rad s-1", "Ω"),
         ("angular_frequency", "rad s-1", "ν"),
         ("tabulated", "1", "1 where the crank follows the signal :data:`CRANK` instead"),
+        ("opening", "1", "number of the signal that the clearance follows, -1 for none"),
         ("air_force_x", "N", "size of F_airx, Table 3"),
         ("air_force_y", "N", "F_airy"),
         ("air_moment", "N m", "size of M_air"),
@@ -126,6 +127,7 @@ Scratch: Final = record_type(
     ("ideal", "f8", (N_ROWS, N_COLUMNS)),
     ("over", "f8", (N_OVER,)),
     ("air", "f8", (N_AIR,)),
+    ("air_over_time", "f8", (2, N_AIR)),
     ("f_cz", "f8"),
     ("marked", "f8"),
 )

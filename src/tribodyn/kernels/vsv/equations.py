@@ -18,7 +18,7 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints import collar as thrust
 from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
-from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
+from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
 from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.data import (
     AIR_M,
@@ -59,6 +59,7 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 from tribodyn.kernels.vsv.motion import fill_motion
+from tribodyn.kernels.vsv.place import place
 
 
 @kernel
@@ -275,7 +276,7 @@ def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> 
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
     joint = memory.joint.scratch
     omega = set_up(data, t, y, memory)
-    fill_pose(y, omega, memory.regime[0], joint.pose)
+    place(data, t, y, omega, memory.regime[0], memory)
     wrench(data.joint, memory.joint, joint.pose, joint.wrench)
     from_wrench(joint.wrench, memory.scratch.wrench)
     return solve_accelerations(data, y, memory)
@@ -331,7 +332,7 @@ def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: V
     """
     scratch, joint = memory.scratch, memory.joint.scratch
     omega = set_up(data, t, y, memory)
-    fill_pose(y, omega, memory.regime[0], joint.pose)
+    place(data, t, y, omega, memory.regime[0], memory)
     wrench_and_jacobian(data.joint, memory.joint, joint.pose, joint.wrench, joint.jacobian)
     from_wrench(joint.wrench, scratch.wrench)
     from_jacobian(joint.jacobian, scratch.wrench_jacobian)

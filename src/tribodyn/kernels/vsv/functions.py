@@ -10,10 +10,10 @@ from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
-from tribodyn.kernels.joints.paper import fill_pose
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
+from tribodyn.kernels.vsv.place import place
 
 BEYOND: Final = 2
 """Entry of the regime that tells whether the range of the contact law was left. From then on no force is a
@@ -61,9 +61,8 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: VsvData, memory: VsvM
 @entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Update entry velocities and watch the range of the law at the end of an accepted step."""
-    pose = memory.joint.scratch.pose
-    fill_pose(y, 0.0, 0.0, pose)
-    update_entry_velocity(data.joint, memory.joint, pose, 0.0)
+    place(data, t, y, 0.0, 0.0, memory)
+    update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 0.0)
     if memory.joint.scratch.report.separation_min < data.joint.table.h_first * data.joint.roughness:
         memory.regime[BEYOND] = 1.0
 
@@ -71,9 +70,8 @@ def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
 @entry
 def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatArray) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
-    pose = memory.joint.scratch.pose
-    fill_pose(y, 0.0, 0.0, pose)
-    pressure_field(data.joint, memory.joint, pose, fields[0])
+    place(data, t, y, 0.0, 0.0, memory)
+    pressure_field(data.joint, memory.joint, memory.joint.scratch.pose, fields[0])
 
 
 @kernel

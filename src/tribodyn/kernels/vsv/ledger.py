@@ -11,12 +11,15 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import add_over_time
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.collar import note_lift_off
-from tribodyn.kernels.joints.cylinder.joint import report, slide
+from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.cylinder.joint import report, slide, squeeze
 from tribodyn.kernels.joints.memory import fill_watched, note_extremes
-from tribodyn.kernels.joints.paper import fill_pose, from_report
-from tribodyn.kernels.ledger import LAST, MOMENTUM, NOW, POSITION, SPEED
+from tribodyn.kernels.joints.paper import from_report
+from tribodyn.kernels.ledger import LAST, MOMENTUM, NOW, POSITION, RATE, SPEED, SWING, swings
 from tribodyn.kernels.ledger import add_part as add_works
 from tribodyn.kernels.ledger import begin as begin_works
 from tribodyn.kernels.peaks import begin as begin_peaks
@@ -41,6 +44,7 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
+from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import Forces, Powers, Watched
 
 
@@ -49,7 +53,7 @@ def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float
     """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch, joint = memory.scratch, memory.joint.scratch
     omega = set_up(data, t, y, memory)
-    fill_pose(y, omega, memory.regime[0], joint.pose)
+    place(data, t, y, omega, memory.regime[0], memory)
     report(data.joint, memory.joint, joint.pose)
     from_report(joint.report)
     out = joint.report
@@ -68,7 +72,7 @@ def clearance_velocity(motion: FloatArray, row: int, y: FloatArray) -> float:
 
 
 @kernel
-def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
+def fill_powers(joint: BushingData, y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     """Fill what each contributor does to the whole mechanism [W] from the scratch arrays of this instant."""
     scratch = memory.scratch
     motion, collar = scratch.motion, scratch.collar
@@ -83,6 +87,10 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     powers.work_friction = memory.joint.scratch.report.friction_power
     powers.work_collar_friction = f_cz * collar[THETA_V] * omega_v
     powers.work_collar_tilt = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
+    speed = memory.joint.scratch.pose.v_opening
+    powers.work_expansion = 0.0
+    if speed != 0.0:
+        powers.work_expansion = -speed * squeeze(joint, memory.joint, memory.joint.scratch.pose)
 
 
 @kernel
@@ -125,6 +133,26 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
 
 
 @kernel
+def _fill_swing(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
+    """Move the loads that follow time from those of the clearance motion to where their rates are known."""
+    scratch, segment, books = memory.scratch, memory.segment, memory.books
+    motion, air, swing = scratch.motion, scratch.air_over_time, books.swing[NOW]
+    clear(air)
+    add_over_time(data.actions, segment, memory.regime[0], scratch.over, air)
+    sec2 = (0.0, 0.0, 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2)
+    for j in range(4):
+        for k in (SWING, RATE):
+            swing[k, j] = (
+                air[k, AIR_X] * motion[OV_X, 1 + j]
+                + air[k, AIR_Y] * motion[OV_Y, 1 + j]
+                + air[k, AIR_M] * motion[THETA_V, 1 + j]
+            )
+            if j > 1:
+                swing[k, j] += air[k, BEND_X if j == 2 else BEND_Y] * sec2[j]
+        books.forces[NOW, j].view(Forces)[0].work_clearance_loads -= swing[SWING, j]
+
+
+@kernel
 def vane_angle_with_clearance(mechanism: Record, y: FloatArray, motion: FloatArray) -> float:
     """Return θ_v [rad]; in ``paper`` it is read from the closure with the offsets e_x, e_y alone."""
     if mechanism.exact > 0.0:
@@ -147,8 +175,10 @@ def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) ->
     """Enter the powers and forces of an instant, and what is watched, in the books."""
     scratch = memory.scratch
     scratch.f_cz = evaluate(data, t, y, memory)
-    fill_powers(y, memory, memory.books.powers[NOW].view(Powers)[0])
+    fill_powers(data.joint, y, memory, memory.books.powers[NOW].view(Powers)[0])
     fill_clearance(data.mechanism, y, memory)
+    if swings(memory.books):
+        _fill_swing(data, y, memory)
     _fill_watched(data.mechanism, y, memory)
     scratch.marked = 1.0
 

@@ -67,6 +67,7 @@ POWERS: Final = (
     Quantity("work_friction", "J", "work of the bushing friction"),
     Quantity("work_collar_friction", "J", "work of the thrust collar's friction"),
     Quantity("work_collar_tilt", "J", "work of the thrust collar on tilting"),
+    Quantity("work_expansion", "J", "work of the expansion on what the contact stores"),
 )
 """Whole mechanism: what is integrated from powers."""
 FORCES: Final = (

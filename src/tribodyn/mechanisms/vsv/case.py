@@ -17,6 +17,7 @@ from tribodyn.cases.groups import (
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
+from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature
 from tribodyn.core.errors import Faults
 from tribodyn.mechanisms.vsv.actions import COMPONENTS, DRIVE_TABLES, Drive, Surge, VaneLoad, VanePassing
 
@@ -163,6 +164,7 @@ class VsvCase(BushingCase):
         "Variable stator vane mechanism, dry rough trunnion joint", "heading of figures and report"
     )
     joint: VaneJoint = VaneJoint()
+    temperature: ChangingTemperature = ChangingTemperature()
     mechanism: MechanismKeys = MechanismKeys()
     drive: Drive = Drive()
     loads: Loads = Loads()
@@ -272,6 +274,7 @@ class VsvCase(BushingCase):
             self._check_reach,
             self._check_loads,
             self._check_running_in,
+            self._check_temperature,
         )
         return (*super().checks(), *own)
 
@@ -342,6 +345,12 @@ class VsvCase(BushingCase):
             arm, key = load.arm, "centre_of_pressure" if load.span is None else "span.positions"
             words = f"the vane is {longest * 1e3:g} mm long, the force would act at {(arm or 0) * 1e3:.4g} mm"
             demand(arm is None or 0.0 <= arm <= longest, f"loads.more.{name}.{key}", words)
+
+    def _check_temperature(self) -> None:
+        """Check that temperatures over time leave a clearance, and belong to one run."""
+        self.temperature.check(self.joint, self.surfaces, self.duration)
+        words = "a wear campaign takes its cycles one by one: temperatures that last are needed"
+        demand(self.wear.cycles == 0 or not self.temperature.tables, OVER_TIME, words)
 
     def _check_reach(self) -> None:
         """Check that the loop closes at every crank angle of the drive."""

@@ -85,6 +85,8 @@ def course(vsv: Vsv, duration: float) -> Course:
     motion = ideal_motion(vsv.lengths, drive, duration)
     ends = np.concatenate([[0.0], reversals, [duration]])
     of_time, of_vane, of_crank = (kinks_over(vsv.terms, over) for over in (TIME, VANE, CRANK_ANGLE))
+    if vsv.opening is not None:
+        of_time = np.union1d(of_time, vsv.opening.kinks)
     met = (crossings(motion.vane_angle, ends, of_vane), crossings(drive.angle, ends, of_crank))
     breaks = inside(np.concatenate([reversals, of_time, *met]), duration)
     ends = np.concatenate([[0.0], breaks, [duration]])

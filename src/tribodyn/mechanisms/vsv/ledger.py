@@ -3,7 +3,9 @@
 Whole mechanism: kinetic, gravity and stored contact energy against the work of the drive and of the
 air loads and the heat of friction, collar and damping. Clearance motion alone: its inertia and stored
 contact energy against the loads that drive it and its heats; the work of the air loads, thousands of
-times larger, cannot hide an error there.
+times larger, cannot hide an error there. Where the clearance follows temperatures, what that does to the
+energy stored in the contact is put in; what it does against damping pressures at once becomes heat, and is
+in neither column.
 """
 
 from __future__ import annotations
@@ -16,7 +18,11 @@ from tribodyn.views.ledger import Ledger
 
 WHOLE: Final = Ledger(
     title="Whole mechanism",
-    put_in={"energy_drive": "drive work, in", "energy_loads": "load work, in"},
+    put_in={
+        "energy_drive": "drive work, in",
+        "energy_loads": "load work, in",
+        "energy_expansion": "expansion, in",
+    },
     gained={
         "energy_kinetic": "kinetic",
         "energy_gravity": "gravity",
@@ -33,7 +39,7 @@ WHOLE: Final = Ledger(
 )
 CLEARANCE: Final = Ledger(
     title="Motion in the clearance alone",
-    put_in={"energy_clearance_loads": "loads and reactions, in"},
+    put_in={"energy_clearance_loads": "loads and reactions, in", "energy_expansion": "expansion, in"},
     gained={
         "energy_clearance_inertia": "inertia",
         "energy_clearance_contact": "stored in contact",
@@ -68,4 +74,6 @@ def ledger_columns(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
         "energy_clearance_collar": -rows["work_clearance_collar"],
         "energy_clearance_damping": rows["heat_damping"],
     }
+    if rows["work_expansion"].any():
+        columns["energy_expansion"] = rows["work_expansion"]
     return columns | {ledger.residual: ledger.balance(columns) for ledger in LEDGERS}

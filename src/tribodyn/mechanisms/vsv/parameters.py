@@ -213,6 +213,8 @@ class Vsv:
         The trunnion in its bushing.
     terms
         Loads from tables; targets and coordinates as in ``kernels/vsv/data.py``.
+    opening
+        What the clearance has more than that of the joint over time [m, s]; None where it keeps still.
     """
 
     formulation: str
@@ -224,6 +226,7 @@ class Vsv:
     collar_radius: float
     joint: BushingJoint
     terms: tuple[Term, ...] = ()
+    opening: Signal | None = None
 
     def __post_init__(self) -> None:
         """Refuse an unknown formulation."""

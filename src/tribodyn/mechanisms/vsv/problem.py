@@ -12,19 +12,20 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.core.quantities import names
 from tribodyn.joints.bushing import new_memory
+from tribodyn.kernels.actions import NONE, TIME
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.collar import Collar
 from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
 from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
-from tribodyn.kernels.joints.paper import fill_pose
 from tribodyn.kernels.joints.quantities import SHARP, STATES
-from tribodyn.kernels.ledger import new_books
+from tribodyn.kernels.ledger import NO_SWING, new_books
 from tribodyn.kernels.peaks import new_peaks
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.observe import observe
+from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
-from tribodyn.mechanisms.actions import actions_of
+from tribodyn.mechanisms.actions import actions_of, shortest_wave
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.signals import SignalList, pieces_of
 from tribodyn.mechanisms.vsv.course import course
@@ -33,6 +34,9 @@ from tribodyn.mechanisms.vsv.parameters import Drive, Vsv
 from tribodyn.mechanisms.vsv.reach import ideal_table
 
 STARTS: Final = ("equilibrium", "centred")
+WAVE_STEPS: Final = 24
+"""Steps in a wave of a load, at least. What it lends the trunnion and takes back is up to a hundred times
+what the contact turns into heat: a small delay of the steps would show in the ledger."""
 
 FUNCTIONS: Final = CompiledFunctions(
     rhs=functions.rhs,
@@ -86,6 +90,7 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         speed_amplitude=drive.speed_amplitude if isinstance(drive, Drive) else 0.0,
         angular_frequency=drive.angular_frequency if isinstance(drive, Drive) else 1.0,
         tabulated=0.0 if drive.signal is None else 1.0,
+        opening=NONE,
         air_force_x=vsv.air.force_x,
         air_force_y=vsv.air.force_y,
         air_moment=vsv.air.moment,
@@ -100,6 +105,8 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
     signals = SignalList()
     if drive.signal is not None:
         signals.add(pieces_of(drive.signal))
+    if vsv.opening is not None:
+        mechanism.opening = signals.add(pieces_of(vsv.opening))
     actions = actions_of(signals, vsv.terms, course(vsv, duration).segments)
     return VsvData(mechanism, vsv.joint.data(wear), collar, actions)
 
@@ -146,9 +153,16 @@ def vsv_memory(data: VsvData, *, reversals: int = 0, impact_time: float = 0.0) -
         segment=data.actions.segments[0].copy(),
         regime=np.array([1.0, 0.0, 0.0]),
         peaks=new_peaks(len(WATCHED), sharp=SHARP, reversals=reversals, impact_time=impact_time),
-        books=new_books(len(POWERS), len(FORCES), layout.N_COORDINATES),
+        books=new_books(len(POWERS), len(FORCES), layout.N_COORDINATES, _swing_of(data)),
         scratch=new_record(Scratch),
     )
+
+
+def _swing_of(data: VsvData) -> int:
+    """Return the number of the forces among which there are loads that follow time."""
+    terms = data.actions.terms
+    follow = np.any((terms.signals != NONE) & (terms.over == TIME))
+    return names(FORCES).index("work_clearance_loads") if follow else NO_SWING
 
 
 def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
@@ -204,10 +218,10 @@ def vsv_problem(
     else:
         y0 = carried.state.copy()
         memory.joint.entry_velocity[:] = carried.entry_velocity
-    pose = memory.joint.scratch.pose
-    fill_pose(y0, 0.0, 0.0, pose)
+    place(data, 0.0, y0, 0.0, 0.0, memory)
     # Of what is carried on, points that wear has taken out of contact forget.
-    update_entry_velocity(data.joint, memory.joint, pose, 1.0 if carried is None else 0.0)
+    at_start = 1.0 if carried is None else 0.0
+    update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, at_start)
     return Problem(
         functions=FUNCTIONS,
         data=data,
@@ -219,4 +233,5 @@ def vsv_problem(
         state_names=names(STATES),
         n_observed=len(OBSERVED),
         field_shape=(1, *data.joint.wear.shape),
+        longest_step=shortest_wave(vsv.terms) / WAVE_STEPS,
     )

@@ -70,7 +70,8 @@ def vsv_of(case: VsvCase) -> Vsv:
         collar_radius=case.joint.collar_radius,
         joint=bushing_of(case),
     )
-    return replace(vsv, terms=tuple(terms_of(case, vsv.vane_arm)))
+    opening = case.temperature.opening(case.joint, case.surfaces)
+    return replace(vsv, terms=tuple(terms_of(case, vsv.vane_arm)), opening=opening)
 
 
 @dataclass(frozen=True)
@@ -175,19 +176,21 @@ class VsvSystem:
         """Return what the mechanism knows about a run."""
         rows = run.rows(OBSERVED)
         ledger = ledger_columns(rows)
-        whole, clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
+        whole, of_clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
         worn = run.problem.data.joint.wear - self.bushing.form_gap
         bushing = self.worn_bushing(worn)
-        grid_error = grid_force_error(bushing, rows, worn)
+        clearance = self._clearance(run)
+        moving = {} if clearance is None else {"radial_clearance": clearance}
+        grid_error = grid_force_error(bushing, rows, worn, clearance)
         memory = run.problem.memory
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
         found |= loading(self.case, bushing, pressure, found["separation_least"])
-        found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn)
+        found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         return Part(
             coordinates=self._coordinates(run),
-            columns=force_parts(rows) | ledger,
+            columns=force_parts(rows) | ledger | moving,
             fields=self._fields(run) | of_reversals(memory.peaks, WATCHED),
             attributes={
                 "formulation": self.vsv.formulation,
@@ -197,12 +200,12 @@ class VsvSystem:
                 "start": CARRIED if run.carried else self.case.run.start,
                 "impact_time": self.vsv.drive.impact_time,
                 "energy_residual": whole,
-                "clearance_energy_residual": clearance,
+                "clearance_energy_residual": of_clearance,
                 **found,
             },
-            warnings=warnings(self.vsv, found, whole, clearance, t_end, run.cost),
+            warnings=warnings(self.vsv, found, whole, of_clearance, t_end, run.cost),
             notes=[
-                *of_temperature(self.case),
+                *of_temperature(self.case, clearance),
                 *notes(self.vsv, found, pressure, t_end, turns, run.carried),
             ],
             failure=self._failure(run),
@@ -225,6 +228,11 @@ class VsvSystem:
             "theta": self.bushing.theta,
             "z": self.bushing.z,
         }
+
+    def _clearance(self, run: Run) -> FloatArray | None:
+        """Return the radial clearance at the rows [m], shape (n_t,), where it does not keep still."""
+        opening = self.vsv.opening
+        return None if opening is None else self.bushing.geometry.clearance + opening(run.solution.t)
 
     def _turns(self, run: Run) -> FloatArray:
         """Return the times of the start and of the reversals that were reached [s]."""

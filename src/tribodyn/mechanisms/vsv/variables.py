@@ -30,6 +30,8 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_collar_friction": Variable("J", "friction heat of the thrust collar"),
     "energy_collar_tilt": Variable("J", "work done against the thrust collar by tilting"),
     "energy_damping": Variable("J", "damping heat of the contact"),
+    "energy_expansion": Variable("J", "work of temperatures on what the contact stores"),
+    "radial_clearance": Variable("m", "radial clearance at the temperatures of the time"),
     "energy_residual": Variable("J", "what the whole-mechanism ledger misses"),
     "energy_clearance_inertia": Variable("J", "clearance motion: work of inertia"),
     "energy_clearance_loads": Variable("J", "clearance motion: work of loads and reactions"),

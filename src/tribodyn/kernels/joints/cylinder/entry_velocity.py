@@ -24,9 +24,10 @@ def pressure_field(joint: BushingData, memory: JointMemory, pose: Record, pressu
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    clearance = joint.clearance + pose.opening
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
-        first, count = contact_window(joint.clearance, a, b, limit, n_theta)
+        first, count = contact_window(clearance, a, b, limit, n_theta)
         for k in range(count):
             i = first + k if first + k < n_theta else first + k - n_theta
             c, s = joint.cos_theta[i], joint.sin_theta[i]
@@ -35,8 +36,8 @@ def pressure_field(joint: BushingData, memory: JointMemory, pose: Record, pressu
                 joint.roughness,
                 joint.minimum_entry_velocity,
                 joint.clip,
-                joint.clearance + a * c + b * s + joint.wear[j, i],
-                -(v_a * c + v_b * s),
+                clearance + a * c + b * s + joint.wear[j, i],
+                -(v_a * c + v_b * s + pose.v_opening),
                 memory.entry_velocity[j, i],
             )
 
@@ -47,18 +48,19 @@ def _update(
     row: int,
     first: int,
     until: int,
-    motion: tuple[float, float, float, float],
+    motion: tuple[float, float, float, float, float, float],
     entry_velocity: FloatArray,
 ) -> None:
-    """Update nodes ``first`` to ``until`` of a row with the given offset and velocity."""
-    a, b, v_a, v_b = motion
+    """Update nodes ``first`` to ``until`` of a row with the given clearance, offset and their velocities."""
+    clearance, a, b, v_opening, v_a, v_b = motion
     cos, sin, wear = joint.cos_theta, joint.sin_theta, joint.wear
     onset = joint.onset * joint.roughness
     j = np.uint64(row)
     for i in range(np.uint64(first), np.uint64(until)):
         c, s = cos[i], sin[i]
-        gap = joint.clearance + a * c + b * s + wear[j, i]
-        known = reference_velocity(entry_velocity[j, i], v_a * c + v_b * s, joint.minimum_entry_velocity)
+        gap = clearance + a * c + b * s + wear[j, i]
+        speed = v_a * c + v_b * s + v_opening
+        known = reference_velocity(entry_velocity[j, i], speed, joint.minimum_entry_velocity)
         entry_velocity[j, i] = 0.0 if gap >= onset else known
 
 
@@ -89,10 +91,11 @@ def update_entry_velocity(joint: BushingData, memory: JointMemory, pose: Record,
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     n_theta = joint.cos_theta.size
     heed = 0.0 if at_start > 0.0 else 1.0
+    clearance, v_opening = joint.clearance + pose.opening, heed * pose.v_opening
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
-        first, count = contact_window(joint.clearance, a, b, onset, n_theta)
-        motion = (a, b, heed * v_a, heed * v_b)
+        first, count = contact_window(clearance, a, b, onset, n_theta)
+        motion = (clearance, a, b, v_opening, heed * v_a, heed * v_b)
         until = min(first + count, n_theta)
         again = first + count - until
         _update(joint, j, first, until, motion, entry_velocity)

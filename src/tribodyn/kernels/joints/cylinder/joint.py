@@ -69,6 +69,13 @@ def stored(joint: BushingData, memory: JointMemory, pose: Record) -> float:
 
 
 @inlined
+def squeeze(joint: BushingData, memory: JointMemory, pose: Record) -> float:
+    """Return what the rigid part of the contact presses in all [N]: a closing clearance works against it."""
+    at_a_point = joint.point > 0.0
+    return point.squeeze(joint, pose) if at_a_point else surface_report.squeeze(joint, memory, pose)
+
+
+@inlined
 def update_entry_velocity(joint: BushingData, memory: JointMemory, pose: Record, at_start: float) -> None:
     """Let contact begin and end at the end of an accepted step."""
     if joint.point > 0.0:

@@ -59,6 +59,8 @@ def _load(
     v_a: float,
     v_b: float,
     slip: float,
+    clearance: float,
+    v_opening: float,
 ) -> None:
     """Write ``size`` nodes of a row with given offset and velocity into the list, from place ``at`` on."""
     work, cos, sin, wear = memory.scratch.listed.work, joint.cos_theta, joint.sin_theta, joint.wear
@@ -67,7 +69,7 @@ def _load(
     moment = area * joint.z[row]
     last = last_interval(joint.table)
     scale = joint.table.inverse_step / joint.roughness
-    shift = 1.0 - joint.table.h_first * joint.table.inverse_step + joint.clearance * scale
+    shift = 1.0 - joint.table.h_first * joint.table.inverse_step + clearance * scale
     # Unsigned, so that no index is taken from the end.
     source, j = np.uint64(first), np.uint64(row)
     at = min(max(at, 0), PART)
@@ -79,7 +81,7 @@ def _load(
         work[FRACTION + n] = x
         work[COS + n] = c
         work[SIN + n] = s
-        work[APPROACH + n] = -(v_a * c + v_b * s)
+        work[APPROACH + n] = -(v_a * c + v_b * s + v_opening)
         work[SLIP + n] = slip + v_a * s - v_b * c
         work[ENTRY + n] = entry_velocity[j, i]
         work[AREA + n] = area
@@ -110,16 +112,17 @@ def gather(joint: BushingData, memory: JointMemory, pose: Record, with_edges: fl
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     row, taken, n, n_pieces = cursor[0], cursor[1], 0, 0
     slip = pose.w_z * joint.journal_radius
+    clearance, v_opening = joint.clearance + pose.opening, pose.v_opening
     while row < joint.z.size and n < PART:
         left = 0
         if with_edges > 0.0 or joint.area[row] > 0.0:
             a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[row])
-            first, count = contact_window(joint.clearance, a, b, limit, n_theta)
+            first, count = contact_window(clearance, a, b, limit, n_theta)
             left = count - taken
             while left > 0 and n < PART:
                 start = first + taken if first + taken < n_theta else first + taken - n_theta
                 size = min(left, n_theta - start, PART - n)
-                _load(joint, memory, row, start, size, n, a, b, v_a, v_b, slip)
+                _load(joint, memory, row, start, size, n, a, b, v_a, v_b, slip, clearance, v_opening)
                 n_pieces += 1
                 pieces[n_pieces, 0], pieces[n_pieces, 1], pieces[n_pieces, 2] = row, start, size
                 n, left, taken = n + size, left - size, taken + size

@@ -23,7 +23,7 @@ from tribodyn.kernels.joints.cylinder.wrench import add_row, friction_ratio
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.joints.pose import F_X, F_Y, M_X, M_Y, M_Z
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
-from tribodyn.kernels.lookup import stored_energy
+from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
 N_ENDS = 2
 
@@ -54,6 +54,7 @@ def _force(
 def wrench(joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray) -> None:
     """Fill ``out`` (6,) with the wrench of both ends."""
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    clearance = joint.clearance + pose.opening
     for k in range(6):
         out[k] = 0.0
     for k in range(N_ENDS):
@@ -61,10 +62,11 @@ def wrench(joint: BushingData, memory: JointMemory, pose: Record, out: FloatArra
         z = joint.z[j]
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, z)
         rho = math.sqrt(a * a + b * b)
-        if rho <= joint.clearance:
+        if rho <= clearance:
             continue
         c, s = -a / rho, -b / rho
-        _, force, _, _ = _force(joint, memory, j, joint.clearance - rho, -(v_a * c + v_b * s))
+        approach = -(v_a * c + v_b * s + pose.v_opening)
+        _, force, _, _ = _force(joint, memory, j, clearance - rho, approach)
         slip = pose.w_z * joint.journal_radius + v_a * s - v_b * c
         ratio, _ = friction_ratio(joint, slip, pose.direction)
         tau = ratio * force
@@ -90,16 +92,17 @@ def wrench_and_jacobian(
     clear(jacobian)
     gradient = memory.scratch.gradient
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    clearance = joint.clearance + pose.opening
     for k in range(N_ENDS):
         j = _end(joint, k)
         z = joint.z[j]
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, z)
         rho = math.sqrt(a * a + b * b)
-        if rho <= joint.clearance:
+        if rho <= clearance:
             continue
         c, s = -a / rho, -b / rho
-        approach = -(v_a * c + v_b * s)
-        _, force, d_gap, d_approach = _force(joint, memory, j, joint.clearance - rho, approach)
+        towards = -(v_a * c + v_b * s)
+        _, force, d_gap, d_approach = _force(joint, memory, j, clearance - rho, towards - pose.v_opening)
         side = v_a * s - v_b * c
         ratio, d_ratio = friction_ratio(joint, pose.w_z * joint.journal_radius + side, pose.direction)
         tau = ratio * force
@@ -107,7 +110,7 @@ def wrench_and_jacobian(
             turn = (s if m == 0 else -c if m == 1 else 0.0) / rho  # dc = −s·turn, ds = c·turn
             gap_m = c if m == 0 else s if m == 1 else 0.0
             approach_m = side * turn - (c if m == 2 else s if m == 3 else 0.0)
-            slip_m = -approach * turn + (
+            slip_m = -towards * turn + (
                 s if m == 2 else -c if m == 3 else joint.journal_radius if m == 4 else 0.0
             )
             force_m = d_gap * gap_m + d_approach * approach_m
@@ -123,20 +126,20 @@ def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
     """Fill the report as that of the surface contact does; pressure and contact area are zero."""
     memory.scratch.report = memory.scratch.blank
     out = memory.scratch.report
-    out.separation_min = joint.clearance
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    out.separation_min = clearance = joint.clearance + pose.opening
     touching = pulling = 0
     for k in range(N_ENDS):
         j = _end(joint, k)
         z = joint.z[j]
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, z)
         rho = math.sqrt(a * a + b * b)
-        gap = joint.clearance - rho
+        gap = clearance - rho
         out.separation_min = min(out.separation_min, gap)
         if gap >= 0.0:
             continue
         c, s = -a / rho, -b / rho
-        approach = -(v_a * c + v_b * s)
+        approach = -(v_a * c + v_b * s + pose.v_opening)
         rigid, force, _, _ = _force(joint, memory, j, gap, approach)
         turning = pose.w_z * joint.journal_radius
         slip = turning + v_a * s - v_b * c
@@ -169,12 +172,27 @@ def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
 def stored(joint: BushingData, pose: Record) -> float:
     """Return the stored contact energy of both ends [J]."""
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    clearance = joint.clearance + pose.opening
     total = 0.0
     for k in range(N_ENDS):
         a, b, _, _ = row_motion(pose, tan_x, tan_y, joint.z[_end(joint, k)])
-        gap = joint.clearance - math.sqrt(a * a + b * b)
+        gap = clearance - math.sqrt(a * a + b * b)
         if gap < 0.0:
             total += joint.roughness * stored_energy(joint.table, gap / joint.roughness)
+    return total
+
+
+@kernel
+def squeeze(joint: BushingData, pose: Record) -> float:
+    """Return the sum of the rigid forces of both ends [N], minus the derivative of :func:`stored`."""
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    clearance = joint.clearance + pose.opening
+    total = 0.0
+    for k in range(N_ENDS):
+        a, b, _, _ = row_motion(pose, tan_x, tan_y, joint.z[_end(joint, k)])
+        gap = clearance - math.sqrt(a * a + b * b)
+        if gap < 0.0:
+            total += pressure_and_damping(joint.table, gap / joint.roughness)[0]
     return total
 
 
@@ -183,15 +201,16 @@ def update_entry_velocity(joint: BushingData, memory: JointMemory, pose: Record,
     """Let the ends enter and leave contact at the end of an accepted step, where the circles meet."""
     entry_velocity = memory.entry_velocity
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    clearance = joint.clearance + pose.opening
     for k in range(N_ENDS):
         j = _end(joint, k)
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
         rho = math.sqrt(a * a + b * b)
-        if rho <= joint.clearance:
+        if rho <= clearance:
             entry_velocity[j, 0] = 0.0
         elif entry_velocity[j, 0] == 0.0:
             if at_start > 0.0:
                 entry_velocity[j, 0] = joint.minimum_entry_velocity
             else:
-                approach = (a * v_a + b * v_b) / rho
+                approach = (a * v_a + b * v_b) / rho - pose.v_opening
                 entry_velocity[j, 0] = reference_velocity(0.0, approach, joint.minimum_entry_velocity)

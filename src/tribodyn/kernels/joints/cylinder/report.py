@@ -82,6 +82,21 @@ def stored(joint: BushingData, memory: JointMemory, pose: Record) -> float:
     return total
 
 
+@kernel
+def squeeze(joint: BushingData, memory: JointMemory, pose: Record) -> float:
+    """Return ∫P_k dA [N], minus the derivative of the stored energy in the clearance."""
+    total = 0.0
+    rewind(memory)
+    n = gather(joint, memory, pose, 0.0)
+    while n > 0:
+        look_up(joint, memory, n)
+        work = memory.scratch.listed.work
+        for k in range(n):
+            total += work[listed.AREA + k] * work[listed.RIGID + k]
+        n = gather(joint, memory, pose, 0.0)
+    return total
+
+
 @summing
 def _add_nodes(
     joint: BushingData, memory: JointMemory, omega: float, direction: float, n: int, out: Record
@@ -164,7 +179,7 @@ def _far_separation(joint: BushingData, pose: Record) -> float:
     for j in range(joint.z.size):
         a, b, _, _ = row_motion(pose, tan_x, tan_y, joint.z[j])
         farthest = max(farthest, math.sqrt(a * a + b * b))
-    return joint.clearance - farthest
+    return joint.clearance + pose.opening - farthest
 
 
 @kernel

@@ -168,7 +168,7 @@ def wrench_and_jacobian(
         Its derivatives in displacement, tilt, velocity and rates of turning, shape (6, 12).
     """
     n_theta, gradient = joint.cos_theta.size, memory.scratch.gradient
-    limit = joint.table.h_last * joint.roughness
+    limit, clearance = joint.table.h_last * joint.roughness, joint.clearance + pose.opening
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     clear(jacobian)
     for k in range(6):
@@ -176,10 +176,10 @@ def wrench_and_jacobian(
     for j in range(joint.z.size):
         area, z = joint.area[j], joint.z[j]
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, z)
-        first, count = contact_window(joint.clearance, a, b, limit, n_theta)
+        first, count = contact_window(clearance, a, b, limit, n_theta)
         if area == 0.0 or count == 0:
             continue
-        motion = (a, b, v_a, v_b, pose.w_z * joint.journal_radius)
+        motion = (clearance, a, b, pose.v_opening, v_a, v_b, pose.w_z * joint.journal_radius)
         clear(gradient)
         until = min(first + count, n_theta)
         for start, stop in ((first, until), (0, first + count - until)):
@@ -201,15 +201,16 @@ def _add_piece(
     row: int,
     first: int,
     until: int,
-    motion: tuple[float, float, float, float, float],
+    motion: tuple[float, float, float, float, float, float, float],
     direction: float,
     gradient: FloatArray,
 ) -> tuple[float, float, float]:
     """Return (Σ f_x, Σ f_y, Σ τ) of nodes ``first`` to ``until`` of a row and add their gradient.
 
-    ``motion`` holds the offset and the velocity of the axis in this row and the surface speed ω_z r_j.
+    ``motion`` holds the clearance, the offset of the axis in this row, the velocities of these, and the
+    surface speed ω_z r_j.
     """
-    a, b, v_a, v_b, speed = motion
+    clearance, a, b, v_opening, v_a, v_b, speed = motion
     cos, sin, wear = joint.cos_theta, joint.sin_theta, joint.wear
     law = friction_law(joint, direction)
     tangential, r_j = joint.tangential, joint.journal_radius
@@ -228,8 +229,8 @@ def _add_piece(
             joint.roughness,
             joint.minimum_entry_velocity,
             joint.clip,
-            joint.clearance + a * c + b * s + wear[j, i],
-            -(v_a * c + v_b * s),
+            clearance + a * c + b * s + wear[j, i],
+            -(v_a * c + v_b * s + v_opening),
             entry_velocity[j, i],
         )
         slip = speed + v_a * s - v_b * c

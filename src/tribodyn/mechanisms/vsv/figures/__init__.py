@@ -8,6 +8,7 @@ from tribodyn.figures import chart, contact_force, energy, pressure, trajectory,
 from tribodyn.figures.base import Family
 from tribodyn.mechanisms.vsv.figures import mechanism, vane_error
 from tribodyn.mechanisms.vsv.ledger import LEDGERS
+from tribodyn.mechanisms.vsv.sections.clearance import WARMING
 from tribodyn.mechanisms.vsv.sections.motion import MOTION
 from tribodyn.views.tilt import TILT
 
@@ -15,6 +16,7 @@ FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         chart.family(MOTION),
+        chart.family(WARMING),
         vane_error.FAMILY,
         contact_force.FAMILY,
         trajectory.FAMILY,

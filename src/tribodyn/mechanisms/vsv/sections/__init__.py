@@ -6,6 +6,7 @@ from typing import Final
 
 from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE
 from tribodyn.mechanisms.vsv.sections import mechanism, vane_error
+from tribodyn.mechanisms.vsv.sections.clearance import WARMING
 from tribodyn.mechanisms.vsv.sections.motion import MOTION
 from tribodyn.views import orbit, overlay, pressure, wear, wear_history, wear_stages
 from tribodyn.views.contact_force import CONTACT_FORCE
@@ -51,6 +52,7 @@ CHAPTERS: Final = (
             CONTACT_FORCE.section,
             TILT.section,
             MOTION.section,
+            WARMING.section,
             _WHOLE.section,
             _CLEARANCE.section,
         ),

@@ -1,0 +1,25 @@
+"""The clearance where it follows temperatures."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import xarray as xr
+
+from tribodyn.views.chart import Chart
+from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.series import series
+
+
+def panels(dataset: xr.Dataset) -> list[Panel]:
+    """Return the radial clearance [µm]."""
+    return [Panel("clearance [µm]", [Curve("radial clearance", series(dataset, "radial_clearance", 1e6))])]
+
+
+WARMING: Final = Chart(
+    name="clearance",
+    title="Clearance over time",
+    caption="Radial clearance at the temperatures of trunnion, bushing and casing.",
+    needs=("radial_clearance",),
+    panels=panels,
+)
