@@ -25,7 +25,10 @@ ALL: Final = "all"
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``reproduce``."""
     parser.add_argument(
-        "what", nargs="*", metavar="WHAT", help="fig8 ... fig19, undamped, claims or all (default: all)"
+        "what",
+        nargs="*",
+        metavar="WHAT",
+        help="fig8 ... fig19, joints, undamped, claims or all (default: all)",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", default="results-reproduction", help="where files go"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, trunnion, undamped, wear
+from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, split, trunnion, undamped, wear
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, Runs
 
@@ -23,9 +23,10 @@ FIGURES: Final[dict[str, PaperFigure]] = {
         clearance.FORCES,
         clearance.ATTITUDE,
         wear.WEAR,
+        split.SPLIT,
         undamped.UNDAMPED,
     )
 }
-"""Every figure of the paper that shows results, by name, and one that its first conclusion asks for."""
+"""Every figure of the paper that shows results, by name, and two that its conclusions ask for."""
 
 __all__ = ["FIGURES", "FORMULATIONS", "PaperFigure", "Runs"]
