@@ -18,7 +18,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.ledger import EARLIER, LAST, NOW
 
 IMPACT: Final = 0
@@ -103,39 +103,52 @@ def resume(peaks: Peaks, t: float) -> None:
 @kernel
 def note(peaks: Peaks, t: float) -> None:
     """Note the present values, of the time ``t`` [s], the end of a part of an accepted step."""
-    course, values = peaks.course, peaks.values
-    times = course.times
-    times[NOW] = t
-    for k in range(values.shape[1]):
-        if _keep(peaks, k, t, values[NOW, k]) and k < course.sharp:
-            peaks.risen[0] = 1.0
-        if course.marks > 1 and values[LAST, k] >= max(values[NOW, k], values[EARLIER, k]):
-            _keep_between(peaks, k)
+    course, values, risen = peaks.course, peaks.values, peaks.risen
+    largest, when = peaks.largest[course.stretch], peaks.when[course.stretch]
+    times, n, marks = course.times, values.shape[1], course.marks
+    part = _part(course, t)
+    for k in range(n):
+        if _keep(largest[part], when[part], k, t, values[NOW, k]) and k < course.sharp:
+            risen[0] = 1.0
+    if marks > 1:
+        before, after = times[LAST] - times[EARLIER], t - times[LAST]
+        for k in range(n):
+            if values[LAST, k] >= max(values[NOW, k], values[EARLIER, k]):
+                top, later = _top(values, k, before, after)
+                at = times[LAST] + later
+                part = _part(course, at)
+                _keep(largest[part], when[part], k, at, top)
+    for k in range(n):
         values[EARLIER, k], values[LAST, k] = values[LAST, k], values[NOW, k]
-    times[EARLIER], times[LAST] = times[LAST], t
+    times[EARLIER], times[LAST], times[NOW] = times[LAST], t, t
     course.marks += 1
 
 
-@kernel
-def _keep(peaks: Peaks, k: int, t: float, value: float) -> bool:
+@inlined
+def _part(course: Record, t: float) -> int:
+    """Return the part of the stretch that the time ``t`` [s] lies in."""
+    return IMPACT if t <= course.begin + course.impact_time else OUTSIDE
+
+
+@inlined
+def _keep(largest: FloatArray, when: FloatArray, k: int, t: float, value: float) -> bool:
     """Keep a value if it is the largest so far of its part of the stretch, and tell whether it is."""
-    course = peaks.course
-    part = IMPACT if t <= course.begin + course.impact_time else OUTSIDE
-    largest = peaks.largest[course.stretch, part]
     larger: bool = value > largest[k] or largest[k] != largest[k]
     if larger:
-        largest[k], peaks.when[course.stretch, part, k] = value, t
+        largest[k], when[k] = value, t
     return larger
 
 
-@kernel
-def _keep_between(peaks: Peaks, k: int) -> None:
-    """Keep the top of the parabola through three marks, of which the middle one is the highest."""
-    times, values = peaks.course.times, peaks.values
-    before, after = times[LAST] - times[EARLIER], times[NOW] - times[LAST]
-    rise, fall = values[LAST, k] - values[EARLIER, k], values[LAST, k] - values[NOW, k]
+@inlined
+def _top(values: FloatArray, k: int, before: float, after: float) -> tuple[float, float]:
+    """Return the top of the parabola through three marks, of which the middle one is the highest.
+
+    ``before`` and ``after`` are the times between them [s]; beside it, how much later than the middle it lies.
+    """
+    middle = values[LAST, k]
+    rise, fall = middle - values[EARLIER, k], middle - values[NOW, k]
     slope = (rise / before * after - fall / after * before) / (before + after)
     bend = (rise / before + fall / after) / (before + after)
-    if bend > 0.0:
-        top = min(0.25 * slope * slope / bend, MOST_RISE * max(rise, fall))
-        _keep(peaks, k, times[LAST] + 0.5 * slope / bend, values[LAST, k] + top)
+    if not bend > 0.0:
+        return middle, 0.0
+    return middle + min(0.25 * slope * slope / bend, MOST_RISE * max(rise, fall)), 0.5 * slope / bend

@@ -24,12 +24,10 @@ ENTRY: Final = 6 * PITCH
 AREA: Final = 7 * PITCH
 MOMENT: Final = 8 * PITCH
 """Area that the node stands for [m²], and that times its axial position [m³]."""
-PRESSURE: Final = 9 * PITCH
-"""P_c [Pa]; left by the report."""
-RIGID: Final = 10 * PITCH
-DAMPING: Final = 11 * PITCH
+RIGID: Final = 9 * PITCH
+DAMPING: Final = 10 * PITCH
 """P_k and C from the contact table [Pa], filled by ``look_up``."""
-N_WORK: Final = 12 * PITCH
+N_WORK: Final = 11 * PITCH
 
 Listed: Final = record_type(
     ("work", "f8", (N_WORK,)), ("pieces", "i8", (PART + 1, 3)), ("cursor", "i8", (2,))

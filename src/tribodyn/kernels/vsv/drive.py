@@ -14,7 +14,14 @@ from tribodyn.kernels.vsv.data import CRANK, TIME, VsvData
 def drive(data: VsvData, segment: Record, t: float) -> tuple[float, float, float]:
     """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at ``t`` [s] within a segment."""
     if data.mechanism.tabulated == 0.0:
-        found: tuple[float, float, float] = sinusoid(data.mechanism, t)
-    else:
-        found = evaluate(data.actions.signals, CRANK, t, held(segment, TIME, t))
-    return found
+        return sinusoid(data.mechanism, t)
+    return _tabulated(data, segment, t)
+
+
+@kernel
+def _tabulated(data: VsvData, segment: Record, t: float) -> tuple[float, float, float]:
+    """Return the same from the signal.
+
+    Apart, because whatever reaches into ``data.actions`` pays for it on every path: its arrays are counted.
+    """
+    return evaluate(data.actions.signals, CRANK, t, held(segment, TIME, t))

@@ -114,17 +114,18 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     fill_joint_forces(y, out, forces)
     for j in range(4):
         turning = motion[THETA_V, 1 + j]
-        loads, momentum = -scratch.wrench[4] * turning, 0.0
-        for row in range(N_BODY):
-            inertia = mechanism.inertia[row]
-            if row < E_X:
-                loads += (scratch.force[row] - inertia * motion[row, BIAS]) * motion[row, 1 + j]
-            momentum += inertia * clearance_velocity(motion, row, y) * motion[row, 1 + j]
+        loads = -scratch.wrench[4] * turning
+        for row in range(E_X):
+            loads += (scratch.force[row] - mechanism.inertia[row] * motion[row, BIAS]) * motion[row, 1 + j]
         force = forces[j].view(Forces)[0]
         force.work_clearance_friction += out.M_jf * turning
         force.work_clearance_loads = loads
         force.work_clearance_collar = scratch.f_cz * collar[THETA_V] * turning
-        here[POSITION, j], here[SPEED, j], here[MOMENTUM, j] = y[j], y[4 + j], momentum
+        here[POSITION, j], here[SPEED, j], here[MOMENTUM, j] = y[j], y[4 + j], 0.0
+    for row in range(N_BODY):
+        momentum = mechanism.inertia[row] * clearance_velocity(motion, row, y)
+        for j in range(4):
+            here[MOMENTUM, j] += momentum * motion[row, 1 + j]
     about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
     about_x.work_clearance_loads += (1.0 + math.tan(y[2]) ** 2) * scratch.air[BEND_X]
     about_y.work_clearance_loads += (1.0 + math.tan(y[3]) ** 2) * scratch.air[BEND_Y]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel, summing
@@ -32,7 +34,7 @@ def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
     while n > 0:
         look_up(joint, memory, n)
         _add_nodes(joint, memory, pose.w_z, pose.direction, n, out)
-        _keep(memory, abs(pose.w_z) * joint.journal_radius, n)
+        _note_pieces(memory, n)
         n = gather(joint, memory, pose, 1.0)
     nearest = out.separation_min
     out.separation_min = _separation(joint, nearest) if nearest < math.inf else _far_separation(joint, pose)
@@ -46,17 +48,15 @@ def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
 
 
 @kernel
-def _keep(memory: JointMemory, speed: float, n: int) -> None:
-    """Append the pressures of the list times the sliding speed to what was kept so far."""
-    pieces, work, kept = memory.scratch.listed.pieces, memory.scratch.listed.work, memory.pieces
-    before, at = kept[0, 0], kept[0, 1]
-    for k in range(n):
-        memory.sliding[at + k] = speed * work[listed.PRESSURE + k]
-    kept[0, 1] = at + n
+def _note_pieces(memory: JointMemory, n: int) -> None:
+    """Note where the ``n`` nodes in the list come from, behind those noted so far."""
+    pieces, kept = memory.scratch.listed.pieces, memory.pieces
+    before = kept[0, 0]
     for piece in range(1, pieces[0, 0] + 1):
         for column in range(3):
             kept[before + piece, column] = pieces[piece, column]
     kept[0, 0] = before + pieces[0, 0]
+    kept[0, 1] += n
 
 
 @kernel
@@ -101,8 +101,12 @@ def squeeze(joint: BushingData, memory: JointMemory, pose: Record) -> float:
 def _add_nodes(
     joint: BushingData, memory: JointMemory, omega: float, direction: float, n: int, out: Record
 ) -> None:
-    """Add the sums over the ``n`` nodes in the list to ``out``; separations are places in the table."""
-    work = memory.scratch.listed.work
+    """Add the sums over the ``n`` nodes in the list to ``out``, and append what slides to ``memory``.
+
+    Separations are places in the table.
+    """
+    work, sliding, at = memory.scratch.listed.work, memory.sliding, np.uint64(memory.pieces[0, 1])
+    speed = abs(omega) * joint.journal_radius
     law = friction_law(joint, direction)
     v_min, clip = joint.minimum_entry_velocity, joint.clip
     tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
@@ -120,7 +124,7 @@ def _add_nodes(
         p = total_pressure(rigid, damping, approach / reference, clip)
         ratio, _ = ratio_at(law, slip)
         tau = ratio * p
-        work[listed.PRESSURE + k] = p
+        sliding[at + np.uint64(k)] = speed * p
         highest = larger(highest, p)
         nearest = smaller(nearest, place)
         p_c, p_s = p * c, p * s

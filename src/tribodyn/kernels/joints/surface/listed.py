@@ -25,20 +25,18 @@ MOMENT: Final = 11 * PITCH
 """A, x, n, and after it x × n: the six columns from ``NORMAL`` on are (n, x × n)."""
 SLIP: Final = 14 * PITCH
 """Six columns (ŝ, x × ŝ) with ŝ = s/√(s² + u_s²)."""
-PRESSURE: Final = 20 * PITCH
-"""P_c [Pa]; left by the report."""
-SLIDING: Final = 21 * PITCH
+SLIDING: Final = 20 * PITCH
 """P_c |s| [W/m²]; left by the report."""
-RIGID: Final = 22 * PITCH
-DAMPING: Final = 23 * PITCH
-RIGID_SLOPE: Final = 24 * PITCH
-DAMPING_SLOPE: Final = 25 * PITCH
+RIGID: Final = 21 * PITCH
+DAMPING: Final = 22 * PITCH
+RIGID_SLOPE: Final = 23 * PITCH
+DAMPING_SLOPE: Final = 24 * PITCH
 """P_k and C from the contact table [Pa] and their slopes in its intervals, filled by ``look_up``."""
 STIFFNESS: Final = RIGID_SLOPE
 RESISTANCE: Final = DAMPING_SLOPE
 TRACTION: Final = RIGID
 """A ∂P/∂h, A ∂P/∂δ̇ and A μ P/√(s² + u_s²), put in their places for the derivatives."""
-N_WORK: Final = 26 * PITCH
+N_WORK: Final = 25 * PITCH
 
 Listed: Final = record_type(("work", "f8", (N_WORK,)), ("node", "i8", (PART,)), ("cursor", "i8", (2,)))
 """The list. Nothing is carried from one call of a kernel to the next.

@@ -111,7 +111,6 @@ def _add_nodes(surface: Record, scratch: Record, station: Record, n: int, out: R
         speed = s_x * s_x + s_y * s_y + s_z * s_z
         drag = -mu * area * p / math.sqrt(speed + square)
         t_x, t_y, t_z = drag * s_x, drag * s_y, drag * s_z
-        work[listed.PRESSURE + k] = p
         work[listed.SLIDING + k] = p * math.sqrt(speed)
         work[listed.RIGID + k] = area * rigid
         highest = larger(highest, p)
