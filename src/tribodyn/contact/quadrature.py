@@ -10,8 +10,9 @@ import numpy as np
 from scipy.special import erfc
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quadrature import gauss_legendre
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
+_NODES, _WEIGHTS = gauss_legendre(48)
 _DECAY: Final = 40.0
 """Heights whose density is below exp(-40) = 4e-18 of the largest one in the interval are left out."""
 

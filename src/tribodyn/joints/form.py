@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.quadrature import gauss_legendre_between
 from tribodyn.core.signals import Signal
 
 
@@ -101,19 +102,14 @@ class Form:
         """
         half, corner = 0.5 * length, 0.5 * length - self.chamfer_length
         if self.chamfer_length == 0.0:
-            return _gauss(n, -half, half)
+            return gauss_legendre_between(n, -half, half)
         outer = max(2, n // 4)
         if n < 3 * outer:
             raise InputError("chamfers need points of their own, 6 in all at least", key="solver.grid.z")
         pieces = (
-            _gauss(outer, -half, -corner),
-            _gauss(n - 2 * outer, -corner, corner),
-            _gauss(outer, corner, half),
+            gauss_legendre_between(outer, -half, -corner),
+            gauss_legendre_between(n - 2 * outer, -corner, corner),
+            gauss_legendre_between(outer, corner, half),
         )
         points, weights = zip(*pieces, strict=True)
         return np.concatenate(points), np.concatenate(weights)
-
-
-def _gauss(n: int, first: float, last: float) -> tuple[FloatArray, FloatArray]:
-    points, weights = np.polynomial.legendre.leggauss(n)
-    return 0.5 * ((last - first) * points + first + last), 0.5 * (last - first) * weights

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quadrature import gauss_legendre
 
 COEFFICIENTS: Final = (-0.6912, 0.782, -0.304, 0.0401)
 """ln φ_c as a cubic of H = h/σ, 0 ≤ H < 3."""
@@ -36,7 +37,7 @@ def reach() -> float:
 def mean_gap_nodes() -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return H, h_T/σ = reach − ∫ φ_c dH and φ_c at the ends of equal intervals from 0 to :func:`reach`."""
     h = np.linspace(0.0, reach(), _INTERVALS + 1)
-    points, weights = np.polynomial.legendre.leggauss(8)
+    points, weights = gauss_legendre(8)
     half = 0.5 * (h[1] - h[0])
     samples = contact_factor((h[:-1] + half)[:, None] + half * points)
     pieces = half * samples @ weights

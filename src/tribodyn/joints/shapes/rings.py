@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quadrature import gauss_legendre_between
 from tribodyn.joints.shapes.base import Surface
 from tribodyn.kernels.joints.surface.data import Row
 
@@ -16,10 +17,8 @@ def across(first: float, last: float, n: int) -> tuple[FloatArray, FloatArray]:
 
     Both have the shape (n + 2,), edges first and last.
     """
-    points, weights = np.polynomial.legendre.leggauss(n)
-    half = 0.5 * (last - first)
-    inside = 0.5 * (first + last) + half * points
-    return np.concatenate([[first], inside, [last]]), np.concatenate([[0.0], half * weights, [0.0]])
+    points, weights = gauss_legendre_between(n, first, last)
+    return np.concatenate([[first], points, [last]]), np.concatenate([[0.0], weights, [0.0]])
 
 
 @dataclass(frozen=True)
