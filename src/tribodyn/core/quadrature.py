@@ -11,7 +11,7 @@ from tribodyn.core.arrays import FloatArray
 
 @cache
 def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
-    """Return ``n`` points on [-1, 1] and their weights, shape (n,) each, read-only; found once for each ``n``."""
+    """Return ``n`` points on [-1, 1] and their weights, shape (n,) each, read-only: they are found once."""
     points, weights = np.polynomial.legendre.leggauss(n)
     points.flags.writeable = weights.flags.writeable = False
     return points, weights

@@ -143,7 +143,7 @@ def _keep(largest: FloatArray, when: FloatArray, k: int, t: float, value: float)
 def _top(values: FloatArray, k: int, before: float, after: float) -> tuple[float, float]:
     """Return the top of the parabola through three marks, of which the middle one is the highest.
 
-    ``before`` and ``after`` are the times between them [s]; beside it, how much later than the middle it lies.
+    ``before`` and ``after`` are the times between them [s]. Also return how far behind the middle it lies.
     """
     middle = values[LAST, k]
     rise, fall = middle - values[EARLIER, k], middle - values[NOW, k]
