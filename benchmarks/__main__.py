@@ -20,6 +20,7 @@ from benchmarks.figure import draw
 NAMES: Final = (
     "joint_kernel",
     "vsv",
+    "mechanism",
     "film",
     "growth",
     "long_run",

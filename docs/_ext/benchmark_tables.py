@@ -179,6 +179,15 @@ def tolerances(found: Found) -> Lines:
         yield row(*cells)
 
 
+def mechanism(found: Found) -> Lines:
+    """Give the free slider-crank by us and by Exudyn."""
+    yield from head("program", "tolerance or step", "time", "error of the slider's place")
+    for name in ("ours", "exudyn"):
+        for run in found["mechanism"][name]:
+            time, error = f"{1e3 * run['seconds']:.0f} ms", f"{1e6 * run['error']:.2g} µm"
+            yield row("tribodyn" if name == "ours" else "Exudyn", run["setting"], time, error)
+
+
 def film(found: Found) -> Lines:
     """Give the film solver beside a general sparse one."""
     yield from head("journal", "structured", "SuperLU", "ratio", "difference of forces")
@@ -248,6 +257,7 @@ TABLES: Final[dict[str, tuple[Path, Callable[[Found], Lines]]]] = {
     "integrators": (SOURCE, integrators),
     "peers": (SOURCE, peers),
     "tolerances": (SOURCE, tolerances),
+    "mechanism": (SOURCE, mechanism),
     "film": (SOURCE, film),
     "growth": (SOURCE, growth),
     "command": (SOURCE, command),
