@@ -13,11 +13,20 @@ from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair
+    from tribodyn.contact.flash_temperature import Conductor
 
 TABLE_1 = "paper, Table 1"
 MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
 """Damping factors that use ``contact.design_pressure``."""
 _MOST_OUTPUT_TIMES = 2_000_000
+
+
+def _conductor(conductivity: float | None, diffusivity: float | None) -> Conductor | None:
+    from tribodyn.contact.flash_temperature import Conductor
+
+    if conductivity is None or diffusivity is None:
+        return None
+    return Conductor(conductivity, diffusivity)
 
 
 class Trunnion(Group):
@@ -38,7 +47,20 @@ class Trunnion(Group):
     thermal_expansion: float | None = quantity(
         None, "linear; needed with temperature.trunnion", "", ge=0, example="11e-6 1/K"
     )
+    conductivity: float | None = quantity(
+        None,
+        "of heat; of both surfaces, with the diffusivity, for a flash temperature",
+        "",
+        gt=0,
+        example="16 W/(m K)",
+    )
+    diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="4 mm^2/s")
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
+
+    @property
+    def conductor(self) -> Conductor | None:
+        """What it does with heat; None where that is not given."""
+        return _conductor(self.conductivity, self.diffusivity)
 
 
 class Bushing(Group):
@@ -60,7 +82,20 @@ class Bushing(Group):
     thermal_expansion: float | None = quantity(
         None, "linear; needed with temperature.bushing", "", ge=0, example="50e-6 1/K"
     )
+    conductivity: float | None = quantity(
+        None,
+        "of heat; of both surfaces, with the diffusivity, for a flash temperature",
+        "",
+        gt=0,
+        example="0.35 W/(m K)",
+    )
+    diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="0.2 mm^2/s")
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
+
+    @property
+    def conductor(self) -> Conductor | None:
+        """What it does with heat; None where that is not given."""
+        return _conductor(self.conductivity, self.diffusivity)
 
 
 class Surfaces(Group):

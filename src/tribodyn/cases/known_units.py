@@ -19,6 +19,8 @@ SIZES: Final = {
         "bar": "1E+5",
         "kPa": "1E+3",
     },
+    "kilogram * meter / kelvin / second ** 3": {"W/(m K)": "1"},
+    "meter ** 2 / second": {"m^2/s": "1", "mm^2/s": "0.000001"},
     "kelvin": {"K": "1", "degC": "1"},
     "kilogram * meter / second ** 2": {"MN": "1E+6", "N": "1", "kN": "1E+3"},
     "kilogram / meter ** 2 / second ** 2": {"MPa/um": "1E+12", "Pa/m": "1"},

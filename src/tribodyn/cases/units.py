@@ -53,12 +53,13 @@ _DIMENSIONS: Final = {
     "1/m^2": "number per area",
     "m^2/N": "wear volume per work",
     "Pa s": "viscosity",
-    "m^2/s": "kinematic viscosity",
+    "m^2/s": "kinematic viscosity or diffusivity",
     "kg/m^3": "density",
     "Pa/m": "pressure per length",
     "s/m": "loss per speed",
     "K": "temperature",
     "1/K": "thermal expansion",
+    "W/(m K)": "thermal conductivity",
 }
 """The SI units that tribodyn works in, and what each of them measures."""
 

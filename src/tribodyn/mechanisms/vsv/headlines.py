@@ -199,6 +199,15 @@ HEADLINES: Final[dict[str, Headline]] = {
         digits=4,
     ),
     **{name: headline for load in _LOADS for name, headline in load.headlines.items()},
+    "flash_temperature_K": Headline(
+        "Flash temperature",
+        "K",
+        "Load",
+        "How much warmer than the surfaces their asperities get, an estimate, where pressure times speed is "
+        "largest.",
+        lambda d: float(d.attrs["flash_temperature"]),
+        digits=2,
+    ),
     "wear_depth_max_nm": Headline(
         "Wear depth",
         "nm",

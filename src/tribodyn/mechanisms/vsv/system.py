@@ -30,6 +30,7 @@ from tribodyn.mechanisms.bushing import (
     pressure_at_rest,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes
+from tribodyn.mechanisms.flash import flash_of
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
@@ -186,6 +187,8 @@ class VsvSystem:
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
         found |= loading(self.case, bushing, pressure, found["separation_least"])
+        speed = rows["omega_v"] * bushing.geometry.radius
+        flash = flash_of(self.case, bushing, rows, speed)
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         return Part(
@@ -202,6 +205,7 @@ class VsvSystem:
                 "energy_residual": whole,
                 "clearance_energy_residual": of_clearance,
                 **found,
+                **flash,
             },
             warnings=warnings(self.vsv, found, whole, of_clearance, t_end, run.cost),
             notes=[
