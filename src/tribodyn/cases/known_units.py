@@ -20,7 +20,6 @@ SIZES: Final = {
         "kPa": "1E+3",
     },
     "kilogram * meter / kelvin / second ** 3": {"W/(m K)": "1"},
-    "meter ** 2 / second": {"m^2/s": "1", "mm^2/s": "0.000001"},
     "kelvin": {"K": "1", "degC": "1"},
     "kilogram * meter / second ** 2": {"MN": "1E+6", "N": "1", "kN": "1E+3"},
     "kilogram / meter ** 2 / second ** 2": {"MPa/um": "1E+12", "Pa/m": "1"},
@@ -30,7 +29,7 @@ SIZES: Final = {
     "kilogram / second": {"N s/m": "1"},
     "kilogram / second ** 2": {"N/m": "1", "N/mm": "1E+3", "N/um": "1E+6"},
     "kilogram / meter / second": {"Pa s": "1", "mPa s": "0.001"},
-    "meter ** 2 / second": {"cSt": "0.000001", "m^2/s": "1"},
+    "meter ** 2 / second": {"cSt": "0.000001", "m^2/s": "1", "mm^2/s": "0.000001"},
     "meter": {"cm": "0.01", "m": "1", "mm": "0.001", "nm": "1E-9", "um": "0.000001"},
     "radian": {"deg": "0.01745329251994329576923690768", "mrad": "0.001", "rad": "1"},
     "radian / second": {
