@@ -133,7 +133,7 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
 def _contradiction(drives: list[str]) -> Finding:
     """Return the finding that drives act where nothing is left to drive."""
     if len(drives) == 1:
-        text = f"drive {drives[0]} has nothing to drive: the joints leave its coordinate no freedom"
+        text = f"drive {drives[0]} has nothing to drive: as drawn, the joints leave its coordinate no freedom"
     else:
         text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
     return Finding(f"drives.{drives[-1]}", text)

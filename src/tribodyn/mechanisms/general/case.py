@@ -197,7 +197,7 @@ class MechanismCase(RoughCase):
             joint, (coordinate, level) = self.joints[drive.joint], GIVEN[drive.gives]
             free = KINDS[joint.type].coordinates
             can = f"it has the {' and the '.join(free)}" if free else "it has nothing to drive"
-            words = f"{drive.joint} is a {joint.type} joint: {can}, a drive gives the {coordinate}"
+            words = f"{drive.joint} is a {joint.type} joint: {can}, and {drive.gives} drives the {coordinate}"
             demand(coordinate in free, f"drives.{name}.joint", words)
             if level < 2:
                 other = driven.setdefault((drive.joint, coordinate), name)
@@ -206,6 +206,8 @@ class MechanismCase(RoughCase):
 
     def _check_loads(self) -> None:
         for name, load in self.loads.items():
+            words = f"{GROUND} never moves, no load does anything to it; bodies: {', '.join(self.bodies)}"
+            demand(load.body != GROUND, f"loads.{name}.body", words)
             _known(load.body, tuple(self.bodies), f"loads.{name}.body", "body")
             if load.along is None:
                 continue

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -19,6 +20,11 @@ CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
 DEPENDENT: Final = 1.0e-6
 """Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
+_HELD: Final = {
+    **dict.fromkeys(("cylindrical", "prismatic", "pin-slot"), slice(2)),
+    "planar": slice(2, 3),
+}
+"""Which components of the way between its points a joint holds, in its axes; all where none are said."""
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
@@ -204,11 +210,15 @@ class System:
                 worst, size = k, gap
         joint = self.description.joints[worst]
         now = self.now.couplings[worst]
-        way = float(np.linalg.norm(now.pose.d[: 3 if joint.kind != "pin-slot" else 2]))
+        way = float(np.linalg.norm(now.pose.d[_HELD.get(joint.kind, slice(3))]))
         first, second = (_name(self.description, b) for b in joint.bodies)
         text = (
-            f"joint {joint.name} between {first} and {second} does not close: {way * 1e3:.4g} mm are left "
-            f"between its points, {size:.3g} in its worst constraint, when all joints are nearest to closing"
+            f"joint {joint.name} between {first} and {second} does not close: when all joints are nearest to "
+            + (
+                f"closing, {way * 1e3:.4g} mm are left between its points"
+                if way >= size
+                else f"closing, its directions stay {math.degrees(math.asin(min(size, 1.0))):.3g}° apart"
+            )
         )
         return Finding(f"joints.{joint.name}", text)
 

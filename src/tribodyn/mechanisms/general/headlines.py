@@ -111,7 +111,6 @@ def _pair(
     values: Callable[[xr.Dataset], FloatArray],
     *,
     scale: float = 1.0,
-    of: str = "",
 ) -> dict[str, Headline]:
     """Return a maximum without the blows and one with them, by their names.
 
@@ -125,25 +124,22 @@ def _pair(
         The quantities over time, shape (n_t,) or (n_t, n).
     scale
         Their unit over that of the number.
-    of
-        What the labels end with.
     """
     quiet, loud = names
     return {
         quiet: Headline(
-            f"{label}, lasting{of}",
+            f"{label}, lasting",
             unit,
             group,
             f"{meaning}, but for the hardest hundredth of the time.",
             lambda d: _above_zero(lasting(d, values(d))) * scale,
         ),
         loud: Headline(
-            f"{label}, peak{of}",
+            f"{label}, peak",
             unit,
             group,
             "The same at any step of the integration, blows of shafts against their sockets among them.",
             lambda d: _above_zero(peak(settled(d, values(d)))) * scale,
-            digits=2,
             over="cycles",
             span="over {} cycle",
         ),
@@ -270,13 +266,12 @@ def _pair_named(
     def made(name: str, joint: str) -> Headline:
         pair = _pair(
             names,
-            label,
+            f"{label} in {joint}",
             unit,
             "Joints",
             meaning,
             lambda d: values(d, of_joint(d, joint)),
             scale=scale,
-            of=f", {joint}",
         )
         return pair[name]
 

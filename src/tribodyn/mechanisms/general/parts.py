@@ -318,7 +318,7 @@ class SpringKeys(NamedGroup):
     def model_post_init(self, context: object, /) -> None:
         """Check what involves two keys."""
         demand(self.between[0] != self.between[1], "between", "a spring connects two different bodies")
-        demand(self.drawn_length > 0.0, "second_point", "the two ends of a spring stand apart")
+        demand(self.drawn_length > 0.0, "second_point", "the two ends of a spring must stand apart")
 
     @property
     def drawn_length(self) -> float:
