@@ -6,11 +6,12 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.results.reading import column
 
 
 def series(dataset: xr.Dataset, name: str, scale: float = 1.0) -> FloatArray:
     """Return a variable as an array times ``scale``, shape (n_t,); infinities become NaN."""
-    values = np.asarray(dataset[name].values, dtype=np.float64) * scale
+    values = column(dataset, name) * scale
     return np.where(np.isfinite(values), values, np.nan)
 
 
