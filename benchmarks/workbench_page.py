@@ -1,25 +1,25 @@
-"""What a person at the page of the workbench waits for: from the move of a slider to the picture.
+"""The workbench in a browser: from the move of a slider to the picture, and what the page itself weighs.
 
-python -m benchmarks.workbench_page [SECONDS]
-
-Needs Chromium and Playwright; WebGL is drawn in software, as where there is no graphics card.
+WebGL is drawn in software, as where there is no graphics card.
 """
 
 from __future__ import annotations
 
 import os
 import shutil
-import sys
+import time
 from typing import Any, Final
+from urllib.parse import urlsplit
 
 import numpy as np
-from playwright.sync_api import sync_playwright
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, Response, sync_playwright
 
-from benchmarks.workbench import KEY, PER_SECOND, workbench
+from benchmarks.workbench_hands import KEY, PER_SECOND
 
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
 OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-SECONDS: Final = 20.0
+DRAWN: Final = "() => typeof bench === 'object' && bench.shown && !wishes.awaited"
 DRAG: Final = """async ([key, apart, seconds]) => {
   const slider = controlAt(key).querySelector("input[type=range]");
   const moved = new Map();
@@ -30,13 +30,22 @@ DRAG: Final = """async ([key, apart, seconds]) => {
     if (message.type === "run") moved.set(message.number, input);
     return say(message);
   };
+  let decoding = 0;
+  const decode = runOf;
+  runOf = (buffer) => {
+    const begun = performance.now();
+    const run = decode(buffer);
+    decoding = performance.now() - begun;
+    return run;
+  };
   const show = bench.show;
   bench.show = (run) => {
     const begun = performance.now();
     show(run);
     const drawn = performance.now();
     // What was drawn is on the screen when the next picture of it begins.
-    requestAnimationFrame(() => pictures.push([performance.now() - moved.get(run.number), drawn - begun]));
+    const parts = [1e3 * run.seconds, decoding, drawn - begun];
+    requestAnimationFrame(() => pictures.push([performance.now() - moved.get(run.number), ...parts]));
   };
   slider.focus();
   const begin = performance.now();
@@ -52,32 +61,51 @@ DRAG: Final = """async ([key, apart, seconds]) => {
 }"""
 
 
-def run(seconds: float = SECONDS) -> dict[str, dict[str, float]]:
-    """Measure, print and return the drag of a slider whose pictures are in sight."""
-    with workbench() as (_, address), sync_playwright() as playwright:
+def measured(address: str, begun: float, seconds: float) -> dict[str, dict[str, float]]:
+    """Open the page in a browser, look at it, and drag a slider whose pictures are in sight.
+
+    Parameters
+    ----------
+    address
+        Of a workbench, with its key.
+    begun
+        When its command was given [s since 1970].
+    seconds
+        How long it is dragged.
+    """
+    with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
         page = browser.new_page(viewport={"width": 1280, "height": 800})
+        answers: list[Response] = []
+        page.on("response", answers.append)
         page.goto(address)
-        page.wait_for_function(
-            "() => typeof bench === 'object' && bench.shown && !wishes.awaited", timeout=600_000
-        )
+        page.wait_for_function(DRAWN, timeout=600_000)
+        first = time.time() - begun
+        asked = [answer for answer in answers if answer.url.startswith(("http:", "https:"))]
+        own = [answer for answer in asked if urlsplit(answer.url).netloc == urlsplit(address).netloc]
+        about = {
+            "first picture after the command [s]": first,
+            "without pictures [kB]": sum(len(answer.body()) for answer in own) / 1e3,
+            "requests to another origin": float(len(asked) - len(own)),
+            "serious faults by axe": float(_faults(page)),
+        }
         pictures = np.array(page.evaluate(DRAG, [KEY, 1000.0 / PER_SECOND, seconds]))
         browser.close()
-    found = {"drag in a browser": _told(pictures, seconds)}
-    for name, row in found.items():
-        print(f"{name}: " + ", ".join(f"{key} {value:.3g}" for key, value in row.items()), flush=True)
-    return found
+    return {"page": about, "drag in a browser": _told(pictures, seconds)}
+
+
+def _faults(page: Page) -> int:
+    found = Axe().run(page).response["violations"]
+    return sum(fault["impact"] in ("serious", "critical") for fault in found)
 
 
 def _told(pictures: Any, seconds: float) -> dict[str, float]:
-    whole, drawing = pictures.T / 1e3
+    whole, run, decoding, drawing = pictures.T / 1e3
     return {
         "input to picture, median [s]": float(np.median(whole)),
         "95 % [s]": float(np.quantile(whole, 0.95)),
         "pictures a second": whole.size / seconds,
+        "run, median [s]": float(np.median(run)),
+        "decoding, median [s]": float(np.median(decoding)),
         "drawing, median [s]": float(np.median(drawing)),
     }
-
-
-if __name__ == "__main__":
-    run(float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS)

@@ -1,7 +1,8 @@
 """A real browser, and pages of short runs for it to open.
 
 The browser is the system's Chromium, driven by Playwright. Where it is missing the tests are left out with a
-line that says so, except in continuous integration (CI=true), where that is a failure.
+line that says so, except in continuous integration (CI=true), where that is a failure. TRIBODYN_BROWSER names
+another one; the system's Firefox, too, which draws with WebGL where there is a display (xvfb-run is one).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any
 
 import pytest
 import xarray as xr
-from playwright.sync_api import Browser, ConsoleMessage, Page, Request, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, Request, sync_playwright
 
 import tribodyn as td
 from tribodyn.figures.save import save
@@ -55,9 +56,21 @@ def browser() -> Iterator[Browser]:
     """The system's Chromium, one for all tests of this folder."""
     path = _executable()
     with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(executable_path=path, args=OPTIONS)
+        launched = _launched(playwright, path)
         yield launched
         launched.close()
+
+
+def _launched(playwright: Playwright, path: str) -> Browser:
+    if "firefox" not in Path(path).name:
+        return playwright.chromium.launch(executable_path=path, args=OPTIONS)
+    # Playwright's own Firefox speaks a protocol of its own, everybody else's WebDriver BiDi.
+    return playwright.firefox.launch(
+        executable_path=path,
+        channel="moz-firefox",
+        headless="DISPLAY" not in os.environ,
+        firefox_user_prefs={"webgl.force-enabled": True},
+    )
 
 
 class Watched:
@@ -146,7 +159,8 @@ class Reader:
     def keep_picture(self, name: str) -> None:
         """Keep a picture of the whole page where CI finds it."""
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
+        # To hide the caret Playwright would write a style into the page, against its policy.
+        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True, caret="initial")
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ import json
 import shlex
 import signal
 import subprocess
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, StorageState, WebSocketRoute
+from tests.unit.workbench.host import TRIBODYN
 
 from tribodyn.mechanisms.results import summarise
 
@@ -22,7 +22,6 @@ from .conftest import NO_WEBGL, Reader, Watched
 
 SOON = 60_000.0
 """Time within which everything must have happened, on a machine that does other things too [ms]."""
-TRIBODYN = [sys.executable, "-m", "tribodyn"]
 CASE = ["vsv", "--set", "run.duration=6.5 s"]
 CLEARANCE = "joint.clearance"
 TIMES = ("wall_time_s", "real_time_factor")

@@ -5,17 +5,17 @@ from __future__ import annotations
 import json
 import signal
 import subprocess
-import sys
 import urllib.error
 import urllib.request
 from urllib.parse import urlsplit
 
 import psutil
 import pytest
+from tests.unit.workbench.host import TRIBODYN
 
 from tribodyn.cli.main import main
 
-COMMAND = [sys.executable, "-m", "tribodyn", "workbench"]
+COMMAND = [*TRIBODYN, "workbench"]
 
 
 def asked(address: str):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
+import shutil
 import struct
+import sys
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager, contextmanager
@@ -30,6 +32,11 @@ from tribodyn.workbench.worker import Limits
 
 PUBLIC = "vanes.example.org"
 """Name of a server for many."""
+TRIBODYN = [
+    *(["setpriv", "--pdeathsig", "TERM"] if shutil.which("setpriv") else []),
+    *(sys.executable, "-m", "tribodyn"),
+]
+"""The command as a process that ends with the one that began it, however that ends; on Linux."""
 SOON = 20.0
 """Time within which everything must have happened, on a machine that does other things too [s]."""
 
