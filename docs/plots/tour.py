@@ -33,8 +33,9 @@ OVERLAY: Final = """() => {
   };
   make("hand", `width: 18px; height: 18px; margin: -9px; border-radius: 50%; border: 3px solid #c04a00;
     background: rgb(192 74 0 / 25%); left: 600px; top: 400px`);
-  make("words", `left: 0; right: 0; bottom: 0; padding: 10px; text-align: center; font-size: 19px;
-    color: #fff; background: rgb(20 30 45 / 92%)`);
+  make("words", `left: 0; right: 0; bottom: 0; padding: 10px; text-align: center; font-size: 19px; line-height: 24px;
+    color: #fff; background: rgb(20 30 45)`);
+  document.querySelector("#results > .clock").style.bottom = "44px";
 }"""
 
 
@@ -133,7 +134,7 @@ def tour(film: Recorder) -> None:
     entry.press("Enter")
     film.take(3500)
     entry.press("Escape")
-    film.say("Curves over time: hatched is what hangs on what was before")
+    film.say("Curves over time: hatched is what depends on what was before")
     page.locator("#contact-force").scroll_into_view_if_needed()
     film.take(3500)
     page.evaluate("scrollTo(0, 0)")
@@ -173,6 +174,7 @@ def sweep(film: Recorder) -> None:
     film.move(600.0, 300.0)
     page.locator(f".control[data-key='{KEY}'] input[type=range]").focus()
     page.wait_for_function(f"() => slope.key === '{KEY}' && slope.finished", timeout=600_000)
+    page.evaluate("scrollTo(0, 0)")
     film.say("The key in focus: by how many percent each number follows it, with its scatter")
     film.take(4000)
 

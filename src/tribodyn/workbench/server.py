@@ -26,6 +26,7 @@ from tribodyn.workbench.crew import Crew
 from tribodyn.workbench.gate import TOKEN, Door, Gate, Keyring, OnePerson
 from tribodyn.workbench.guests import Guests
 from tribodyn.workbench.handlers import House, application, assets
+from tribodyn.workbench.memory import give_back_large_blocks
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker import Limits
@@ -181,6 +182,7 @@ async def serve(
 ) -> None:
     """Serve whoever has a key, until ``stop`` is true; see :func:`attended`."""
     _silence()
+    give_back_large_blocks()
     house = House(bench, door, keys, assets(), complain)
     server = HTTPServer(
         Gate(door, keys, application(house)),

@@ -85,23 +85,22 @@ function movingParts(data, frame, magnification) {
   const solid = new Solid();
   addRods(solid, data, frame);
   addRing(solid, data, frame);
-  addVane(solid, data, trunnionAt(data, frame, magnification), {
-    lever: theme.rgb("part-lever"),
-    trunnion: theme.rgb("part-trunnion"),
-    collar: theme.rgb("part-collar"),
-    vane: theme.rgb("part-vane"),
-  });
+  const place = trunnionAt(data, frame, magnification);
+  addVane(solid, data, place);
+  addTrunnion(solid, data, place, theme.rgb("part-trunnion"), theme.rgb("part-collar"));
   return solid;
 }
 
-/** Return what is seen through: the bushing, and where other runs have the trunnion. */
+/**
+ * Return what is seen through: the bushing, and where other runs have the trunnion. Of these lever and blade are
+ * left out: they would lie in the very place of those that are shown, and come through them in patches.
+ */
 function clearParts({ data, ghosts, magnification }, frame) {
   const solid = new Solid();
   for (const { data: other, strength } of ghosts) {
     const faint = [...theme.rgb("quiet"), 255 * strength];
     const at = Math.min(frame, other.theta_v.length - 1);
-    const place = trunnionAt(other, at, magnification);
-    addVane(solid, other, place, { lever: faint, trunnion: faint, collar: faint, vane: faint });
+    addTrunnion(solid, other, trunnionAt(other, at, magnification), faint, faint);
   }
   addBushing(solid, data, magnification);
   return solid;
@@ -137,21 +136,24 @@ function addRing(solid, data, frame) {
   solid.rod(...pin, 3, theme.rgb("quiet"), 12);
 }
 
-/** Add lever, trunnion, collar and blade, which are one body. */
-function addVane(solid, data, place, colours) {
-  const { lever, vane, radius, length, collar } = data.size;
+/** Add lever and blade, which are one body with the trunnion. */
+function addVane(solid, { size: { lever, vane, length } }, place) {
   const top = 0.5 * length;
-  const bottom = top - vane;
-  const round = (height, r, colour, thick) => {
-    const loop = (z) => circle(24).map(([c, s]) => place([r * c, r * s, z]));
-    solid.loft([loop(height), loop(height + thick)], colour);
-  };
   const box = [[0, -4.5], [lever + 5, -4.5], [lever + 5, 4.5], [0, 4.5]];
-  solid.loft([top + 1, top + 6].map((z) => box.map(([a, b]) => place([a, b, z]))), colours.lever);
-  round(-top - 1, radius, colours.trunnion, length + 4);
-  round(-top - 4, collar, colours.collar, 3);
+  solid.loft([top + 1, top + 6].map((z) => box.map(([a, b]) => place([a, b, z]))), theme.rgb("part-lever"));
   const blade = (z) => bladeSection().map(([a, b]) => place([a, b, z]));
-  solid.loft([blade(-top - 4), blade(bottom)], colours.vane);
+  solid.loft([blade(-top - 4), blade(top - vane)], theme.rgb("part-vane"));
+}
+
+/** Add the trunnion with its collar. */
+function addTrunnion(solid, { size: { radius, length, collar } }, place, colour, colourOfCollar) {
+  const bottom = -0.5 * length;
+  const round = (height, r, thick, painted) => {
+    const loop = (z) => circle(24).map(([c, s]) => place([r * c, r * s, z]));
+    solid.loft([loop(height), loop(height + thick)], painted);
+  };
+  round(bottom - 1, radius, length + 4, colour);
+  round(bottom - 4, collar, 3, colourOfCollar);
 }
 
 /** Return the section of the blade: a slim lens along the lever. */
@@ -242,7 +244,7 @@ function partNames(data, state) {
   const half = (a, b) => a.map((value, n) => 0.5 * (value + b[n]));
   const both = [
     ["lever", [0, 0.7 * lever, ring_radius + 4], -20, -34],
-    ["bushing", [9, 0, ring_radius - 0.6 * length], 58, 20],
+    ["bushing", [-9, 0, ring_radius - 0.6 * length], -58, 14],
     ["vane", [12, 0, ring_radius - 0.55 * vane], 46, 12],
   ];
   if (state.view === "joint") {

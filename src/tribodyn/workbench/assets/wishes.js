@@ -107,6 +107,7 @@ function stateInWords(busy) {
   if (!server.connected) return "The server does not answer; trying again. What is shown stays usable.";
   const { state, message, seconds, share } = server;
   if (state === "failed") return message;
+  if (!bench.shown && busy && !message) return "The first run is on its way.";
   if (state === "ready" || (state === "running" && !busy)) return "";
   const parts = [message];
   if (share !== null) parts.push(`${Math.round(100 * share)} %`);
