@@ -42,7 +42,7 @@ function tellNumbers() {
   const focused = document.activeElement?.dataset.number;
   const table = document.querySelector("#numbers table");
   const other = compared();
-  const heads = ["number", "", other ? "from the pinned run" : "", bench.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
+  const heads = ["number", "", other ? "from pinned" : "", bench.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
   table.tHead.replaceChildren(element("tr", {}, ...heads.map((text) => element("td", {}, text))));
   for (const [k, robust] of [true, false].entries()) {
     const rows = known.filter((one) => one.robust === robust);
