@@ -29,6 +29,8 @@ NO_WEBGL = """const all = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
   return kind.startsWith('webgl') ? null : all.call(this, kind, ...more);
 };"""
+# The style that Playwright writes into a page of Firefox to take a picture; the page's policy refuses it.
+OF_PICTURES = "sha256-YjaKGiklmzC6wjXA513HAMmzus8VE61XCOT+SmwNZWA="
 SCREENSHOTS = Path(os.environ.get("TRIBODYN_SCREENSHOTS", Path(__file__).parents[2] / "out" / "screenshots"))
 STILLS = ("motion", "trajectory")
 
@@ -80,7 +82,7 @@ class Watched:
         self.faults: list[str] = []
         self.requests: list[str] = []
         page.on("console", self._hear)
-        page.on("pageerror", lambda error: self.faults.append(str(error)))
+        page.on("pageerror", lambda error: OF_PICTURES in str(error) or self.faults.append(str(error)))
         page.on("request", self._note)
 
     def _hear(self, message: ConsoleMessage) -> None:
@@ -159,8 +161,7 @@ class Reader:
     def keep_picture(self, name: str) -> None:
         """Keep a picture of the whole page where CI finds it."""
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-        # To hide the caret Playwright would write a style into the page, against its policy.
-        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True, caret="initial")
+        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
 
 
 @pytest.fixture

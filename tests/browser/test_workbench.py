@@ -191,7 +191,8 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
           ])));
         }"""
     )
-    _drag(person, 0.39, 0.75)
+    # Where the machine does other things too, the hand moves until it has seen two.
+    _drag(person, 0.39, 0.75, until="new Set(seen.map(([value]) => value)).size > 1")
     person.wait_for("!wishes.awaited && bench.past.length === 1")
     wished = person.page.evaluate("bench.values['joint.clearance']")
     person.wait_until_shown({CLEARANCE: wished})
@@ -215,16 +216,21 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
     assert person.control(CLEARANCE).locator(".entry").input_value() == "20 um"
 
 
-def _drag(person: Person, begin: float, end: float, steps: int = 12, key: str = CLEARANCE) -> None:
-    """Drag a slider, that of the clearance, between two shares of its length."""
+def _drag(
+    person: Person, begin: float, end: float, steps: int = 12, key: str = CLEARANCE, until: str = "true"
+) -> None:
+    """Drag a slider between two shares of its length, back and forth until something is true."""
     box = person.slider(key).bounding_box()
     y = box["y"] + 0.5 * box["height"]
     mouse = person.page.mouse
     mouse.move(box["x"] + begin * box["width"], y)
     mouse.down()
-    for step in range(steps + 1):
-        mouse.move(box["x"] + (begin + (end - begin) * step / steps) * box["width"], y)
+    for step in range(100 * steps):
+        share = abs((step + steps) % (2 * steps) - steps) / steps
+        mouse.move(box["x"] + (begin + (end - begin) * share) * box["width"], y)
         person.page.wait_for_timeout(60)
+        if step % (2 * steps) == steps and person.page.evaluate(until):
+            break
     mouse.up()
 
 
