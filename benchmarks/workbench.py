@@ -120,7 +120,7 @@ async def _together(minutes: float) -> dict[str, dict[str, float]]:
         found = await kept_busy(process, base, cookie, SOCKETS, minutes)
         all_of_it: Sequence[psutil.Process] = family(process)
         process.terminate()
-        _, left = psutil.wait_procs(all_of_it, timeout=20.0)
+        _, left = psutil.wait_procs(all_of_it, timeout=60.0)
     return {"sockets": {**found, "processes left behind": float(len(left))}}
 
 

@@ -19,8 +19,8 @@ from tribodyn.workbench.bench import Rules
 from tribodyn.workbench.visitor import MOST_CASES
 
 KEY: Final = "joint.clearance"
-PER_SECOND: Final = 30
-"""Positions of a slider that a page sends in a second."""
+PER_SECOND: Final = 50
+"""Positions of a slider that a page sends in a second, as fast as it may."""
 WATCHED: Final = 5.0
 """Time between two looks at the memory [s]."""
 ROOM: Final = Rules().room

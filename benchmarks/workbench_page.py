@@ -77,15 +77,20 @@ def measured(address: str, begun: float, seconds: float) -> dict[str, dict[str, 
         browser = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
         page = browser.new_page(viewport={"width": 1280, "height": 800})
         answers: list[Response] = []
-        page.on("response", answers.append)
+        page.on("response", lambda answer: answers.append(answer))
         page.goto(address)
         page.wait_for_function(DRAWN, timeout=600_000)
         first = time.time() - begun
+        # Once more, for a page that was left does not tell what it was sent.
+        loaded = len(answers)
+        page.reload()
+        page.wait_for_function(DRAWN, timeout=600_000)
         asked = [answer for answer in answers if answer.url.startswith(("http:", "https:"))]
         own = [answer for answer in asked if urlsplit(answer.url).netloc == urlsplit(address).netloc]
         about = {
             "first picture after the command [s]": first,
-            "without pictures [kB]": sum(len(answer.body()) for answer in own) / 1e3,
+            "without pictures [kB]": sum(len(answer.body()) for answer in own if answer in answers[loaded:])
+            / 1e3,
             "requests to another origin": float(len(asked) - len(own)),
             "serious faults by axe": float(_faults(page)),
         }

@@ -1,7 +1,7 @@
 // Runs that are wished: sent as fast as they can be drawn, shown with the values that they were made with.
 
-/** Least time between two wishes of a drag [ms]. */
-const APART = 35;
+/** Least time between two wishes of a drag [ms]; the server reads 60 messages a second. */
+const APART = 20;
 
 /** States of the server in which a run, or what it needs, is under way. */
 const STOPPABLE = new Set(["running", "compiling", "waiting"]);
