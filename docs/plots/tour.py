@@ -33,8 +33,8 @@ OVERLAY: Final = """() => {
   };
   make("hand", `width: 18px; height: 18px; margin: -9px; border-radius: 50%; border: 3px solid #c04a00;
     background: rgb(192 74 0 / 25%); left: 600px; top: 400px`);
-  make("words", `left: 0; right: 0; bottom: 0; padding: 10px; text-align: center; font-size: 19px; line-height: 24px;
-    color: #fff; background: rgb(20 30 45)`);
+  make("words", `left: 0; right: 0; bottom: 0; padding: 10px; text-align: center; font-size: 19px;
+    line-height: 24px; color: #fff; background: rgb(20 30 45)`);
   document.querySelector("#results > .clock").style.bottom = "44px";
 }"""
 

@@ -17,8 +17,8 @@ def give_back_large_blocks() -> None:
     """Have every large block of this process taken from the system, and given back when it is free.
 
     glibc raises this size to that of the largest block that was ever freed. From then on pictures share its
-    heap, where those of other sizes do not fit into the gaps that forgotten ones leave: of 100 MB that are kept
-    it made 190 MB. Elsewhere than with glibc nothing is done.
+    heap, where those of other sizes do not fit into the gaps that forgotten ones leave: of 100 MB that are
+    kept it made 190 MB. Elsewhere than with glibc nothing is done.
     """
     if sys.platform == "linux":
         with suppress(AttributeError, OSError):
