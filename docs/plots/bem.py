@@ -59,19 +59,20 @@ def press(heights: np.ndarray, gradient: float) -> np.ndarray:
     half_space = PeriodicFFTElasticHalfSpace(heights.shape, MODULUS, size)
     system = NonSmoothContactSystem(half_space, Topography(heights, size, periodic=True))
     found, displacements = [], None
-    for load in LOADS:
+    # From the largest load on: less touches each time, which takes two thirds of the iterations.
+    for load in LOADS[::-1]:
         force = load * gradient * MODULUS * size[0] * size[1]
         result = system.minimize_proxy(
             external_force=force,
             initial_displacements=displacements,
-            pentol=1e-4 * heights.std(),
+            pentol=3e-3 * heights.std(),
             maxiter=3000,
         )
         if not result.success:
             raise RuntimeError(f"the boundary elements did not converge at the load {load:.3g}")
         displacements = result.x
         found.append((np.mean(result.x - heights - result.offset), np.mean(result.jac > 0.0)))
-    return np.transpose(found)
+    return np.transpose(found[::-1])
 
 
 def statistical_law(spectrum: SelfAffine, separation_from: str = "surface") -> ContactLaw:

@@ -134,7 +134,7 @@ def draw_mechanism(results: dict[str, xr.Dataset], target: Path, name: str, *, p
 def tell(label: str, result: xr.Dataset) -> None:
     """Print the numbers that the page quotes."""
     time = result["time"]
-    smooth = result.where((time > 0.2) & (time < REVERSAL - 0.05), drop=True)
+    smooth = result.isel(time=((time > 0.2) & (time < REVERSAL - 0.05)).values)
     error = np.rad2deg(float(abs(smooth["theta_v"] - smooth["theta_v_ideal"]).max()))
     force = float(np.hypot(smooth["F_cx"], smooth["F_cy"]).mean())
     pressure = float(smooth["p_max"].mean()) / 1e6
