@@ -23,6 +23,9 @@ class Materials(Table):
                 cells = (first, key.replace("_", " "), written(key, known), known.validity, known.source)
                 yield f"| {' | '.join(cells)} |"
                 first = ""
+            if material.unknown:
+                names = ", ".join(name.replace("_", " ") for name in material.unknown)
+                yield f"| | not known: {names} | | | |"
 
 
 def setup(app: Any) -> dict[str, bool]:

@@ -96,11 +96,18 @@ class Material:
         raise AttributeError(f"{self.__dict__.get('name')}: no source gives {name}")
 
     def __str__(self) -> str:
-        """Return the material with every property and its source, a line each."""
+        """Return the material with every property and its source, a line each, and what is not known."""
         lines = [f"{self.name}: {self.title}"]
         for name, known in self.properties.items():
             lines.append(f"  {name:<22} {written(name, known):<28} {known.validity}; {known.source}")
+        if self.unknown:
+            lines.append(f"  not known: {', '.join(self.unknown)}")
         return "\n".join(lines)
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """Properties that no source gives, by the names of keys."""
+        return tuple(name for name in _UNITS if name not in self.properties)
 
 
 def between(places: Sequence[float], values: Sequence[float], at: float) -> float:

@@ -50,6 +50,12 @@ def test_a_material_gives_all_that_it_has() -> None:
     )
 
 
+def test_what_no_source_gives_is_said_to_be_unknown() -> None:
+    bronze = td.materials["bronze-c93200"]
+    assert bronze.unknown == ("friction_coefficient", "specific_wear_rate")
+    assert str(bronze).endswith("\n  not known: friction_coefficient, specific_wear_rate")
+
+
 def test_what_it_does_not_have_stays_and_is_told() -> None:
     case = td.load_case("vsv").replace(BRONZE)
     assert case.at("wear.specific_wear_rate") == 1.1e-15
