@@ -133,7 +133,7 @@ def _hostile() -> dict[str, float]:
     )
     return {
         "tests that pass": passed,
-        "tests of 10,000 messages and requests that fail": failed or not passed,
+        "tests of 10,000 messages and requests that fail": failed or float(not passed),
     }
 
 

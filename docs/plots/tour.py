@@ -20,9 +20,9 @@ from playwright.sync_api import Page, sync_playwright
 
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
 OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-SIZE: Final = {"width": 1180, "height": 760}
+SIZE: Final = {"width": 1280, "height": 824}
 SHOWN: Final = (885, 570)
-COLOURS: Final = 128
+COLOURS: Final = 256
 KEY: Final = "joint.clearance"
 OVERLAY: Final = """() => {
   const make = (id, style) => {
