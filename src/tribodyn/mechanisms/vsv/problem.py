@@ -159,10 +159,13 @@ def vsv_memory(data: VsvData, *, reversals: int = 0, impact_time: float = 0.0) -
 
 
 def _swing_of(data: VsvData) -> int:
-    """Return the number of the forces among which there are loads that follow time."""
-    terms = data.actions.terms
-    follow = np.any((terms.signals != NONE) & (terms.over == TIME))
-    return names(FORCES).index("work_clearance_loads") if follow else NO_SWING
+    """Return the number of the forces among which there are loads that change with time."""
+    terms, all_signals = data.actions.terms, data.actions.signals
+    swings = False
+    for signal in all_signals.signals[terms.signals[(terms.signals != NONE) & (terms.over == TIME)]]:
+        pieces = all_signals.pieces[signal.first : signal.first + signal.n]
+        swings = swings or signal.sine[0] != 0.0 or bool(np.any(pieces.c[:, 1:]))
+    return names(FORCES).index("work_clearance_loads") if swings else NO_SWING
 
 
 def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
