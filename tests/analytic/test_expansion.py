@@ -163,3 +163,16 @@ def test_a_trunnion_that_seizes_on_the_way_is_refused_before_the_run() -> None:
     with pytest.raises(InputError, match="would seize: 2 s after the start") as caught:
         case.replace({"run.duration": "2 s"})
     assert caught.value.key == "temperature.over_time"
+
+
+def test_a_run_says_what_the_heat_did_to_the_material() -> None:
+    case = td.load_case("vsv").replace(EXPANSIONS | {"run.cycles": 0.02, "temperature.bushing": "110 degC"})
+    tables = {
+        "temperature.properties.temperatures": "20, 200 degC",
+        "temperature.properties.young_modulus": "7, 5 GPa",
+        "temperature.properties.hardness": "490, 490 MPa",
+    }
+    notes = str(td.simulate(case.replace(tables)).attrs["notes"])
+    assert "not 20 um. Of the material change surfaces.bushing.young_modulus by -14.3 %." in notes
+    given = case.replace(tables | {"surfaces.bushing.young_modulus": "6.5 GPa"})
+    assert "Of the material" not in str(td.simulate(given).attrs["notes"])

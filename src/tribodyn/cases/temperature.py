@@ -46,6 +46,18 @@ class PropertiesKeys(Group):
         "of the bushing", "", unit="m^2/N", example='"1e-15, 2e-15, 5e-15 m^2/N"'
     )
 
+    def values_at(self, first: float, second: float) -> dict[str, tuple[float, float]]:
+        """Return the values at two temperatures of the bushing [K], by keys; of tables that hold both."""
+        places = self.temperatures or ()
+        if not places or min(first, second) < places[0] or max(first, second) > places[-1]:
+            return {}
+        tables = {path: getattr(self, key) for key, path in _FOLLOWING.items()}
+        return {
+            path: (between(places, values, first), between(places, values, second))
+            for path, values in tables.items()
+            if values
+        }
+
     def derived(self) -> dict[str, str]:
         """Return from where the values of keys come that follow from these tables."""
         given = (key for key in _FOLLOWING if getattr(self, key) is not None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from operator import attrgetter
 from typing import Final, Protocol
 
 import numpy as np
@@ -95,10 +96,25 @@ def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> lis
             f"Temperatures take the clearance from {begin} to {end}; it is {least} at least. Radius, length, "
             "contact law, friction and wear coefficient stay those of the start."
         ]
-    hot, cold = case.temperature.dimensions(case.joint, case.surfaces).clearance, case.joint.clearance
+    temperature, cold = case.temperature, case.joint.clearance
+    hot = temperature.dimensions(case.joint, case.surfaces).clearance
     if hot == cold:
         return []
-    return [f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."]
+    words = f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."
+    material = _of_material(case)
+    return [f"{words} Of the material change {', '.join(material)}." if material else words]
+
+
+def _of_material(case: HasBushing) -> list[str]:
+    """Return what the temperature changes of the material, as far as a case takes it from its tables."""
+    temperature = case.temperature
+    now = temperature.at_start["bushing"] or temperature.assembly
+    found = temperature.properties.values_at(temperature.assembly, now)
+    return [
+        f"{path} by {100.0 * (hot / cold - 1.0):+.3g} %"
+        for path, (cold, hot) in found.items()
+        if hot != cold and attrgetter(path)(case) == hot
+    ]
 
 
 def loading(case: HasBushing, joint: BushingJoint, pressure: float, separation: float) -> dict[str, float]:
