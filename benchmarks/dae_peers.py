@@ -157,14 +157,16 @@ def draw(everything: dict[str, dict[str, list[dict[str, Any]]]]) -> None:
         axes = figure.subplots(len(everything), len(COSTS), squeeze=False)
         for row, (name, runs) in zip(axes, everything.items(), strict=True):
             for axis, cost in zip(row, COSTS, strict=True):
-                axis.set(yscale="log", title=f"{name}: {LABELS[cost]}")
+                axis.set(yscale="log")
                 axis.yaxis.set_minor_formatter(NullFormatter())
                 axis.grid(alpha=0.3)
                 for solver, look in LOOKS.items():
                     good = [run for run in runs[solver] if not run["failed"] and run["digits"] > 0.0]
                     axis.plot([run["digits"] for run in good], [run[cost] for run in good], **look)
-        for axis in axes[-1]:
-            axis.set_xlabel("correct digits")
+            row[0].set_ylabel(name.replace(", ", ",\n"))
+        for above, below, cost in zip(axes[0], axes[-1], COSTS, strict=True):
+            above.set_title(LABELS[cost])
+            below.set_xlabel("correct digits")
         figure.legend(axes[0, 0].get_lines(), LOOKS, loc="outside upper center", ncols=len(LOOKS))
         figure.savefig(TARGET.with_suffix(".png"), dpi=110, pil_kwargs={"optimize": True})
 
