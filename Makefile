@@ -9,8 +9,8 @@ DOCS := docs/_build/html
 PLOTS := $(filter-out docs/plots/demo.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
 DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
 PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
-# Twice as many as there are cores: many tests wait for processes that they watch. What a file shares is made once.
-PYTEST := $(BIN)/python -m pytest -n 4 --dist loadfile
+# One more than there are cores: many tests wait for processes that they watch.
+PYTEST := $(BIN)/python -m pytest -n 3
 
 .DELETE_ON_ERROR:
 .PHONY: help demo assumptions test test-long golden lint format docs bench lock clean
