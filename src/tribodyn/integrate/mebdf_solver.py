@@ -161,7 +161,8 @@ class MEBDF(OdeSolver):
             "differenced": evaluations,
             "outside": self._algebra is not None,
         }
-        self._costs = np.zeros(2, dtype=np.int64)
+        # Jacobians and decompositions before the last breakpoint.
+        self._before = (0, 0)
         self._state = self._new_state(starting_step(first_step, t0, t_bound))
         self._resume = _machine_code()
 
@@ -213,7 +214,7 @@ class MEBDF(OdeSolver):
     def _step_impl(self) -> tuple[bool, str | None]:
         """Take one step; return whether it succeeded, and why not."""
         if len(self._ends) > 1 and self.t == self._ends[0]:
-            self._costs += self._state.counts[[entry.N_J, entry.N_LU]]
+            self._before = self.njev, self.nlu
             del self._ends[0]
             try:
                 self._state = self._new_state(0.0)
@@ -225,7 +226,9 @@ class MEBDF(OdeSolver):
             request = self._resume(*state)
             if request in (STEP_ACCEPTED, FAILED):
                 break
-            t, y = self._inside(float(state.real[entry.T_EVAL])), state.rows[entry.Y].copy()
+            t, y = float(state.real[entry.T_EVAL]), state.rows[entry.Y].copy()
+            if t == self._ends[0] and len(self._ends) > 1:
+                t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
             if request == NEED_F:
                 if self._residual:
                     self._residual.move(state)
@@ -236,7 +239,9 @@ class MEBDF(OdeSolver):
                 _answer(request, state, self._algebra, t, y)
                 if isinstance(self._algebra, ImplicitFull) and request == NEED_JACOBIAN:
                     fill_mass(state.mass, state.places, self._algebra.dense_mass)
-        self.njev, self.nlu = (self._costs + state.counts[[entry.N_J, entry.N_LU]]).tolist()
+        counts = state.counts
+        self.njev = self._before[0] + int(counts[entry.N_J])
+        self.nlu = self._before[1] + int(counts[entry.N_LU])
         if request == FAILED:
             return False, reason(state, self._names, self._entry_not_finite)
         self.t = float(state.real[entry.T])
@@ -256,11 +261,6 @@ class MEBDF(OdeSolver):
                 f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
             )
         return f
-
-    def _inside(self, t: float) -> float:
-        """Return a time of evaluation on the near side of the next breakpoint."""
-        at_breakpoint = len(self._ends) > 1 and t == self._ends[0]
-        return float(np.nextafter(t, self.t)) if at_breakpoint else t
 
     def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
