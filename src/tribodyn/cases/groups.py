@@ -13,20 +13,11 @@ from tribodyn.cases.keys import ASSUMED, Value
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair
-    from tribodyn.contact.flash_temperature import Conductor
 
 TABLE_1 = "paper, Table 1"
 MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
 """Damping factors that use ``contact.design_pressure``."""
 _MOST_OUTPUT_TIMES = 2_000_000
-
-
-def _conductor(conductivity: float | None, diffusivity: float | None) -> Conductor | None:
-    from tribodyn.contact.flash_temperature import Conductor
-
-    if conductivity is None or diffusivity is None:
-        return None
-    return Conductor(conductivity, diffusivity)
 
 
 class Trunnion(Group):
@@ -57,11 +48,6 @@ class Trunnion(Group):
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="4 mm^2/s")
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
-    @property
-    def conductor(self) -> Conductor | None:
-        """What it does with heat; None where that is not given."""
-        return _conductor(self.conductivity, self.diffusivity)
-
 
 class Bushing(Group):
     """Surface of the bushing (element 2), the softer one."""
@@ -91,11 +77,6 @@ class Bushing(Group):
     )
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="0.2 mm^2/s")
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
-
-    @property
-    def conductor(self) -> Conductor | None:
-        """What it does with heat; None where that is not given."""
-        return _conductor(self.conductivity, self.diffusivity)
 
 
 class Surfaces(Group):

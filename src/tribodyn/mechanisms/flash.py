@@ -7,7 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tribodyn.contact.flash_temperature import flash_temperature
+from tribodyn.cases.groups import Bushing, Trunnion
+from tribodyn.contact.flash_temperature import Conductor, flash_temperature
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import SURFACE, BushingJoint
 from tribodyn.mechanisms.bushing import HasBushing
@@ -31,7 +32,7 @@ def flash_of(
     speed
         Of sliding at each row [m/s], shape (n_t,).
     """
-    trunnion, bushing = case.surfaces.trunnion.conductor, case.surfaces.bushing.conductor
+    trunnion, bushing = _conductor(case.surfaces.trunnion), _conductor(case.surfaces.bushing)
     if trunnion is None or bushing is None or joint.contact != SURFACE or not speed.size:
         return {}
     row = int(np.argmax(rows["p_max"] * np.abs(speed)))
@@ -49,3 +50,10 @@ def flash_of(
     flux = joint.friction.coefficient * pressure * sliding / real
     radius = math.sqrt(real / (math.pi * count))
     return {"flash_temperature": flash_temperature(flux, radius, sliding, standing, passing)}
+
+
+def _conductor(surface: Trunnion | Bushing) -> Conductor | None:
+    """Return what a body does with heat; None where that is not given."""
+    if surface.conductivity is None or surface.diffusivity is None:
+        return None
+    return Conductor(surface.conductivity, surface.diffusivity)

@@ -14,7 +14,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.joints.form import Form
 from tribodyn.joints.shapes.annulus import Annulus
 from tribodyn.joints.shapes.base import Points, Surface, check_positive
-from tribodyn.joints.shapes.rings import Rings
+from tribodyn.joints.shapes.rings import Rings, with_edges
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 ENDS = {"upper": 1.0, "lower": -1.0}
@@ -69,9 +69,8 @@ class Cylinder:
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the barrel and the faces."""
         n_theta, n_z = grid
-        points, weights = self.form.quadrature(n_z, self.length)
-        half, edge = 0.5 * self.length, np.zeros(1)
-        z, weight = np.concatenate([[-half], points, [half]]), np.concatenate([edge, weights, edge])
+        half = 0.5 * self.length
+        z, weight = with_edges(-half, half, *self.form.quadrature(n_z, self.length))
         ones = np.ones(z.size)
         rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.radial) * weight)
         barrel = rings.surface("barrel", ("z", z), self.radial + self.form.gap(z, self.length), n_theta, AXIS)

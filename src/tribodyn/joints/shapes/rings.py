@@ -13,11 +13,14 @@ from tribodyn.kernels.joints.surface.data import Row
 
 
 def across(first: float, last: float, n: int) -> tuple[FloatArray, FloatArray]:
-    """Return ``n`` Gauss-Legendre points and weights between two edges, which weigh nothing.
+    """Return ``n`` Gauss-Legendre points and weights between two edges, see :func:`with_edges`."""
+    return with_edges(first, last, *gauss_legendre_between(n, first, last))
 
-    Both have the shape (n + 2,), edges first and last.
-    """
-    points, weights = gauss_legendre_between(n, first, last)
+
+def with_edges(
+    first: float, last: float, points: FloatArray, weights: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return points and weights between two edges, which weigh nothing: shape (n + 2,), edges at the ends."""
     return np.concatenate([[first], points, [last]]), np.concatenate([[0.0], weights, [0.0]])
 
 
