@@ -1,6 +1,7 @@
 """The workbench in a browser: from the move of a slider to the picture, and what the page itself weighs.
 
-WebGL is drawn in software, as where there is no graphics card.
+WebGL is drawn in software, as where there is no graphics card. A slider that moves back and forth comes to
+places where it has been, whose runs the server still has; what it shows for the first time is told apart.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from playwright.sync_api import Page, Response, sync_playwright
 from benchmarks.workbench_hands import KEY, PER_SECOND
 
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
-OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader")
 DRAWN: Final = "() => typeof bench === 'object' && bench.shown && !wishes.awaited"
 DRAG: Final = """async ([key, apart, seconds]) => {
   const slider = controlAt(key).querySelector("input[type=range]");
@@ -38,13 +39,15 @@ DRAG: Final = """async ([key, apart, seconds]) => {
     decoding = performance.now() - begun;
     return run;
   };
+  const known = new Set([bench.shown.run]);
   const show = bench.show;
   bench.show = (run) => {
     const begun = performance.now();
     show(run);
     const drawn = performance.now();
     // What was drawn is on the screen when the next picture of it begins.
-    const parts = [1e3 * run.seconds, decoding, drawn - begun];
+    const parts = [1e3 * run.seconds, decoding, drawn - begun, known.has(run.run) ? 0 : 1e3];
+    known.add(run.run);
     requestAnimationFrame(() => pictures.push([performance.now() - moved.get(run.number), ...parts]));
   };
   slider.focus();
@@ -105,11 +108,15 @@ def _faults(page: Page) -> int:
 
 
 def _told(pictures: Any, seconds: float) -> dict[str, float]:
-    whole, run, decoding, drawing = pictures.T / 1e3
+    whole, run, decoding, drawing, new = pictures.T / 1e3
+    first_time = whole[new > 0.0]
     return {
         "input to picture, median [s]": float(np.median(whole)),
         "95 % [s]": float(np.quantile(whole, 0.95)),
         "pictures a second": whole.size / seconds,
+        "never shown before": first_time.size / whole.size,
+        "median of these [s]": float(np.median(first_time)),
+        "95 % of these [s]": float(np.quantile(first_time, 0.95)),
         "run, median [s]": float(np.median(run)),
         "decoding, median [s]": float(np.median(decoding)),
         "drawing, median [s]": float(np.median(drawing)),

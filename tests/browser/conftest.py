@@ -24,7 +24,7 @@ from tribodyn.report import write
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # WebGL in software: there is no graphics card where tests run.
-OPTIONS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+OPTIONS = ["--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader"]
 NO_WEBGL = """const all = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
   return kind.startsWith('webgl') ? null : all.call(this, kind, ...more);

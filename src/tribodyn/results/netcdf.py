@@ -25,6 +25,8 @@ _CHARACTER: Final = 4
 """Bytes that a character of a text takes in an array."""
 MOST_COMPRESSED: Final = 64_000_000
 """Size up to which what a file declares need not be in it [bytes]; a run of two cycles takes 10 MB."""
+MOST_TEXTS: Final = 100_000
+"""So many texts a variable may have, as many as a sweep may have points; each takes 85 µs to look at."""
 
 
 def netcdf_content(dataset: xr.Dataset) -> bytes:
@@ -110,12 +112,19 @@ def _text_size(variable: netCDF4.Variable[Any], room: int, content: bytes) -> in
     """Return the room that texts take, each as much as the longest [bytes].
 
     A file may name the same long text many times, so they are read a few at a time.
+
+    Raises
+    ------
+    ValueError
+        There are too many to look at.
     """
     shape = variable.shape
+    if math.prod(shape) > MOST_TEXTS:
+        raise ValueError(f"{brief(variable.name)} holds more than {MOST_TEXTS} texts")
     size = math.prod(shape) * _CHARACTER
     if not shape or size > room:
         return size
-    few = max(room // (8 * len(content)), 1)
+    few = max(room // (4 * len(content)), 1)
     longest = 0
     for place in np.ndindex(*shape[:-1]):
         for start in range(0, shape[-1], few):

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.results.netcdf import dataset_of, netcdf_content
+from tribodyn.results.netcdf import MOST_TEXTS, dataset_of, netcdf_content
+from tribodyn.studies.plan import MOST_POINTS
 
 TEXTS = np.array(["", "two words", "µ"], dtype=object)
 KINDS = {
@@ -57,3 +58,12 @@ def test_numbers_have_checksums(tmp_path: Path) -> None:
     path.write_bytes(netcdf_content(KINDS["numbers"]))
     with netCDF4.Dataset(path) as file:
         assert all(variable.filters()["fletcher32"] for variable in file.variables.values())
+
+
+def test_more_texts_than_a_sweep_has_points_are_refused_unread() -> None:
+    assert MOST_TEXTS >= MOST_POINTS
+    # Beside a long one each would be looked at alone, which for all of them takes a minute.
+    texts = np.full((MOST_TEXTS // 1000 + 1, 1000), "many", dtype=object)
+    content = netcdf_content(xr.Dataset({"a": (("x", "y"), texts)}, attrs={"long": "x" * 1_000_000}))
+    with pytest.raises(ValueError, match="a holds more than 100000 texts"):
+        dataset_of(content)
