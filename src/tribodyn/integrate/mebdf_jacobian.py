@@ -103,32 +103,36 @@ def make_jacobian(
 
     if bands is not None and sparsity is not None:
         raise ValueError("Give either `jac_sparsity` or `lband` and `uband`.")
-    if mass is None:
-        matrices = Matrices(csc_array(eye_array(n)), np.zeros(n, dtype=bool), atol / rtol)
-    else:
-        matrices = Matrices(csc_array(mass.matrix), mass.algebraic_equations, atol / rtol)
+    matrices = _matrices(mass, n, atol / rtol) if n > LARGEST_IN_CORE else None
     if jac is None:
         return _by_differences(solver, _pattern(sparsity, bands, n), bands, atol, matrices)
     given = jac if callable(jac) else _Constant(jac)
     if bands is not None:
         return watched(_by_diagonals(_checked(given, (bands[0] + bands[1] + 1, n)), bands, matrices))
     evaluate = _checked(given, (n, n))
-    if n > LARGEST_IN_CORE:
+    if matrices is not None:
         evaluate = _Remembered(evaluate, float(solver.t), solver.y.copy())
         if is_sparse(evaluate.first):
             return Linear(evaluate, Sparse(evaluate, *matrices), 0)
     return watched(_full(evaluate, matrices))
 
 
+def _matrices(mass: MassMatrix | None, n: int, typical: FloatArray) -> Matrices:
+    """Return what solutions outside of the core need beside the Jacobian."""
+    if mass is None:
+        return Matrices(csc_array(eye_array(n)), np.zeros(n, dtype=bool), typical)
+    return Matrices(csc_array(mass.matrix), mass.algebraic_equations, typical)
+
+
 def _by_differences(
-    solver: OdeSolver, pattern: Any, bands: Bands | None, threshold: FloatArray, matrices: Matrices
+    solver: OdeSolver, pattern: Any, bands: Bands | None, threshold: FloatArray, matrices: Matrices | None
 ) -> Linear:
     """Return a Jacobian by differences; ``threshold`` are values below which these no longer shrink."""
     n = solver.n
     groups = None if pattern is None else group_columns(pattern)
     evaluations = n if groups is None else int(np.max(groups, initial=-1)) + 1
     evaluate = _differences(solver, None if pattern is None else (pattern, groups), threshold)
-    if pattern is None or n <= LARGEST_IN_CORE:
+    if pattern is None or matrices is None:
         return _full(evaluate, matrices, evaluations)
     width = _wider(bands or _bands(pattern), _bands(matrices.mass))
     if bands is None and 2 * width[0] + width[1] + 1 > NARROW * pattern.nnz / n:
@@ -137,16 +141,16 @@ def _by_differences(
     return Linear(evaluate, banded, evaluations)
 
 
-def _by_diagonals(evaluate: Jacobian, bands: Bands, matrices: Matrices) -> Linear:
+def _by_diagonals(evaluate: Jacobian, bands: Bands, matrices: Matrices | None) -> Linear:
     """Return a Jacobian that is given by its diagonals."""
-    if matrices.algebraic.size <= LARGEST_IN_CORE:
+    if matrices is None:
         return _full(lambda t, y: _unpacked(evaluate(t, y), bands), matrices)
     width = _wider(bands, _bands(matrices.mass))
     rows = (width[1] - bands[1], width[0] - bands[0]), (0, 0)
     return Linear(evaluate, Banded(lambda t, y: np.pad(evaluate(t, y), rows), *matrices, *width), 0)
 
 
-def _full(evaluate: Jacobian, matrices: Matrices, evaluations: int = 0) -> Linear:
+def _full(evaluate: Jacobian, matrices: Matrices | None, evaluations: int = 0) -> Linear:
     """Return a dense Jacobian."""
 
     def dense(t: float, y: FloatArray) -> FloatArray:
@@ -154,8 +158,7 @@ def _full(evaluate: Jacobian, matrices: Matrices, evaluations: int = 0) -> Linea
         full: FloatArray = matrix.toarray() if is_sparse(matrix) else np.asarray(matrix)
         return full
 
-    small = matrices.algebraic.size <= LARGEST_IN_CORE
-    return Linear(dense, None if small else Full(dense, *matrices), evaluations)
+    return Linear(dense, None if matrices is None else Full(dense, *matrices), evaluations)
 
 
 def _wider(one: Bands, other: Bands) -> Bands:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, Final
 from warnings import warn
 
@@ -41,8 +42,9 @@ from tribodyn.kernels.mebdf.phases import (
     NEED_SOLUTION,
     STEP_ACCEPTED,
 )
-from tribodyn.kernels.mebdf.state import new_state
+from tribodyn.kernels.mebdf.state import HISTORY, N_J, N_LU, T_EVAL, F, T, Y, new_state
 
+ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
 RENEWED: Final = 0.5
 """Decompositions a step that raise doubts about the Jacobian; a right one takes a third or so."""
 
@@ -220,47 +222,45 @@ class MEBDF(OdeSolver):
                 self._state = self._new_state(0.0)
             except ValueError as problem:
                 return False, str(problem)
-        state = self._state
-        request = 0
-        while request not in (STEP_ACCEPTED, FAILED):
-            request = self._resume(*state)
-            if request in (STEP_ACCEPTED, FAILED):
-                break
-            t, y = float(state.real[entry.T_EVAL]), state.rows[entry.Y].copy()
-            if t == self._ends[0] and len(self._ends) > 1:
+        state, core, fun = self._state, self._resume, self.fun
+        real, counts, rows = state.real, state.counts, state.rows
+        kink = self._ends[0] if len(self._ends) > 1 else None
+        while (request := core(*state)) not in ENDS_OF_STEP:
+            t, y = real.item(T_EVAL), rows[Y].copy()
+            if t == kink:
                 t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
-            if request == NEED_F:
-                if self._residual:
-                    self._residual.move(state)
-                state.rows[entry.F] = self._rates(t, y)
-            elif self._algebra is None:
-                state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
-            else:
-                _answer(request, state, self._algebra, t, y)
-                if isinstance(self._algebra, ImplicitFull) and request == NEED_JACOBIAN:
-                    fill_mass(state.mass, state.places, self._algebra.dense_mass)
-        counts = state.counts
-        self.njev = self._before[0] + int(counts[entry.N_J])
-        self.nlu = self._before[1] + int(counts[entry.N_LU])
+            if request != NEED_F:
+                self._answer(request, t, y)
+                continue
+            if self._residual:
+                self._residual.move(state)
+            f = fun(t, y)
+            if f.size != self.n:  # one number will do for one equation, but not for several
+                raise ValueError(
+                    f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
+                )
+            rows[F] = f
+        self.njev = self._before[0] + counts.item(N_J)
+        self.nlu = self._before[1] + counts.item(N_LU)
         if request == FAILED:
             return False, reason(state, self._names, self._entry_not_finite)
-        self.t = float(state.real[entry.T])
-        self.y = state.rows[entry.HISTORY].copy()
+        self.t, self.y = real.item(T), rows[HISTORY].copy()
         return True, None
+
+    def _answer(self, request: int, t: float, y: FloatArray) -> None:
+        """Do what the core asks of who differentiates and solves for it."""
+        state, algebra = self._state, self._algebra
+        if algebra is None:
+            state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
+            return
+        _solve(request, state, algebra, t, y)
+        if isinstance(algebra, ImplicitFull) and request == NEED_JACOBIAN:
+            fill_mass(state.mass, state.places, algebra.dense_mass)
 
     def _in_trouble(self) -> bool:
         """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
         counts = self._state.counts
         return bool(counts[entry.N_LU] > RENEWED * counts[entry.STEPS])
-
-    def _rates(self, t: float, y: FloatArray) -> FloatArray:
-        """Return the right-hand side; one number will do for one equation, but not for several."""
-        f: FloatArray = self.fun(t, y)
-        if f.size != self.n:
-            raise ValueError(
-                f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
-            )
-        return f
 
     def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
@@ -303,7 +303,7 @@ class MebdfDenseOutput(DenseOutput):
         return y
 
 
-def _answer(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
+def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
     """Do what the core asks of who solves for it."""
     scaled, rows = float(state.real[entry.SCALED]), state.rows
     if request == NEED_JACOBIAN:
@@ -316,6 +316,7 @@ def _answer(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y
         rows[entry.MAGNITUDE] = algebra.magnitude(scaled, y)
 
 
+@cache
 def _machine_code() -> Callable[..., int]:
     """Return the core compiled for its only types: called directly it need not find them out each time."""
     matrices = (nb.float64[:, ::1], nb.float64[:, :, ::1])
