@@ -78,6 +78,7 @@ class _CompiledWalk(Walk):
 
     def prepare(self, rtol: float) -> None:
         """Compile, or find the compiled code; not counted as integration."""
+        from tribodyn.kernels.mebdf.core import resume
         from tribodyn.kernels.mebdf.drive import AFTER_STEP, run
 
         self._rtol = rtol
@@ -87,7 +88,8 @@ class _CompiledWalk(Walk):
         algebra = self.problem.algebra
         self._own = None if algebra is None else self._new_matrix(algebra)
         solvers = (None, None) if algebra is None else (algebra.factorise, algebra.solve)
-        self._functions = (*(getattr(self.problem.functions, name) for name in HANDED), *solvers)
+        handed = (getattr(self.problem.functions, name) for name in HANDED)
+        self._functions = (resume, *handed, *solvers)
         self._in_machine_code = all(f is None or is_compiled(f) for f in self._functions)
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
@@ -275,6 +277,7 @@ def _compiled(
 
     typeof: Callable[[Any], Any] = numba.typeof
     arguments = argument_types(problem, types)
+    core = FunctionType(numba.int64(*typeof(state).types))
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
     solvers: tuple[Any, Any] = (numba.none, numba.none)
     if own is not None:
@@ -283,7 +286,7 @@ def _compiled(
         solve = void(types[0], entries, pivots, entries)
         solvers = FunctionType(factorise), FunctionType(solve)
     work = map(typeof, (jacobian, own, *others))
-    return run.compile((*handed, *solvers, typeof(state), *types, *work))
+    return run.compile((core, *handed, *solvers, typeof(state), *types, *work))
 
 
 MEBDF = CompiledMebdf()

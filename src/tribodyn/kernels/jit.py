@@ -36,7 +36,9 @@ unlocked: Final[Any] = _njit(**_OPTIONS, nogil=True, no_cfunc_wrapper=True)
 """A function that takes so long that other threads of the process should go on meanwhile."""
 
 inlined: Final[Any] = _njit(**_OPTIONS, inline="always", no_cfunc_wrapper=True)
-"""The same, for the few lines that every node of a joint runs through."""
+"""The same, for the few lines that every node of a joint runs through, and for levels that only pass on.
+
+Numba compiles into each function all that it calls: every level above a joint or a film compiles it anew."""
 
 summing: Final[Any] = _njit(
     **_OPTIONS | {"fastmath": {"contract", "arcp", "reassoc", "nsz"}}, no_cfunc_wrapper=True

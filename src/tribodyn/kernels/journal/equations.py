@@ -18,7 +18,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_terms, held
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
@@ -106,7 +106,7 @@ def gather(data: JournalData, memory: JournalMemory) -> None:
     total[3] = load[3] + sec2_y * (force[3] + film[3]) - spin * state[6]
 
 
-@kernel
+@inlined
 def forces(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.total``; not a number once an accepted step has left the range of the contact law."""
     scratch, joint = memory.scratch, memory.joint.scratch
@@ -121,7 +121,7 @@ def forces(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) ->
     gather(data, memory)
 
 
-@kernel
+@inlined
 def forces_and_gradient(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Fill ``scratch.total`` and turn ``scratch.wrench_jacobian`` (4 rows) into its derivative."""
     scratch, joint = memory.scratch, memory.joint.scratch

@@ -10,7 +10,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.cylinder.joint import report
 from tribodyn.kernels.joints.memory import fill_watched, note_extremes
 from tribodyn.kernels.joints.paper import from_report
@@ -25,7 +25,7 @@ from tribodyn.kernels.peaks import note as note_peaks
 from tribodyn.kernels.peaks import resume as resume_peaks
 
 
-@kernel
+@inlined
 def evaluate(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Fill states, joint report and film of one instant."""
     place(data, t, y, memory)
@@ -61,7 +61,7 @@ def fill_forces(memory: JournalMemory) -> None:
         force.work_drive = -(out.M_jf + film[4]) if i == 4 else 0.0
 
 
-@kernel
+@inlined
 def _evaluate_mark(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Enter the forces of an instant, and what is watched, in the books."""
     evaluate(data, t, y, memory)
@@ -72,7 +72,7 @@ def _evaluate_mark(data: JournalData, t: float, y: FloatArray, memory: JournalMe
     fill_forces(memory)
 
 
-@kernel
+@inlined
 def begin(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on."""
     _evaluate_mark(data, t, y, memory)
@@ -83,7 +83,7 @@ def begin(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> 
         resume_peaks(memory.peaks, t)
 
 
-@kernel
+@inlined
 def add_part(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Add the path integrals from the mark to ``t`` and move the mark there."""
     _evaluate_mark(data, t, y, memory)

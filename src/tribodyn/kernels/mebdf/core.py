@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import entry, inlined
 from tribodyn.kernels.mebdf.acceptance import FADING
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
@@ -108,7 +108,7 @@ ROUNDING: Final = 1.0e-10
 """Distance from the end, in steps, that is none."""
 
 
-@kernel
+@entry
 def resume(
     real: FloatArray,
     count: NDArray[np.int64],

@@ -1,9 +1,9 @@
 """The loop around the MEBDF core: evaluations, and the walk over accepted steps.
 
-The compiled counterpart of ``tribodyn.integrate.driver``, with the same order of calls. The functions of
-the problem are arguments. Compiled for first-class function types, whose code does not depend on which
-function it is, the loop is found in numba's cache by every later process; plain Python functions are
-served by the uncompiled loop, ``run.py_func``.
+The compiled counterpart of ``tribodyn.integrate.driver``, with the same order of calls. The core and the
+functions of the problem are arguments. Compiled for first-class function types, whose code does not depend
+on which function it is, the loop holds none of theirs and is found in numba's cache by every later process;
+plain Python functions are served by the uncompiled loop, ``run.py_func``.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel, unlocked
-from tribodyn.kernels.mebdf.core import resume
 from tribodyn.kernels.mebdf.history import value_at
 from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over
 from tribodyn.kernels.mebdf.phases import (
@@ -135,6 +134,7 @@ def _is_followed(marks: Marks, t: float) -> bool:
 
 @unlocked
 def run(
+    resume: Callable[..., int],
     rhs: Callable[..., None],
     jac: Callable[..., None],
     advance: Callable[..., None],

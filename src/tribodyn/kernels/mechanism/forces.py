@@ -36,7 +36,7 @@ from tribodyn.kernels.mechanism.data import (
 from tribodyn.kernels.signals import Signals, evaluate
 
 
-@kernel
+@inlined
 def force(
     data: MechanismData, memory: MechanismMemory, number: int, t: float, within: float, mode: float
 ) -> None:

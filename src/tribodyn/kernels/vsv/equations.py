@@ -15,7 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_terms
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints import collar as thrust
 from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
@@ -271,7 +271,7 @@ def drive_moment(scratch: Record) -> float:
     return moment
 
 
-@kernel
+@inlined
 def accelerations(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill ``memory.scratch.acceleration`` with (ë_x, ë_y, φ̈_x, φ̈_y) and return F_cz [N]."""
     joint = memory.joint.scratch
@@ -323,7 +323,7 @@ def fill_load_gradient(
         gradient[i, 4] += t_px * collar_xy + t_py * collar_yy
 
 
-@kernel
+@inlined
 def accelerations_and_gradient(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """As :func:`accelerations`, and leave ∂q̈/∂y in columns 1 to 8 of ``memory.scratch.solved``.
 

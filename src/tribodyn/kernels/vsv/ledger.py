@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_over_time
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.collar import note_lift_off
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.cylinder.joint import report, slide, squeeze
@@ -48,7 +48,7 @@ from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import Forces, Powers, Watched
 
 
-@kernel
+@inlined
 def evaluate(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill all scratch arrays of one instant, joint report included, and return F_cz [N]."""
     scratch, joint = memory.scratch, memory.joint.scratch
@@ -171,7 +171,7 @@ def _fill_watched(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     watched.mechanism.vane_angle_error = abs(vane_angle_with_clearance(mechanism, y, motion) - ideal)
 
 
-@kernel
+@inlined
 def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Enter the powers and forces of an instant, and what is watched, in the books."""
     scratch = memory.scratch
@@ -184,7 +184,7 @@ def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) ->
     scratch.marked = 1.0
 
 
-@kernel
+@inlined
 def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, turned: bool) -> None:
     """Set the mark at ``t``, from which :func:`add_part` goes on; peaks begin where the vane ``turned``."""
     _evaluate_mark(data, t, y, memory)
@@ -195,7 +195,7 @@ def begin(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, turned: boo
         resume_peaks(memory.peaks, t)
 
 
-@kernel
+@inlined
 def add_part(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> None:
     """Add the path integrals from the mark to ``t`` and move the mark there."""
     h = t - memory.books.times[LAST]
