@@ -144,15 +144,20 @@ class Banded(_Kept):
         row: Any = np.arange(n) - upper + np.arange(lower + upper + 1)[:, None]
         self._row = row
         self._inside = (row >= 0) & (row < n)
+        self._of_algebraic = algebraic[np.where(self._inside, row, 0)]
         self._packed_mass = packed(mass, lower, upper)
 
     def factorise(self, scaled: float) -> bool:
         """See :class:`Algebra`."""
         work = np.zeros((2 * self._lower + self._upper + 1, self._n), order="F")
-        factor = self._factor(scaled)[np.where(self._inside, self._row, 0)]
-        work[self._lower :] = np.where(self._inside, self._packed_mass - factor * self._matrix, 0.0)
+        work[self._lower :] = self._diagonals(scaled)
         *self._factors, singular = lapack.dgbtrf(work, self._lower, self._upper, overwrite_ab=True)
         return bool(singular == 0)
+
+    def _diagonals(self, scaled: float) -> FloatArray:
+        """Return those of the Newton matrix, shape (lower + upper + 1, n), with zeros beyond its corners."""
+        factor = np.where(self._of_algebraic, 1.0, scaled)
+        return np.where(self._inside, self._packed_mass - factor * self._matrix, 0.0)
 
     def solve(self, residual: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
@@ -173,6 +178,21 @@ class Banded(_Kept):
         """See :class:`Algebra`."""
         diagonal, column = np.argwhere(~np.isfinite(self._newest))[0]
         return int(self._row[diagonal, column]), int(column)
+
+
+class Tridiagonal(Banded):
+    """One diagonal below and one above the main one: a decomposition that is several times faster."""
+
+    def factorise(self, scaled: float) -> bool:
+        """See :class:`Algebra`."""
+        above, main, below = self._diagonals(scaled)
+        *self._factors, singular = lapack.dgttrf(below[:-1], main, above[1:])
+        return bool(singular == 0)
+
+    def solve(self, residual: FloatArray) -> FloatArray:
+        """See :class:`Algebra`."""
+        solution: FloatArray = lapack.dgttrs(*self._factors, residual)[0]
+        return solution
 
 
 class Sparse(_Kept):
@@ -205,6 +225,12 @@ class Sparse(_Kept):
         entries = coo_array(self._newest)
         first = int(np.argmax(~np.isfinite(entries.data)))
         return int(entries.row[first]), int(entries.col[first])
+
+
+def banded(jacobian: Evaluation, matrices: tuple[Any, Any, Any], width: tuple[int, int]) -> Banded:
+    """Return who solves with ``width`` diagonals below and above the main one; see :class:`Banded`."""
+    kind = Tridiagonal if width == (1, 1) else Banded
+    return kind(jacobian, *matrices, *width)
 
 
 def packed(matrix: Any, lower: int, upper: int) -> FloatArray:

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import OdeSolver
 from scipy.integrate._ivp.common import num_jac
-from scipy.optimize._numdiff import group_columns
 from scipy.sparse import coo_array, csc_array, csc_matrix, diags_array, eye_array
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.integrate.mebdf_algebra import Algebra, Banded, Full, Sparse, is_sparse, packed
+from tribodyn.integrate.mebdf_algebra import Algebra, Full, Sparse, banded, is_sparse, packed
+from tribodyn.integrate.mebdf_differences import GroupedDifferences
 from tribodyn.integrate.mebdf_doubt import Doubted
 from tribodyn.integrate.mebdf_mass import MassMatrix
 
@@ -96,7 +96,7 @@ def make_jacobian(
     def watched(given: Linear) -> Linear:
         if given.algebra is not None:
             return given
-        differences = _differences(solver, None, atol)
+        differences = _differences(solver, atol)
         return given._replace(
             jacobian=Doubted(given.jacobian, differences, solver.fun_single, atol, in_trouble)
         )
@@ -129,16 +129,21 @@ def _by_differences(
 ) -> Linear:
     """Return a Jacobian by differences; ``threshold`` are values below which these no longer shrink."""
     n = solver.n
-    groups = None if pattern is None else group_columns(pattern)
-    evaluations = n if groups is None else int(np.max(groups, initial=-1)) + 1
-    evaluate = _differences(solver, None if pattern is None else (pattern, groups), threshold)
-    if pattern is None or matrices is None:
-        return _full(evaluate, matrices, evaluations)
+    if pattern is None:
+        return _full(_differences(solver, threshold), matrices, n)
+    grouped = GroupedDifferences(pattern, threshold)
+
+    def evaluate(t: float, y: FloatArray) -> Any:
+        f = solver.fun_single(t, y)
+        return grouped(lambda states: solver.fun_vectorized(t, states), y, f)
+
+    if matrices is None:
+        return _full(evaluate, matrices, grouped.evaluations)
     width = _wider(bands or _bands(pattern), _bands(matrices.mass))
     if bands is None and 2 * width[0] + width[1] + 1 > NARROW * pattern.nnz / n:
-        return Linear(evaluate, Sparse(evaluate, *matrices), evaluations)
-    banded = Banded(lambda t, y: packed(evaluate(t, y), *width), *matrices, *width)
-    return Linear(evaluate, banded, evaluations)
+        return Linear(evaluate, Sparse(evaluate, *matrices), grouped.evaluations)
+    algebra = banded(lambda t, y: packed(evaluate(t, y), *width), matrices, width)
+    return Linear(evaluate, algebra, grouped.evaluations)
 
 
 def _by_diagonals(evaluate: Jacobian, bands: Bands, matrices: Matrices | None) -> Linear:
@@ -147,7 +152,7 @@ def _by_diagonals(evaluate: Jacobian, bands: Bands, matrices: Matrices | None) -
         return _full(lambda t, y: _unpacked(evaluate(t, y), bands), matrices)
     width = _wider(bands, _bands(matrices.mass))
     rows = (width[1] - bands[1], width[0] - bands[0]), (0, 0)
-    return Linear(evaluate, Banded(lambda t, y: np.pad(evaluate(t, y), rows), *matrices, *width), 0)
+    return Linear(evaluate, banded(lambda t, y: np.pad(evaluate(t, y), rows), matrices, width), 0)
 
 
 def _full(evaluate: Jacobian, matrices: Matrices | None, evaluations: int = 0) -> Linear:
@@ -208,18 +213,20 @@ def _checked(jac: Jacobian, shape: tuple[int, int]) -> Jacobian:
 
 
 def _pattern(sparsity: Any, bands: Bands | None, n: int) -> Any:
-    """Return where the Jacobian may differ from zero; ``None`` for everywhere."""
+    """Return where the Jacobian may differ from zero, in compressed columns; ``None`` for everywhere."""
     if bands is not None:
         offsets = range(-min(bands[0], n - 1), min(bands[1], n - 1) + 1)
         ones: Any = [np.ones(n - abs(k)) for k in offsets]
-        return csc_matrix(diags_array(ones, offsets=list(offsets)))
+        return csc_array(diags_array(ones, offsets=list(offsets)))
     if sparsity is None:
         return None
-    pattern = csc_matrix(sparsity)
+    pattern = csc_array(csc_matrix(sparsity), copy=True)
     if pattern.shape != (n, n):
         raise ValueError(
             f"`jac_sparsity` is expected to have shape {(n, n)}, but actually has {pattern.shape}."
         )
+    pattern.sum_duplicates()
+    pattern.eliminate_zeros()
     return pattern
 
 
@@ -240,15 +247,15 @@ def _unpacked(diagonals: FloatArray, bands: Bands) -> FloatArray:
     return dense
 
 
-def _differences(solver: OdeSolver, grouped: Any, threshold: FloatArray) -> Jacobian:
-    """Return the Jacobian by the finite differences of SciPy's own solvers."""
+def _differences(solver: OdeSolver, threshold: FloatArray) -> Jacobian:
+    """Return the dense Jacobian by the finite differences of SciPy's own solvers."""
     difference: Any = num_jac
     factor: FloatArray | None = None
 
     def jacobian(t: float, y: FloatArray) -> Any:
         nonlocal factor
         f = solver.fun_single(t, y)
-        matrix, factor = difference(solver.fun_vectorized, t, y, f, threshold, factor, grouped)
+        matrix, factor = difference(solver.fun_vectorized, t, y, f, threshold, factor)
         return matrix
 
     return jacobian

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.sparse import csc_array, csr_matrix, diags_array
+from scipy.sparse import coo_array, csc_array, csr_matrix, diags_array
 
 from tribodyn.integrate import MEBDF
 
@@ -82,6 +82,13 @@ def test_differences_by_groups_cost_a_call_a_group():
     grouped = solve(counted, jac_sparsity=LAPLACIAN)
     differences = len(calls) - grouped.nfev
     assert 0 < differences <= 10 * grouped.njev  # three columns instead of eighty, some of them twice
+    calls.clear()
+    full = LAPLACIAN.tocoo()
+    full = coo_array(
+        (np.append(full.data, np.zeros(N)), (np.append(full.row, range(N)), np.append(full.col, [0] * N)))
+    )
+    assert solve(counted, jac_sparsity=full).njev == grouped.njev
+    assert len(calls) - grouped.nfev == differences  # zeros that are stored are zeros
     calls.clear()
     single = solve(counted)
     assert len(calls) - single.nfev >= N * single.njev

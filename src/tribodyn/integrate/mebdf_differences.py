@@ -1,0 +1,138 @@
+"""A Jacobian of known pattern by differences: columns that share no equation are moved in one evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize._numdiff import group_columns
+from scipy.sparse import csc_array
+
+from tribodyn.core.arrays import FloatArray
+
+_EPS: Final = float(np.finfo(np.float64).eps)
+LOST: Final = _EPS**0.875
+"""Change of a rate, relative to it, below which a column is moved further at once: it is all rounding."""
+SMALL: Final = _EPS**0.75
+"""Such a change below which it is moved further the next time."""
+LARGE: Final = _EPS**0.25
+"""Such a change above which it is moved less the next time."""
+STRIDE: Final = 10.0
+"""How much further, and less."""
+LEAST: Final = 1.0e3 * _EPS
+"""Shortest move relative to the size of a variable."""
+
+
+class _Changes(NamedTuple):
+    """What a move changed: entry by entry, and the largest of each column with the size of its rate."""
+
+    entries: FloatArray
+    largest: FloatArray
+    size: FloatArray
+
+
+class GroupedDifferences:
+    """Differences whose moves heed the rounding that the last ones met, as those of SciPy's own solvers.
+
+    Parameters
+    ----------
+    pattern
+        Where entries may differ from zero: compressed columns of these alone, shape (n, n).
+    typical
+        Sizes below which those of the variables do not shrink their moves, shape (n,).
+
+    Attributes
+    ----------
+    evaluations
+        How many evaluations it takes, unless columns must be moved further.
+
+    References
+    ----------
+    A. R. Curtis, M. J. D. Powell, J. K. Reid, J. Inst. Math. Appl. 13 (1974) 117-119 (groups); D. E. Salane,
+    Adaptive routines for forming Jacobians numerically, SAND86-1319, 1986 (moves).
+    """
+
+    def __init__(self, pattern: Any, typical: FloatArray) -> None:
+        n = typical.size
+        self._row, self._starts = pattern.indices, pattern.indptr
+        self._column = np.repeat(np.arange(n), np.diff(pattern.indptr))
+        self._group: NDArray[np.int64] = group_columns(pattern)
+        self._typical = typical
+        self._share = np.full(n, _EPS**0.5)
+        self.evaluations = int(np.max(self._group, initial=-1)) + 1
+
+    def __call__(self, rates: Callable[[FloatArray], FloatArray], y: FloatArray, f: FloatArray) -> Any:
+        """Return the Jacobian at ``y``, shape (n, n) in compressed columns.
+
+        Parameters
+        ----------
+        rates
+            Right-hand sides, shape (n, m), of m states, shape (n, m).
+        y, f
+            State and its right-hand side, shape (n,) each: the moves go where it goes.
+        """
+        size = np.where(f < 0.0, -1.0, 1.0) * np.maximum(self._typical, np.abs(y))
+        moves = self._moves(y, size)
+        found = self._changes(rates, y, f, moves, np.arange(self._row.size))
+        lost = np.flatnonzero(found.largest < LOST * found.size)
+        if lost.size:
+            further = np.zeros_like(y)
+            further[lost] = y[lost] + STRIDE * self._share[lost] * size[lost] - y[lost]
+            which = np.flatnonzero(np.isin(self._column, lost))
+            self._take_better(found, self._changes(rates, y, f, further, which), lost, which, moves, further)
+        self._share[found.largest < SMALL * found.size] *= STRIDE
+        self._share[found.largest > LARGE * found.size] *= 1.0 / STRIDE
+        np.maximum(self._share, LEAST, out=self._share)
+        entries = found.entries / moves[self._column]
+        return csc_array((entries, self._row, self._starts), shape=(y.size, y.size))
+
+    def _moves(self, y: FloatArray, size: FloatArray) -> FloatArray:
+        """Return how far each variable is moved, in full although ``y`` rounds it."""
+        while True:
+            moves: FloatArray = y + self._share * size - y
+            none = moves == 0.0
+            if not none.any():
+                return moves
+            self._share[none] *= STRIDE
+
+    def _changes(
+        self,
+        rates: Callable[[FloatArray], FloatArray],
+        y: FloatArray,
+        f: FloatArray,
+        moves: FloatArray,
+        which: NDArray[np.int64],
+    ) -> _Changes:
+        """Return what moves change in the entries ``which``, in order: all those of their columns."""
+        row, column = self._row[which], self._column[which]
+        used = np.bincount(self._group[column]) > 0
+        moved = rates(np.where(self._group == np.flatnonzero(used)[:, None], y + moves, y).T)
+        there = moved[row, (np.cumsum(used) - 1)[self._group[column]]]
+        entries = there - f[row]
+        sizes = np.where(np.isnan(entries), np.inf, np.abs(entries))
+        begins = np.flatnonzero(np.diff(column, prepend=-1))
+        largest, size = np.zeros_like(y), np.zeros_like(y)
+        largest[column[begins]] = np.maximum.reduceat(sizes, begins)
+        at = np.flatnonzero(sizes == largest[column])
+        at = at[np.searchsorted(at, begins)]  # the first of each column
+        size[column[at]] = np.maximum(np.abs(f[row[at]]), np.abs(there[at]))
+        return _Changes(entries, largest, size)
+
+    def _take_better(
+        self,
+        found: _Changes,
+        new: _Changes,
+        lost: NDArray[np.int64],
+        which: NDArray[np.int64],
+        moves: FloatArray,
+        further: FloatArray,
+    ) -> None:
+        """Take over, in ``found`` and ``moves``, the columns that stand out more when moved further."""
+        better = lost[found.largest[lost] * new.size[lost] < new.largest[lost] * found.size[lost]]
+        taken = np.isin(self._column[which], better)
+        found.entries[which[taken]] = new.entries[taken]
+        for old, other in ((found.largest, new.largest), (found.size, new.size), (moves, further)):
+            old[better] = other[better]
+        self._share[better] *= STRIDE
