@@ -1,6 +1,8 @@
 """Large systems: sparse ones beside SciPy's BDF, dense ones without a Jacobian beside CVODE.
 
-python -m benchmarks.large
+OPENBLAS_NUM_THREADS=1 python -m benchmarks.large
+
+Times of the processor count what more threads of BLAS only wait.
 """
 
 from __future__ import annotations
