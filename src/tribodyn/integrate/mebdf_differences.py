@@ -1,12 +1,13 @@
-"""A Jacobian of known pattern by differences: columns that share no equation are moved in one evaluation."""
+"""Jacobians by differences, dense and of known pattern, also where large terms cancel."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate._ivp.common import num_jac
 from scipy.optimize._numdiff import group_columns
 from scipy.sparse import csc_array
 
@@ -21,8 +22,76 @@ LARGE: Final = _EPS**0.25
 """Such a change above which it is moved less the next time."""
 STRIDE: Final = 10.0
 """How much further, and less."""
-LEAST: Final = 1.0e3 * _EPS
-"""Shortest move relative to the size of a variable."""
+LEAST: Final = _EPS**0.5
+"""Shortest move relative to the size of a variable: rounding is the larger error of a shorter one.
+
+Where large rates cancel, a move that is right changes their sum by much.
+"""
+
+Rates = Callable[[FloatArray], FloatArray]
+
+
+class Differences(Protocol):
+    """Finite differences; each call may learn from the last ones."""
+
+    def __call__(self, rates: Rates, y: FloatArray, f: FloatArray) -> Any:
+        """Return the Jacobian at ``y``, shape (n, n).
+
+        Parameters
+        ----------
+        rates
+            Right-hand sides, shape (n, m), of m states, shape (n, m).
+        y, f
+            State and its right-hand side, shape (n,) each: the moves go where it goes.
+        """
+        ...
+
+
+class DenseDifferences:
+    """Those of SciPy's own solvers, but for the shortest move.
+
+    Parameters
+    ----------
+    typical
+        Sizes below which those of the variables do not shrink their moves, shape (n,).
+    """
+
+    def __init__(self, typical: FloatArray) -> None:
+        self._typical = typical
+        self._share: FloatArray | None = None
+
+    def __call__(self, rates: Rates, y: FloatArray, f: FloatArray) -> FloatArray:
+        """See :class:`Differences`."""
+        difference: Any = num_jac
+        matrix: FloatArray
+        matrix, share = difference(lambda t, states: rates(states), 0.0, y, f, self._typical, self._share)
+        self._share = np.maximum(share, LEAST)
+        return matrix
+
+
+class DifferencesOfTerms:
+    """Differences of equations of which some are zero all along: their terms tell how large a move must be.
+
+    Parameters
+    ----------
+    differences
+        Which moves they heed.
+    algebraic
+        Which equations have no derivatives, shape (n,).
+    """
+
+    def __init__(self, differences: Differences, algebraic: NDArray[np.bool_]) -> None:
+        self._differences, self._algebraic = differences, algebraic
+        self._terms = np.zeros(algebraic.size)
+
+    def __call__(self, rates: Rates, y: FloatArray, f: FloatArray) -> Any:
+        """See :class:`Differences`; the terms are known from the last Jacobian."""
+        terms = self._terms
+        matrix = self._differences(lambda states: rates(states) + terms[:, None], y, f + terms)
+        newest = np.where(self._algebraic, abs(matrix) @ np.abs(y), 0.0)
+        if np.isfinite(newest).all():
+            self._terms = newest
+        return matrix
 
 
 class _Changes(NamedTuple):
@@ -34,7 +103,9 @@ class _Changes(NamedTuple):
 
 
 class GroupedDifferences:
-    """Differences whose moves heed the rounding that the last ones met, as those of SciPy's own solvers.
+    """Differences of known pattern: columns that share no equation are moved in one evaluation.
+
+    Their moves heed the rounding that the last ones met, as those of SciPy's own solvers.
 
     Parameters
     ----------
@@ -63,16 +134,8 @@ class GroupedDifferences:
         self._share = np.full(n, _EPS**0.5)
         self.evaluations = int(np.max(self._group, initial=-1)) + 1
 
-    def __call__(self, rates: Callable[[FloatArray], FloatArray], y: FloatArray, f: FloatArray) -> Any:
-        """Return the Jacobian at ``y``, shape (n, n) in compressed columns.
-
-        Parameters
-        ----------
-        rates
-            Right-hand sides, shape (n, m), of m states, shape (n, m).
-        y, f
-            State and its right-hand side, shape (n,) each: the moves go where it goes.
-        """
+    def __call__(self, rates: Rates, y: FloatArray, f: FloatArray) -> Any:
+        """Return the Jacobian in compressed columns; see :class:`Differences`."""
         size = np.where(f < 0.0, -1.0, 1.0) * np.maximum(self._typical, np.abs(y))
         moves = self._moves(y, size)
         found = self._changes(rates, y, f, moves, np.arange(self._row.size))
@@ -99,7 +162,7 @@ class GroupedDifferences:
 
     def _changes(
         self,
-        rates: Callable[[FloatArray], FloatArray],
+        rates: Rates,
         y: FloatArray,
         f: FloatArray,
         moves: FloatArray,

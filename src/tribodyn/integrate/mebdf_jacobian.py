@@ -8,12 +8,16 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import OdeSolver
-from scipy.integrate._ivp.common import num_jac
 from scipy.sparse import coo_array, csc_array, csc_matrix, diags_array, eye_array
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import Algebra, Full, Sparse, banded, is_sparse, packed
-from tribodyn.integrate.mebdf_differences import GroupedDifferences
+from tribodyn.integrate.mebdf_differences import (
+    DenseDifferences,
+    Differences,
+    DifferencesOfTerms,
+    GroupedDifferences,
+)
 from tribodyn.integrate.mebdf_doubt import Doubted
 from tribodyn.integrate.mebdf_mass import MassMatrix
 
@@ -96,7 +100,7 @@ def make_jacobian(
     def watched(given: Linear) -> Linear:
         if given.algebra is not None:
             return given
-        differences = _differences(solver, atol)
+        differences = _differenced(solver, DenseDifferences(atol), mass)
         return given._replace(
             jacobian=Doubted(given.jacobian, differences, solver.fun_single, atol, in_trouble)
         )
@@ -105,7 +109,7 @@ def make_jacobian(
         raise ValueError("Give either `jac_sparsity` or `lband` and `uband`.")
     matrices = _matrices(mass, n, atol / rtol) if n > LARGEST_IN_CORE else None
     if jac is None:
-        return _by_differences(solver, _pattern(sparsity, bands, n), bands, atol, matrices)
+        return _by_differences(solver, _pattern(sparsity, bands, n), bands, atol, mass, matrices)
     given = jac if callable(jac) else _Constant(jac)
     if bands is not None:
         return watched(_by_diagonals(_checked(given, (bands[0] + bands[1] + 1, n)), bands, matrices))
@@ -125,18 +129,19 @@ def _matrices(mass: MassMatrix | None, n: int, typical: FloatArray) -> Matrices:
 
 
 def _by_differences(
-    solver: OdeSolver, pattern: Any, bands: Bands | None, threshold: FloatArray, matrices: Matrices | None
+    solver: OdeSolver,
+    pattern: Any,
+    bands: Bands | None,
+    threshold: FloatArray,
+    mass: MassMatrix | None,
+    matrices: Matrices | None,
 ) -> Linear:
     """Return a Jacobian by differences; ``threshold`` are values below which these no longer shrink."""
     n = solver.n
     if pattern is None:
-        return _full(_differences(solver, threshold), matrices, n)
+        return _full(_differenced(solver, DenseDifferences(threshold), mass), matrices, n)
     grouped = GroupedDifferences(pattern, threshold)
-
-    def evaluate(t: float, y: FloatArray) -> Any:
-        f = solver.fun_single(t, y)
-        return grouped(lambda states: solver.fun_vectorized(t, states), y, f)
-
+    evaluate = _differenced(solver, grouped, mass)
     if matrices is None:
         return _full(evaluate, matrices, grouped.evaluations)
     width = _wider(bands or _bands(pattern), _bands(matrices.mass))
@@ -247,15 +252,10 @@ def _unpacked(diagonals: FloatArray, bands: Bands) -> FloatArray:
     return dense
 
 
-def _differences(solver: OdeSolver, threshold: FloatArray) -> Jacobian:
-    """Return the dense Jacobian by the finite differences of SciPy's own solvers."""
-    difference: Any = num_jac
-    factor: FloatArray | None = None
-
-    def jacobian(t: float, y: FloatArray) -> Any:
-        nonlocal factor
-        f = solver.fun_single(t, y)
-        matrix, factor = difference(solver.fun_vectorized, t, y, f, threshold, factor)
-        return matrix
-
-    return jacobian
+def _differenced(solver: OdeSolver, differences: Differences, mass: MassMatrix | None) -> Jacobian:
+    """Return the Jacobian by finite differences of the right-hand side."""
+    if mass is not None:
+        differences = DifferencesOfTerms(differences, mass.algebraic_equations)
+    return lambda t, y: differences(
+        lambda states: solver.fun_vectorized(t, states), y, solver.fun_single(t, y)
+    )
