@@ -10,10 +10,10 @@ PLOTS := $(filter-out docs/plots/demo.py docs/plots/tour.py,$(wildcard docs/plot
 DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
 PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
 # One more than there are cores: many tests wait for processes that they watch.
-PYTEST := $(BIN)/python -m pytest -n 3
+PYTEST := $(BIN)/python -m pytest -n 3 --dist worksteal
 
 .DELETE_ON_ERROR:
-.PHONY: help demo assumptions test test-long golden lint format docs bench lock clean
+.PHONY: help demo assumptions ready test test-long golden lint format docs bench lock clean
 
 help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
@@ -37,14 +37,10 @@ assumptions: demo
 		--vary contact.onset_separation=3.5,4,4.5 --summary-only -o $(DEMO)/assumptions
 	$(BIN)/tribodyn report $(DEMO)
 
-test: $(VENV)/.dev
-	@tools/ensure-browser
-	@tools/compile-kernels $(BIN)/python
+test: ready
 	$(PYTEST) -m "not long"
 
-test-long: $(VENV)/.dev
-	@tools/ensure-browser
-	@tools/compile-kernels $(BIN)/python
+test-long: ready
 	$(PYTEST)
 
 golden: $(VENV)/.dev
@@ -97,6 +93,10 @@ $(VENV)/.run: pyproject.toml $(BIN)/python
 $(VENV)/.dev: pyproject.toml $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,docs]"
 	@touch $@ $(VENV)/.run
+
+# What tests need. Kernels are compiled on one core while pip, on the other, installs what only tests need.
+ready: $(VENV)/.run
+	@tools/compile-kernels $(BIN)/python & $(MAKE) --no-print-directory $(VENV)/.dev && tools/ensure-browser && wait
 
 $(VENV)/.bench: pyproject.toml $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,bench]"
