@@ -13,7 +13,7 @@ PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -n
 PYTEST := $(BIN)/python -m pytest -n 3 --dist worksteal
 
 .DELETE_ON_ERROR:
-.PHONY: help demo assumptions ready test test-long golden lint format docs bench lock clean
+.PHONY: help demo assumptions ready kernels test test-long golden lint format docs bench lock clean
 
 help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
@@ -96,7 +96,11 @@ $(VENV)/.dev: pyproject.toml $(BIN)/python
 
 # What tests need. Kernels are compiled on one core while pip, on the other, installs what only tests need.
 ready: $(VENV)/.run
-	@tools/compile-kernels $(BIN)/python & $(MAKE) --no-print-directory $(VENV)/.dev && tools/ensure-browser && wait
+	@$(MAKE) --no-print-directory -j 2 kernels $(VENV)/.dev
+	@tools/ensure-browser
+
+kernels: $(VENV)/.run
+	@tools/compile-kernels $(BIN)/python
 
 $(VENV)/.bench: pyproject.toml $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,bench]"

@@ -45,8 +45,7 @@ def _faults(reader: Any) -> list[str]:
 
 
 def test_every_figure_is_drawn_without_a_word_to_the_network(opened: Opened, report: Path) -> None:
-    reader = opened(report)
-    reader.draw_everything()
+    reader = _opened_wide(opened, report, dark=False)
     assert reader.page.locator("[data-widget]").count() >= 10
     assert reader.plot("mechanism", "plot.plotted.gl instanceof WebGL2RenderingContext")
     assert reader.overflow() == 0
@@ -185,17 +184,21 @@ def _turn_by_keyboard(reader: Any) -> None:
     assert reader.plot("mechanism", "plot.plotted.solids[1].points[0]") > bore
 
 
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_axe_finds_nothing_serious(opened: Opened, report: Path, dark: bool) -> None:
+def test_it_is_dark_where_the_system_is(opened: Opened, report: Path) -> None:
+    reader = _opened_wide(opened, report, dark=True)
+    reader.keep_picture("report-dark")
+    back = reader.page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert back == "rgb(21, 23, 26)"
+    assert _ink(reader) == [232, 232, 230]
+
+
+def _opened_wide(opened: Opened, report: Path, dark: bool) -> Any:
+    """Open a report with all that unfolds, draw it, and have axe look at it."""
     reader = opened(report, dark=dark)
     reader.page.evaluate("document.querySelectorAll('details').forEach(one => { one.open = true; })")
     reader.draw_everything()
     assert _faults(reader) == []
-    if dark:
-        reader.keep_picture("report-dark")
-        back = reader.page.evaluate("getComputedStyle(document.body).backgroundColor")
-        assert back == "rgb(21, 23, 26)"
-        assert _ink(reader) == [232, 232, 230]
+    return reader
 
 
 def _ink(reader: Any) -> list[int]:

@@ -455,8 +455,16 @@ def test_without_webgl_it_draws_on_a_plain_canvas(at: Opened) -> None:
     assert person.plot("mechanism", "plot.plotted.solids[0].corners.length") > 1000
 
 
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-@pytest.mark.parametrize("width", [1280, 400], ids=["wide", "narrow"])
+@pytest.mark.parametrize(
+    ("width", "dark"),
+    [
+        pytest.param(1280, False, id="wide-light"),
+        pytest.param(400, True, id="narrow-dark"),
+        # Colours do not follow the width.
+        pytest.param(1280, True, id="wide-dark", marks=pytest.mark.long),
+        pytest.param(400, False, id="narrow-light", marks=pytest.mark.long),
+    ],
+)
 def test_axe_finds_nothing_serious(at: Opened, width: int, dark: bool) -> None:
     person = at("#joint.clearance=25um", width=width, dark=dark)
     person.wait_until_shown({CLEARANCE: "25 um"})

@@ -78,7 +78,7 @@ def test_make_demo_runs_the_vane_mechanism_over_two_drive_cycles() -> None:
 
 
 def test_make_test_runs_all_but_the_longest_tests() -> None:
-    assert '-m pytest -n 3 -m "not long"' in recipe("test")
+    assert '-m pytest -n 3 --dist worksteal -m "not long"' in recipe("test")
 
 
 def test_installing_gives_the_command_on_python_3_11() -> None:
