@@ -88,7 +88,8 @@ class DifferencesOfTerms:
         """See :class:`Differences`; the terms are known from the last Jacobian."""
         terms = self._terms
         matrix = self._differences(lambda states: rates(states) + terms[:, None], y, f + terms)
-        newest = np.where(self._algebraic, abs(matrix) @ np.abs(y), 0.0)
+        with np.errstate(over="ignore", invalid="ignore"):
+            newest = np.where(self._algebraic, abs(matrix) @ np.abs(y), 0.0)
         if np.isfinite(newest).all():
             self._terms = newest
         return matrix

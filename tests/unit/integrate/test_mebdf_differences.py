@@ -128,6 +128,18 @@ def test_moves_grow_until_they_show_in_an_algebraic_equation(kind):
     np.testing.assert_allclose(csc_array(found).toarray(), [[-0.04, 0.0], [1.0, 1.0]], rtol=0.02)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_infinite_entry_spoils_no_later_jacobian(kind):
+    differences = DifferencesOfTerms(kind(np.full(2, SMALL)), np.array([False, True]))
+    y, f = np.array([1.0, 0.0]), np.array([1.0, 1.0])
+    for pole in (0.0, np.inf, 0.0):
+        found = differences(
+            lambda s, pole=pole: np.array([s[0], s[0] + np.where(s[1] > 0.0, pole, s[1])]), y, f
+        )
+        np.testing.assert_allclose(csc_array(found).toarray()[:, 0], 1.0, rtol=1e-6)
+    assert np.isfinite(csc_array(found).toarray()).all()
+
+
 def robertson(t, y):
     slow, fast, last = 0.04 * y[0], 1e4 * y[1] * y[2], 3e7 * y[1] ** 2
     return np.array([fast - slow, slow - fast - last, y[0] + y[1] + y[2] - 1.0])
