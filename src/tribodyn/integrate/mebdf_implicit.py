@@ -63,6 +63,7 @@ class Residual:
             raise ValueError("`jac` of an implicit equation is a function `jac(t, y, slope)`.")
         self._factor: Any = None
         self._least: FloatArray | None = None
+        self._absent = np.zeros(n, dtype=bool)
 
     @property
     def evaluations(self) -> int:
@@ -106,25 +107,26 @@ class Residual:
     ) -> FloatArray:
         """Return the derivative of −F by the slope, by differences.
 
-        What change of each component rises above the rounding of F is found at the start: ``least``, or more.
+        A change that does not rise above the rounding of F is enlarged, but not of components that did not
+        show at the start, however large it was. What it took there is the least change later.
         """
-        tries = MOST_TRIES if self._least is None else 1
-        least = least if self._least is None else self._least
         rounding = CLEAR * np.finfo(np.float64).eps * (np.abs(of_y) @ np.abs(y) + np.abs(f))
         slope, found = self.slope, np.zeros((y.size, y.size))
+        least = least if self._least is None else self._least
         size, unseen = np.maximum(VARIED * np.abs(slope), least), np.arange(y.size)
-        for _ in range(tries):
+        for _ in range(MOST_TRIES):
             for j in unseen:
                 self.slope = slope.copy()
                 self.slope[j] += size[j]
                 found[:, j] = self(t, y) - f
-            unseen = unseen[np.all(np.abs(found[:, unseen]) <= rounding[:, None], axis=0)]
-            if tries > 1:
-                size[unseen] *= LARGER
+            lost = unseen[np.all(np.abs(found[:, unseen]) <= rounding[:, None], axis=0)]
+            found[:, lost] = 0.0
+            unseen = lost[~self._absent[lost]]
+            size[unseen] *= LARGER
         self.slope = slope
-        found[:, unseen] = 0.0
+        self._absent[unseen] = True
         if self._least is None:
-            self._least = np.where(np.isin(np.arange(y.size), unseen), least, size)
+            self._least = np.where(self._absent, least, size)
         return found / size
 
     def move(self, state: MebdfState) -> None:
