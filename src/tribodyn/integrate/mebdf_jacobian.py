@@ -8,10 +8,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import OdeSolver
-from scipy.sparse import coo_array, csc_array, csc_matrix, diags_array, eye_array
+from scipy.sparse import csc_array, csc_matrix, dia_array, diags_array, eye_array
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.integrate.mebdf_algebra import Algebra, Full, Sparse, banded, is_sparse, packed
+from tribodyn.integrate.mebdf_algebra import Algebra, Full, Sparse, is_sparse
 from tribodyn.integrate.mebdf_differences import (
     DenseDifferences,
     Differences,
@@ -23,8 +23,6 @@ from tribodyn.integrate.mebdf_mass import MassMatrix
 
 LARGEST_IN_CORE: Final = 64
 """Number of equations up to which the compiled core solves: its decomposition is a plain loop."""
-NARROW: Final = 4.0
-"""Diagonals of a banded decomposition over entries a column up to which it is the faster one."""
 
 Jacobian = Callable[[float, FloatArray], Any]
 Bands = tuple[int, int]
@@ -109,7 +107,7 @@ def make_jacobian(
         raise ValueError("Give either `jac_sparsity` or `lband` and `uband`.")
     matrices = _matrices(mass, n, atol / rtol) if n > LARGEST_IN_CORE else None
     if jac is None:
-        return _by_differences(solver, _pattern(sparsity, bands, n), bands, atol, mass, matrices)
+        return _by_differences(solver, _pattern(sparsity, bands, n), atol, mass, matrices)
     given = jac if callable(jac) else _Constant(jac)
     if bands is not None:
         return watched(_by_diagonals(_checked(given, (bands[0] + bands[1] + 1, n)), bands, matrices))
@@ -131,7 +129,6 @@ def _matrices(mass: MassMatrix | None, n: int, typical: FloatArray) -> Matrices:
 def _by_differences(
     solver: OdeSolver,
     pattern: Any,
-    bands: Bands | None,
     threshold: FloatArray,
     mass: MassMatrix | None,
     matrices: Matrices | None,
@@ -144,20 +141,17 @@ def _by_differences(
     evaluate = _differenced(solver, grouped, mass)
     if matrices is None:
         return _full(evaluate, matrices, grouped.evaluations)
-    width = _wider(bands or _bands(pattern), _bands(matrices.mass))
-    if bands is None and 2 * width[0] + width[1] + 1 > NARROW * pattern.nnz / n:
-        return Linear(evaluate, Sparse(evaluate, *matrices), grouped.evaluations)
-    algebra = banded(lambda t, y: packed(evaluate(t, y), *width), matrices, width)
-    return Linear(evaluate, algebra, grouped.evaluations)
+    return Linear(evaluate, Sparse(evaluate, *matrices), grouped.evaluations)
 
 
 def _by_diagonals(evaluate: Jacobian, bands: Bands, matrices: Matrices | None) -> Linear:
     """Return a Jacobian that is given by its diagonals."""
-    if matrices is None:
-        return _full(lambda t, y: _unpacked(evaluate(t, y), bands), matrices)
-    width = _wider(bands, _bands(matrices.mass))
-    rows = (width[1] - bands[1], width[0] - bands[0]), (0, 0)
-    return Linear(evaluate, banded(lambda t, y: np.pad(evaluate(t, y), rows), matrices, width), 0)
+    offsets = range(bands[1], -bands[0] - 1, -1)
+
+    def sparse(t: float, y: FloatArray) -> Any:
+        return csc_array(dia_array((evaluate(t, y), offsets), shape=(y.size, y.size)))
+
+    return _full(sparse, matrices) if matrices is None else Linear(sparse, Sparse(sparse, *matrices), 0)
 
 
 def _full(evaluate: Jacobian, matrices: Matrices | None, evaluations: int = 0) -> Linear:
@@ -169,11 +163,6 @@ def _full(evaluate: Jacobian, matrices: Matrices | None, evaluations: int = 0) -
         return full
 
     return Linear(dense, None if matrices is None else Full(dense, *matrices), evaluations)
-
-
-def _wider(one: Bands, other: Bands) -> Bands:
-    """Return the diagonals that hold both of two matrices."""
-    return max(one[0], other[0]), max(one[1], other[1])
 
 
 class _Constant:
@@ -207,14 +196,21 @@ def _checked(jac: Jacobian, shape: tuple[int, int]) -> Jacobian:
 
     def jacobian(t: float, y: FloatArray) -> Any:
         value = jac(t, y.copy())
-        matrix: Any = (
-            csc_array(value, dtype=np.float64) if is_sparse(value) else np.asarray(value, np.float64)
-        )
+        matrix: Any = _columns(value) if is_sparse(value) else np.asarray(value, np.float64)
         if matrix.shape != shape:
             raise ValueError(f"`jac` is expected to have shape {shape}, but actually has {matrix.shape}.")
         return matrix
 
     return jacobian
+
+
+def _columns(matrix: Any) -> Any:
+    """Return a sparse matrix in compressed columns, each entry once."""
+    columns = csc_array(matrix, dtype=np.float64)
+    if not columns.has_canonical_format:
+        columns = columns.copy()
+        columns.sum_duplicates()
+    return columns
 
 
 def _pattern(sparsity: Any, bands: Bands | None, n: int) -> Any:
@@ -233,23 +229,6 @@ def _pattern(sparsity: Any, bands: Bands | None, n: int) -> Any:
     pattern.sum_duplicates()
     pattern.eliminate_zeros()
     return pattern
-
-
-def _bands(pattern: Any) -> Bands:
-    """Return how many diagonals below and above the main one are not empty."""
-    entries = coo_array(pattern)
-    below = entries.row.astype(np.int64) - entries.col
-    return max(int(below.max(initial=0)), 0), max(int(-below.min(initial=0)), 0)
-
-
-def _unpacked(diagonals: FloatArray, bands: Bands) -> FloatArray:
-    """Return the dense matrix with these diagonals."""
-    n = diagonals.shape[1]
-    row = np.arange(n) - bands[1] + np.arange(len(diagonals))[:, None]
-    inside = (row >= 0) & (row < n)
-    dense = np.zeros((n, n))
-    dense[row[inside], np.broadcast_to(np.arange(n), row.shape)[inside]] = diagonals[inside]
-    return dense
 
 
 def _differenced(solver: OdeSolver, differences: Differences, mass: MassMatrix | None) -> Jacobian:

@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.sparse import coo_array, csc_array, csr_matrix, diags_array
 
 from tribodyn.integrate import MEBDF
+from tribodyn.integrate.mebdf_algebra import Sparse, by_bands
 
 N = 80
 """More equations than the compiled core solves for."""
@@ -140,3 +141,52 @@ def test_a_jacobian_that_is_not_finite_is_told_by_its_entry(options):
 
     solution = solve(chain, **{**options, "jac": broken})
     assert "d(rate of component 1)/d(component 1) is not finite" in solution.message
+
+
+@pytest.mark.parametrize(("lower", "upper"), [(0, 0), (1, 1), (2, 2), (3, 1), (0, 2), (2, 0)])
+@pytest.mark.parametrize("diagonal", [1e-3, 20.0])
+def test_bands_with_and_without_exchanges_of_rows(lower, upper, diagonal):
+    rng = np.random.default_rng(3)
+    offsets = range(-lower, upper + 1)
+    matrix = diags_array(
+        [rng.uniform(1.0, 2.0, N - abs(k)) for k in offsets], offsets=list(offsets)
+    ).toarray()
+    matrix[np.diag_indices(N)] *= diagonal
+    packed = np.zeros((2 * lower + upper + 1, N))
+    for row, column in zip(*np.nonzero(matrix), strict=True):
+        packed[lower + upper + row - column, column] = matrix[row, column]
+    known = rng.normal(size=N)
+    solution = by_bands(packed, lower, upper)(known)
+    # Gauss's elimination with exchanges of rows is stable: rounding in each of at most seven diagonals.
+    assert np.max(np.abs(matrix @ solution - known)) < 1e-13 * np.max(np.abs(matrix) @ np.abs(solution))
+
+
+def test_singular_bands_are_told():
+    assert by_bands(np.zeros((4, N)), 1, 1) is None
+
+
+def test_a_jacobian_whose_entries_move():
+    """Narrow, then with a column beside its bands, then narrow again."""
+    mass = csc_array(np.eye(N))
+    jacobians = [LAPLACIAN, LAPLACIAN + SHORTCUT, LAPLACIAN[::-1, ::-1]]
+    algebra = Sparse(lambda t, y: csc_array(jacobians[int(t)]), mass, np.zeros(N, dtype=bool), np.ones(N))
+    for which, jacobian in enumerate(jacobians):
+        assert algebra.linearise(which, START)
+        assert algebra.factorise(0.01)
+        expected = np.linalg.solve((mass - 0.01 * jacobian).toarray(), START)
+        np.testing.assert_allclose(algebra.solve(START), expected, rtol=1e-10)
+
+
+def test_entries_given_twice_count_twice_and_stay():
+    twice = csc_array(
+        (np.full(2 * N, -1.0), np.repeat(np.arange(N), 2), np.arange(0, 2 * N + 1, 2)), shape=(N, N)
+    )
+    span = (0.0, 1.0)
+    solution = solve_ivp(
+        lambda t, y: -2.0 * y, span, np.ones(N), method=MEBDF, rtol=1e-6, jac=lambda t, y: twice
+    )
+    single = solve_ivp(
+        lambda t, y: -2.0 * y, span, np.ones(N), method=MEBDF, rtol=1e-6, jac=csc_array(-2.0 * np.eye(N))
+    )
+    assert solution.nfev == single.nfev
+    assert twice.nnz == 2 * N
