@@ -22,6 +22,8 @@ LARGE: Final = _EPS**0.25
 """Such a change above which it is moved less the next time."""
 STRIDE: Final = 10.0
 """How much further, and less."""
+AT_ONCE: Final = 2**22
+"""Values of states evaluated at once: a dense row makes each column a group of its own."""
 LEAST: Final = _EPS**0.5
 """Shortest move relative to the size of a variable: rounding is the larger error of a shorter one.
 
@@ -171,9 +173,13 @@ class GroupedDifferences:
     ) -> _Changes:
         """Return what moves change in the entries ``which``, in order: all those of their columns."""
         row, column = self._row[which], self._column[which]
-        used = np.bincount(self._group[column]) > 0
-        moved = rates(np.where(self._group == np.flatnonzero(used)[:, None], y + moves, y).T)
-        there = moved[row, (np.cumsum(used) - 1)[self._group[column]]]
+        group = self._group[column]
+        there = np.empty(row.size)
+        groups = np.flatnonzero(np.bincount(group))
+        for some in np.array_split(groups, -(-groups.size * y.size // AT_ONCE) or 1):
+            moved = rates(np.where(self._group == some[:, None], y + moves, y).T)
+            inside = np.isin(group, some)
+            there[inside] = moved[row[inside], np.searchsorted(some, group[inside])]
         entries = there - f[row]
         sizes = np.where(np.isnan(entries), np.inf, np.abs(entries))
         begins = np.flatnonzero(np.diff(column, prepend=-1))

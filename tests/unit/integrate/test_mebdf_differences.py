@@ -9,7 +9,7 @@ from scipy.integrate._ivp.common import num_jac
 from scipy.optimize._numdiff import group_columns
 from scipy.sparse import csc_array, csc_matrix, random_array
 
-from tribodyn.integrate import MEBDF
+from tribodyn.integrate import MEBDF, mebdf_differences
 from tribodyn.integrate.mebdf_differences import (
     LEAST,
     DenseDifferences,
@@ -48,7 +48,9 @@ class Counted:
 
 @pytest.mark.parametrize("offset", [0.0, -1e6, 1e9])
 @pytest.mark.parametrize("density", [0.01, 0.1])
-def test_they_are_those_of_scipy(density, offset):
+@pytest.mark.parametrize("at_once", [3 * N, 2**22])
+def test_they_are_those_of_scipy(monkeypatch, at_once, density, offset):
+    monkeypatch.setattr(mebdf_differences, "AT_ONCE", at_once)
     rng = np.random.default_rng(7)
     of = matrix(rng, density)
     ours, theirs = Counted(of, offset), Counted(of, offset)
@@ -173,3 +175,19 @@ def test_robertson_costs_little_more_without_its_jacobian(share):
         ratios.append(calls[1] / calls[0])
     # 1.12 to 1.14 and 1.13 to 1.27 in four such ensembles.
     assert np.exp(np.mean(np.log(ratios))) < 1.4
+
+
+def test_a_dense_row_takes_no_dense_states():
+    n = 3000
+    of = csc_array(np.vstack((np.ones(n), np.zeros((n - 1, n)))))
+    sizes = []
+
+    def rates(states):
+        sizes.append(states.size)
+        return of @ states
+
+    y = np.ones(n)
+    found = GroupedDifferences(of, np.full(n, SMALL))(rates, y, of @ y)
+    assert found.nnz == n
+    assert max(sizes) <= mebdf_differences.AT_ONCE + n
+    assert sum(sizes) == n * n
