@@ -275,9 +275,13 @@ def _compiled(
     from numba import void
     from numba.core.types import FunctionType
 
+    from tribodyn.kernels.mebdf.core import resume
+
     typeof: Callable[[Any], Any] = numba.typeof
     arguments = argument_types(problem, types)
-    core = FunctionType(numba.int64(*typeof(state).types))
+    parts = typeof(state).types
+    resume.compile(parts)  # else numba would, and keep it apart from what others call with these types
+    core = FunctionType(numba.int64(*parts))
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
     solvers: tuple[Any, Any] = (numba.none, numba.none)
     if own is not None:
