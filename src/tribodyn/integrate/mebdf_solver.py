@@ -42,7 +42,7 @@ from tribodyn.kernels.mebdf.phases import (
     NEED_SOLUTION,
     STEP_ACCEPTED,
 )
-from tribodyn.kernels.mebdf.state import HISTORY, N_J, N_LU, T_EVAL, F, T, Y, new_state
+from tribodyn.kernels.mebdf.state import HISTORY, N_F, N_J, N_LU, T_EVAL, F, T, Y, new_state
 
 ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
 RENEWED: Final = 0.5
@@ -163,8 +163,8 @@ class MEBDF(OdeSolver):
             "differenced": evaluations,
             "outside": self._algebra is not None,
         }
-        # Jacobians and decompositions before the last breakpoint.
-        self._before = (0, 0)
+        # Evaluations, Jacobians and decompositions before the last breakpoint.
+        self._before = (0, 0, 0)
         self._state = self._new_state(starting_step(first_step, t0, t_bound))
         self._resume = _machine_code()
 
@@ -216,13 +216,13 @@ class MEBDF(OdeSolver):
     def _step_impl(self) -> tuple[bool, str | None]:
         """Take one step; return whether it succeeded, and why not."""
         if len(self._ends) > 1 and self.t == self._ends[0]:
-            self._before = self.njev, self.nlu
+            self._before = self.nfev, self.njev, self.nlu
             del self._ends[0]
             try:
                 self._state = self._new_state(0.0)
             except ValueError as problem:
                 return False, str(problem)
-        state, core, fun = self._state, self._resume, self.fun
+        state, core, fun = self._state, self._resume, self.fun_single
         real, counts, rows = state.real, state.counts, state.rows
         kink = self._ends[0] if len(self._ends) > 1 else None
         while (request := core(*state)) not in ENDS_OF_STEP:
@@ -240,8 +240,10 @@ class MEBDF(OdeSolver):
                     f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
                 )
             rows[F] = f
-        self.njev = self._before[0] + counts.item(N_J)
-        self.nlu = self._before[1] + counts.item(N_LU)
+        before = self._before
+        self.nfev = before[0] + counts.item(N_F)
+        self.njev = before[1] + counts.item(N_J)
+        self.nlu = before[2] + counts.item(N_LU)
         if request == FAILED:
             return False, reason(state, self._names, self._entry_not_finite)
         self.t, self.y = real.item(T), rows[HISTORY].copy()
