@@ -195,12 +195,16 @@ def test_jacobians_are_rarer_where_they_cost_evaluations():
             [0.0, 60.0 * v, 0.0],
         ]
 
-    runs = [
-        solve(decay, (0.0, 100.0), [1.0, 1e-3, 0.0], rtol=1e-6, atol=1e-10, jac=given)
-        for given in (jac, None)
-    ]
-    np.testing.assert_allclose(runs[0].y[:, -1], runs[1].y[:, -1], rtol=1e-4, atol=1e-6)
-    assert runs[1].njev < 0.75 * runs[0].njev
+    made = np.zeros(2)
+    for rtol in np.geomspace(6e-7, 1.5e-6, 8):
+        exact, differenced = (
+            solve(decay, (0.0, 100.0), [1.0, 1e-3, 0.0], rtol=rtol, atol=1e-4 * rtol, jac=given)
+            for given in (jac, None)
+        )
+        np.testing.assert_allclose(exact.y[:, -1], differenced.y[:, -1], rtol=1e-4, atol=1e-6)
+        made += exact.njev, differenced.njev
+    # 0.59 over 64 tolerances on two processors; over eight of them 0.57 to 0.62.
+    assert made[1] < 0.7 * made[0]
 
 
 def test_a_span_of_no_length():
