@@ -20,6 +20,7 @@ from benchmarks.workbench_hands import KEY, PER_SECOND
 
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
 OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader")
+"""WebGL alone in software: a page put together in software by it, too, costs a third more."""
 DRAWN: Final = "() => typeof bench === 'object' && bench.shown && !wishes.awaited"
 DRAG: Final = """async ([key, apart, seconds]) => {
   const slider = controlAt(key).querySelector("input[type=range]");

@@ -19,7 +19,7 @@ from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
-OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader")
 SIZE: Final = {"width": 1280, "height": 824}
 SHOWN: Final = (885, 570)
 COLOURS: Final = 256

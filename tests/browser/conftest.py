@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -17,14 +18,14 @@ import pytest
 import xarray as xr
 from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, Request, sync_playwright
 
+sys.path.insert(0, str(Path(__file__).parents[2]))
 import tribodyn as td
+from benchmarks.workbench_page import OPTIONS
 from tribodyn.figures.save import save
 from tribodyn.mechanisms.vsv.figures import FIGURES
 from tribodyn.report import write
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
-# WebGL in software: there is no graphics card where tests run.
-OPTIONS = ["--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader"]
 NO_WEBGL = """const all = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
   return kind.startsWith('webgl') ? null : all.call(this, kind, ...more);
@@ -65,7 +66,7 @@ def browser() -> Iterator[Browser]:
 
 def _launched(playwright: Playwright, path: str) -> Browser:
     if "firefox" not in Path(path).name:
-        return playwright.chromium.launch(executable_path=path, args=OPTIONS)
+        return playwright.chromium.launch(executable_path=path, args=list(OPTIONS))
     # Playwright's own Firefox speaks a protocol of its own, everybody else's WebDriver BiDi.
     return playwright.firefox.launch(
         executable_path=path,

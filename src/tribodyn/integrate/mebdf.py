@@ -94,7 +94,7 @@ class _CompiledWalk(Walk):
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
             arrays = (self._jacobian(state), self._own, self._marks, self._pause)
-            self._loop = _compiled(run, self.problem, self.types, state, *arrays)
+            self._loop = _compiled(run, resume, self.problem, self.types, state, *arrays)
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
 
@@ -264,7 +264,14 @@ def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
 
 
 def _compiled(
-    run: Any, problem: Problem, types: tuple[Any, Any], state: Any, jacobian: Any, own: Any, *others: Any
+    run: Any,
+    resume: Any,
+    problem: Problem,
+    types: tuple[Any, Any],
+    state: Any,
+    jacobian: Any,
+    own: Any,
+    *others: Any,
 ) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
@@ -274,8 +281,6 @@ def _compiled(
     import numba
     from numba import void
     from numba.core.types import FunctionType
-
-    from tribodyn.kernels.mebdf.core import resume
 
     typeof: Callable[[Any], Any] = numba.typeof
     arguments = argument_types(problem, types)

@@ -62,7 +62,7 @@ def test_numbers_have_checksums(tmp_path: Path) -> None:
 
 def test_more_texts_than_a_sweep_has_points_are_refused_unread() -> None:
     assert MOST_TEXTS >= MOST_POINTS
-    # Beside a long one each would be looked at alone, which for all of them takes a minute.
+    # In a large file few are looked at together, to be safe from a long one named again and again.
     texts = np.full((MOST_TEXTS // 1000 + 1, 1000), "many", dtype=object)
     content = netcdf_content(xr.Dataset({"a": (("x", "y"), texts)}, attrs={"long": "x" * 1_000_000}))
     with pytest.raises(ValueError, match="a holds more than 100000 texts"):
