@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Any, Protocol, cast
+from typing import Any, Final, Protocol, cast
 
 from tribodyn.contact.asperities import SEPARATIONS
 from tribodyn.contact.base import ContactLaw
@@ -43,7 +43,7 @@ def _of_packages() -> Iterator[type[ContactLaw]]:
     One that cannot be imported, is no law or takes the name of another is left out with a warning: it must
     not keep a user from the others.
     """
-    taken = {kind.name for kind in map(_member, _MEMBERS)}
+    taken = {kind.name for kind in OURS}
     for entry in entry_points(group="tribodyn.laws"):
         try:
             kind = entry.load()
@@ -57,7 +57,9 @@ def _of_packages() -> Iterator[type[ContactLaw]]:
         yield kind
 
 
-LAWS: dict[str, type[ContactLaw]] = {kind.name: kind for kind in (*map(_member, _MEMBERS), *_of_packages())}
+OURS: Final = tuple(map(_member, _MEMBERS))
+"""Laws of this package: two whose fields are equal are equal."""
+LAWS: dict[str, type[ContactLaw]] = {kind.name: kind for kind in (*OURS, *_of_packages())}
 """All contact laws by name: our own, and those of installed packages."""
 
 
@@ -97,6 +99,7 @@ def _options_of(kind: type[ContactLaw]) -> set[str]:
 __all__ = [
     "DAMPING_FACTORS",
     "LAWS",
+    "OURS",
     "RSDC",
     "SEPARATIONS",
     "ContactLaw",

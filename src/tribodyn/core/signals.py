@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
 
-@dataclass(frozen=True)
+# One is equal to itself alone: arrays do not say of each other whether they are.
+@dataclass(frozen=True, eq=False)
 class Signal:
     """A number that follows time or a coordinate: a polynomial between knots, or a sine.
 

@@ -14,11 +14,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Final, Protocol
 
 import numpy as np
 from scipy.special import lambertw
 
+from tribodyn.contact import OURS
 from tribodyn.contact.base import MEMORYLESS, ContactLaw
 from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.table import table_of_nodes, tabulate
@@ -112,11 +114,17 @@ def contact_table(
     return point_table(contact, law, cylinders)
 
 
+# Runs that differ in a clearance or a load share a table, which takes a twentieth of a run.
+_kept = lru_cache(maxsize=16)(tabulate)
+
+
 def surface_table(
     law: ContactLaw, *, onset: float, smoothing_width: float, liner: Liner | None
 ) -> ContactTable:
     """Tabulate the pressure over the surface; arguments as for :func:`contact_table`."""
-    table = tabulate(law, onset=onset, smoothing_width=smoothing_width)
+    # A law from elsewhere may be more than its fields say, and its class another than a run ago.
+    make = _kept if type(law) in OURS else tabulate
+    table = make(law, onset=onset, smoothing_width=smoothing_width)
     return table if liner is None else lined(table, liner.stiffness * law.pair.roughness_rms)
 
 

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal
 from tribodyn.kernels.vsv.data import CRANK_ANGLE, TIME, VANE
-from tribodyn.mechanisms.actions import crossings, inside, kinks_over, segments_of
+from tribodyn.mechanisms.actions import Term, crossings, inside, kinks_over, segments_of
 from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths, Vsv
 from tribodyn.mechanisms.vsv.reach import dead_centres, ideal_table
 
@@ -79,14 +81,21 @@ def ideal_range(lengths: Lengths, drive: AnyDrive, duration: float) -> tuple[flo
 def course(vsv: Vsv, duration: float) -> Course:
     """Return what happens in a run of ``duration`` [s]; of one without end, in its first drive cycle."""
     duration = duration if math.isfinite(duration) else vsv.drive.period
-    drive = vsv.drive
-    centres = np.array(dead_centres(vsv.lengths, *drive.crank_range(duration)))
+    return _course(vsv.lengths, vsv.drive, vsv.terms, vsv.opening, duration)
+
+
+# Asked eight times by a run.
+@lru_cache(maxsize=4)
+def _course(
+    lengths: Lengths, drive: AnyDrive, terms: tuple[Term, ...], opening: Signal | None, duration: float
+) -> Course:
+    centres = np.array(dead_centres(lengths, *drive.crank_range(duration)))
     reversals = inside(np.concatenate([drive.turns(duration), drive.passes(centres, duration)]), duration)
-    motion = ideal_motion(vsv.lengths, drive, duration)
+    motion = ideal_motion(lengths, drive, duration)
     ends = np.concatenate([[0.0], reversals, [duration]])
-    of_time, of_vane, of_crank = (kinks_over(vsv.terms, over) for over in (TIME, VANE, CRANK_ANGLE))
-    if vsv.opening is not None:
-        of_time = np.union1d(of_time, vsv.opening.kinks)
+    of_time, of_vane, of_crank = (kinks_over(terms, over) for over in (TIME, VANE, CRANK_ANGLE))
+    if opening is not None:
+        of_time = np.union1d(of_time, opening.kinks)
     met = (crossings(motion.vane_angle, ends, of_vane), crossings(drive.angle, ends, of_crank))
     breaks = inside(np.concatenate([reversals, of_time, *met]), duration)
     ends = np.concatenate([[0.0], breaks, [duration]])

@@ -3,7 +3,8 @@
 widgets.field = (box) => {
   const field = new Field(box);
   const take = field.take.bind(field);
-  return { take, paint: () => field.paint(), show: (frame) => field.played && field.show(frame) };
+  const follows = () => field.played && clock.frames > 0;
+  return { take, paint: () => follows() || field.paint(), show: (frame) => follows() && field.show(frame) };
 };
 
 class Field {

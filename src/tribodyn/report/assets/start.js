@@ -42,6 +42,11 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** Write a text where another stands: written once more, the same would have the page laid out anew. */
+function write(place, text) {
+  if (place.textContent !== text) place.textContent = text;
+}
+
 /** Make a button that does something. */
 function button(label, action, attributes = {}) {
   const made = element("button", { type: "button", ...attributes }, label);

@@ -38,7 +38,7 @@ function findControls(text, all) {
   const used = place.matches(":active") || place.contains(document.activeElement);
   if (!used && there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
   const more = found.length > MOST_FOUND && !all ? `, the first ${MOST_FOUND} are shown` : "";
-  document.getElementById("found").textContent = words.length ? `${found.length} of ${others.length} keys${more}` : "";
+  write(document.getElementById("found"), words.length ? `${found.length} of ${others.length} keys${more}` : "");
   fillControls();
 }
 
@@ -170,7 +170,7 @@ function complain(key, text) {
   const box = key && controlAt(key);
   if (!box) return false;
   const fault = box.querySelector(".fault");
-  fault.textContent = text;
+  write(fault, text);
   fault.hidden = !text;
   box.querySelector(".entry").setAttribute("aria-invalid", String(Boolean(text)));
   return true;

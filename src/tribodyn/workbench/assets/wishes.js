@@ -96,9 +96,8 @@ const server = { ...READY, state: "loading", connected: false };
 
 /** Say what is waited for, and whose the numbers are meanwhile. */
 function tellState() {
-  const place = document.getElementById("state");
   const busy = wishes.awaited > 0;
-  place.textContent = stateInWords(busy);
+  write(document.getElementById("state"), stateInWords(busy));
   document.getElementById("stop").hidden = !(busy && server.connected && STOPPABLE.has(server.state));
   document.documentElement.classList.toggle("waiting", busy || !bench.shown);
 }
