@@ -77,6 +77,7 @@ bench: $(VENV)/.bench
 
 lock:
 	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --extra all pyproject.toml -o requirements.lock
+	uv pip compile --generate-hashes --universal --no-header --python-version 3.11 -c requirements.lock pyproject.toml -o tools/container.lock
 
 clean:
 	rm -rf $(VENV) docs/_build docs/reference/generated docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

@@ -204,10 +204,21 @@ def test_a_sweep_links_only_its_own_points(tmp_path: Path) -> None:
 
 
 def test_dependencies_are_pinned_with_hashes() -> None:
-    lock = (ROOT / "requirements.lock").read_text(encoding="utf-8")
-    pinned = re.findall(r"^([a-z0-9-]+)==\S+.*\\\n    --hash=sha256:", lock, flags=re.MULTILINE)
-    assert len(pinned) == len(re.findall(r"^[a-z0-9]", lock, flags=re.MULTILINE))
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    lists = [project["dependencies"], *project["optional-dependencies"].values()]
-    asked = {re.split(r"[^A-Za-z0-9-]", line)[0].lower() for lines in lists for line in lines}
-    assert asked - {"tribodyn"} <= set(pinned)
+    needed, extras = project["dependencies"], project["optional-dependencies"].values()
+    every, of_container = _pinned("requirements.lock"), _pinned("tools/container.lock")
+    assert _names(needed, *extras) - {"tribodyn"} <= {name for name, _ in every}
+    assert _names(needed) <= {name for name, _ in of_container}
+    assert of_container <= every
+
+
+def _names(*lists: list[str]) -> set[str]:
+    return {re.split(r"[^A-Za-z0-9-]", line)[0].lower() for lines in lists for line in lines}
+
+
+def _pinned(path: str) -> set[tuple[str, str]]:
+    """Return names and versions in a lock file, each of which must have a hash."""
+    lock = (ROOT / path).read_text(encoding="utf-8")
+    pinned = re.findall(r"^([a-z0-9-]+)==(\S+).*\\\n    --hash=sha256:", lock, flags=re.MULTILINE)
+    assert len(pinned) == len(re.findall(r"^[a-z0-9]", lock, flags=re.MULTILINE))
+    return set(pinned)
