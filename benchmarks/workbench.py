@@ -3,7 +3,8 @@
 python -m benchmarks.workbench [quick | MINUTES]
 
 A page in a browser is dragged; a client that says at once that it has drawn stands in for a page where the
-server alone is asked; many of them tell, for some minutes, what becomes of the memory. Needs Chromium.
+server alone is asked; many of them tell, for some minutes, what becomes of the memory, and a page on which
+runs are pinned, for a third of that, what becomes of its own. Needs Chromium.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from typing import Any, Final, NamedTuple
 
 import psutil
 
-from benchmarks import workbench_page
+from benchmarks import workbench_page, workbench_pins
 from benchmarks.workbench_hands import Hand, family, kept_busy, killed
 
 DRAG: Final = 20.0
@@ -54,6 +55,9 @@ BOUNDS: Final = (
     Bound("page", "without pictures [kB]", most=300.0),
     Bound("page", "requests to another origin", most=0.0),
     Bound("page", "serious faults by axe", most=0.0),
+    Bound("pins", "growth over its standard error", most=2.0),
+    Bound("pins", "errors of the page", most=0.0),
+    Bound("pins", "numbers of other values than wished", most=0.0),
     Bound("sockets", "server, growth over its standard error", most=2.0),
     Bound("sockets", "workers, growth over its standard error", most=2.0),
     Bound("sockets", "processes left behind", most=0.0),
@@ -73,6 +77,8 @@ def run(quick: bool = False, minutes: float = MINUTES) -> dict[str, Any]:
         return found
     with workbench() as (process, address):
         found |= workbench_page.measured(address, process.create_time(), DRAG)
+    with workbench() as (_, address):
+        found["pins"] = workbench_pins.pinned(address, minutes / 3.0)
     found |= asyncio.run(_together(minutes))
     found["hostile"] = _hostile()
     _print(found)

@@ -199,7 +199,7 @@ def _growth(rows: NDArray[np.float64]) -> dict[str, float]:
     told = {"pictures": rows[-1, 2], "MB sent": rows[-1, 1] / 1e6, "looked at from [s]": since[0, 0]}
     told["pictures until then"] = since[0, 2]
     for name, column in (("server", 3), ("workers", 4)):
-        slope, error = _line(since[:, 0] / 3600.0, since[:, column])
+        slope, error = line(since[:, 0] / 3600.0, since[:, column])
         told |= {
             f"{name}, MB at first": rows[0, column],
             f"{name}, MB from then": since[0, column],
@@ -211,7 +211,7 @@ def _growth(rows: NDArray[np.float64]) -> dict[str, float]:
     return {name: float(value) for name, value in told.items()}
 
 
-def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float]:
+def line(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float]:
     """Return the slope of the straight line of least squares, and its standard error."""
     (slope, start), spread = np.polyfit(x, y, 1, cov="unscaled")
     left = y - slope * x - start
