@@ -35,7 +35,7 @@ function findControls(text, all) {
   const place = document.querySelector("#controls .others");
   const there = [...place.children].map((one) => one.dataset.key).join();
   // A slider that is pressed speaks before it has the focus; anew it would not hear that it was let go.
-  const used = place.matches(":active") || place.contains(document.activeElement);
+  const used = gesture.before !== null || place.contains(document.activeElement);
   if (!used && there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
   const more = found.length > MOST_FOUND && !all ? `, the first ${MOST_FOUND} are shown` : "";
   write(document.getElementById("found"), words.length ? `${found.length} of ${others.length} keys${more}` : "");
