@@ -76,6 +76,13 @@ def _launched(playwright: Playwright, path: str) -> Browser:
     )
 
 
+@pytest.fixture
+def emulating(browser: Browser) -> None:
+    """Leave a test out in Firefox, which Playwright cannot have pretend by WebDriver BiDi."""
+    if browser.browser_type.name == "firefox":
+        pytest.skip("dark colours, paper, no scripts, double clicks: not by WebDriver BiDi")
+
+
 class Watched:
     """What a page said and asked for while it was open."""
 

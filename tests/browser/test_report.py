@@ -184,6 +184,7 @@ def _turn_by_keyboard(reader: Any) -> None:
     assert reader.plot("mechanism", "plot.plotted.solids[1].points[0]") > bore
 
 
+@pytest.mark.usefixtures("emulating")
 def test_it_is_dark_where_the_system_is(opened: Opened, report: Path) -> None:
     reader = _opened_wide(opened, report, dark=True)
     reader.keep_picture("report-dark")
@@ -218,6 +219,7 @@ def test_a_phone_shows_it_all_without_overflow(opened: Opened, report: Path) -> 
     reader.keep_picture("report-phone")
 
 
+@pytest.mark.usefixtures("emulating")
 def test_the_colours_follow_the_system_while_it_is_open(opened: Opened, report: Path) -> None:
     reader = opened(report)
     reader.look_at("orbit")
@@ -267,6 +269,7 @@ def test_a_result_with_next_to_nothing_opens(opened: Opened, result: xr.Dataset,
     assert reader.overflow() == 0
 
 
+@pytest.mark.usefixtures("emulating")
 def test_paper_gets_stills_and_no_controls(opened: Opened, report: Path, tmp_path: Path) -> None:
     reader = opened(report, width=720)
     page = reader.page
@@ -281,6 +284,7 @@ def test_paper_gets_stills_and_no_controls(opened: Opened, report: Path, tmp_pat
     assert (tmp_path / "report.pdf").stat().st_size > 50_000
 
 
+@pytest.mark.usefixtures("emulating")
 def test_without_scripts_it_still_says_everything(browser: Any, report: Path) -> None:
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
@@ -365,6 +369,7 @@ def test_a_journal_is_followed(opened: Opened, tmp_path: Path) -> None:
     reader.keep_picture("journal")
 
 
+@pytest.mark.usefixtures("emulating")
 def test_a_drag_zooms_and_a_double_click_goes_back(opened: Opened, report: Path) -> None:
     reader = opened(report)
     reader.look_at("contact-force")
