@@ -75,6 +75,10 @@ def _number(value: Value | None) -> float | None:
     return float(value) if plain else None  # type: ignore[arg-type]
 
 
+_GOES_ON: Final = re.compile(r"(at|between|by|for|from|in|its|linear|of|over|where|which|with)\b")
+"""How a meaning begins that goes on from the name of its key."""
+
+
 def label(case: Case, key: Key) -> str:
     """Return what a key is called where there is little room.
 
@@ -85,7 +89,8 @@ def label(case: Case, key: Key) -> str:
         if isinstance(case.at(".".join(parts[:place])), Tables):
             words = [part.replace("_", " ") for part in parts[place + 1 :] if part != VALUE]
             return f"{parts[place]}: {', '.join(words)}"
-    return re.split("[;:]", key.description)[0]
+    meaning = re.split("[;:]", key.description)[0]
+    return f"{parts[-1].replace('_', ' ')}, {meaning}" if _GOES_ON.match(meaning) else meaning
 
 
 def _control(case: Case, key: Key, first: bool) -> dict[str, Any]:

@@ -78,6 +78,7 @@ def test_what_has_no_size_has_no_slider():
         ("slider-crank", "drives.motor.speed.value", "motor: speed"),
         ("slider-crank", "joints.wrist.clearance.radial", "wrist: clearance, radial"),
         ("vsv", "surfaces.bushing.roughness", "root mean square roughness sigma_2"),
+        ("vsv", "surfaces.bushing.conductivity", "conductivity, of heat"),
     ],
 )
 def test_controls_have_short_names_that_tell_them_apart(name, path, expected):
