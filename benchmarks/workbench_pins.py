@@ -22,7 +22,8 @@ STEPS: Final = 40
 """Positions of the pointer in one gesture."""
 APART: Final = 0.04
 """Time between two of them [s]."""
-AT_REST: Final = "() => !wishes.awaited && bench.shown"
+AT_REST: Final = "() => !wishes.awaited && Boolean(bench.shown)"
+"""No run itself, which Playwright would hold for whoever asked."""
 OWN: Final = """() => {
   const whose = document.getElementById("whose").textContent;
   const { values } = bench.shown;

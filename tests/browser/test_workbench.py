@@ -445,6 +445,37 @@ def test_over_a_slow_line_the_last_wish_is_shown_last(at: Opened) -> None:
     assert shown != {}
 
 
+def test_a_picture_that_comes_late_does_not_take_away_why_a_wish_was_refused(at: Opened) -> None:
+    delayed: list[tuple[WebSocketRoute, Any]] = []
+
+    def line(route: WebSocketRoute) -> None:
+        route.connect_to_server().on_message(lambda message: delayed.append((route, message)))
+
+    person = at(line=line)
+    _deliver(person, delayed, "bench.shown && !wishes.awaited")
+    person.page.evaluate("bench.gesture({'drive.speed_amplitude': '18 deg/s'})")
+    while not any(isinstance(message, bytes) for _, message in delayed):
+        person.page.wait_for_timeout(50)
+    person.page.evaluate("bench.gesture({'drive.speed_amplitude': '-45 deg/s'})")
+    while not any('"refused"' in message for _, message in delayed if isinstance(message, str)):
+        person.page.wait_for_timeout(50)
+    delayed.sort(key=lambda one: isinstance(one[1], bytes))
+    _deliver(person, delayed, "bench.shown.values['drive.speed_amplitude'] === '18 deg/s'")
+    assert "reaches only" in person.page.locator("#trouble").inner_text()
+    person.press("u")
+    _deliver(person, delayed, "!wishes.awaited")
+    assert not person.page.locator("#trouble").is_visible()
+
+
+def test_of_an_address_with_unknown_keys_the_page_says_so(at: Opened) -> None:
+    person = at("#joint.clearance=24um&joint.colour=red")
+    person.wait_until_shown({CLEARANCE: "24 um"})
+    assert "does not have" in person.page.locator("#trouble").inner_text()
+    person.type_into(CLEARANCE, "25 um")
+    person.wait_until_shown({CLEARANCE: "25 um"})
+    assert not person.page.locator("#trouble").is_visible()
+
+
 def _deliver(person: Person, delayed: list[tuple[WebSocketRoute, Any]], truth: str) -> None:
     """Bring what is on its way one by one, a little later each, until something is true."""
     for _ in range(600):

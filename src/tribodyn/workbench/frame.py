@@ -2,8 +2,8 @@
 
 Sixteen bytes begin a frame: a magic number, the number of the request that it answers, the length of the
 header and flags, each an unsigned integer of 32 bits, little-endian as all of it. Arrays begin at multiples
-of eight bytes, so that a browser views them where they are. All but these sixteen bytes can be kept and sent
-again.
+of eight bytes, so that a browser views them where they are; equal ones, such as the times of all curves,
+stand there once. All but these sixteen bytes can be kept and sent again.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def body(header: Mapping[str, Any]) -> bytes:
     header
         What the page reads. Arrays in it, at any depth, become their kind with offset and length.
     """
-    arrays: list[bytes] = []
+    offsets: dict[bytes, int] = {}
     size = 0
 
     def placed(value: object) -> dict[str, list[int]]:
@@ -38,14 +38,15 @@ def body(header: Mapping[str, Any]) -> bytes:
         if not isinstance(value, Packed):
             raise TypeError(f"{type(value).__name__} has no place in a frame")
         content = value.array.tobytes()
-        arrays.append(content + bytes(-len(content) % _UNIT))
-        offset, size = size, size + len(arrays[-1])
+        content += bytes(-len(content) % _UNIT)
+        offset = offsets.setdefault(content, size)
+        size += len(content) if offset == size else 0
         return {value.code: [offset, value.array.size]}
 
     text = json.dumps(header, default=placed, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     head = text.encode("utf-8", "replace")
     head += b" " * (-len(head) % _UNIT)
-    return struct.pack("<I", len(head)) + b"".join([head, *arrays])
+    return struct.pack("<I", len(head)) + b"".join([head, *offsets])
 
 
 def addressed(content: bytes, number: int, flags: int) -> bytes:

@@ -28,6 +28,15 @@ def test_arrays_stand_where_the_header_says_at_multiples_of_eight():
     assert frame.header(made) == answer.header
 
 
+def test_equal_arrays_stand_there_once():
+    times, values = packed(np.arange(100.0), "float64"), packed(np.ones(100))
+    made = frame.body({"a": [times, values], "b": [packed(np.arange(100.0), "float64"), packed([])]})
+    header = frame.header(made)
+    assert header["a"][0] == header["b"][0]
+    assert header["a"][1] != header["a"][0]
+    assert len(made) < len(frame.body({"a": [times, values]})) + 100
+
+
 def test_a_header_holds_no_nan():
     with pytest.raises(ValueError, match="not JSON compliant"):
         frame.body({"x": float("nan")})

@@ -80,8 +80,8 @@ function numberRow(one) {
 
 /** Say what speaks against trusting the run. */
 function tellDoubts() {
-  const { failure, warnings } = bench.shown;
-  trouble(failure && `This run is not complete: ${failure}`);
+  const { failure, warnings, number: mine } = bench.shown;
+  if (mine >= wishes.troubled) trouble(failure && `This run is not complete: ${failure}`, mine);
   const doubts = document.getElementById("doubts");
   doubts.hidden = !warnings.length;
   doubts.querySelector("summary").textContent = `Before you trust these numbers (${warnings.length})`;

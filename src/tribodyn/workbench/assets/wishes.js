@@ -15,6 +15,8 @@ const wishes = {
   awaited: 0,
   /** Number and values of the last wish that was no look at a point of a sweep. */
   own: 0,
+  /** Number of the wish that the trouble shown is of: a run of an earlier one does not take it away. */
+  troubled: 0,
   sent: null,
   last: 0,
   due: null,
@@ -44,21 +46,15 @@ const wishes = {
     tellState();
   },
 
-  /** Draw a run with the next picture of the screen, and say so. */
+  /** Draw a run, and say so with the next picture of the screen: faster than that none need be sent. */
   arrived(run) {
     wishes.typed.delete(run.number);
     if (server.state === "running") Object.assign(server, READY);
     if (run.number === wishes.awaited) wishes.awaited = 0;
     // From here on values are written as the case model writes them: "0.03 mm" as "30 um".
     if (run.number === wishes.own && bench.values === wishes.sent) bench.values = wishes.sent = run.values;
-    wishes.newest = run;
-    if (wishes.drawing) return;
-    wishes.drawing = true;
-    requestAnimationFrame(() => {
-      wishes.drawing = false;
-      bench.show(wishes.newest);
-      line.say({ type: "drawn", number: wishes.newest.number });
-    });
+    bench.show(run);
+    requestAnimationFrame(() => line.say({ type: "drawn", number: run.number }));
   },
 
   /** Give up the run that is waited for; what is shown is wished again. */
@@ -77,7 +73,7 @@ const wishes = {
     const typed = wishes.typed.get(number);
     wishes.typed.delete(number);
     const told = faults.filter(({ key, message: text }) => complain(key ?? typed?.key, text));
-    if (told.length < faults.length) trouble(message);
+    if (told.length < faults.length) trouble(message, number);
     if (typed && bench.values[typed.key] === typed.text) wishes.takeBack(typed);
     tellState();
   },
@@ -115,8 +111,9 @@ function stateInWords(busy) {
   return parts.filter(Boolean).join(" · ");
 }
 
-/** Show a trouble that belongs to no key; an empty text takes it away. */
-function trouble(text) {
+/** Show a trouble that belongs to no key; an empty text takes it away, as does the run of a later wish. */
+function trouble(text, number = wishes.number) {
+  wishes.troubled = number;
   const box = document.getElementById("trouble");
   box.textContent = text;
   box.hidden = !text;
