@@ -115,6 +115,8 @@ class Person(Reader):
 
 
 Opened = Callable[..., Person]
+Delayed = list[tuple[WebSocketRoute, str | bytes]]
+"""Messages to pages, in their order."""
 
 
 @pytest.fixture
@@ -431,12 +433,7 @@ def test_before_something_long_it_asks(at: Opened) -> None:
 
 
 def test_over_a_slow_line_the_last_wish_is_shown_last(at: Opened) -> None:
-    delayed: list[tuple[WebSocketRoute, Any]] = []
-
-    def line(route: WebSocketRoute) -> None:
-        route.connect_to_server().on_message(lambda message: delayed.append((route, message)))
-
-    person = at(line=line)
+    person, delayed = _over_a_line_held_up(at)
     _deliver(person, delayed, "bench.shown")
     _drag(person, 0.39, 0.6, steps=4)
     _deliver(person, delayed, "!wishes.awaited")
@@ -446,12 +443,7 @@ def test_over_a_slow_line_the_last_wish_is_shown_last(at: Opened) -> None:
 
 
 def test_a_picture_that_comes_late_does_not_take_away_why_a_wish_was_refused(at: Opened) -> None:
-    delayed: list[tuple[WebSocketRoute, Any]] = []
-
-    def line(route: WebSocketRoute) -> None:
-        route.connect_to_server().on_message(lambda message: delayed.append((route, message)))
-
-    person = at(line=line)
+    person, delayed = _over_a_line_held_up(at)
     _deliver(person, delayed, "bench.shown && !wishes.awaited")
     person.page.evaluate("bench.gesture({'drive.speed_amplitude': '18 deg/s'})")
     while not any(isinstance(message, bytes) for _, message in delayed):
@@ -476,7 +468,17 @@ def test_of_an_address_with_unknown_keys_the_page_says_so(at: Opened) -> None:
     assert not person.page.locator("#trouble").is_visible()
 
 
-def _deliver(person: Person, delayed: list[tuple[WebSocketRoute, Any]], truth: str) -> None:
+def _over_a_line_held_up(at: Opened) -> tuple[Person, Delayed]:
+    """Return a page, and what is on its way there, which does not arrive by itself."""
+    delayed: Delayed = []
+
+    def line(route: WebSocketRoute) -> None:
+        route.connect_to_server().on_message(lambda message: delayed.append((route, message)))
+
+    return at(line=line), delayed
+
+
+def _deliver(person: Person, delayed: Delayed, truth: str) -> None:
     """Bring what is on its way one by one, a little later each, until something is true."""
     for _ in range(600):
         person.page.wait_for_timeout(100)
