@@ -31,6 +31,11 @@ OWN: Final = """() => {
   return whose.endsWith(valuesInWords(values)) && (refused || sameValues(values, bench.values));
 }"""
 """Whether numbers are those of the run shown, and that is what is wished, unless the page says why not."""
+RUNS: Final = """() => {
+  const buffers = [bench.shown, ...bench.trail, ...bench.pins].map(({ clock }) => clock.time.buffer);
+  return [...new Set(buffers)].reduce((size, buffer) => size + buffer.byteLength, 0);
+}"""
+"""Size of the runs that the page keeps, some large and some small [bytes]."""
 _FIRST: Final = 10
 """Looks at the page before which it fills what it may keep."""
 
@@ -64,7 +69,7 @@ def pinned(address: str, minutes: float, picture: Path | None = None) -> dict[st
 
 
 def _looks(page: Page, protocol: CDPSession, seconds: float) -> Iterator[list[float]]:
-    """Yield after each gesture time [s], what the page holds [MB], elements, and strange values."""
+    """Yield after each gesture time [s], what the page holds beside runs [MB], elements, strange values."""
     chance, begin = np.random.default_rng(0), time.perf_counter()
     sliders = page.locator("#first input[type=range]")
     while time.perf_counter() - begin < seconds:
@@ -77,7 +82,7 @@ def _looks(page: Page, protocol: CDPSession, seconds: float) -> Iterator[list[fl
             page.wait_for_function(AT_REST, timeout=600_000)
         protocol.send("HeapProfiler.collectGarbage")
         held = protocol.send("Runtime.getHeapUsage")
-        megabytes = (held["usedSize"] + held["backingStorageSize"]) / 1e6
+        megabytes = (held["usedSize"] + held["backingStorageSize"] - page.evaluate(RUNS)) / 1e6
         nodes = protocol.send("Memory.getDOMCounters")["nodes"]
         yield [time.perf_counter() - begin, megabytes, float(nodes), float(not own)]
 
@@ -112,8 +117,8 @@ def _told(rows: Any) -> dict[str, float]:
     slope, error = line(times[later] / 3600.0, held[later])
     return {
         "gestures": float(len(rows)),
-        "MB at first": float(held[0]),
-        "MB from then": float(held[later][0]),
+        "MB beside runs, at first": float(held[0]),
+        "MB from then on": float(held[later][0]),
         "MB at last": float(held[-1]),
         "MB an hour": slope,
         "its standard error": error,
