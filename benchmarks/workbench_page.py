@@ -22,6 +22,7 @@ BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") 
 OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader")
 """WebGL alone in software: a page put together in software by it, too, costs a third more."""
 DRAWN: Final = "() => typeof bench === 'object' && bench.shown && !wishes.awaited"
+"""Ends in a truth: a run that it returned would be held by Playwright."""
 DRAG: Final = """async ([key, apart, seconds]) => {
   const slider = controlAt(key).querySelector("input[type=range]");
   const moved = new Map();

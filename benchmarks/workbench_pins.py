@@ -22,8 +22,6 @@ STEPS: Final = 40
 """Positions of the pointer in one gesture."""
 APART: Final = 0.04
 """Time between two of them [s]."""
-AT_REST: Final = "() => !wishes.awaited && Boolean(bench.shown)"
-"""No run itself, which Playwright would hold for whoever asked."""
 OWN: Final = """() => {
   const whose = document.getElementById("whose").textContent;
   const { values } = bench.shown;
@@ -74,12 +72,12 @@ def _looks(page: Page, protocol: CDPSession, seconds: float) -> Iterator[list[fl
     sliders = page.locator("#first input[type=range]")
     while time.perf_counter() - begin < seconds:
         _drag(page, sliders.nth(int(chance.integers(sliders.count()))), float(chance.uniform(0.05, 0.95)))
-        page.wait_for_function(AT_REST, timeout=600_000)
+        page.wait_for_function(DRAWN, timeout=600_000)
         own = page.evaluate(OWN)
         _pin(page)
         if page.locator("#trouble").is_visible():
             page.keyboard.press("u")
-            page.wait_for_function(AT_REST, timeout=600_000)
+            page.wait_for_function(DRAWN, timeout=600_000)
         protocol.send("HeapProfiler.collectGarbage")
         held = protocol.send("Runtime.getHeapUsage")
         megabytes = (held["usedSize"] + held["backingStorageSize"] - page.evaluate(RUNS)) / 1e6

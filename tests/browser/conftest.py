@@ -76,10 +76,15 @@ def _launched(playwright: Playwright, path: str) -> Browser:
     )
 
 
+def by_bidi(browser: Browser | None) -> bool:
+    """Tell whether this is Firefox, to which Playwright speaks by WebDriver BiDi, and not as well."""
+    return browser is not None and browser.browser_type.name == "firefox"
+
+
 @pytest.fixture
 def emulating(browser: Browser) -> None:
     """Leave a test out in Firefox, which Playwright cannot have pretend by WebDriver BiDi."""
-    if browser.browser_type.name == "firefox":
+    if by_bidi(browser):
         pytest.skip("dark colours, paper, no scripts, double clicks: not by WebDriver BiDi")
 
 

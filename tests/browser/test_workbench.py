@@ -18,7 +18,7 @@ from tests.unit.workbench.host import TRIBODYN
 
 from tribodyn.mechanisms.results import summarise
 
-from .conftest import NO_WEBGL, Reader, Watched
+from .conftest import NO_WEBGL, Reader, Watched, by_bidi
 
 SOON = 60_000.0
 """Time within which everything must have happened, on a machine that does other things too [ms]."""
@@ -91,15 +91,9 @@ class Person(Reader):
         for key in keys:
             self.page.keyboard.press(key)
 
-    @property
-    def by_bidi(self) -> bool:
-        """Whether this is Firefox, to which Playwright speaks by WebDriver BiDi, and not as well."""
-        browser = self.page.context.browser
-        return browser is not None and browser.browser_type.name == "firefox"
-
     def click_twice(self, place: Locator) -> None:
         """Double click; by BiDi two clicks stay two, though not those of a mouse."""
-        if self.by_bidi:
+        if by_bidi(self.page.context.browser):
             place.dispatch_event("dblclick")
         else:
             place.dblclick()
@@ -693,7 +687,7 @@ def _save(person: Person, name: str, act: Callable[[], None]) -> None:
     with person.page.expect_download(timeout=SOON) as download:
         act()
     # By BiDi the file is in the person's own folder, beside earlier ones.
-    if not person.by_bidi:
+    if not by_bidi(person.page.context.browser):
         assert download.value.suggested_filename == name
         assert Path(download.value.path()).stat().st_size > 100_000
     person.press("Escape")

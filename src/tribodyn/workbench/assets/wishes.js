@@ -115,6 +115,6 @@ function stateInWords(busy) {
 function trouble(text, number = wishes.number) {
   wishes.troubled = number;
   const box = document.getElementById("trouble");
-  box.textContent = text;
+  write(box, text);
   box.hidden = !text;
 }
