@@ -6,11 +6,12 @@ BIN := $(VENV)/bin
 DEMO := out/demo
 DOCS := docs/_build/html
 # Every script that draws for the manual; demo.py and tour.py draw what is kept, on demand.
-PLOTS := $(filter-out docs/plots/demo.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
+PLOTS := $(filter-out docs/plots/demo.py docs/plots/mechanism.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
 DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
 PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
 # One more than there are cores: many tests wait for processes that they watch.
 PYTEST := $(BIN)/python -m pytest -n 3 --dist worksteal
+NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:
 .PHONY: help demo assumptions ready kernels test test-long golden lint format docs bench lock clean
@@ -19,7 +20,7 @@ help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
-	@echo "make test-long   those too"
+	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
 	@echo "make golden      store headline numbers and messages anew"
 	@echo "make lint        style, types and layers"
 	@echo "make format      apply the style"
@@ -40,8 +41,12 @@ assumptions: demo
 test: ready
 	$(PYTEST) -m "not long"
 
+# Numerical tests must not depend on rounding: ten relative tolerances 1e-9 apart take other roundings each.
 test-long: ready
 	$(PYTEST)
+	for factor in 1 2 3 4 5 6 7 8 9; do \
+		$(PYTEST) -m "not long and not house" --tolerance-factor=$$factor $(NUMERICAL) || exit 1; \
+	done
 
 golden: $(VENV)/.dev
 	$(BIN)/python tests/golden/test_headlines.py

@@ -11,6 +11,7 @@ import numpy as np
 from numba.core.types import FunctionType
 
 from benchmarks.problems import JAC, RHS, Benchmark
+from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mebdf.core import resume
 from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, NEED_JACOBIAN
@@ -57,7 +58,9 @@ def _repeated(rhs, jac, state, start, repeats):  # type: ignore[no-untyped-def]
     """Integrate again and again from the same start."""
     failed = False
     for _ in range(repeats):
-        state.real[:], state.counts[:], state.rows[:, :] = start[0], start[1], start[2]
+        copy(start[0], state.real)
+        copy(start[1], state.counts)
+        copy(start[2].reshape(-1), state.rows.reshape(-1))
         failed = _run(rhs, jac, state)
     return failed
 

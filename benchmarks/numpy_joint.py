@@ -17,8 +17,16 @@ def gap_and_approach(
     tan_x, tan_y = np.tan(y[2:4])
     z, c, s = joint.z[:, None], joint.cos_theta, joint.sin_theta
     v_a, v_b = y[4] - z * y[7] * (1 + tan_y**2), y[5] - z * y[6] * (1 + tan_x**2)
+    w, w_dot = leaning(y, c, s)
     gap = joint.clearance + (y[0] - z * tan_y) * c + (y[1] - z * tan_x) * s + joint.wear
-    return gap, -(v_a * c + v_b * s), v_a, v_b
+    bulge = joint.journal_radius * w
+    return gap - 0.5 * bulge * w, bulge * w_dot - (v_a * c + v_b * s), v_a, v_b
+
+
+def leaning(y: FloatArray, c: FloatArray, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the slope w of the axis along the normal of each column, and its rate [1/s]."""
+    tan_x, tan_y = np.tan(y[2:4])
+    return -(tan_y * c + tan_x * s), -(y[7] * (1 + tan_y**2) * c + y[6] * (1 + tan_x**2) * s)
 
 
 def numpy_wrench(
@@ -41,9 +49,11 @@ def numpy_wrench(
     tau = -joint.friction_coefficient * pressure * slip / np.hypot(slip, joint.slip_velocity)
     area = joint.area[:, None]
     normal = np.array([(area * pressure * c).sum(), (area * pressure * s).sum()])
-    f_x, f_y = area * (pressure * c + tau * s), area * (pressure * s - tau * c)
+    p_x, p_y, tau_x, tau_y = area * pressure * c, area * pressure * s, area * tau * s, -area * tau * c
+    arm = z - joint.journal_radius * leaning(y, c, s)[0]
     torque = (area * joint.journal_radius * tau).sum()
-    return np.array([f_x.sum(), f_y.sum(), -(z * f_y).sum(), -(z * f_x).sum(), torque]), normal
+    m_x, m_y = -(arm * p_y + z * tau_y).sum(), -(arm * p_x + z * tau_x).sum()
+    return np.array([(p_x + tau_x).sum(), (p_y + tau_y).sum(), m_x, m_y, torque]), normal
 
 
 def numpy_update(joint: BushingData, y: FloatArray, entry: FloatArray) -> None:

@@ -122,8 +122,8 @@ async def _alone(process: psutil.Process, address: str, seconds: float) -> dict[
 async def _together(minutes: float) -> dict[str, dict[str, float]]:
     """Ask on many sockets, end the workbench, and count what is left of it."""
     with workbench() as (process, address):
-        base, cookie = await Hand.entry(address)
-        found = await kept_busy(process, base, cookie, SOCKETS, minutes)
+        place, cookie = await Hand.entry(address)
+        found = await kept_busy(process, place, cookie, SOCKETS, minutes)
         all_of_it: Sequence[psutil.Process] = family(process)
         process.terminate()
         _, left = psutil.wait_procs(all_of_it, timeout=60.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 import time
 from collections.abc import Sequence
 from typing import Final
@@ -42,17 +43,20 @@ class Hand:
 
     @staticmethod
     async def entry(address: str) -> tuple[str, str]:
-        """Trade the key in an address; return the address without it, and the cookie."""
+        """Trade the token in an address; return where sockets are, with the page's secret, and the cookie."""
         # Whose name only browsers know, and which may be called by its number, too.
         address = address.replace(str(urlsplit(address).hostname), "127.0.0.1", 1)
         answer = await AsyncHTTPClient().fetch(address)
-        return address.partition("?")[0], answer.headers["Set-Cookie"].partition(";")[0]
+        secret = re.search(r'name="secret" content="([^"]+)"', answer.body.decode())
+        assert secret is not None
+        sockets = f"{address.partition('?')[0]}socket?secret={secret[1]}".replace("http", "ws", 1)
+        return sockets, answer.headers["Set-Cookie"].partition(";")[0]
 
     @classmethod
-    async def at(cls, base: str, cookie: str) -> Hand:
+    async def at(cls, sockets: str, cookie: str) -> Hand:
         """Open a socket."""
-        headers = {"Cookie": cookie, "Origin": base.rstrip("/")}
-        request = HTTPRequest(base.replace("http", "ws", 1) + "socket", headers=headers)
+        headers = {"Cookie": cookie, "Origin": f"http://{urlsplit(sockets).netloc}"}
+        request = HTTPRequest(sockets, headers=headers)
         return cls(await websocket_connect(request, max_message_size=LARGEST))
 
     async def wish(self, values: dict[str, str], *, rest: bool = False) -> None:
@@ -147,10 +151,10 @@ async def _busiest(some: Sequence[psutil.Process]) -> psutil.Process:
 
 
 async def kept_busy(
-    process: psutil.Process, base: str, cookie: str, sockets: int, minutes: float
+    process: psutil.Process, place: str, cookie: str, sockets: int, minutes: float
 ) -> dict[str, float]:
     """Ask on many sockets, and see what the memory does once all that may be kept is kept."""
-    hands = [await Hand.at(base, cookie) for _ in range(sockets)]
+    hands = [await Hand.at(place, cookie) for _ in range(sockets)]
     seconds = 60.0 * minutes
     tasks = [asyncio.create_task(hand.released(seconds, seed)) for seed, hand in enumerate(hands)]
     rows, begin = [], time.perf_counter()

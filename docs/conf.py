@@ -31,6 +31,7 @@ extensions = [
     "materials",
     "benchmark_tables",
     "mathml",
+    "numbers_of_runs",
     "reference",
 ]
 exclude_patterns = ["_build"]

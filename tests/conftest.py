@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,8 +13,10 @@ import pytest
 from tribodyn.contact import SurfacePair, law, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
-from tribodyn.integrate import integrate
+from tribodyn.integrate import integrate, mebdf_solver
+from tribodyn.integrate.driver import Stepwise
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.kernels.mebdf import state
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.vsv.parameters import AirLoads, Drive, Inertias, Lengths, Vsv
@@ -27,6 +30,42 @@ ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
 """Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s], a twentieth of the default ones."""
 
 Columns = dict[str, FloatArray]
+OTHER_ROUNDINGS = range(10)
+"""Values of ``--tolerance-factor``."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--tolerance-factor",
+        type=int,
+        default=0,
+        choices=OTHER_ROUNDINGS,
+        metavar="K",
+        help="multiply relative tolerances by 1 + K·1e-9, so that every integration takes other roundings",
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if number := config.getoption("tolerance_factor"):
+        scale_tolerances(1.0 + 1e-9 * number)
+
+
+def scale_tolerances(factor: float) -> None:
+    """Multiply every relative tolerance by a factor, for the rest of this process.
+
+    All integrations by MEBDF, compiled or called by SciPy, begin with ``new_state``; those by other methods
+    go through :class:`Stepwise`. Processes that tests start are not changed.
+    """
+    new_state, integrated = state.new_state, Stepwise.__call__
+
+    def scaled_state(t: float, y: FloatArray, t_end: float, rtol: Any, *others: Any, **options: Any) -> Any:
+        return new_state(t, y, t_end, factor * np.asarray(rtol), *others, **options)
+
+    def scaled_call(self: Stepwise, problem: Any, schedule: Any, rtol: float, *others: Any) -> Any:
+        return integrated(self, problem, schedule, factor * rtol, *others)
+
+    state.new_state = mebdf_solver.new_state = scaled_state
+    Stepwise.__call__ = scaled_call  # type: ignore[method-assign]
 
 
 @pytest.fixture(scope="session")
@@ -77,6 +116,8 @@ def make_joint(contact_table: ContactTable, table_1_pair: SurfacePair) -> Callab
 
 SIZES = {
     "cylinder": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3},
+    "wide": {"radius": 200e-3, "radial": 20e-6, "length": 20e-3},
+    "piston": {"radius": 200e-3, "radial": 20e-6, "length": 40e-3, "pin_length": 20e-3},
     "flanged": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3, "axial": 15e-6, "flange": 9e-3},
     "annulus": {"inner": 6e-3, "outer": 9e-3, "axial": 20e-6, "height": 10e-3},
     "sphere": {"radius": 8e-3, "radial": 20e-6, "band": 0.8},
@@ -84,8 +125,12 @@ SIZES = {
     "mesh": {"gap": 20e-6, "edge": 4e-3},
     "guide": {"gap": 20e-6, "edge": 4e-3, "slides": 1.0},
 }
-"""Sizes of a clearance joint of each shape [m]; ``flanged`` has end faces, ``guide`` is square."""
-VARIANTS = {"flanged": "cylinder", "guide": "mesh"}
+"""Sizes of a clearance joint of each shape [m].
+
+``wide`` and ``piston`` have ten times the radius of their length, ``flanged`` has end faces, ``guide`` is
+square.
+"""
+VARIANTS = {"wide": "cylinder", "piston": "cylinder", "flanged": "cylinder", "guide": "mesh"}
 
 
 def square_tube(half: float) -> FloatArray:
@@ -114,9 +159,9 @@ def make_clearance(contact_table: ContactTable, table_1_pair: SurfacePair) -> Ca
         return Clearance(
             shape=VARIANTS.get(shape, shape),
             sizes=SIZES[shape] | sizes,
-            socket=0,
             grid=grid,
             roughness=table_1_pair.roughness_rms,
+            law=law("rsdc", table_1_pair),
             table=table,
             friction_coefficient=coefficient,
             slip_velocity=slip_velocity,

@@ -1,10 +1,11 @@
-"""Directive ``case-keys``: the keys of a kind of case as tables, made from the models."""
+"""Directives on cases, made from the models: all keys of a kind, those that are assumed, sizes of joints."""
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterator
 from itertools import groupby
-from typing import Any
+from typing import Any, Final
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
@@ -12,20 +13,74 @@ from docutils.statemachine import StringList
 
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import ANY_NAME, groups_of
-from tribodyn.mechanisms.catalogue import kinds
+from tribodyn.mechanisms.catalogue import kinds, load_case
 
 
-class CaseKeys(Directive):
-    """Argument: the kind of case, such as ``vsv``."""
+class Tables(Directive):
+    """Tables about a case."""
 
     required_arguments = 1
+
+    def lines(self, about: str) -> Iterator[str]:
+        """Give the Markdown."""
+        raise NotImplementedError
 
     def run(self) -> list[nodes.Node]:
         """Return the tables."""
         container = nodes.container()
-        lines = StringList(list(_markdown(kinds()[self.arguments[0]])), source="case-keys")
+        lines = StringList(list(self.lines(self.arguments[0])), source=self.name)
         self.state.nested_parse(lines, self.content_offset, container)
         return container.children
+
+
+class CaseKeys(Tables):
+    """Argument: the kind of case, such as ``vsv``."""
+
+    def lines(self, about: str) -> Iterator[str]:
+        """Give a table for each group of keys."""
+        return _markdown(kinds()[about])
+
+
+class AssumedKeys(Tables):
+    """Argument: the kind of case. Every key whose value is assumed."""
+
+    def lines(self, about: str) -> Iterator[str]:
+        """Give one table."""
+        yield "| key | value | meaning |"
+        yield "|---|---|---|"
+        for name, key in keys_of(kinds()[about]).items():
+            if key.source == "assumed":
+                value = "" if key.default is None else f"`{key.write(key.default)}`"
+                path, meaning = name.replace(ANY_NAME, "NAME"), key.description.replace("|", BAR)
+                yield f"| `{path}` | {value} | {meaning} |"
+
+
+class JointSizes(Tables):
+    """Argument: a built-in case of bodies and joints. The sizes of the clearance of each joint."""
+
+    def lines(self, about: str) -> Iterator[str]:
+        """Give one table."""
+        joints = tomllib.loads(load_case(about).to_toml())["joints"]
+        yield "| joint | type | sizes |"
+        yield "|---|---|---|"
+        for name, joint in joints.items():
+            given = joint.get("clearance", {})
+            sizes = (f"{key.replace('_', ' ')} {given[key]}" for key in SIZES if key in given)
+            yield f"| {name} | {joint['type']} | {', '.join(sizes)} |"
+
+
+BAR: Final = "\\|"
+SIZES: Final = (
+    "radius",
+    "radial",
+    "length",
+    "axial",
+    "axial_upper",
+    "axial_lower",
+    "gap",
+    "friction_coefficient",
+)
+"""Keys of a joint's clearance that are sizes, or its friction."""
 
 
 def _markdown(model: type[Case]) -> Iterator[str]:
@@ -57,4 +112,6 @@ def _cells(key: Key) -> Iterator[str]:
 def setup(app: Any) -> dict[str, bool]:
     """Register the directive."""
     app.add_directive("case-keys", CaseKeys)
+    app.add_directive("assumed-keys", AssumedKeys)
+    app.add_directive("joint-sizes", JointSizes)
     return {"parallel_read_safe": True}

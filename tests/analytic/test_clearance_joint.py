@@ -32,7 +32,7 @@ from tribodyn.mechanisms.general.description import Clearance
 
 MakeClearance = Callable[..., Clearance]
 POINT = "point-lankarani-nikravesh"
-SHAPES = ("cylinder", "flanged", "annulus", "sphere", "ball", "mesh", "guide")
+SHAPES = ("cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "mesh", "guide")
 KINDS = (*SHAPES, "cylinder at points", "sphere at a point")
 
 BALLS = ("sphere", "ball", "sphere at a point")
@@ -46,6 +46,8 @@ STEP = np.repeat([1.6e-11, 1.6e-9, 1e-7, 1e-5], 3)
 def kinds(make_clearance: MakeClearance, table_1_pair: SurfacePair) -> dict[str, Clearance]:
     """One clearance of each kind, on a coarse grid: identities hold for any."""
     made = {kind: make_clearance(kind, grid=(24, 6)) for kind in SHAPES}
+    for kind in ("wide", "piston"):  # whose surface speeds are larger with their radius
+        made[kind] = make_clearance(kind, grid=(24, 6), slip_velocity=3e-4)
     chosen = law("rsdc", table_1_pair)
     for kind in KINDS[len(SHAPES) :]:
         shape = kind.split(maxsplit=1)[0]
@@ -74,7 +76,7 @@ def draw(kind: str, seed: int) -> tuple[FloatArray, FloatArray, FloatArray, Floa
     # A ball has no tilt, a square journal is held in its tube.
     lean = random.uniform(-1.0, 1.0, 2) * (0.5 if kind in BALLS else 1e-3)
     rotation = tilted(*lean, spin=1e-3 if kind in ("mesh", "guide") else 1.0)
-    if "cylinder" in kind or kind == "guide":  # which may have slid along their axis
+    if "cylinder" in kind or kind in ("wide", "guide"):  # which may have slid along their axis
         d += 5e-3 * random.normal() * rotation[:, 2] / rotation[2, 2]
     if kind == "ball":
         d[2] = 5e-3 * random.normal()
@@ -161,7 +163,9 @@ def test_the_report_adds_up_to_the_wrench(kind: str, kinds: dict[str, Clearance]
         np.testing.assert_allclose(total, out, rtol=0.0, atol=1e-13 * np.abs(out).max())
 
 
-@pytest.mark.parametrize("kind", ["cylinder", "flanged", "annulus", "sphere", "ball", "cylinder at points"])
+@pytest.mark.parametrize(
+    "kind", ["cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "cylinder at points"]
+)
 def test_a_journal_of_revolution_spins_freely_without_friction(
     kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
 ) -> None:
@@ -184,12 +188,12 @@ def test_a_journal_of_revolution_spins_freely_without_friction(
         assert out[3:] @ axis == pytest.approx(0.0, abs=1e-14 * np.abs(out).max())
 
 
-@pytest.mark.parametrize("kind", ["cylinder", "ball", "guide", "cylinder at points"])
+@pytest.mark.parametrize("kind", ["cylinder", "wide", "piston", "ball", "guide", "cylinder at points"])
 def test_what_slides_is_free_to(
     kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
 ) -> None:
     # However far along its axis, a shaft has the same gaps: no force on it along its axis, and the same
-    # forces on the socket. A ball slides along the bore.
+    # forces on the socket. A ball and a piston slide along the bore.
     shape = kind.split(maxsplit=1)[0]
     frictionless = make_clearance(
         shape, coefficient=0.0, grid=(24, 6), contact=kinds[kind].contact, table=kinds[kind].table
@@ -198,15 +202,16 @@ def test_what_slides_is_free_to(
     memory, out, far = remembering(data), np.empty(6), np.empty(6)
     for seed in range(6):
         d, rotation, v, w = draw(kind, seed)
-        along = np.array([0.0, 0.0, 1.0]) if kind == "ball" else rotation[:, 2] / rotation[2, 2]
+        with_the_pin = kind in ("ball", "piston")
+        along = np.array([0.0, 0.0, 1.0]) if with_the_pin else rotation[:, 2] / rotation[2, 2]
         slid = d + 30e-3 * along
         wrench(data, memory, 0, pose_at(d, rotation, v, w), out)
-        v_there = v if kind == "ball" else v + np.cross(w, slid - d)
+        v_there = v if with_the_pin else v + np.cross(w, slid - d)
         wrench(data, memory, 0, pose_at(slid, rotation, v_there, w), far)
         size = np.abs(out).max()
         assert size > 0.0
         assert out[:3] @ along == pytest.approx(0.0, abs=1e-13 * size)
-        if kind == "ball":
+        if with_the_pin:
             np.testing.assert_allclose(far, out, rtol=0.0, atol=1e-12 * size)
         else:
             on_socket = [f[3:] + np.cross(place, f[:3]) for f, place in ((out, d), (far, slid))]
@@ -218,20 +223,26 @@ def test_what_slides_is_free_to(
 BUSHING_GRID = (48, 8)
 
 
+@pytest.mark.parametrize("radius", [6e-3, 200e-3])
 @pytest.mark.parametrize("worn", [False, True])
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_a_cylinder_is_the_bushing(
-    friction: float, worn: bool, make_joint: Callable[..., BushingJoint], make_clearance: MakeClearance
+    friction: float,
+    worn: bool,
+    radius: float,
+    make_joint: Callable[..., BushingJoint],
+    make_clearance: MakeClearance,
 ) -> None:
     # The bushing names the point at −(cos θ, sin θ) θ, so its nodes are half a turn on; its φ_y and M_y are
     # left-handed, its moments those that work on tilts. It slides around the axis only: with friction the
     # journal stands upright.
     n = BUSHING_GRID[0]
     bushing = make_joint(coefficient=friction, grid=BUSHING_GRID)
+    bushing = dataclasses.replace(bushing, geometry=dataclasses.replace(bushing.geometry, radius=radius))
     random = np.random.default_rng(3)
     wear = 2e-6 * random.random(bushing.field_shape) if worn else np.zeros(bushing.field_shape)
     data = assemble(
-        [make_clearance("cylinder", coefficient=friction, grid=BUSHING_GRID)],
+        [make_clearance("cylinder", coefficient=friction, grid=BUSHING_GRID, radius=radius)],
         np.roll(wear, n // 2, axis=1).ravel(),
     )
     old = bushing.data(wear)

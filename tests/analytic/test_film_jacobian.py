@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -70,6 +72,14 @@ def test_below_the_first_touch() -> None:
     film = make("reynolds", "periodic", ROUGH)
     check(film, [20.5e-6, 3e-6, 0.0, 0.0, 1e-4, 2e-4, 0.0, 0.0])
     check(film, [20.5e-6, 3e-6, 1e-4, 0.0, 1e-4, 2e-4, 0.01, 0.0])
+
+
+@pytest.mark.parametrize("cavitation", ["reynolds", "half-sommerfeld"])
+def test_wide_and_short(cavitation: str) -> None:
+    """The cross-section of a tilted journal is an ellipse: second-order terms of the tilt are large here."""
+    film = dataclasses.replace(make(cavitation, "periodic", Roughness()), radius=300e-3)
+    check(film, [3e-6, 4e-6, 4e-4, -8e-4, 1e-4, -2e-4, 0.01, -0.02], omega=2.0)
+    check(film, [6e-6, 8e-6, 0.0, 0.0, 1e-4, -2e-4, 0.0, 0.0], omega=2.0)
 
 
 def test_in_a_worn_bushing() -> None:

@@ -33,11 +33,13 @@ def by_hand(joint, form):
     z = LENGTH * ((np.arange(n_z) + 0.5) / n_z - 0.5)[:, None]
     theta = 2.0 * np.pi * np.arange(n_theta) / n_theta
     gap = joint.geometry.clearance + form.gap(z, LENGTH)
+    shift = joint.geometry.radius * np.tan(TILTED[3]) * np.cos(theta)  # the cross-section is an ellipse
     gap = gap + (TILTED[0] - z * np.tan(TILTED[3])) * np.cos(theta)
+    gap = gap - 0.5 * shift * np.tan(TILTED[3]) * np.cos(theta)
     area = LENGTH / n_z * 2.0 * np.pi / n_theta * joint.geometry.bore_radius
     force = np.where(gap < table.h_last * sigma, pressure(np.minimum(gap / sigma, table.h_last)), 0.0)
     force = force * np.cos(theta) * area
-    return force.sum(), -(z * force).sum()
+    return force.sum(), -((z + shift) * force).sum()
 
 
 @pytest.mark.parametrize("form", FORMS)

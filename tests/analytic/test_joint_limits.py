@@ -121,13 +121,17 @@ def test_friction_moment_of_the_paper(make_joint, table_1_pair, sign):
 
 
 def node_by_node(joint, y, omega, sign, entry, wear):
-    """Return the wrench as plain sums over all nodes, model.md sections 1, 3 and 4, in array form."""
+    """Return the wrench as plain sums over all nodes, in array form, see ``docs/theory/joint.md``."""
     e_x, e_y, phi_x, phi_y, v_x, v_y, w_x, w_y = y
     z, theta = joint.z[:, None], joint.theta
     cos, sin = np.cos(theta), np.sin(theta)
+    mu, r_j, r_b = joint.friction.coefficient, joint.geometry.radius, joint.geometry.bore_radius
+    lean = -np.tan(phi_y) * cos - np.tan(phi_x) * sin
+    lean_rate = -w_y / np.cos(phi_y) ** 2 * cos - w_x / np.cos(phi_x) ** 2 * sin
     gap = joint.geometry.clearance + (e_x - z * np.tan(phi_y)) * cos + (e_y - z * np.tan(phi_x)) * sin + wear
+    gap = gap - 0.5 * r_j * lean**2
     v_a, v_b = v_x - z * w_y / np.cos(phi_y) ** 2, v_y - z * w_x / np.cos(phi_x) ** 2
-    approach = -(v_a * cos + v_b * sin)
+    approach = -(v_a * cos + v_b * sin) + r_j * lean * lean_rate
     table = joint.table
     knots = np.linspace(table.h_first, table.h_last, table.nodes.shape[0])
     h_star = gap / joint.roughness
@@ -141,7 +145,6 @@ def node_by_node(joint, y, omega, sign, entry, wear):
     pressure = rigid + damping * approach / reference
     if joint.entry.tensile_clip:
         pressure = np.maximum(pressure, 0.0)
-    mu, r_j, r_b = joint.friction.coefficient, joint.geometry.radius, joint.geometry.bore_radius
     area = joint.node_area[:, None]
     if joint.friction.model == "traction":
         slip = omega * r_j + v_a * sin - v_b * cos
@@ -151,7 +154,9 @@ def node_by_node(joint, y, omega, sign, entry, wear):
     else:
         f_x, f_y = area * pressure * cos, area * pressure * sin
         torque = sign * mu * r_b * (area * pressure).sum()
-    return np.array([f_x.sum(), f_y.sum(), -(z * f_y).sum(), -(z * f_x).sum(), torque])
+    shift = r_j * lean * area * pressure
+    moments = (shift * sin - z * f_y).sum(), (shift * cos - z * f_x).sum()
+    return np.array([f_x.sum(), f_y.sum(), *moments, torque])
 
 
 def random_state(random, clearance, sigma):
@@ -244,7 +249,7 @@ def test_peaks_are_taken_at_the_edges(make_joint, table_1_pair):
     joint = make_joint()
     y = state(phi_x=1.9e-3)
     found = seen(joint.data(), y)
-    least = C - 0.5 * LENGTH * math.tan(1.9e-3)
+    least = C - 0.5 * LENGTH * math.tan(1.9e-3) - 0.5 * R_J * math.tan(1.9e-3) ** 2
     assert found["separation_min"] == pytest.approx(least, rel=1e-12)
     peak = law("ke", table_1_pair).stiffness_pressure(np.array([least / joint.roughness]))
     assert found["p_max"] == pytest.approx(peak[0], rel=2e-6)

@@ -104,9 +104,11 @@ def test_every_node_follows_the_rules_on_a_random_walk(make_joint, clearance):
     for _ in range(120):
         y = random.normal(size=8) * np.array([0.5, 0.5, 25.0, 25.0, 2e2, 2e2, 2e4, 2e4]) * clearance
         tan_x, tan_y = np.tan(y[2:4])
-        gap = clearance + (y[0] - z * tan_y) * cos + (y[1] - z * tan_x) * sin + wear
+        lean, r_j = tan_y * cos + tan_x * sin, joint.geometry.radius
+        lean_rate = y[7] * (1 + tan_y**2) * cos + y[6] * (1 + tan_x**2) * sin
+        gap = clearance + (y[0] - z * tan_y) * cos + (y[1] - z * tan_x) * sin + wear - 0.5 * r_j * lean**2
         v_a, v_b = y[4] - z * y[7] * (1 + tan_y**2), y[5] - z * y[6] * (1 + tan_x**2)
-        approach = -(v_a * cos + v_b * sin)
+        approach = -(v_a * cos + v_b * sin) + r_j * lean * lean_rate
         touching, before = gap < ONSET * joint.roughness, expected > 0.0
         entered += np.count_nonzero(touching & ~before)
         kept += np.count_nonzero(touching & before)

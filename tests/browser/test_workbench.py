@@ -143,7 +143,7 @@ def at(browser: Browser, server: Workbench) -> Iterator[Opened]:
         if not webgl:
             page.add_init_script(NO_WEBGL)
         if line is not None:
-            page.route_web_socket("**/socket", line)
+            page.route_web_socket("**/socket?*", line)
         page.goto("about:blank")
         page.goto(server.address + fragment)
         return Person(page)

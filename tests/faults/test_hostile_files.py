@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import random
@@ -21,6 +22,7 @@ from tribodyn.core import toml
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.general.builder import Mechanism
 
 FEW, PARTS, EACH = 15, 10, 500
 Maker = Callable[[Path, random.Random], None]
@@ -280,3 +282,17 @@ def test_a_result_of_points_that_never_ends_is_refused(tmp_path: Path) -> None:
     os.mkfifo(place / "result.nc")
     (tmp_path / "sweep.nc").write_bytes(b"")
     assert main(["report", str(tmp_path), "--points"]) == 2
+
+
+def test_names_that_are_right_are_compared_with_no_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    # For each body of a chain all others were searched for similar names: 1,000 bodies took ten seconds.
+    looked: list[str] = []
+    monkeypatch.setattr(difflib, "get_close_matches", lambda word, *_, **__: looked.append(word) or [])
+    drawing = Mechanism("Chain", run={"duration": "1 s"})
+    for k in range(30):
+        body = f"link-{k}"
+        drawing.body(body, mass="1 kg", centre=f"{k}, 0, 0 m", inertia="0.1, 0.1, 0.1 kg m^2")
+        before = f"link-{k - 1}" if k else "ground"
+        drawing.revolute(f"pin-{k}", before, body, point=f"{k - 0.5}, 0, 0 m", axis=[0, 0, 1])
+    assert len(drawing.case().bodies) == 30
+    assert looked == []

@@ -88,7 +88,15 @@ def outcome(fun, y0, options):
 
 
 OURS = (
-    *("`fun` is", "`mass` is", "`jac` is", "is not finite", "not consistent", "holds no algebraic variable"),
+    *(
+        "`fun` is",
+        "`mass` is",
+        "`index` is",
+        "`jac` is",
+        "is not finite",
+        "not consistent",
+        "holds no algebraic variable",
+    ),
     *("the step became shorter", "is singular", "fails again and again", "the user's own"),
 )
 """What a sentence that is ours holds."""

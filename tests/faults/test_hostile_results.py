@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import Run, write, write_comparison
 from tribodyn.simulation import simulate
@@ -84,6 +85,7 @@ def each() -> dict[str, xr.Dataset]:
     return {
         "vsv": simulate(vsv),
         "journal": simulate(journal),
+        "mechanism": simulate(load_case("slider-crank").replace({"run.cycles": 0.01})),
         "sweep": sweep(vsv, {"joint.clearance": "20,30 um", "contact.law": "ke,rsdc"}, workers=0),
     }
 
@@ -109,6 +111,23 @@ def test_no_text_of_a_result_becomes_part_of_its_page(
     (tmp_path / "bad").mkdir()
     innocent = write(each[kind], tmp_path / "good", figures=())
     assert_harmless(write(spoiled(each[kind]), tmp_path / "bad", figures=()), innocent)
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [
+        *(("mechanism", name) for name in ("row_place", "column_angle", "reaction_force", "clearance")),
+        *(("vsv", name) for name in ("snapshot_theta_v", "theta_v", "pressure_cycle")),
+        *(("journal", name) for name in ("F_cy", "e_x")),
+    ],
+)
+def test_a_result_that_lacks_a_variable_is_refused_by_its_name_or_does_without(
+    kind: str, name: str, each: dict[str, xr.Dataset], tmp_path: Path
+) -> None:
+    try:
+        write(each[kind].drop_vars(name), tmp_path, figures=())
+    except InputError as error:
+        assert f"lacks the variable {name}; it is damaged" in str(error)  # noqa: PT017
 
 
 def test_no_text_of_two_results_becomes_part_of_their_comparison(

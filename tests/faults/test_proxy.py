@@ -20,6 +20,7 @@ from pathlib import Path
 
 import pytest
 from tests.unit.workbench.host import PUBLIC, SOON, TRIBODYN, Page, in_loop
+from tests.unit.workbench.test_guests import secret_in
 from tests.unit.workbench.test_server import EVIL, ROUTES, UPGRADE
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.websocket import websocket_connect
@@ -69,11 +70,11 @@ class Proxy:
     async def get(self, path: str, headers: Mapping[str, str]) -> HTTPResponse:
         return await AsyncHTTPClient().fetch(self.request("https", path, headers), raise_error=False)
 
-    async def admitted(self) -> str:
-        """Come with a password, and return the cookie."""
+    async def admitted(self) -> tuple[str, str]:
+        """Come with a password, and return the cookie and the secret as an address has it."""
         answer = await self.get("/?token=new", {"Host": self.host, **ENTRANCE})
         assert answer.code == 200
-        return answer.headers["Set-Cookie"].partition(";")[0]
+        return answer.headers["Set-Cookie"].partition(";")[0], secret_in(answer.body)
 
 
 @pytest.fixture(scope="module")
@@ -129,8 +130,9 @@ def wait_until_open(port: int) -> None:
 def test_without_the_password_nothing_is_behind_the_proxy(proxy: Proxy) -> None:
     @in_loop
     async def test() -> None:
-        ours = {"Host": proxy.host, "Cookie": await proxy.admitted(), "Origin": f"https://{proxy.host}"}
-        for route in ROUTES:
+        cookie, secret = await proxy.admitted()
+        ours = {"Host": proxy.host, "Cookie": cookie, "Origin": f"https://{proxy.host}"}
+        for route in (f"{path}?{secret}" for path in ROUTES):
             for headers in (ours, {**ours, **UPGRADE}):
                 assert (await proxy.get(route, headers)).code == 401
 
@@ -140,7 +142,7 @@ def test_without_the_password_nothing_is_behind_the_proxy(proxy: Proxy) -> None:
 def test_through_the_proxy_only_our_own_page_is_answered(proxy: Proxy) -> None:
     @in_loop
     async def test() -> None:
-        cookie = await proxy.admitted()
+        cookie, secret = await proxy.admitted()
         hosts = (proxy.host, PUBLIC, f"127.0.0.1:{proxy.port}", "evil.example")
         origins = (None, f"https://{proxy.host}", f"http://{proxy.host}", f"https://{PUBLIC}", "null", EVIL)
         for host, origin, known in itertools.product(hosts, origins, (cookie, f"{cookie}x", None)):
@@ -150,9 +152,10 @@ def test_through_the_proxy_only_our_own_page_is_answered(proxy: Proxy) -> None:
             for route in ROUTES:
                 # Whom the proxy lets in may ask for the page without a cookie: that is how one is given.
                 plain = ours and (known == cookie or route == "/")
-                assert ((await proxy.get(route, headers)).code != 403) == plain, (route, headers)
+                path = f"{route}?{secret}"
+                assert ((await proxy.get(path, headers)).code != 403) == plain, (route, headers)
                 if not (ours and origin and known == cookie):
-                    assert (await proxy.get(route, {**headers, **UPGRADE})).code == 403, (route, headers)
+                    assert (await proxy.get(path, {**headers, **UPGRADE})).code == 403, (route, headers)
 
     test()
 
@@ -160,10 +163,11 @@ def test_through_the_proxy_only_our_own_page_is_answered(proxy: Proxy) -> None:
 def test_through_the_proxy_a_page_is_sent_its_pictures(proxy: Proxy) -> None:
     @in_loop
     async def test() -> None:
-        ours = {"Host": proxy.host, "Cookie": await proxy.admitted(), "Origin": f"https://{proxy.host}"}
+        cookie, secret = await proxy.admitted()
+        ours = {"Host": proxy.host, "Cookie": cookie, "Origin": f"https://{proxy.host}"}
         answer = await proxy.get("/", {**ours, **ENTRANCE})
         assert f"wss://{proxy.host}" in answer.headers["Content-Security-Policy"]
-        request = proxy.request("wss", "/socket", {**ours, **ENTRANCE})
+        request = proxy.request("wss", f"/socket?{secret}", {**ours, **ENTRANCE})
         page = Page(await websocket_connect(request, max_message_size=10**8))
         assert (await page.until("hello"))["mechanism"] == "journal"
         await page.run(1, {"joint.clearance": "31 um", "run.duration": "2 ms"}, rest=True)

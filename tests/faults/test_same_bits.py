@@ -1,4 +1,8 @@
-"""The same case gives the same bits in every process of a machine."""
+"""The same case gives the same bits in every process of a machine, and with machine code for every processor.
+
+What kernels do not compile may still differ from one processor to another: elementary functions of the C
+library, NumPy and SciPy.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from llvmlite.binding import get_host_cpu_features
+
+from tribodyn.mechanisms.catalogue import built_in
 
 BEGIN = """
 import json, sys
@@ -22,13 +29,51 @@ RUN = """
 result = simulate(load_case("vsv").replace({"run.duration": "20 ms", "run.output_interval": "1 ms"}))
 json.dump({name: result[name].values.tolist() for name in result.data_vars}, sys.stdout)
 """
+HASHES = """
+from hashlib import sha256
+from numba.core.registry import cpu_target
+
+def hash_of(name):
+    case = load_case(name)
+    short = {"vsv": "20 ms", "journal": "0.5 ms"}.get(case.case)
+    result = simulate(case.replace({"run.duration": short} if short else {"run.cycles": 0.01}))
+    digest = sha256()
+    for column in sorted(result.data_vars):
+        digest.update(result[column].values.tobytes())
+    return digest.hexdigest()
+
+processor = cpu_target.target_context.codegen().magic_tuple()[1]
+json.dump({"processor": processor} | {name: hash_of(name) for name in sys.argv[1:]}, sys.stdout)
+"""
+AVX2 = ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")
+AVX512 = (*AVX2, "avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl")
+PROCESSORS = {"generic": (), "haswell": AVX2, "skylake-avx512": AVX512}
+"""Processors by LLVM's names, with what they need of this machine."""
 
 
-def numbers(script: str, **environment: str) -> dict[str, object]:
+def numbers(script: str, *arguments: str, **environment: str) -> dict[str, object]:
     """Return all numbers of a run in a process of its own; as text they read back exactly."""
-    command = [sys.executable, "-c", script]
+    command = [sys.executable, "-c", script, *arguments]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ | environment)
     found: dict[str, object] = json.loads(done.stdout)
+    return found
+
+
+def hashes(processor: str, cache: Path, *cases: str) -> dict[str, object]:
+    """Return the hashes of short runs with machine code for a processor.
+
+    Without an empty list of features numba would add all that this machine has.
+    """
+    environment = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(cache)}
+    found = numbers(BEGIN + HASHES, *cases, **environment)
+    assert found.pop("processor") == processor
+    return found
+
+
+def hashes_here(*cases: str) -> dict[str, object]:
+    """Return the hashes of short runs with machine code for the processor of this machine."""
+    found = numbers(BEGIN + HASHES, *cases)
+    found.pop("processor")
     return found
 
 
@@ -41,3 +86,17 @@ def test_the_first_run_of_all_is_the_second_to_the_bit(tmp_path: Path) -> None:
     first = numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path))
     assert any(tmp_path.rglob("*.nbc"))
     assert numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path)) == first
+
+
+def test_code_for_another_processor_changes_no_bit_of_a_journal(tmp_path: Path) -> None:
+    # The integrator and a joint; other cases take minutes to compile.
+    assert hashes("generic", tmp_path, "journal-dry") == hashes_here("journal-dry")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("processor", PROCESSORS)
+def test_code_for_another_processor_changes_no_bit_of_any_case(processor: str, tmp_path: Path) -> None:
+    features = get_host_cpu_features()
+    if missing := [name for name in PROCESSORS[processor] if not features.get(name, False)]:
+        pytest.skip(f"this machine has no {', '.join(missing)}")
+    assert hashes(processor, tmp_path, *built_in()) == hashes_here(*built_in())

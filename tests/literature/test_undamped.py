@@ -20,6 +20,7 @@ def test_the_printed_equations_leave_the_law_at_every_tolerance(runs, friction):
     for rtol in (1e-3, 1e-4):
         run = undamped(runs, "paper", friction, rtol)
         assert "closer than the contact law reaches" in run.attrs["failure"]
+        assert "the equations of formulation 'paper' can gain energy in an impact" in run.attrs["failure"]
         ends.append(float(run.attrs["time_reached"]))
     # It is the equations that diverge: within milliseconds of the reversal, and both runs at one time.
     assert np.pi < ends[0] < np.pi + 0.01
@@ -37,9 +38,9 @@ def test_consistent_equations_do_not(runs):
 
 
 def test_the_envelope_holds_the_largest_force():
-    time = np.geomspace(1e-5, 0.2, 4000)
+    time = np.linspace(0.1, 3.0, 4000)
     force = np.where(np.arange(4000) % 7 == 3, 5.0, 1.0)
     force[-200:] = np.nan
     middle, largest = envelope(time, force)
     assert np.all(largest == 5.0)
-    assert 1e-4 < middle[0] < middle[-1] < time[-200]
+    assert 0.09 < middle[0] < middle[-1] < time[-200] + 0.01

@@ -84,4 +84,8 @@ def test_kinetostatic_attitude_at_2_5_seconds(make_vsv):
     speed = memory.scratch.motion[THETA_V, VELOCITY]
     q = equilibrium(data, memory, 2.5, direction=1.0, slip_speed=speed, guess=first)
     assert np.degrees(memory.scratch.motion[THETA_V, VALUE]) == pytest.approx(115.0, abs=10.0)
-    np.testing.assert_allclose(1e6 * q[:2], [-3.35, 6.13], atol=0.005)
+    # The reference has the linear gap of Eq. 48. The second-order term of the tilt closes each edge by
+    # ½ r tan²φ, 7 nm; the ends touch in different directions, so the centre may move by up to twice that.
+    second = 0.5e6 * data.joint.journal_radius * float(np.sum(np.tan(q[2:4]) ** 2))
+    assert second < 0.01
+    np.testing.assert_allclose(1e6 * q[:2], [-3.35, 6.13], atol=0.005 + 2.0 * second)

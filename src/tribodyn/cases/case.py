@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
 from pydantic import (
@@ -26,7 +25,7 @@ from tribodyn.cases.fields import text
 from tribodyn.cases.html import to_html
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.meshes import with_meshes_read
-from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, located, problems, unknown
+from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, Remarks, located, problems, unknown
 from tribodyn.cases.tables import (
     FROZEN,
     Tables,
@@ -45,14 +44,6 @@ from tribodyn.core.errors import Faults, InputError, together
 
 _T = TypeVar("_T")
 AnyCase = TypeVar("AnyCase", bound="Case")
-
-
-@dataclass(frozen=True)
-class Remarks:
-    """What a case says of itself, one sentence each: what to doubt, and what to read its numbers with."""
-
-    warnings: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
 
 
 class Group(BaseModel):
@@ -290,7 +281,7 @@ def _known(
     for path, entry in entries.items():
         if path not in keys:
             with faults.noted():
-                raise InputError(unknown(path, keys, declared), key=path, source=entry.source)
+                raise unknown(path, keys, declared, entry.source, len(faults.found))
     return {path: entry for path, entry in entries.items() if path in keys}
 
 
@@ -340,7 +331,7 @@ def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCa
         plain = plain_path(path, keys)
         with faults.noted():
             if plain not in known:
-                raise InputError(unknown(path, keys, keys_of(type(case))), key=path, source=source)
+                raise unknown(path, keys, keys_of(type(case)), source, len(faults.found))
             if plain not in keys:
                 plain, value = _vector(case, plain, value, known, new, source)
             new[plain] = Entry(value, source, text=True)

@@ -57,7 +57,12 @@ Kinds = Mapping[str, type[Case]]
 """Case models by what stands under ``case =`` in a file."""
 
 
-def read_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str, BuiltIn]) -> Case:
+def read_case(
+    case: str | os.PathLike[str],
+    kinds: Kinds,
+    built_in: Mapping[str, BuiltIn],
+    changes: Mapping[str, Entry] = MappingProxyType({}),
+) -> Case:
     """Return a case by built-in name or from a TOML file.
 
     Parameters
@@ -68,6 +73,8 @@ def read_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str,
         What a file may hold.
     built_in
         What can be had by name.
+    changes
+        What takes the place of what the file says, before that is checked.
 
     Raises
     ------
@@ -75,9 +82,10 @@ def read_case(case: str | os.PathLike[str], kinds: Kinds, built_in: Mapping[str,
         There is no such case or file, or something in the file is wrong.
     """
     if isinstance(case, str) and case in built_in:
-        return build(built_in[case].model, _given(case, built_in[case]), f"built-in case {case}")
+        model, given = built_in[case].model, _given(case, built_in[case])
+        return build(model, _changed(model, given, changes), f"built-in case {case}")
     name = os.fspath(case)
-    return parse(_text(name, built_in), name, kinds, Path(name).parent, built_in)
+    return parse(_text(name, built_in), name, kinds, Path(name).parent, built_in, changes)
 
 
 def parse(
@@ -86,6 +94,7 @@ def parse(
     kinds: Kinds,
     folder: Path | None = None,
     built_in: Mapping[str, BuiltIn] = MappingProxyType({}),
+    changes: Mapping[str, Entry] = MappingProxyType({}),
 ) -> Case:
     """Return the case that a TOML text describes.
 
@@ -101,6 +110,8 @@ def parse(
         Where the names of files in it begin; None is the current directory.
     built_in
         Cases that it may begin with, by name.
+    changes
+        As for :func:`read_case`.
     """
     entries = {path: Entry(value, source, folder=folder) for path, value in flat(_tables(text, source))}
     if not entries:
@@ -109,7 +120,11 @@ def parse(
         )
     model, given = _begun(entries, kinds, built_in, source)
     del entries["case"]
-    return build(model, beside(model, given, entries), source)
+    return build(model, _changed(model, beside(model, given, entries), changes), source)
+
+
+def _changed(model: type[Case], entries: dict[str, Entry], changes: Mapping[str, Entry]) -> dict[str, Entry]:
+    return beside(model, entries, changes) if changes else entries
 
 
 def _begun(

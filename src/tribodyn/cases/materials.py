@@ -26,10 +26,10 @@ OF_SURFACE: Final = {
 }
 """Properties that a surface takes, with the units they are shown in; the trunnion has no hardness."""
 OF_PAIR: Final = {
-    "friction_coefficient": ("", "joint.friction_coefficient"),
-    "specific_wear_rate": ("m^2/N", "wear.specific_wear_rate"),
+    "friction_coefficient": ("", ("joint.friction_coefficient", "friction_coefficient")),
+    "specific_wear_rate": ("m^2/N", ("wear.specific_wear_rate",)),
 }
-"""Properties of sliding against steel: unit, and the key that takes that of the bushing."""
+"""Properties of sliding against steel: unit, and keys, if a case has them, that take those of the bushing."""
 SURFACES: Final = ("trunnion", "bushing")
 _UNITS: Final = OF_SURFACE | {name: unit for name, (unit, _) in OF_PAIR.items()}
 _ROOM: Final = 293.15
@@ -193,5 +193,5 @@ def taken(surface: str, prefix: str = "") -> Iterator[tuple[str, str]]:
     """Yield the properties that a surface takes of its material, each with the path of its key."""
     for key in OF_SURFACE:
         yield key, f"{prefix}surfaces.{surface}.{key}"
-    if surface == "bushing" and not prefix:
-        yield from ((key, path) for key, (_, path) in OF_PAIR.items())
+    if surface == "bushing":
+        yield from ((key, prefix + path) for key, (_, paths) in OF_PAIR.items() for path in paths)

@@ -1,4 +1,4 @@
-"""What a user is told when keys are unknown or values do not go together."""
+"""What a user is told when keys are unknown or values do not go together, and of values that do."""
 
 from __future__ import annotations
 
@@ -13,15 +13,20 @@ from pydantic_core import ErrorDetails
 from tribodyn.cases.entry import Entry, refused
 from tribodyn.cases.keys import ANY_NAME, Key, shown
 from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import MOST_HINTS, InputError
 from tribodyn.core.quoting import closest
 
+_ALL_KEYS: Final = "`tribodyn show` lists all keys"
+_LONGEST: Final = 200
+"""Characters of a path that may be one that is misspelled."""
 CROSS_CHECK: Final = "cross_check"
 """Type of what pydantic is told by a table whose own path nobody knew."""
 
 
-def unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> str:
-    """Say that there is no such key, and which one may have been meant.
+def unknown(
+    path: str, keys: Mapping[str, Key], declared: Mapping[str, Key], source: str, number: int
+) -> InputError:
+    """Return what says that there is no such key, and which one may have been meant.
 
     Parameters
     ----------
@@ -31,7 +36,17 @@ def unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> 
         All that there are.
     declared
         Those of the kind of case, before users name tables.
+    source
+        Where it was given.
+    number
+        How many faults there were before.
     """
+    searched = number < MOST_HINTS and len(path) <= _LONGEST
+    reason = _unknown(path, keys, declared) if searched else f"unknown key; {_ALL_KEYS}"
+    return InputError(reason, key=path, source=source)
+
+
+def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> str:
     name = impossible_name(path, declared)
     if name is not None:
         return f"given {shown(name)}; allowed: {ALLOWED_NAME}"
@@ -43,9 +58,7 @@ def unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> 
     if below:
         return f"this holds only tables: {', '.join(below)}"
     near = _nearest_key(path, {**declared, **keys})
-    return "unknown key" + (
-        f"; the nearest valid one is {_shown(near)}" if near else "; `tribodyn show` lists all keys"
-    )
+    return "unknown key" + (f"; the nearest valid one is {_shown(near)}" if near else f"; {_ALL_KEYS}")
 
 
 def _shown(path: str) -> str:
@@ -61,6 +74,18 @@ def _nearest_key(path: str, keys: Mapping[str, Key]) -> str | None:
         return siblings[near[0]]
     elsewhere = [key.path for key in keys.values() if key.name == name]
     return closest(path, elsewhere or keys) or (elsewhere[0] if elsewhere else None)
+
+
+@dataclass(frozen=True)
+class Remarks:
+    """What a case says of itself, one sentence each: what to doubt, and what to read its numbers with."""
+
+    warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def __add__(self, other: Remarks) -> Remarks:
+        """Return these and others."""
+        return Remarks(self.warnings + other.warnings, self.notes + other.notes)
 
 
 class Disagreement(InputError):

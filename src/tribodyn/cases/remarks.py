@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
 
-from tribodyn.cases.case import Case, Remarks
+from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key
 from tribodyn.cases.materials import MATERIAL, MATERIALS, SURFACES, Property, taken, warmth, written
+from tribodyn.cases.messages import Remarks
 from tribodyn.cases.tables import keys_in
 from tribodyn.cases.units import RZ_OVER_RA
 
 _WEAR = "wear.specific_wear_rate"
+_NOTHING: Final[Mapping[str, Sequence[str]]] = MappingProxyType({})
 
 
-def of_surfaces(case: Case, prefix: str = "") -> Remarks:
+def of_surfaces(case: Case, prefix: str = "", beside: Mapping[str, Sequence[str]] = _NOTHING) -> Remarks:
     """Return what is to be said of a set of surfaces.
 
     Parameters
@@ -23,10 +27,12 @@ def of_surfaces(case: Case, prefix: str = "") -> Remarks:
         Any case that has one.
     prefix
         What stands before the paths of its keys.
+    beside
+        Keys of joints between these surfaces that hold a property of the bushing too, by its name.
     """
     keys = keys_in(case)
-    used = [one for surface in SURFACES for one in _used(case, keys, surface, prefix)]
-    warnings = [*_of_asperities(case, keys, prefix), *([] if prefix else _of_wear(case, keys))]
+    used = [one for surface in SURFACES for one in _used(case, keys, surface, prefix, beside)]
+    warnings = [*_of_asperities(case, keys, prefix), *_of_wear(case, keys, prefix)]
     return Remarks(
         tuple(warnings + [text for one in used for text in one.doubts()]),
         tuple([text for one in used for text in one.notes()] + list(_of_heights(case, prefix))),
@@ -67,11 +73,14 @@ class _Used:
         return self.key.write(float(f"{value:.4g}")).strip('"')
 
 
-def _used(case: Case, keys: dict[str, Key], surface: str, prefix: str) -> Iterator[_Used]:
+def _used(
+    case: Case, keys: dict[str, Key], surface: str, prefix: str, beside: Mapping[str, Sequence[str]]
+) -> Iterator[_Used]:
     name = case.at(f"{prefix}surfaces.{surface}.{MATERIAL}")
     if name is None:
         return
-    for property_name, path in taken(surface, prefix):
+    more = ((key, path) for key, paths in beside.items() if surface == "bushing" for path in paths)
+    for property_name, path in (*taken(surface, prefix), *more):
         if path in keys:
             known = MATERIALS[str(name)].properties.get(property_name)
             there = {key: case.at(key) for key in keys if key.startswith("temperature.")}
@@ -88,12 +97,14 @@ def _of_asperities(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[st
         )
 
 
-def _of_wear(case: Case, keys: dict[str, Key]) -> Iterator[str]:
-    bushing = [f"surfaces.bushing.{name}" for name in ("young_modulus", "poisson_ratio", "hardness")]
-    if _WEAR not in keys or case.at(f"surfaces.bushing.{MATERIAL}") is not None:
+def _of_wear(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
+    surface, rate = f"{prefix}surfaces.bushing", f"{prefix}{_WEAR}"
+    bushing = [f"{surface}.{name}" for name in ("young_modulus", "poisson_ratio", "hardness")]
+    if rate not in keys or case.at(f"{surface}.{MATERIAL}") is not None:
         return
-    if not _as_built_in(case, keys, bushing) and _left(case, keys, [_WEAR]):
-        yield f"The bushing is another one, and wears as that of the paper: give {_WEAR} of its material."
+    if not _as_built_in(case, keys, bushing) and _left(case, keys, [rate]):
+        which = f"The bushing of {prefix.rstrip('.')}" if prefix else "The bushing"
+        yield f"{which} is another one, and wears as that of the paper: give {rate} of its material."
 
 
 def _of_heights(case: Case, prefix: str) -> Iterator[str]:

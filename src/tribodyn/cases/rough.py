@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from tribodyn.cases import materials
-from tribodyn.cases.case import Case, Remarks, demand
+from tribodyn.cases.beyond import Followed, of_tables
+from tribodyn.cases.case import Case, demand
 from tribodyn.cases.groups import Asperities, Contact, Surfaces
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import Value, keys_of
+from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.temperature import Temperature
 
@@ -29,9 +31,13 @@ class RoughCase(Case):
         """Return the defaults that follow from the materials and from the contact law."""
         return materials.resolve(given, keys_of(cls)) | Contact.resolve(given)
 
+    def followed(self) -> Iterable[Followed]:
+        """Return the tables that loads, drives and temperatures follow; by default there are none."""
+        return ()
+
     def remarks(self) -> Remarks:
-        """Return what is to be said of the two surfaces."""
-        return of_surfaces(self)
+        """Return what is to be said of the two surfaces and of tables."""
+        return of_surfaces(self) + of_tables(self.followed())
 
     @property
     def surface_pair(self) -> SurfacePair:

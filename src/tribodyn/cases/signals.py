@@ -6,6 +6,7 @@ import itertools
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
+from tribodyn.cases.beyond import whole_turns
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.columns import KNOTS, MAP, TABLE, VALUES, TableProblem, check, check_map
 from tribodyn.cases.fields import Numbers, choice, file, name, quantity, series
@@ -251,13 +252,18 @@ class _Course(_Timed):
         """Time after which a sinusoid comes again [s]; None for what has none."""
         return None if self.angular_frequency is None else 2.0 * math.pi / self.angular_frequency
 
+    @property
+    def turns(self) -> int:
+        """Whole turns after which a table over angles repeats; 0 where it does not."""
+        return whole_turns(tuple(self.angles or ()))
+
     def signal(self) -> Signal:
         """Return what kernels are given."""
-        from tribodyn.core.signals import constant, sinusoid
+        from tribodyn.core.signals import constant, sinusoid, turning
 
         mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.angular_frequency or 0.0
         if self.values:
-            return self.curve()
+            return turning(self.curve(closed=self.turns > 0), self.turns)
         if self.swing is not None:
             half = 0.5 * self.swing
             return sinusoid(mean + half, -half, frequency, phase + 0.5 * math.pi)
@@ -301,12 +307,15 @@ class _Mapped(_Course):
             return [((self.signal(), self.over or "times"),)]
         import numpy as np
 
-        from tribodyn.core.signals import spline
+        from tribodyn.core.signals import spline, turning
 
         times, angles = self.times or (), self.angles or ()
         down, sizes, across = np.linalg.svd(np.reshape(self.values or (), (len(times), len(angles))))
         return [
-            ((spline(times, size * column), "times"), (spline(angles, row), "angles"))
+            (
+                (spline(times, size * column), "times"),
+                (turning(spline(angles, row, closed=self.turns > 0), self.turns), "angles"),
+            )
             for size, column, row in zip(sizes, down.T, across, strict=False)
             if size > _ROUNDING * max(sizes[0], _TINY)
         ]

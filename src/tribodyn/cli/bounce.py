@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
@@ -12,7 +12,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 
 if TYPE_CHECKING:
-    from tribodyn.mechanisms.bushing import HasBushing
+    from tribodyn.cases.case import Case
+    from tribodyn.mechanisms.bushing import Bearing
 
 HELP = "drop the shaft on every contact law and damping factor, and show which restitution comes out"
 _COLUMNS = ("wanted", "point", "plate", "shaft")
@@ -27,11 +28,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="append",
         help="a contact law to show; all without it; may be repeated",
     )
+    parser.add_argument(
+        "--joint", metavar="NAME", help="a joint of the case whose shaft is dropped (default: the first one)"
+    )
 
 
 def execute(args: Namespace) -> int:
     """Print one line for each law and factor."""
-    case = chosen_case(args)
+    bearing = _chosen(chosen_case(args), args.joint)
     from tribodyn.contact import LAWS
     from tribodyn.simulation.bounce import bounces
 
@@ -44,10 +48,28 @@ def execute(args: Namespace) -> int:
     console.note("Restitution wanted, and realised by a point, a plate and a shaft on these surfaces.")
     console.say(f"{'law':<8}{'damping factor':<22}" + "".join(f"{name:>9}" for name in _COLUMNS))
     rows = []
-    for row in bounces(cast("HasBushing", case), names):
+    for row in bounces(bearing, names):
         rows.append(asdict(row))
         numbers = "".join(f"{rows[-1][name]:>9.4f}" for name in _COLUMNS)
         console.say(f"{row.law:<8}{row.factor:<22}{numbers}")
     if args.json:
         show_json(rows)
     return 0
+
+
+def _chosen(case: Case, name: str | None) -> Bearing:
+    """Return the joint of a case with this name, or the first one, that is a shaft in a bore."""
+    from tribodyn.mechanisms.catalogue import MECHANISMS
+
+    found = MECHANISMS[case.kind()].bearings_of(case)
+    if not found:
+        reason = (
+            "no joint of this case is a shaft in a bore with clearance; one is needed, as in slider-crank"
+        )
+        raise InputError(reason, key="CASE")
+    chosen = next(iter(found)) if name is None else name
+    if chosen not in found:
+        raise InputError(
+            f"{as_given(chosen)}; allowed: {', '.join(found)}{meant(chosen, found)}", key="--joint"
+        )
+    return found[chosen]

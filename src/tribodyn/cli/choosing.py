@@ -42,11 +42,8 @@ def chosen_case(args: Namespace) -> Case:
     """Return the case that the arguments name, with the changes they ask for."""
     from tribodyn.mechanisms.catalogue import load_case
 
-    case = load_case(args.case)
-    for asked, source in ((_set(args), "--set"), (_solver(args), "--solver")):
-        if asked:
-            case = case.replace(asked, source=source)
-    return case
+    case, solver = load_case(args.case, _set(args), source="--set"), _solver(args)
+    return case.replace(solver, source="--solver") if solver else case
 
 
 def changes(args: Namespace) -> dict[str, str]:

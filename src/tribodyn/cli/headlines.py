@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Iterator, Mapping
 from typing import Final
 
 from tribodyn.views.numbers import rounded
 
 _SHOWN_IN_FULL: Final = (1e4, 1e9)
+_GREY: Final = "\x1b[2m"
+_PLAIN: Final = "\x1b[0m"
 
 
 def in_words(summary: Mapping[str, object]) -> Iterator[str]:
-    """Give one line for each headline number, aligned, with its unit.
+    """Give one line for each headline number, aligned, with its unit; grey where they are doubtful.
 
     Parameters
     ----------
     summary
         Content of ``summary.json``.
     """
+    doubt = summary.get("doubtful")
+    if not doubt:
+        yield from _numbers(summary)
+        return
+    yield f"  Do not use these numbers: {doubt}."
+    grey = sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    yield from (f"{_GREY}{line}{_PLAIN}" if grey else line for line in _numbers(summary))
+
+
+def _numbers(summary: Mapping[str, object]) -> Iterator[str]:
     from tribodyn.mechanisms.results import known
 
     headlines = known(summary, str(summary.get("kind", "")))

@@ -83,11 +83,13 @@ def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, con
 
 def _claims(runs: Runs, folder: Path, console: Console) -> None:
     from tribodyn.papers.cheng_2022 import claims
+    from tribodyn.papers.cheng_2022.claims import summary
     from tribodyn.papers.cheng_2022.save import save_claims
 
     console.note("measuring the claims of the paper")
     rows = claims.judge(runs, claims.CLAIMS)
     save_claims(rows, folder)
     console.say(claims.as_text(rows))
+    console.say(summary.as_text(summary.summarise(rows)))
     if console.json:
         show_json(claims.as_json(rows))

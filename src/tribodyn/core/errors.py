@@ -43,6 +43,10 @@ class InputError(TribodynError):
         return (self,)
 
 
+MOST_HINTS: Final = 5
+"""For how many of them what was meant is looked for, which takes as long as reading a whole case."""
+
+
 class InputErrors(InputError):
     """Several things that the user wrote are wrong; the text has a line for each.
 

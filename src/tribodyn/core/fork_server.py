@@ -28,9 +28,14 @@ if TYPE_CHECKING:
 # In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
 METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
 """How processes are started, as :mod:`multiprocessing` calls it."""
-# The threads of a worker would only take time from the other workers.
+# The threads of a worker would only take time from the other workers. Without the safe path these processes
+# would import modules from the working directory, where a file may have the name of any module.
 ENVIRONMENT: Final = {
-    name: "1" for name in ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+    name: "1"
+    for name in (
+        *("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"),
+        "PYTHONSAFEPATH",
+    )
 }
 """Environment variables that the processes need from their beginning."""
 _MODULE: Final = "tribodyn.studies.template"
@@ -54,8 +59,9 @@ def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = Mappin
     if METHOD == "forkserver":
         from multiprocessing import forkserver, resource_tracker
 
-        # Which the server would start, and which lets signals through again when it has begun.
-        resource_tracker.ensure_running()
+        with _set(ENVIRONMENT):
+            # Which the server would start, and which lets signals through again when it has begun.
+            resource_tracker.ensure_running()
         given = json.dumps({"name": name, "toml": toml, "changes": dict(changes)})
         _context().set_forkserver_preload([_MODULE])
         with _set(ENVIRONMENT | ({_CASE: given} if len(given) < _LONGEST else {})), _uninterrupted():

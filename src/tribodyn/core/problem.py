@@ -91,8 +91,9 @@ class Algebra:
         its rates.
     factorise
         ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with M − γJ from the entries
-        ``jacobian`` (n_entries,); returns whether the matrix is regular. Compiled, as are those of
-        :class:`CompiledFunctions`; ``gamma`` may be negative.
+        ``jacobian`` (n_entries,); returns the sign of the determinant, 0 where the matrix is singular. By the
+        sign a Jacobian is found out that grows faster than the step; one that returns whether the matrix is
+        regular loses that. Compiled, as are those of :class:`CompiledFunctions`; ``gamma`` may be negative.
     solve
         ``solve(data, factors, pivots, x)`` replaces the right-hand side ``x`` (n,) by the solution.
     n_factors, n_pivots
@@ -102,7 +103,7 @@ class Algebra:
     """
 
     places: NDArray[np.int64]
-    factorise: Callable[..., bool]
+    factorise: Callable[..., int]
     solve: Callable[..., None]
     n_factors: int
     n_pivots: int = 0

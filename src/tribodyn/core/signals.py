@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +15,8 @@ from tribodyn.core.arrays import FloatArray
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
+
+_ROUNDING: Final = 1.0e-9
 
 
 # One is equal to itself alone: arrays do not say of each other whether they are.
@@ -34,12 +37,15 @@ class Signal:
     kinks
         Where the slope, or what follows from it, jumps: no step crosses them if the argument is time, shape
         (m,).
+    period
+        Distance after which a table repeats, which is its length but for rounding; 0 where it does not.
     """
 
     kind: str
     coefficients: FloatArray
     knots: FloatArray
     kinks: FloatArray
+    period: float = 0.0
 
     def __call__(self, places: FloatArray) -> FloatArray:
         """Return the values of a table, shape of ``places``."""
@@ -48,6 +54,13 @@ class Signal:
     def slope(self, places: FloatArray, order: int) -> FloatArray:
         """Return derivatives of a table of some order inside it, shape of ``places``."""
         return np.asarray(self._curve(places, order))
+
+    def kinks_within(self, low: float, high: float) -> FloatArray:
+        """Return the kinks between two places, and one beyond each, shape (m,)."""
+        if not self.period:
+            return self.kinks
+        first, last = np.floor((np.array([low, high]) - self.knots[0]) / self.period)
+        return np.unique(self.kinks + self.period * np.arange(first - 1.0, last + 2.0)[:, None])
 
     @property
     def at_start(self) -> float:
@@ -175,6 +188,16 @@ def repeated(signal: Signal, n: int) -> Signal:
         knots=np.append(knots, signal.knots[-1] + shifts[-1]),
         kinks=np.unique(shifts + signal.kinks[None]),
     )
+
+
+def turning(signal: Signal, turns: int) -> Signal:
+    """Return a table over angles [rad] that repeats after some whole turns; as it is for none."""
+    return replace(signal, period=2.0 * math.pi * turns)
+
+
+def for_each_cycle(signal: Signal, cycle: float, duration: float) -> Signal:
+    """Return a table over one cycle [s] once for each cycle of a run."""
+    return repeated(signal, max(1, math.ceil(duration / cycle * (1.0 - _ROUNDING))))
 
 
 def summed(parts: Sequence[tuple[Signal, float]]) -> Signal:

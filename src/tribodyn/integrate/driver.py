@@ -19,6 +19,7 @@ from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate.base import Method, Step, VectorFunction
 from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 from tribodyn.integrate.following import Followed
+from tribodyn.integrate.patience import Patience
 from tribodyn.integrate.schedule import Schedule
 
 INTERRUPTED = "interrupted"
@@ -98,6 +99,7 @@ class Walk:
         self.schedule = schedule
         self.progress = progress
         self.stop = stop
+        self.patience = Patience(schedule)
         self.statistics = Statistics()
         self.types = kernel_types(problem)
         self.functions = machine_code(problem, self.types)
@@ -146,8 +148,9 @@ class Walk:
             self.ask()
 
     def ask(self) -> None:
-        """End the run where the caller asks to stop before its end."""
+        """End the run where the caller asks to stop before its end, or where it makes no progress."""
         self.asked = time.monotonic()
+        self.patience.look(self.t, self.statistics.rhs_evaluations)
         if self.stop is not None and self.stop() and self.t < self.schedule.edges[-1]:
             raise IntegrationFailure(self.t, INTERRUPTED)
 

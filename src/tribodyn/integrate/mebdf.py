@@ -20,7 +20,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Algebra, Problem, Solution
 from tribodyn.integrate.binding import argument_types, is_compiled
-from tribodyn.integrate.driver import INTERRUPTED, Walk
+from tribodyn.integrate.driver import Walk
 from tribodyn.integrate.schedule import Schedule
 
 if TYPE_CHECKING:
@@ -122,8 +122,7 @@ class _CompiledWalk(Walk):
                 raise IntegrationFailure(self.t, self._reason(state))
             if self.progress is not None:
                 self.progress(self.t)
-            if self.stop is not None and self.stop() and self.t < self.schedule.edges[-1]:
-                raise IntegrationFailure(self.t, INTERRUPTED)
+            self.ask()
 
     def _new_state(self, t: float, t_end: float) -> MebdfState:
         from tribodyn.kernels.mebdf.state import new_state
@@ -152,14 +151,25 @@ class _CompiledWalk(Walk):
         if self._matrix is None:
             return
         from tribodyn.integrate.mebdf_consistent import consistent
+        from tribodyn.integrate.mebdf_differences import plain_jacobian
+        from tribodyn.integrate.mebdf_index import check_index
+        from tribodyn.integrate.mebdf_mass import LARGEST, split
 
-        scale = self.problem.atol + self._relative * np.abs(self.y)
-        end, names = float(self.schedule.edges[-1]), self.problem.state_names
+        problem, rhs, matrix = self.problem, self.binding.rhs, self._matrix
+        if self.y.size > LARGEST:
+            self._mass = matrix.for_core(split(matrix).slope(rhs(self.t, self.y)))
+            return
+        scale = problem.atol + self._relative * np.abs(self.y)
+        end, names = float(self.schedule.edges[-1]), problem.state_names
+        typical = problem.atol / self._relative
+        jacobian = plain_jacobian(rhs, typical)
         try:
-            self.y, slope, _ = consistent(self.binding.rhs, self.t, self.y, end, self._matrix, scale, names)
+            self.y, slope, _ = consistent(rhs, jacobian, self.t, self.y, end, matrix, scale, names)
+            if self.t == self.schedule.edges[0]:
+                check_index(jacobian, self.t, self.y, matrix.matrix, matrix.index, typical, names)
         except ValueError as wrong:
             raise IntegrationFailure(self.t, str(wrong)) from wrong
-        self._mass = self._matrix.for_core(slope)
+        self._mass = matrix.for_core(slope)
 
     def _read_mass(self) -> MassMatrix | None:
         """Return the mass matrix of the problem, if it has one."""
@@ -182,9 +192,9 @@ class _CompiledWalk(Walk):
     def _new_matrix(self, algebra: Algebra) -> OwnMatrix:
         from tribodyn.kernels.mebdf.own import OwnMatrix
 
-        entry, last = np.zeros((2, algebra.n_entries or algebra.places.shape[1]))
+        entry, last, previous = np.zeros((3, algebra.n_entries or algebra.places.shape[1]))
         pivots = np.zeros(algebra.n_pivots, dtype=np.int64)
-        return OwnMatrix(algebra.places, entry, last, np.zeros(algebra.n_factors), pivots)
+        return OwnMatrix(algebra.places, entry, last, previous, np.zeros(algebra.n_factors), pivots)
 
     def _new_marks(self) -> Marks:
         from tribodyn.kernels.mebdf.drive import Marks
@@ -291,7 +301,7 @@ def _compiled(
     solvers: tuple[Any, Any] = (numba.none, numba.none)
     if own is not None:
         entries, pivots = typeof(own.jacobian), typeof(own.pivots)
-        factorise = numba.boolean(numba.float64, types[0], entries, entries, pivots)
+        factorise = numba.int64(numba.float64, types[0], entries, entries, pivots)
         solve = void(types[0], entries, pivots, entries)
         solvers = FunctionType(factorise), FunctionType(solve)
     work = map(typeof, (jacobian, own, *others))

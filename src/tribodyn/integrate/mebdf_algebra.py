@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import blas, lapack
 from scipy.sparse import coo_array, csc_array, issparse
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from tribodyn.core.arrays import FloatArray
@@ -32,8 +33,16 @@ class Algebra(Protocol):
         """Evaluate the Jacobian; where it is not finite keep the last one and return False."""
         ...
 
-    def factorise(self, scaled: float) -> bool:
-        """Prepare solutions with M − ``scaled`` J; return whether it is regular."""
+    def go_back(self, to_zero: bool) -> None:
+        """Use the Jacobian before the newest one, or zero, from now on."""
+        ...
+
+    def factorise(self, scaled: float) -> int:
+        """Prepare solutions with M − ``scaled`` J; return the sign of the determinant, 0 if singular."""
+        ...
+
+    def trace(self) -> float:
+        """Return the trace of the Jacobian in use."""
         ...
 
     def solve(self, residual: FloatArray) -> FloatArray:
@@ -74,6 +83,8 @@ class _Kept:
         self._algebraic = algebraic
         self._newest: Any = None
         self._matrix: Any = None
+        self._previous: Any = None
+        self._is_zero = False
         self._factors: Any = None
 
     def _factor(self, scaled: float) -> FloatArray:
@@ -86,8 +97,19 @@ class _Kept:
         newest = self._newest
         finite = bool(np.isfinite(newest.data if is_sparse(newest) else newest).all())
         if finite:
-            self._matrix = self._newest
+            if not self._is_zero:
+                self._previous = self._matrix
+            self._matrix, self._is_zero = self._newest, False
         return finite
+
+    def go_back(self, to_zero: bool) -> None:
+        """See :class:`Algebra`."""
+        self._is_zero = to_zero or self._previous is None
+        self._matrix = 0.0 * self._matrix if self._is_zero else self._previous
+
+    def trace(self) -> float:
+        """See :class:`Algebra`."""
+        return float(self._matrix.trace())
 
     def _magnitude(self, y: FloatArray, scaled: float, product: Callable[[FloatArray], Any]) -> FloatArray:
         """Return the magnitude from the product of the absolute Jacobian with the sizes of variables."""
@@ -101,11 +123,11 @@ class _Kept:
 class Full(_Kept):
     """LU decomposition of LAPACK."""
 
-    def factorise(self, scaled: float) -> bool:
+    def factorise(self, scaled: float) -> int:
         """See :class:`Algebra`."""
         matrix = np.asfortranarray(self._mass.toarray() - self._factor(scaled)[:, None] * self._matrix)
         *self._factors, singular = lapack.dgetrf(matrix, overwrite_a=True)
-        return bool(singular == 0)
+        return 0 if singular else _sign(np.diagonal(self._factors[0]), _exchanges(self._factors[1]))
 
     def solve(self, residual: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
@@ -146,7 +168,7 @@ class Sparse(_Kept):
     _order = ""
     _places: _Places | None = None
 
-    def factorise(self, scaled: float) -> bool:
+    def factorise(self, scaled: float) -> int:
         """See :class:`Algebra`."""
         jacobian, mass = self._matrix, self._mass
         if self._places is None or not self._places.are_those_of(jacobian):
@@ -155,28 +177,29 @@ class Sparse(_Kept):
         entries = self._factor(scaled)[jacobian.indices] * jacobian.data
         if places.width > NARROW * jacobian.nnz / self._n:
             scaled_jacobian = csc_array((entries, jacobian.indices, jacobian.indptr), shape=mass.shape)
-            self._factors = self._by_superlu(csc_array(mass - scaled_jacobian))
+            self._factors, sign = self._by_superlu(csc_array(mass - scaled_jacobian))
         else:
             packed = np.zeros((self._n, places.width))
             packed[places.of_mass] = mass.data
             packed[places.of_jacobian] -= entries
-            self._factors = by_bands(packed.T, places.lower, places.upper)
-        return self._factors is not None
+            self._factors, sign = by_bands(packed.T, places.lower, places.upper)
+        return sign
 
     def solve(self, residual: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
         solution: FloatArray = self._factors(residual)
         return solution
 
-    def _by_superlu(self, matrix: Any) -> Solution | None:
-        """Return what solves with a matrix, ``None`` if it is singular."""
+    def _by_superlu(self, matrix: Any) -> tuple[Solution | None, int]:
+        """Return what solves with a matrix, ``None`` if it is singular, and the sign of its determinant."""
         try:
             if not self._order:
                 self._order = min(ORDERS, key=lambda order: _superlu(matrix, order).nnz)
-            solution: Solution = _superlu(matrix, self._order).solve
+            factors = _superlu(matrix, self._order)
         except RuntimeError:  # SuperLU says so of a singular matrix
-            return None
-        return solution
+            return None, 0
+        exchanges = sum(self._n - _cycles(order) for order in (factors.perm_r, factors.perm_c))
+        return factors.solve, _sign(factors.U.diagonal(), exchanges)
 
     def magnitude(self, scaled: float, y: FloatArray) -> FloatArray:
         """See :class:`Algebra`."""
@@ -189,8 +212,8 @@ class Sparse(_Kept):
         return int(entries.row[first]), int(entries.col[first])
 
 
-def by_bands(packed: FloatArray, lower: int, upper: int) -> Solution | None:
-    """Return what solves with a banded matrix, ``None`` if it is singular.
+def by_bands(packed: FloatArray, lower: int, upper: int) -> tuple[Solution | None, int]:
+    """Return what solves with a banded matrix, ``None`` if it is singular, and the sign of its determinant.
 
     Parameters
     ----------
@@ -202,15 +225,36 @@ def by_bands(packed: FloatArray, lower: int, upper: int) -> Solution | None:
     """
     banded, pivots, singular = lapack.dgbtrf(packed, lower, upper, overwrite_ab=True)
     if singular:
-        return None
-    if not np.array_equal(pivots, np.arange(pivots.size)):
-        return lambda residual: lapack.dgbtrs(banded, lower, upper, residual, pivots)[0]
+        return None, 0
+    exchanges = _exchanges(pivots)
+    sign = _sign(banded[lower + upper], exchanges)
+    if exchanges:
+        return lambda residual: lapack.dgbtrs(banded, lower, upper, residual, pivots)[0], sign
     # Without exchanges of rows BLAS does the same in a third of the time.
     above, below = (
         np.asfortranarray(banded[lower : lower + upper + 1]),
         np.asfortranarray(banded[lower + upper :]),
     )
-    return lambda residual: blas.dtbsv(upper, above, blas.dtbsv(lower, below, residual, lower=1, diag=1))
+    return lambda residual: blas.dtbsv(
+        upper, above, blas.dtbsv(lower, below, residual, lower=1, diag=1)
+    ), sign
+
+
+def _exchanges(pivots: NDArray[np.int32]) -> int:
+    """Return how many rows LAPACK has exchanged."""
+    return int(np.count_nonzero(pivots != np.arange(pivots.size)))
+
+
+def _cycles(order: NDArray[np.int32]) -> int:
+    """Return the number of cycles of a permutation."""
+    n = order.size
+    moves = csc_array((np.ones(n), order, np.arange(n + 1)), shape=(n, n))
+    return int(connected_components(moves)[0])
+
+
+def _sign(pivots: FloatArray, exchanges: int) -> int:
+    """Return the sign of a determinant from the pivots and the number of exchanges."""
+    return 1 - 2 * ((int(np.count_nonzero(pivots < 0.0)) + exchanges) % 2)
 
 
 def _below(matrix: Any) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -29,6 +29,12 @@ LEAST: Final = _EPS**0.5
 
 Where large rates cancel, a move that is right changes their sum by much.
 """
+SHORT: Final = 1e-7
+"""Move relative to the size of a variable where nothing is known of rounding."""
+FAR: Final = 1e-6
+"""The same where that does not show, relative to the largest variable."""
+CLEAR: Final = 1e3
+"""How many times its rounding a change must be to show."""
 
 Rates = Callable[[FloatArray], FloatArray]
 
@@ -95,6 +101,39 @@ class DifferencesOfTerms:
         if np.isfinite(newest).all():
             self._terms = newest
         return matrix
+
+
+def plain_jacobian(
+    fun: Callable[[float, FloatArray], FloatArray], typical: FloatArray
+) -> Callable[[float, FloatArray], FloatArray]:
+    """Return the Jacobian by differences with two moves of each variable, where nothing is known of rounding.
+
+    Entries that do not rise above the rounding of their equation at the first move are those of the second.
+
+    Parameters
+    ----------
+    fun
+        Right-hand side ``fun(t, y)``, shape (n,).
+    typical
+        Sizes below which those of the variables do not shrink the first moves, shape (n,).
+    """
+
+    def columns(t: float, y: FloatArray, f: FloatArray, moves: FloatArray) -> FloatArray:
+        moved = y + moves
+        with np.errstate(all="ignore"):
+            found = [fun(t, np.where(unit, moved, y)) - f for unit in np.eye(y.size, dtype=bool)]
+            return np.array(found).T / (moved - y)
+
+    def jacobian(t: float, y: FloatArray) -> FloatArray:
+        f, size = fun(t, y), np.maximum(np.abs(y), typical)
+        least = SHORT * np.maximum(size, np.finfo(np.float64).tiny / _EPS**2)
+        near = columns(t, y, f, least)
+        far = columns(t, y, f, np.full(y.size, FAR * max(1.0, float(np.max(np.abs(y), initial=0.0)))))
+        far[~np.isfinite(far)] = 0.0
+        rounding = CLEAR * _EPS * (np.abs(far) @ np.abs(y) + np.abs(f))
+        return np.where(np.abs(near * least) <= rounding[:, None], far, near)
+
+    return jacobian
 
 
 class _Changes(NamedTuple):

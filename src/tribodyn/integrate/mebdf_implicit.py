@@ -12,13 +12,15 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate._ivp.common import num_jac
+from scipy.integrate import solve_ivp
 from scipy.linalg import lstsq, svd
 from scipy.sparse import csc_array
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import Full
-from tribodyn.integrate.mebdf_mass import MassMatrix, read_mass
+from tribodyn.integrate.mebdf_consistent import Function, changes
+from tribodyn.integrate.mebdf_differences import DenseDifferences
+from tribodyn.integrate.mebdf_mass import MassMatrix
 from tribodyn.kernels.mebdf import state as entry
 from tribodyn.kernels.mebdf.phases import FIRST_F, SECOND_F
 from tribodyn.kernels.mebdf.state import Mass, MebdfState
@@ -55,13 +57,18 @@ class Residual:
     """
 
     def __init__(self, fun: Callable[..., Any], slope: ArrayLike, jac: Any, n: int) -> None:
+        if getattr(fun, "__module__", None) == solve_ivp.__module__:
+            raise ValueError(
+                "`args` are not passed on with `slope`; give `fun` and `jac` as functions of (t, y, slope) "
+                "alone, for example `lambda t, y, slope: fun(t, y, slope, *args)`."
+            )
         self._fun, self._jac = fun, jac
         self.slope = np.array(slope, dtype=np.float64)
         if self.slope.shape != (n,) or not np.isfinite(self.slope).all():
             raise ValueError(f"`slope` is expected to hold finite numbers, shape {(n,)}.")
         if jac is not None and not callable(jac):
             raise ValueError("`jac` of an implicit equation is a function `jac(t, y, slope)`.")
-        self._factor: Any = None
+        self._differences: DenseDifferences | None = None
         self._least: FloatArray | None = None
         self._absent = np.zeros(n, dtype=bool)
 
@@ -95,8 +102,9 @@ class Residual:
                 raise ValueError(f"`jac` is expected to return two matrices of shape {(y.size, y.size)}.")
             return -pair[0], pair[1]
         f = self(t, y)
-        difference: Any = num_jac
-        of_y, self._factor = difference(self._columns, t, y, f, typical, self._factor)
+        if self._differences is None:
+            self._differences = DenseDifferences(typical)
+        of_y = self._differences(lambda states: self._columns(t, states), y, f)
         return of_y, -self._of_slope(t, y, f, of_y, VARIED * (np.abs(y) + typical) / abs(h))
 
     def _columns(self, t: float, states: FloatArray) -> FloatArray:
@@ -128,6 +136,22 @@ class Residual:
         if self._least is None:
             self._least = np.where(self._absent, least, size)
         return found / size
+
+    def explicit(self, mass: FloatArray) -> Function:
+        """Return f of M y' = f(t, y), which agrees with F = 0 beside the present slope to first order.
+
+        Parameters
+        ----------
+        mass
+            M = ∂F/∂y' there, shape (n, n).
+        """
+        slope = self.slope.copy()
+
+        def fun(t: float, y: FloatArray) -> FloatArray:
+            self.slope = slope.copy()
+            return mass @ slope + self(t, y)
+
+        return fun
 
     def move(self, state: MebdfState) -> None:
         """Take the slope at which the core wants an evaluation, or the Jacobian at the newest value."""
@@ -177,8 +201,7 @@ class Residual:
         changed = np.abs(new - y) > scale
         if not np.any(changed):
             return y, ""
-        changes = ", ".join(f"{names[int(i)]} from {y[i]:g} to {new[i]:g}" for i in np.flatnonzero(changed))
-        return new, f"The values at t = {t:g} were not consistent; changed {changes}."
+        return new, changes(t, y, new, changed, names)
 
     def _require(self, t: float, y: FloatArray, of_y: FloatArray, scale: FloatArray) -> None:
         """Refuse values at which an equation does not hold within what the tolerances change in it."""
@@ -213,18 +236,14 @@ class ImplicitFull(Full):
         self._newest, mass = self._jacobian(t, y)
         finite = bool(np.isfinite(self._newest).all() and np.isfinite(mass).all())
         if finite:
-            self._matrix, self.dense_mass = self._newest, mass
+            self._previous, self._matrix, self.dense_mass = self._matrix, self._newest, mass
             self._mass, self._algebraic = csc_array(mass), ~mass.any(axis=1)
         return finite
 
 
-def mass_at_start(
-    mass: FloatArray, slope: FloatArray, index: ArrayLike | None, test_algebraic: bool | None
-) -> Mass:
+def mass_at_start(mass: FloatArray, slope: FloatArray, read: MassMatrix) -> Mass:
     """Return what the core keeps of ∂F/∂y', with room for any of its later values."""
     n = slope.size
-    read: MassMatrix | None = read_mass(mass, index, test_algebraic, n)
-    assert read is not None
     entries, places = np.zeros(n * n), np.zeros(n + 1 + n * n, dtype=np.int64)
     fill_mass(entries, places, mass)
     return Mass(entries, places, slope.copy(), read.index, read.tested, implicit=True)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import OdeSolver
 from scipy.sparse import csc_array, csc_matrix, dia_array, diags_array, eye_array
+from scipy.sparse.linalg import LinearOperator
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import Algebra, Full, Sparse, is_sparse
@@ -108,7 +109,7 @@ def make_jacobian(
     matrices = _matrices(mass, n, atol / rtol) if n > LARGEST_IN_CORE else None
     if jac is None:
         return _by_differences(solver, _pattern(sparsity, bands, n), atol, mass, matrices)
-    given = jac if callable(jac) else _Constant(jac)
+    given = jac if callable(jac) and not isinstance(jac, LinearOperator) else _Constant(jac)
     if bands is not None:
         return watched(_by_diagonals(_checked(given, (bands[0] + bands[1] + 1, n)), bands, matrices))
     evaluate = _checked(given, (n, n))
@@ -196,6 +197,10 @@ def _checked(jac: Jacobian, shape: tuple[int, int]) -> Jacobian:
 
     def jacobian(t: float, y: FloatArray) -> Any:
         value = jac(t, y.copy())
+        if isinstance(value, LinearOperator):
+            raise ValueError(
+                "`jac` is a LinearOperator; give its matrix, dense or sparse: `jac @ np.eye(n)`."
+            )
         matrix: Any = _columns(value) if is_sparse(value) else np.asarray(value, np.float64)
         if matrix.shape != shape:
             raise ValueError(f"`jac` is expected to have shape {shape}, but actually has {matrix.shape}.")

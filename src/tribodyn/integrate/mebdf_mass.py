@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_array, diags_array
+from scipy.linalg import svd
+from scipy.sparse import csr_array, diags_array, eye_array
+from scipy.sparse.linalg import LinearOperator, splu
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import is_sparse
 from tribodyn.kernels.mebdf.state import Mass
 
-HIGHEST_INDEX = 3
+HIGHEST_INDEX: Final = 3
+LARGEST: Final = 500
+"""Number of equations up to which singular values are taken."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +58,67 @@ class MassMatrix:
         return Mass(matrix.data.astype(np.float64), places, slope, self.index, self.tested)
 
 
+@dataclass(frozen=True)
+class Split:
+    """What a singular mass matrix leaves algebraic.
+
+    Attributes
+    ----------
+    constraints
+        P: combinations of equations without derivatives, shape (m, n), sparse.
+    free
+        Z: directions in which M does not hold the state, shape (n, m), sparse.
+    slope
+        Returns M⁺ f, the y' of least size for M y' = f.
+    along
+        Returns rows times M⁺, shape (m, n) of (m, n).
+    """
+
+    constraints: Any
+    free: Any
+    slope: Callable[[FloatArray], FloatArray]
+    along: Callable[[FloatArray], FloatArray]
+
+
+def split(mass: MassMatrix) -> Split:
+    """Split equations and variables; by rows and columns of zeros where that is all."""
+    n = mass.matrix.shape[0]
+    equations, variables = ~mass.algebraic_equations, ~mass.algebraic_variables
+    if np.count_nonzero(equations) == np.count_nonzero(variables):
+        try:
+            factors: Any = splu(mass.matrix[equations][:, variables].tocsc()) if equations.any() else None
+        except RuntimeError:  # singular
+            factors = None
+        if factors is not None or not equations.any():
+            return _by_zeros(factors, equations, variables)
+    if n > LARGEST:
+        raise ValueError(f"`mass` of more than {LARGEST} equations must be singular by rows of zeros alone.")
+    left, values, right = svd(mass.matrix.toarray())
+    rank = int(np.count_nonzero(values > n * np.finfo(np.float64).eps * values.max(initial=0.0)))
+    inverse = right[:rank].T @ (left[:, :rank] / values[:rank]).T
+    constraints, free = csr_array(left[:, rank:].T), csr_array(right[rank:].T)
+    return Split(constraints, free, lambda f: inverse @ f, lambda rows: rows @ inverse)
+
+
+def _by_zeros(factors: Any, equations: NDArray[np.bool_], variables: NDArray[np.bool_]) -> Split:
+    """Return the split by rows and columns of zeros; ``factors`` solve with the rest."""
+
+    def slope(f: FloatArray) -> FloatArray:
+        y = np.zeros(equations.size)
+        if factors is not None:
+            y[variables] = factors.solve(f[equations])
+        return y
+
+    def along(rows: FloatArray) -> FloatArray:
+        product = np.zeros_like(rows)
+        if factors is not None:
+            product[:, equations] = factors.solve(np.ascontiguousarray(rows[:, variables].T), "T").T
+        return product
+
+    unit = csr_array(eye_array(equations.size))
+    return Split(unit[~equations], csr_array(unit[:, ~variables]), slope, along)
+
+
 def algebraic_variables(matrix: Any) -> NDArray[np.bool_]:
     """Return which columns of a sparse matrix are empty."""
     used = np.zeros(matrix.shape[1], dtype=bool)
@@ -86,6 +152,14 @@ def read_mass(mass: Any, index: ArrayLike | None, test_algebraic: bool | None, n
 
 
 def _matrix(mass: Any, n: int) -> Any:
+    if isinstance(mass, LinearOperator):
+        raise ValueError("`mass` is a LinearOperator; give its matrix, dense or sparse: `mass @ np.eye(n)`.")
+    if callable(mass):
+        raise ValueError(
+            "`mass` is a function; it must be a constant matrix, dense or sparse, or its diagonal. For one "
+            "that depends on t or y give `fun(t, y, slope)` = M(t, y) @ slope - f(t, y), and `slope`, "
+            "y' at the start."
+        )
     if np.iscomplexobj(mass.data if is_sparse(mass) else np.asarray(mass)):
         raise ValueError("`mass` must be real.")
     if is_sparse(mass):

@@ -52,7 +52,7 @@ def reason(
 
 
 def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
-    """Return, in words, which state the equations do not determine, where that can be told."""
+    """Return, in words, which state the equations do not determine, where that can be found."""
     if not state.matrices.size:
         return ": the equations do not determine all states"
     n = state.rows.shape[1]

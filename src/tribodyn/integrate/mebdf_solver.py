@@ -15,6 +15,7 @@ from scipy.integrate import DenseOutput, OdeSolver
 from tribodyn.core.arrays import FloatArray
 from tribodyn.integrate.mebdf_algebra import Algebra
 from tribodyn.integrate.mebdf_checks import (
+    SMALLEST_RTOL,
     bands,
     inner_times,
     largest_step,
@@ -26,9 +27,12 @@ from tribodyn.integrate.mebdf_checks import (
     warn_extraneous,
 )
 from tribodyn.integrate.mebdf_consistent import consistent
+from tribodyn.integrate.mebdf_dense import JumpDenseOutput, MebdfDenseOutput, end_of_jump
+from tribodyn.integrate.mebdf_differences import plain_jacobian
 from tribodyn.integrate.mebdf_implicit import ImplicitFull, Residual, fill_mass, mass_at_start
+from tribodyn.integrate.mebdf_index import check_index
 from tribodyn.integrate.mebdf_jacobian import LARGEST_IN_CORE, Linear, make_jacobian
-from tribodyn.integrate.mebdf_mass import read_mass
+from tribodyn.integrate.mebdf_mass import LARGEST, MassMatrix, read_mass
 from tribodyn.integrate.mebdf_reasons import reason
 from tribodyn.kernels.mebdf import state as entry
 from tribodyn.kernels.mebdf.coefficients import MAX_K
@@ -85,12 +89,15 @@ class MEBDF(OdeSolver):
         diagonal, shape (n,). ``None`` for the unit matrix.
     index
         Index of each variable, 1 to 3, shape (n,); ``None`` for 1. The errors of variables of index 2 and 3
-        are multiplied by the step and its square (of steps below 1).
+        are multiplied by the step and its square (of steps below 1), so theirs may be many tolerances. An
+        index that is too high is refused, one that is too low gives a warning.
     test_algebraic
         Whether variables without derivatives are in the error test; ``None`` for those of index 1.
     breakpoints
         Times at which the right-hand side jumps or kinks, where the integration begins anew; those outside of
-        the interval are dropped. No evaluation for a step before one of them lies at it or behind it.
+        the interval are dropped. No evaluation for a step before one of them lies at it or behind it. Where
+        algebraic variables jump there, or were not consistent at the start, a step of some spacings of
+        numbers leads from the values before to those behind.
     slope
         y' at the start, shape (n,). Where it is given the equation is the implicit one F(t, y, y') = 0, with
         ``fun(t, y, slope)`` for F; zeros will do where F determines y'. ``jac(t, y, slope)`` then gives ∂F/∂y
@@ -165,32 +172,66 @@ class MEBDF(OdeSolver):
         }
         # Evaluations, Jacobians and decompositions before the last breakpoint.
         self._before = (0, 0, 0)
+        # Values before a jump of algebraic variables, one to be reported and one that is the last step.
+        self._jump: FloatArray | None = None
+        self._before_jump: FloatArray | None = None
         self._state = self._new_state(starting_step(first_step, t0, t_bound))
         self._resume = _machine_code()
 
     def _new_state(self, first_step: float) -> entry.MebdfState:
         """Begin at the present time, up to the next breakpoint or the end."""
-        mass, told, t = None, "", float(self.t)
+        before, mass, warning = self.y, None, ""
         if self._residual:
-            mass, told = self._implicit_start(self._residual)
+            mass, warning = self._implicit_start(self._residual)
         elif self._mass is not None:
-            scale = self.atol + self.rtol * np.abs(self.y)
-            self.y, slope, told = consistent(
-                self.fun_single, t, self.y, self._ends[0], self._mass, scale, self._names
-            )
+            slope, warning = self._consistent(self.fun_single, self._slopes, self._mass)
             mass = self._mass.for_core(slope)
-        if told:
-            warn(told, stacklevel=4)
+        if warning:
+            warn(warning, stacklevel=4)
+            self._jump = before
+        t, end = float(self.t), self._ends[0]
         return new_state(
-            t, self.y, self._ends[0], self.rtol, self.atol, first_step=first_step, mass=mass, **self._options
+            t, self.y, end, self.rtol, self.atol, first_step=first_step, mass=mass, **self._options
         )
+
+    def _consistent(
+        self, fun: Callable[..., FloatArray], jacobian: Callable[..., Any], mass: MassMatrix
+    ) -> tuple[FloatArray, str]:
+        """Find consistent values; return y' there, and what was changed. Compare the index at the start."""
+        t = float(self.t)
+        # A step leaves variables of higher index as wrong as its weights allow.
+        step = 1.0 if self.t_old is None else min(abs(self._state.real.item(entry.H_LAST)), 1.0)
+        scale = (self.atol + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
+        self.y, slope, warning = consistent(fun, jacobian, t, self.y, self._ends[0], mass, scale, self._names)
+        if self.t_old is None:
+            check_index(jacobian, t, self.y, mass.matrix, mass.index, self._typical, self._names)
+        return slope, warning
+
+    @property
+    def _typical(self) -> FloatArray:
+        """Return the size of each variable at which both its tolerances are equal, shape (n,)."""
+        return np.asarray(self.atol / np.maximum(self.rtol, SMALLEST_RTOL))
+
+    def _slopes(self, t: float, y: FloatArray) -> Any:
+        """Return the Jacobian for consistent values: by differences where one that is given may be wrong."""
+        if self.n > LARGEST:
+            return self._jacobian(t, y)
+        return plain_jacobian(self.fun_single, self._typical)(t, y)
 
     def _implicit_start(self, residual: Residual) -> tuple[entry.Mass, str]:
         """Find consistent values and the slope; return ∂F/∂y' there, and what was changed."""
         t, left, tolerances = float(self.t), self._ends[0] - float(self.t), (self.rtol, self.atol)
-        self.y, told = residual.consistent(t, self.y, left, tolerances, self._names)
-        of_slope = residual.linearise(t, self.y, self.atol / self.rtol, left)[1]
-        return mass_at_start(of_slope, residual.slope, self._index, self._test_algebraic), told
+        typical = self.atol / self.rtol
+        self.y, warning = residual.consistent(t, self.y, left, tolerances, self._names)
+        of_slope = residual.linearise(t, self.y, typical, left)[1]
+        read = read_mass(of_slope, self._index, self._test_algebraic, self.n)
+        assert read is not None
+        _, more = self._consistent(
+            residual.explicit(of_slope), lambda t, y: residual.linearise(t, y, typical, left)[0], read
+        )
+        if more:
+            self.y, _ = residual.consistent(t, self.y, left, tolerances, self._names)
+        return mass_at_start(of_slope, residual.slope, read), " ".join(filter(None, (warning, more)))
 
     def _implicit_jacobian(self, residual: Residual) -> Linear:
         """Return the Jacobian of an implicit equation, and who solves with it."""
@@ -222,8 +263,27 @@ class MEBDF(OdeSolver):
                 self._state = self._new_state(0.0)
             except ValueError as problem:
                 return False, str(problem)
+        if self._jump is not None:
+            self._before_jump, self._jump = self._jump, None
+            self.t = end_of_jump(float(self.t), self._ends[0])
+            return True, None
+        self._before_jump = None
+        request = self._core_step()
+        while request == STEP_ACCEPTED and self.direction * (self._state.real.item(T) - self.t) <= 0.0:
+            request = self._core_step()  # inside the jump that was the last step
+        counts, before = self._state.counts, self._before
+        self.nfev = before[0] + counts.item(N_F)
+        self.njev = before[1] + counts.item(N_J)
+        self.nlu = before[2] + counts.item(N_LU)
+        if request == FAILED:
+            return False, reason(self._state, self._names, self._entry_not_finite)
+        self.t, self.y = self._state.real.item(T), self._state.rows[HISTORY].copy()
+        return True, None
+
+    def _core_step(self) -> int:
+        """Evaluate for the core until it has accepted a step or given up; return which."""
         state, core, fun = self._state, self._resume, self.fun_single
-        real, counts, rows = state.real, state.counts, state.rows
+        real, rows = state.real, state.rows
         kink = self._ends[0] if len(self._ends) > 1 else None
         while (request := core(*state)) not in ENDS_OF_STEP:
             t, y = real.item(T_EVAL), rows[Y].copy()
@@ -240,14 +300,7 @@ class MEBDF(OdeSolver):
                     f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
                 )
             rows[F] = f
-        before = self._before
-        self.nfev = before[0] + counts.item(N_F)
-        self.njev = before[1] + counts.item(N_J)
-        self.nlu = before[2] + counts.item(N_LU)
-        if request == FAILED:
-            return False, reason(state, self._names, self._entry_not_finite)
-        self.t, self.y = real.item(T), rows[HISTORY].copy()
-        return True, None
+        return request
 
     def _answer(self, request: int, t: float, y: FloatArray) -> None:
         """Do what the core asks of who differentiates and solves for it."""
@@ -272,37 +325,10 @@ class MEBDF(OdeSolver):
         return int(row), int(column)
 
     def _dense_output_impl(self) -> DenseOutput:
-        """Return the polynomial of the last step."""
+        """Return the polynomial of the last step, or the jump that was it."""
+        if self._before_jump is not None:
+            return JumpDenseOutput(self.t_old, self.t, self._before_jump, self.y.copy())
         return MebdfDenseOutput(self.t_old, self.t, self._state)
-
-
-class MebdfDenseOutput(DenseOutput):
-    """Newton's polynomial through the newest value and the differences of the last accepted step.
-
-    Parameters
-    ----------
-    t_old, t
-        Begin and end of the step.
-    state
-        The integration; what is needed of it is copied.
-    """
-
-    def __init__(self, t_old: float, t: float, state: entry.MebdfState) -> None:
-        super().__init__(t_old, t)
-        degree = int(state.counts[entry.K_LAST]) + 1
-        self._step = float(state.real[entry.H_LAST])
-        self._differences = state.rows[entry.HISTORY : entry.HISTORY + degree + 1].copy()
-
-    def _call_impl(self, t: FloatArray) -> FloatArray:
-        """Return the solution at ``t``, shape (n,) or (n, number of times)."""
-        s = (t - self.t) / self._step
-        weight = np.ones_like(s)
-        weights = [weight]
-        for m in range(1, len(self._differences)):
-            weight = weight * (s + m - 1.0) / m
-            weights.append(weight)
-        y: FloatArray = np.tensordot(self._differences, np.array(weights), axes=(0, 0))
-        return y
 
 
 def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
@@ -311,7 +337,11 @@ def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y:
     if request == NEED_JACOBIAN:
         state.counts[entry.FINITE] = algebra.linearise(t, y)
     elif request == NEED_FACTORS:
-        state.counts[entry.REGULAR] = algebra.factorise(scaled)
+        back = state.counts.item(entry.BACK)
+        if back:
+            algebra.go_back(to_zero=back == 2 and state.places.size == 0)
+        state.counts[entry.SIGN] = algebra.factorise(scaled)
+        state.real[entry.TRACE] = algebra.trace()
     elif request == NEED_SOLUTION:
         rows[entry.DELTA] = algebra.solve(rows[entry.RESIDUAL])
     elif request == NEED_MAGNITUDE:

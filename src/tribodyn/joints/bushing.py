@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -15,6 +14,7 @@ from tribodyn.core.quantities import Record, names
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.touch import Touch
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.cylinder.joint import report, stored, wrench, wrench_and_jacobian
@@ -23,7 +23,6 @@ from tribodyn.kernels.joints.memory import new_memory as memory_of_nodes
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_report, from_wrench
 from tribodyn.kernels.joints.pose import Pose
 from tribodyn.kernels.joints.quantities import REPORTED
-from tribodyn.kernels.lookup import pressure_and_damping
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -166,26 +165,11 @@ class BushingJoint:
         """Shape (n_z + 2, n_theta) of a field over the nodes."""
         return self.grid.z + 2, self.grid.theta
 
-    def asperity_separation(self, gap: float) -> float:
-        """Return the mean planes' distance s over σ where they would be ``gap`` [m] apart unloaded [1]."""
-        h_star = gap / self.roughness
-        if self.liner is None:
-            return h_star
-        pressure = float(pressure_and_damping(self.table, h_star)[0])
-        return h_star + pressure / (self.liner.stiffness * self.roughness)
-
-    def contact_half_width(self, gap: float) -> float:
-        """Return half the arc on which an untilted trunnion presses, where its least gap is ``gap`` [m].
-
-        It ends where the pressure is a hundredth of the largest.
-        """
-        table, clearance = self.table, self.geometry.clearance
-        peak = float(pressure_and_damping(table, gap / self.roughness)[0])
-        pressing = int(np.count_nonzero(table.nodes[:, 0] > 0.01 * peak))
-        edge = self.roughness * (table.h_first + (pressing - 1) / table.inverse_step)
-        return self.geometry.bore_radius * math.acos(
-            min(max((clearance - edge) / (clearance - gap), -1.0), 1.0)
-        )
+    @property
+    def touch(self) -> Touch:
+        """The two surfaces."""
+        size = self.geometry
+        return Touch(self.roughness, self.table, self.contact, self.liner, size.clearance, size.bore_radius)
 
     def data(self, wear: FloatArray | None = None) -> BushingData:
         """Return what the kernels read.

@@ -14,6 +14,7 @@ from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
+from tribodyn.core.stopping import ask
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
@@ -82,6 +83,10 @@ class Clearance(Protocol):
     def tensile_clip(self) -> bool:
         """Whether the total pressure is kept from becoming tensile."""
 
+    @property
+    def slides(self) -> bool:
+        """Whether the shaft is meant to slide along its axis, however far."""
+
 
 @dataclass(frozen=True)
 class Place:
@@ -129,10 +134,17 @@ def table_of(
 
 
 def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
-    """Return where the surfaces of clearance joints lie, joint by joint."""
+    """Return where the surfaces of clearance joints lie, joint by joint.
+
+    Raises
+    ------
+    Stopped
+        If the caller wants to stop: a surface of a fine grid takes a tenth of a second.
+    """
     found: list[Place] = []
     for joint, clearance in enumerate(clearances):
         for surface in shape_of(clearance).surfaces(clearance.grid):
+            ask()
             first = found[-1].nodes.stop if found else 0
             found.append(Place(joint, surface, slice(first, first + surface.area.size)))
     return tuple(found)
@@ -147,6 +159,11 @@ def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) ->
         One for each clearance joint, in their order.
     wear
         Wear depth at all nodes [m], shape (n_nodes,); none by default.
+
+    Raises
+    ------
+    Stopped
+        If the caller wants to stop.
     """
     where, tables = places(clearances), _Tables()
     surfaces = np.zeros(len(where), dtype=kernel.Surface)
@@ -158,9 +175,12 @@ def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) ->
         record["first_node"], record["last_node"] = place.nodes.start, place.nodes.stop
         record["tilt"], record["area"] = place.surface.tilt, place.surface.area.sum()
         record["slides"] = 1.0 if place.surface.slides else 0.0
+        record["lean"] = place.surface.lean
         tables.fill(record, clearance.table)
         _fill_law(record, clearance)
     nodes = _nodes(where, wear)
+    for record, place in zip(surfaces, where, strict=True):
+        record["reach"] = _reach(clearances[place.joint], nodes[:, place.nodes])
     return SurfaceData(
         joints=np.searchsorted([place.joint for place in where], np.arange(len(clearances) + 1)),
         surfaces=surfaces,
@@ -213,6 +233,18 @@ def _fill_law(record: Record, clearance: Clearance) -> None:
         record["heights"][: len(points.heights)] = points.heights
 
 
+def _reach(clearance: Clearance, nodes: FloatArray) -> tuple[float, float]:
+    """Return how far a shaft may be displaced across and along its axis within a surface of these nodes [m].
+
+    Across it has left its bore when the wall is thinner than the shaft and behind it. Along, where it is not
+    meant to slide, when nothing of it is left in the bore.
+    """
+    x, y, z = nodes[kernel.POSITION : kernel.NORMAL]
+    across = float(np.max(np.hypot(x, y)) + np.max(nodes[kernel.GAP]))
+    # Faces have no height: they stop the shaft themselves.
+    return across, np.inf if clearance.slides or not np.ptp(z) else float(np.ptp(z))
+
+
 def _nodes(where: Sequence[Place], wear: FloatArray | None) -> FloatArray:
     """Return the array of all nodes, see ``kernels/joints/surface/data.py``."""
     n = where[-1].nodes.stop if where else 0
@@ -221,6 +253,7 @@ def _nodes(where: Sequence[Place], wear: FloatArray | None) -> FloatArray:
         raise InputError(f"wear depth has shape {depth.shape}, the joints have {n} nodes")
     nodes = np.zeros((kernel.N_NODE, n))
     for place in where:
+        ask()
         surface, here = place.surface, nodes[:, place.nodes]
         here[kernel.POSITION : kernel.NORMAL] = surface.position.T
         here[kernel.NORMAL : kernel.AREA] = surface.normal.T

@@ -35,6 +35,7 @@ _BELOW: Final = ("core/arrays.py", "core/quantities.py", "core/tables.py")
 _SWITCHES: Final = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT")
 """Settings of numba that change what it compiles."""
 _DIGITS: Final = 32
+_DIGEST: Final = hashlib.sha256().digest_size
 
 
 def cached(dispatcher: Any) -> Any:
@@ -95,8 +96,9 @@ def _processor() -> tuple[str, ...]:
 
 def _places() -> Iterator[Path]:
     """Yield where the folder may be, the best place first."""
-    if _config.CACHE_DIR:
-        yield Path(_config.CACHE_DIR).absolute() / "tribodyn"
+    # Not as numba has it, which also reads a file of the working directory that may be anybody's.
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        yield Path(given).absolute() / "tribodyn"
     caches = Path(os.environ.get("XDG_CACHE_HOME", ""))
     if not caches.is_absolute():
         caches = Path(os.path.expanduser("~"), ".cache")
@@ -154,10 +156,41 @@ class _Implementation(caching.CompileResultCacheImpl):
     _locator_classes: list[type[object]] = [_Locator]  # noqa: RUF012 (numba says it is one of an instance)
 
 
+class DamagedCode(Exception):
+    """A file is not what was written."""
+
+
+class _Files(caching.IndexDataCacheFile):
+    """Index and code of a function, each of which ends in a hash of what is before it.
+
+    Numba itself would execute machine code of which a bit has changed.
+    """
+
+    def _dump(self, thing: Any) -> bytes:
+        content: bytes = super()._dump(thing)
+        # What is read ends with the object: it takes no notice of what follows.
+        return content + _digest(content)
+
+    def _load_data(self, name: str) -> Any:
+        content = memoryview(Path(self._data_path(name)).read_bytes())
+        if _digest(content[:-_DIGEST]) != content[-_DIGEST:]:
+            raise DamagedCode(name)
+        return super()._load_data(name)
+
+
+def _digest(content: bytes | memoryview) -> bytes:
+    return hashlib.sha256(content).digest()
+
+
 class _KernelCache(caching.FunctionCache):
     """Numba's cache of a function that other processes may fill and remove at the same time."""
 
     _impl_class = _Implementation
+
+    def __init__(self, function: Any) -> None:
+        super().__init__(function)
+        locator, base = self._impl.locator, self._impl.filename_base
+        self._cache_file = _Files(self._cache_path, base, locator.get_source_stamp())
 
     def load_overload(self, signature: Any, target: Any) -> Any:
         """Return the compiled function; None where it is not there or damaged, as after a loss of power."""

@@ -9,8 +9,13 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import record_type
 from tribodyn.kernels.jit import kernel
 
-Signal: Final = record_type(("first", "i8"), ("n", "i8"), ("sine", "f8", (3,)))
-"""Pieces of a polynomial, and a sine beside it: amplitude, angular frequency, phase."""
+ROUNDING: Final = 1.0e-11
+"""Share of a period before its end that counts as the beginning of the next."""
+Signal: Final = record_type(
+    ("first", "i8"), ("n", "i8"), ("sine", "f8", (3,)), ("begin", "f8"), ("period", "f8")
+)
+"""Pieces of a polynomial, a sine beside it (amplitude, angular frequency, phase), and where the pieces begin
+and after what distance they repeat; 0 for pieces that do not."""
 Piece: Final = record_type(("until", "f8"), ("left", "f8"), ("c", "f8", (5,)))
 """A polynomial over the distance from ``left``, rising powers, up to ``until``."""
 
@@ -38,6 +43,9 @@ def evaluate(signals: Signals, number: int, x: float, within: float) -> tuple[fl
     The piece is the one that holds at ``within``: stages beyond a kink go on with the piece before it.
     """
     signal, pieces = signals.signals[number], signals.pieces
+    if signal.period > 0.0:
+        shift = signal.period * math.floor((within - signal.begin) / signal.period + ROUNDING)
+        x, within = x - shift, within - shift
     low, high = signal.first, signal.first + signal.n - 1
     while low < high:
         middle = (low + high) // 2

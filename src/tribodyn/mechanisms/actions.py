@@ -43,9 +43,11 @@ class Term:
     against: bool = False
 
 
-def kinks_over(terms: Iterable[Term], over: int) -> FloatArray:
-    """Return where signals over one coordinate kink, increasing."""
-    found = [signal.kinks for term in terms for signal, follows in term.factors if follows == over]
+def kinks_over(terms: Iterable[Term], over: int, reached: FloatArray) -> FloatArray:
+    """Return where signals over one coordinate kink, increasing; ``reached`` holds values of it."""
+    low, high = float(reached.min()), float(reached.max())
+    factors = [factor for term in terms for factor in term.factors]
+    found = [signal.kinks_within(low, high) for signal, follows in factors if follows == over]
     return np.unique(np.concatenate([np.empty(0), *found]))
 
 

@@ -8,6 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.stopping import ask
 
 _MAX_ITERATIONS: Final = 4000
 """A step passes less than σ, and the way through the widest clearances is some hundreds of that."""
@@ -40,10 +41,16 @@ def damped_newton(
     -------
     numpy.ndarray or None
         The solution, or None where the iteration does not settle.
+
+    Raises
+    ------
+    Stopped
+        If the caller wanted to stop before the end.
     """
     q = start.copy()
     load, jacobian = residual(q)
     for _ in range(_MAX_ITERATIONS):
+        ask()
         # A little stiffness where there is none lets the shaft move to where there is some.
         floor = 1.0e-6 * np.abs(jacobian[:2, :2]).max(initial=1.0)
         damped = jacobian - np.diag(floor / scale**2)

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tribodyn.cases.case import Case, Remarks
+from tribodyn.cases.case import Case
 from tribodyn.cases.groups import Wear
 from tribodyn.cases.load import BuiltIn
+from tribodyn.cases.messages import Remarks
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.results.headline import Headline
@@ -24,12 +25,12 @@ from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:
     from tribodyn.figures.base import Family
+    from tribodyn.mechanisms.bushing import Bearing
     from tribodyn.views.overlay import Overlay
     from tribodyn.views.section import Chapter
 
 
-Stop: TypeAlias = Callable[[], bool] | None
-"""Asked while a run goes on; when true the run ends there."""
+WearRates: TypeAlias = tuple[float | FloatArray, float | FloatArray]
 
 
 @dataclass(frozen=True)
@@ -205,13 +206,13 @@ class System(Protocol):
         """
         ...
 
-    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; where nothing wears ``worn`` is None.
 
         Raises
         ------
         Stopped
-            If ``stop`` was true while a place to begin at was looked for.
+            If the caller wanted to stop while a place to begin at was looked for.
         """
         ...
 
@@ -234,6 +235,11 @@ class WearingSystem(System, Protocol):
     @property
     def nodes(self) -> Nodes:
         """Where they wear; no nodes where all joints are ideal."""
+        ...
+
+    @property
+    def wear_rates(self) -> WearRates:
+        """Specific wear rates of bushing and partner [m²/N], each one number or one for each node."""
         ...
 
     @property
@@ -298,6 +304,9 @@ class Mechanism:
         Headline numbers that each joint has, for mechanisms whose joints a user names; see :class:`ByJoint`.
     controls
         Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
+    bearings
+        The function that returns the shafts in bores of a case by the names of their joints, as
+        ``module:function``; empty where there are none.
     """
 
     folder: str
@@ -309,6 +318,14 @@ class Mechanism:
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
     by_joint: Mapping[str, ByJoint] = field(default_factory=dict)
     controls: tuple[str, ...] = ()
+    bearings: str = ""
+
+    def bearings_of(self, case: Case) -> Mapping[str, Bearing]:
+        """Return the shafts in bores of a case by the names of their joints."""
+        if not self.bearings:
+            return {}
+        module, _, name = self.bearings.partition(":")
+        return cast("Mapping[str, Bearing]", getattr(importlib.import_module(module), name)(case))
 
     def headlines_of(self, joints: Iterable[str]) -> dict[str, Headline]:
         """Return all headline numbers, those of joints with these names among them, in reading order."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Final, Protocol
 
@@ -13,10 +13,13 @@ import numpy as np
 from tribodyn.cases import groups
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.temperature import Temperature
-from tribodyn.contact import HasSurfacePair
+from tribodyn.contact import HasSurfacePair, Liner, SurfacePair
+from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Friction, Grid, contact_table
+from tribodyn.core.stopping import skip
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_report, joint_wrench
+from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.wear import resampled
 
@@ -49,26 +52,67 @@ class HasBushing(HasSurfacePair, Protocol):
         """Its table ``[solver]``."""
 
 
+@dataclass(frozen=True)
+class Bearing:
+    """A shaft in a bore with its surfaces, apart from the mechanism around it.
+
+    Attributes
+    ----------
+    contact, pair
+        Keys of its contact law, and the surfaces that the law takes.
+    geometry
+        Its dimensions at the temperatures of the run.
+    liner
+        Elastic sleeve of the bore; None where there is none.
+    friction
+        Its friction.
+    nodes
+        Nodes around.
+    """
+
+    contact: groups.Contact
+    pair: SurfacePair
+    geometry: BushingGeometry
+    liner: Liner | None
+    friction: Friction
+    nodes: int
+
+
+def bearings(case: HasBushing) -> dict[str, Bearing]:
+    """Return the one shaft in a bore of a case, by the name of its table."""
+    joint = case.joint
+    return {
+        "joint": Bearing(
+            contact=case.contact,
+            pair=case.surface_pair,
+            geometry=case.temperature.dimensions(joint, case.surfaces),
+            liner=joint.liner.layer(case.surfaces.bushing),
+            friction=Friction(joint.friction_coefficient, joint.friction, joint.slip_velocity),
+            nodes=case.solver.grid.theta,
+        )
+    }
+
+
 def bushing_of(case: HasBushing) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
-    contact, liner = case.contact, case.joint.liner.layer(case.surfaces.bushing)
-    geometry = case.temperature.dimensions(case.joint, case.surfaces)
+    (bearing,) = bearings(case).values()
+    contact = bearing.contact
     return BushingJoint(
-        geometry=geometry,
-        friction=Friction(case.joint.friction_coefficient, case.joint.friction, case.joint.slip_velocity),
+        geometry=bearing.geometry,
+        friction=bearing.friction,
         entry=EntryMemory(contact.onset_separation, contact.least_entry_velocity, contact.tensile_clip),
-        grid=Grid(case.solver.grid.theta, case.solver.grid.z),
-        roughness=case.surface_pair.roughness_rms,
+        grid=Grid(bearing.nodes, case.solver.grid.z),
+        roughness=bearing.pair.roughness_rms,
         table=contact_table(
             case.joint.contact,
-            contact.law_of(case.surface_pair),
-            geometry,
+            contact.law_of(bearing.pair),
+            bearing.geometry,
             onset=contact.onset_separation,
             smoothing_width=contact.smoothing_width,
-            liner=liner,
+            liner=bearing.liner,
         ),
         contact=case.joint.contact,
-        liner=liner,
+        liner=bearing.liner,
         form=case.joint.form.form(),
     )
 
@@ -96,13 +140,19 @@ def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> lis
             f"Temperatures take the clearance from {begin} to {end}; it is {least} at least. Radius, length, "
             "contact law, friction and wear coefficient stay those of the start."
         ]
-    temperature, cold = case.temperature, case.joint.clearance
-    hot = temperature.dimensions(case.joint, case.surfaces).clearance
-    if hot == cold:
+    hot = case.temperature.dimensions(case.joint, case.surfaces).clearance
+    words = of_expansion(case.joint.clearance, hot)
+    if not words:
         return []
-    words = f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."
     material = _of_material(case)
     return [f"{words} Of the material change {', '.join(material)}." if material else words]
+
+
+def of_expansion(cold: float, hot: float) -> str:
+    """Return that the clearance [m] is another one in the run; an empty text where it is not."""
+    if hot == cold:
+        return ""
+    return f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."
 
 
 def _of_material(case: HasBushing) -> list[str]:
@@ -117,13 +167,13 @@ def _of_material(case: HasBushing) -> list[str]:
     ]
 
 
-def loading(case: HasBushing, joint: BushingJoint, pressure: float, separation: float) -> dict[str, float]:
-    """Return how far the surfaces of a joint were loaded, by name; nothing where the contact is at points.
+def loading(law: ContactLaw, touch: Touch, pressure: float, separation: float) -> dict[str, float]:
+    """Return how far two surfaces were loaded, by name; NaN where the contact is at points.
 
     Parameters
     ----------
-    case, joint
-        The case and its joint.
+    law, touch
+        Their contact law, and the surfaces.
     pressure
         Largest contact pressure [Pa].
     separation
@@ -135,12 +185,10 @@ def loading(case: HasBushing, joint: BushingJoint, pressure: float, separation: 
         ``hardness_share``, the pressure over the hardness of the bushing, and ``real_area_share``, the real
         area of contact over the nominal one where the gap was smallest; NaN where the contact law has none.
     """
-    if joint.contact != SURFACE:
+    if not touch.over_surface:
         return {"hardness_share": math.nan, "real_area_share": math.nan}
-    pair = case.surface_pair
-    closest = np.array([joint.asperity_separation(separation)])
-    area = case.contact.law_of(pair).real_area_fraction(closest)
-    return {"hardness_share": pressure / pair.hardness, "real_area_share": float(area[0])}
+    area = law.real_area_fraction(np.array([touch.asperity_separation(separation)]))
+    return {"hardness_share": pressure / law.pair.hardness, "real_area_share": float(area[0])}
 
 
 def pressure_at_rest(
@@ -151,6 +199,8 @@ def pressure_at_rest(
 ) -> float:
     """Return the peak pressure of surfaces at rest where that of the run was largest [Pa]; 0 without rows.
 
+    NaN where the caller wants to stop.
+
     Taken on a grid four times finer, which resolves the edge: what the peak of the run has more is damping.
 
     Parameters
@@ -160,6 +210,8 @@ def pressure_at_rest(
     """
     if not rows["e_x"].size:
         return 0.0
+    if skip():
+        return math.nan
     finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
     fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
     row = int(np.argmax(rows["p_max"]))
@@ -196,7 +248,8 @@ def grid_force_error(
 ) -> float:
     """Return the largest error of the contact force on the run's grid against one four times finer [1].
 
-    Taken at some of the run's own attitudes, without their velocities, relative to the largest force.
+    Taken at some of the run's own attitudes, without their velocities, relative to the largest force. NaN
+    where the caller wants to stop.
 
     Parameters
     ----------
@@ -217,6 +270,8 @@ def grid_force_error(
     coarse = joint.data(wear)
     largest = error = 0.0
     for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
+        if skip():
+            return math.nan
         row = int(i)
         y = _attitude(rows, row)
         exact = joint_wrench(_at(fine, clearance, row), y)[:2]

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from typing import Final
 
+import numpy as np
+
+from tribodyn.cases.beyond import Followed
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.joints import SURFACE, BushingJoint
+from tribodyn.joints.touch import Touch
 
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
@@ -16,6 +21,8 @@ hardness of metals, 1951)."""
 AREA_LIMIT: Final = 0.1
 """Real area of contact over the nominal one: beyond a few per cent asperities no longer deform one by one,
 which every law here takes for granted."""
+ROUGH_LIMIT: Final = 3.0
+"""Radial clearance over the combined rms roughness σ: 3 σ hold all but a thousandth of the heights."""
 _DAMPING: Final = 0.05
 """Share of the peak pressure that is damping; below it the grid hardly matters."""
 LIFT_OFF_LIMIT: Final = 0.001
@@ -35,11 +42,28 @@ def extremes(*records: Record) -> dict[str, float]:
     return {name: float(record[name]) for record in records for name in record.dtype.names}
 
 
-def beyond_law(joint: BushingJoint, t_end: float) -> str:
-    """Return why a run stopped at ``t_end`` [s] that left the range of its contact law."""
+def beyond_law(
+    h_first: float,
+    t_end: float,
+    surfaces: str,
+    cause: str = "the load or the impact is too large for this law",
+) -> str:
+    """Return why a run stopped at ``t_end`` [s] that left the range of its contact law.
+
+    Parameters
+    ----------
+    h_first
+        Where its table begins, over σ [1].
+    t_end
+        Simulated time reached [s].
+    surfaces
+        Which ones, in words.
+    cause
+        What to say of it.
+    """
     return (
-        f"stopped at t = {t_end:.6g} s: the surfaces came closer than the contact law reaches "
-        f"({joint.table.h_first:g} sigma); load or impact is too much for it"
+        f"stopped at t = {t_end:.6g} s: the surfaces of {surfaces} came closer than the contact law reaches "
+        f"({h_first:g} sigma); {cause}"
     )
 
 
@@ -79,31 +103,32 @@ def of_lift_off(share: float) -> str:
     return f"The thrust collar carried nothing for {100 * share:.2g} % of the run: lift-off is not modelled."
 
 
-def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_error: float) -> list[str]:
+def of_contact(touch: Touch, *, separation: float, clipped: float, grid_error: float) -> list[str]:
     """Return what is to be said of a contact, whatever is joined by it; empty texts where nothing is.
 
     Parameters
     ----------
-    joint
-        The bushing.
+    touch
+        The two surfaces.
     separation
         Least distance of the mean planes [m].
     clipped
         Share of the contact area where the tensile clip acts, mean over time.
     grid_error
-        From :func:`tribodyn.mechanisms.bushing.grid_force_error`.
+        Largest error of the contact force on the run's grid, as a fraction; NaN where it is not known.
     """
-    depth = joint.asperity_separation(separation)
-    surface = joint.contact == SURFACE
+    surface = touch.over_surface
+    depth = touch.asperity_separation(separation) if surface else math.inf
     return [
+        of_clearance(touch),
         f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
         if grid_error > GRID_LIMIT
         else "",
         f"The mean planes of the surfaces came within {depth:.2g} sigma of each other: below 0 the "
         "statistical contact law is outside its range."
-        if depth < 0.0 and surface
+        if depth < 0.0
         else "",
-        *_of_liner(joint, separation),
+        *_of_liner(touch, separation),
         f"The clip of tensile pressure acted on {100 * clipped:.2g} % of the contact area on average: "
         "damping is strong against stiffness there."
         if clipped > CLIP_LIMIT
@@ -114,17 +139,56 @@ def of_contact(joint: BushingJoint, *, separation: float, clipped: float, grid_e
     ]
 
 
-def _of_liner(joint: BushingJoint, separation: float) -> list[str]:
+def of_clearance(touch: Touch) -> str:
+    """Return what is to be said of a clearance that rough surfaces fill; an empty text where nothing is."""
+    if not (touch.over_surface and touch.clearance < ROUGH_LIMIT * touch.roughness):
+        return ""
+    return (
+        f"The radial clearance of {1e6 * touch.clearance:.3g} um is {touch.clearance / touch.roughness:.2g} "
+        f"times the combined roughness: below {ROUGH_LIMIT:g} the surfaces touch all around, wherever the "
+        "shaft is. Give a larger clearance or smoother surfaces."
+    )
+
+
+def named(name: str, said: Iterable[str]) -> list[str]:
+    """Return sentences about a contact, each with its name before it; empty ones are left out."""
+    return [f"In {name} {text[0].lower()}{text[1:]}" for text in said if text]
+
+
+def _of_liner(touch: Touch, separation: float) -> list[str]:
     """Return what is to be said of the layer that the asperities stand on."""
-    if joint.liner is None:
+    if touch.liner is None or not math.isfinite(touch.bore_radius):
         return []
-    half_width = joint.contact_half_width(separation)
+    half_width = touch.half_width(separation)
     return [
-        f"Half the contact is {half_width / joint.liner.thickness:.2g} times as wide as its liner is thick: "
+        f"Half the contact is {half_width / touch.liner.thickness:.2g} times as wide as its liner is thick: "
         "with this Poisson's ratio that is too little for a thin layer, and pressures are only roughly right."
-        if joint.liner.error(half_width) > LINER_LIMIT
+        if touch.liner.error(half_width) > LINER_LIMIT
         else ""
     ]
+
+
+def of_tables(
+    tables: Iterable[Followed], times: FloatArray, coordinate: Callable[[Followed], FloatArray]
+) -> list[str]:
+    """Return which tables over angles or positions a run leaves.
+
+    Parameters
+    ----------
+    tables
+        Of the case.
+    times
+        Of the rows [s], shape (n_t,).
+    coordinate
+        Returns the values at the rows of what a table follows, shape (n_t,).
+    """
+    said = []
+    for table in tables:
+        if table.over != "times":
+            (low, high), values = table.reach, coordinate(table)
+            outside = np.flatnonzero((values < low) | (values > high))[:1]
+            said += [table.warning(float(times[row]), past=bool(values[row] > high)) for row in outside]
+    return said
 
 
 def of_steps(statistics: Mapping[str, float]) -> list[str]:

@@ -39,7 +39,7 @@ def flash_of(
     pressure, sliding = float(rows["p_max"][row]), abs(float(speed[row]))
     pair = case.surface_pair
     law = case.contact.law_of(pair)
-    gap = np.array([joint.asperity_separation(float(rows["separation_min"][row]))])
+    gap = np.array([joint.touch.asperity_separation(float(rows["separation_min"][row]))])
     real, count = float(law.real_area_fraction(gap)[0]), float(law.contact_count(gap)[0])
     real = pressure / pair.hardness if math.isnan(real) else real
     count = pair.asperity_density * float(law.touching_share(gap)[0]) if math.isnan(count) else count

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import xarray as xr
@@ -13,6 +15,7 @@ from tribodyn.mechanisms.base import Mechanism
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import store, summary
 from tribodyn.results.headline import Headline
+from tribodyn.results.variables import VARIABLES
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -55,10 +58,28 @@ def mechanism_of(dataset: xr.Dataset) -> Mechanism:
     return MECHANISMS[kind]
 
 
+@contextmanager
+def all_there(*datasets: xr.Dataset) -> Iterator[None]:
+    """Refuse results that lack a variable which the block reads.
+
+    Which variables a result holds depends on what was simulated, so that it shows only where one is used.
+    """
+    try:
+        yield
+    except KeyError as error:
+        name = next(iter(re.findall(r"'(\w+)'", str(error))), "")
+        known = any(name in mechanism.variables for mechanism in MECHANISMS.values()) or name in VARIABLES
+        if not known or all(name in dataset.variables for dataset in datasets):
+            raise
+        reason = f"the result lacks the variable {name}; it is damaged: simulate the case again"
+        raise InputError(reason) from error
+
+
 def summarise(dataset: xr.Dataset) -> summary.Summary:
     """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
     joints = dataset["joint"].values.tolist() if "joint" in dataset.coords else []
-    return summary.summarise(dataset, mechanism_of(dataset).headlines_of(joints))
+    with all_there(dataset):
+        return summary.summarise(dataset, mechanism_of(dataset).headlines_of(joints))
 
 
 def headlines_of(kind: str) -> dict[str, Headline]:

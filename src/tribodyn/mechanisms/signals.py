@@ -26,22 +26,28 @@ class Pieces:
         Rising powers, shape (n, 5).
     sine
         Amplitude, angular frequency and phase of a sine beside it.
+    period
+        Distance after which the pieces repeat, which begin at the first ``left``; zero for none.
     """
 
     until: FloatArray
     left: FloatArray
     polynomial: FloatArray
     sine: tuple[float, float, float]
+    period: float = 0.0
 
 
 def pieces_of(signal: Signal) -> Pieces:
-    """Return the pieces of a signal; beyond a table its first and last value hold."""
+    """Return the pieces of a signal; beyond a table that does not repeat its first and last value hold."""
     if signal.kind != "table":
         c = signal.coefficients
         sine = (float(c[1]), float(c[2]), float(c[3])) if signal.kind == "sinusoid" else (0.0, 0.0, 0.0)
         return Pieces(np.array([np.inf]), np.zeros(1), _padded(c[None, :1]), sine)
     knots, inner = signal.knots, signal.coefficients.T[:, ::-1]
     wide = knots[1:] > knots[:-1]
+    if signal.period:
+        until, left = np.append(knots[1:-1][wide[:-1]], np.inf), knots[:-1][wide]
+        return Pieces(until, left, _padded(inner[wide]), (0.0, 0.0, 0.0), signal.period)
     ends = np.array([inner[0, 0], _value(inner[-1], knots[-1] - knots[-2])])
     polynomial = np.vstack([_padded(ends[:1, None]), _padded(inner[wide]), _padded(ends[1:, None])])
     left = np.concatenate([[knots[0]], knots[:-1][wide], [knots[-1]]])
@@ -100,6 +106,7 @@ class SignalList:
         for k, one in enumerate(self.all):
             last = first + one.until.size
             signals[k].first, signals[k].n, signals[k].sine[:] = first, one.until.size, one.sine
+            signals[k].begin, signals[k].period = one.left[0], one.period
             pieces.until[first:last], pieces.left[first:last] = one.until, one.left
             pieces.c[first:last] = one.polynomial
             first = last

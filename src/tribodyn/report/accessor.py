@@ -13,6 +13,7 @@ from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
 import xarray as xr
 
 from tribodyn.core.errors import InputError
@@ -59,7 +60,10 @@ class Accessor:
 
 
 class Plots:
-    """The figures of a result as methods, each of which returns a :class:`matplotlib.figure.Figure`."""
+    """The figures of a result as methods, each of which returns a :class:`matplotlib.figure.Figure`.
+
+    Of a mechanism whose joints have names, ``joint="wrist"`` draws that joint alone.
+    """
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -75,7 +79,7 @@ class Plots:
         orbit = next((families[name] for name in _ORBITS if name in families), None)
         return families | ({} if orbit is None else {ORBIT: orbit})
 
-    def __getattr__(self, name: str) -> Callable[[], Figure]:
+    def __getattr__(self, name: str) -> Callable[..., Figure]:
         """Return what draws the figure of this name."""
         if name.startswith("_"):
             raise AttributeError(name)
@@ -90,10 +94,26 @@ class Plots:
         return sorted(self._families())
 
 
-def _drawn(family: Family, dataset: xr.Dataset) -> Figure:
+def _drawn(family: Family, dataset: xr.Dataset, *, joint: str | None = None) -> Figure:
     if "IPython" in sys.modules:
         _show_pictures()
-    return family.draw(dataset)
+    return family.draw(dataset if joint is None else _with_joint(dataset, family, joint))
+
+
+def _with_joint(dataset: xr.Dataset, family: Family, joint: str) -> xr.Dataset:
+    """Return a result with one of its joints, and its surfaces, for a figure that shows joints.
+
+    Raises
+    ------
+    InputError
+        There is no such joint, or the figure does not show joints one by one.
+    """
+    names = [str(name) for name in dataset["joint"].values] if {"joint", "surface"} & {*family.needs} else []
+    if joint not in names:
+        allowed = ", ".join(names) or f"none: {family.name} does not show joints one by one"
+        raise InputError(f"{as_given(joint)}; allowed: {allowed}{meant(joint, names)}", key="joint")
+    surfaces = [str(name).rpartition(":")[0] == joint for name in dataset["surface"].values]
+    return dataset.isel(joint=[names.index(joint)], surface=np.flatnonzero(surfaces))
 
 
 def _show_pictures() -> None:

@@ -11,7 +11,7 @@ from typing import Any, Final
 import xarray as xr
 
 from tribodyn.core import toml
-from tribodyn.mechanisms.results import known, summarise
+from tribodyn.mechanisms.results import all_there, known, summarise
 from tribodyn.report.beside import chapter_of
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
@@ -91,7 +91,9 @@ def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
     """
     path = Path(target)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, render(runs))
+    with all_there(*(run.dataset for run in runs)):
+        page = render(runs)
+    write_text(path, page)
     return path
 
 

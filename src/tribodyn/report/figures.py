@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.figures import sweep
 from tribodyn.figures.base import Family
 from tribodyn.figures.save import remove, save
-from tribodyn.mechanisms.results import mechanism_of
+from tribodyn.mechanisms.results import all_there, mechanism_of
 
 
 def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:
@@ -43,7 +43,8 @@ def draw_all(dataset: xr.Dataset, directory: str | Path, *, part: slice = slice(
     written = []
     for family in list(figures_of(dataset).values())[part]:
         if family.drawable(dataset):
-            written.append(save(family.draw(dataset), folder, family.name))
+            with all_there(dataset):
+                written.append(save(family.draw(dataset), folder, family.name))
         else:
             remove(folder, family.name)
     return written

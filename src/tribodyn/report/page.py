@@ -31,6 +31,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path], folder: Path) -> str:
         title=summary["title"] or "Result",
         version=dataset.attrs.get("tribodyn_version", ""),
         failure=summary["failure"],
+        doubtful=summary["doubtful"],
         time_reached=in_words(summary.get("simulated_time_s", 0.0)),
         warnings=json_attribute(dataset, "warnings", []),
         notes=json_attribute(dataset, "notes", []),

@@ -8,6 +8,7 @@ from typing import Final
 
 import xarray as xr
 
+from tribodyn.mechanisms.results import all_there
 from tribodyn.report.figures import figures_of
 from tribodyn.report.page import render
 from tribodyn.report.sweep import render_sweep
@@ -40,9 +41,9 @@ def write(dataset: xr.Dataset, target: str | Path, figures: Sequence[str | Path]
     path.parent.mkdir(parents=True, exist_ok=True)
     stills = _beside(path, dataset) if figures is None else [Path(figure) for figure in figures]
     sweep = dataset.attrs.get("kind") == SWEEP
-    write_text(
-        path, render_sweep(dataset, stills, path.parent) if sweep else render(dataset, stills, path.parent)
-    )
+    with all_there(dataset):
+        page = (render_sweep if sweep else render)(dataset, stills, path.parent)
+    write_text(path, page)
     return path
 
 

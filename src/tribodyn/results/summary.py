@@ -59,6 +59,18 @@ EFFORT: Final[dict[str, Headline]] = {
 """What every run has, by its name in ``summary.json``."""
 
 
+DOUBTFUL: Final = 0.05
+"""Energy that a run misses, over the largest term of its balance, beyond which no number should be used."""
+
+
+def doubt(dataset: xr.Dataset) -> str:
+    """Return why the numbers of a run should not be used: its energy balance; empty where it closes."""
+    missed = dataset.attrs.get("energy_residual", 0.0)
+    if not isinstance(missed, float) or missed <= DOUBTFUL:
+        return ""
+    return "the energy balance misses " + ("all" if math.isnan(missed) else f"{100 * missed:.2g} %")
+
+
 def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary:
     """Return the headline numbers of a result.
 
@@ -74,8 +86,8 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
     Returns
     -------
     dict
-        Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none), the
-        lists of ``warnings`` and ``notes``, then numbers by name.
+        Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none),
+        ``doubtful`` (see :func:`doubt`), the lists of ``warnings`` and ``notes``, then numbers by name.
     """
     failure = str(dataset.attrs.get("failure", ""))
     summary: Summary = {
@@ -83,6 +95,7 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
         "title": str(dataset.attrs.get("title", "")),
         "status": "failed" if failure else "complete",
         "failure": failure,
+        "doubtful": doubt(dataset),
         "warnings": json_attribute(dataset, "warnings", []),
         "notes": json_attribute(dataset, "notes", []),
     }

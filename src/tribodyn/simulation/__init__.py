@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -12,9 +11,10 @@ from tribodyn.cases.functions import OwnFunction, with_functions
 from tribodyn.cases.groups import Contact
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.stopping import Stop, asked
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.base import Part, Stop, SystemCase
-from tribodyn.mechanisms.catalogue import MECHANISMS
+from tribodyn.mechanisms.base import Part, SystemCase
+from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
 from tribodyn.simulation.session import Progress, Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def simulate(
-    case: Case,
+    case: AnyCase,
     *,
     progress: Callable[[float], None] | None = None,
     stop: Callable[[], bool] | None = None,
@@ -40,13 +40,13 @@ def simulate(
     Parameters
     ----------
     case
-        From :func:`tribodyn.load_case`.
+        A case, the name of a built-in one, the path of a case file, or a :class:`tribodyn.Mechanism`.
     progress
         Called with the simulated time [s] after accepted steps, by the solver ``mebdf`` some ten times a
         second; in a wear campaign with the cycles of wear behind.
     stop
-        Asked whenever ``progress`` is called, and several times a second while equations are compiled; when
-        true the run ends there.
+        Asked whenever ``progress`` is called, and about once a second while equations are compiled, the start
+        is looked for and the result is checked; when true the run ends there.
     checkpoint
         File in which a wear campaign is kept after every jump, and from which it goes on if the file is
         there. It stays when the campaign is over. Other runs do not use it.
@@ -76,11 +76,13 @@ def simulate(
     Stopped
         If ``stop`` was true before anything was computed.
     """
+    case = case_of(case)
     # Equations do not depend on the law, and who compiles them could not import it.
     prepare(case, stop)
-    own = with_functions(case, drive, loads)
-    chosen = own if law is None else _with_law(own, law)
-    return _simulated(chosen, progress, stop, None if checkpoint is None else Path(checkpoint))
+    with asked(stop):
+        own = with_functions(case, drive, loads)
+        chosen = own if law is None else _with_law(own, law)
+        return _simulated(chosen, progress, stop, None if checkpoint is None else Path(checkpoint))
 
 
 def _with_law(case: Case, law: OwnLaw) -> Case:
@@ -94,36 +96,33 @@ def _with_law(case: Case, law: OwnLaw) -> Case:
 def _simulated(
     case: Case, progress: Progress = None, stop: Stop = None, checkpoint: Path | None = None
 ) -> xr.Dataset:
-    session = _session(case, progress, stop, stop)
+    session = _session(case, progress, stop)
     if not session.mechanism.of_cycle:
         return session.dataset(session.integrated(case.duration), Part())
     return simulate_campaign(session, checkpoint) if case.campaign_cycles else simulate_plain(session)
 
 
-def _session(case: Case, progress: Progress = None, stop: Stop = None, before: Stop = None) -> Session:
+def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Session:
     kind: str = getattr(case, "case", "")
     if kind not in MECHANISMS:
         raise InputError(f"given {kind!r}; allowed: {', '.join(MECHANISMS)}", key="case")
     mechanism = MECHANISMS[kind]
     known = cast(SystemCase, case)
-    return Session(known, mechanism, mechanism.system(known), progress, stop, before)
+    return Session(known, mechanism, mechanism.system(known), progress, stop)
 
 
-def _first_steps(case: Case, before: Stop = None) -> str:
-    """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did.
-
-    ``before`` is asked until the first one.
-    """
-    session = _session(case, stop=lambda: True, before=before)
+def _first_steps(case: Case) -> str:
+    """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did."""
+    session = _session(case, stop=lambda: True)
     return str(session.dataset(session.integrated(case.duration), Part()).attrs["failure"])
 
 
 def prepare(case: Case, stop: Stop = None) -> None:
     """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
-    first_steps = partial(_first_steps, before=stop)
-    if not loaded(case, first_steps):
-        compile_elsewhere(case, stop)
-        loaded(case, first_steps)
+    with asked(stop):
+        if not loaded(case, _first_steps):
+            compile_elsewhere(case)
+            loaded(case, _first_steps)
 
 
 def check(case: Case, *, deep: bool = False) -> Sequence[str]:

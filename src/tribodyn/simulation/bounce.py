@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC
 from tribodyn.contact.bounce import bounce
-from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Friction, Grid, contact_table
+from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Grid, contact_table
 from tribodyn.joints.drop import design_speed, drop
-from tribodyn.mechanisms.bushing import HasBushing
+from tribodyn.mechanisms.bushing import Bearing
 
 
 @dataclass(frozen=True)
@@ -38,47 +38,46 @@ class Row:
     shaft: float
 
 
-def bounces(case: HasBushing, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
-    """Drop a plate and a shaft on laws with every damping factor, on the surfaces of a case.
+def bounces(bearing: Bearing, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
+    """Drop a plate and a shaft on laws with every damping factor, on the surfaces of a joint.
 
     Both arrive with the energy that takes them to ``contact.design_pressure`` without damping.
 
     Parameters
     ----------
-    case
-        A case with one clearance joint. Without a ``contact.restitution`` that of ``rsdc`` at the design
-        pressure is given to all factors.
+    bearing
+        The joint. Without a ``contact.restitution`` that of ``rsdc`` at the design pressure is given to all
+        factors.
     names
         Names of the laws, all by default.
     mass
         Mass of the shaft [kg]; it matters by its speed alone, which meets the least entry velocity.
     """
-    wanted = case.contact.restitution or _own_restitution(case)
+    wanted = bearing.contact.restitution or _own_restitution(bearing)
     for name in names:
         for factor in DAMPING_FACTORS:
-            yield _row(case, name, factor, wanted, mass)
+            yield _row(bearing, name, factor, wanted, mass)
 
 
-def _own_restitution(case: HasBushing) -> float:
-    law = RSDC(case.surface_pair, design_pressure=case.contact.design_pressure)
+def _own_restitution(bearing: Bearing) -> float:
+    law = RSDC(bearing.pair, design_pressure=bearing.contact.design_pressure)
     return float(law.meant_restitution(np.array([law.design_separation()]))[0])
 
 
-def _row(case: HasBushing, name: str, factor: str, wanted: float, mass: float) -> Row:
+def _row(bearing: Bearing, name: str, factor: str, wanted: float, mass: float) -> Row:
     changes = {"law": name, "damping_factor": factor, "restitution": wanted, "loss_coefficient": None}
-    contact = case.contact.model_copy(update=changes)
+    contact = bearing.contact.model_copy(update=changes)
     onset, pressure = contact.onset_separation, contact.design_pressure
-    chosen = contact.law_of(case.surface_pair)
-    geometry = case.temperature.dimensions(case.joint, case.surfaces)
-    liner = case.joint.liner.layer(case.surfaces.bushing)
-    width = contact.smoothing_width
-    table = contact_table(SURFACE, chosen, geometry, onset=onset, smoothing_width=width, liner=liner)
+    chosen, width = contact.law_of(bearing.pair), contact.smoothing_width
+    table = contact_table(
+        SURFACE, chosen, bearing.geometry, onset=onset, smoothing_width=width, liner=bearing.liner
+    )
     joint = BushingJoint(
-        geometry=geometry,
-        friction=Friction(0.0, case.joint.friction, case.joint.slip_velocity),
+        geometry=bearing.geometry,
+        friction=replace(bearing.friction, coefficient=0.0),
         entry=EntryMemory(onset, contact.minimum_entry_velocity, contact.tensile_clip),
-        grid=Grid(4 * case.solver.grid.theta, 2),
-        roughness=case.surface_pair.roughness_rms,
+        grid=Grid(4 * bearing.nodes, 2),
+        roughness=bearing.pair.roughness_rms,
         table=table,
     )
     speed = design_speed(joint, mass=mass, pressure=pressure)

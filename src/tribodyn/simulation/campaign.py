@@ -16,7 +16,9 @@ from typing import Protocol
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
+from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.base import Carried
 from tribodyn.simulation.history import History, appended, empty_history, thinned
 from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
@@ -161,18 +163,29 @@ def run_campaign(
     Returns
     -------
     worn, cycle
-        The bushing at the end, and the cycle simulated with it.
+        The bushing at the end, and the cycle simulated with it. If the caller stopped the campaign between
+        two cycles, the last one simulated, with that as its failure.
+
+    Raises
+    ------
+    Stopped
+        If the caller stopped the campaign before a cycle was simulated.
     """
     worn, cycle = (resumed, None) if resumed is not None else _settled(system, plan)
     while cycle is None or cycle.failure is None:
-        cycle = system.cycle(_gap(worn, plan), worn.carried, worn.cycles)
-        worn = replace(worn, statistics=_added(worn.statistics, cycle.statistics))
-        if cycle.failure is None:
-            worn = replace(worn, life=min(worn.life, _moved_until(worn, cycle, plan)))
-            if worn.cycles >= plan.cycles or math.isfinite(worn.life):
-                return _noted(worn, cycle, plan), cycle
-            worn = _jumped(system, worn, cycle, plan)
-            keep(worn)
+        try:
+            cycle = system.cycle(_gap(worn, plan), worn.carried, worn.cycles)
+            worn = replace(worn, statistics=_added(worn.statistics, cycle.statistics))
+            if cycle.failure is None:
+                worn = replace(worn, life=min(worn.life, _moved_until(worn, cycle, plan)))
+                if worn.cycles >= plan.cycles or math.isfinite(worn.life):
+                    return _noted(worn, cycle, plan), cycle
+                worn = _jumped(system, worn, cycle, plan)
+                keep(worn)
+        except Stopped:
+            if cycle is None:
+                raise
+            return worn, replace(cycle, failure=INTERRUPTED)
     return worn, cycle
 
 

@@ -1,8 +1,7 @@
-"""Equations are compiled by a process of their own, so that every run uses the same machine code.
+"""Equations are compiled by a process of their own, which can be stopped.
 
-A process that has just compiled a function holds the functions that it calls, too, each compiled on its own,
-and uses those. One that finds the function in numba's cache on disk uses the copies inside it. Both are right
-but add up in other orders: the first run of all would differ in the last bits from every later one.
+Compilation takes minutes and cannot be interrupted inside a process. The process that asked for it loads the
+machine code from the cache.
 """
 
 from __future__ import annotations
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import Stopped
+from tribodyn.core.stopping import ask
 
 if TYPE_CHECKING:
     from tribodyn.cases.case import Case
@@ -69,7 +69,7 @@ def loaded(case: Case, first_steps: Steps) -> bool:
     return True
 
 
-def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> None:
+def compile_elsewhere(case: Case) -> None:
     """Have another process compile the equations of a case; where that fails, this one will do it.
 
     So it will where compiled code can be kept nowhere. However this process ends, the other one ends with it.
@@ -78,13 +78,11 @@ def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> Non
     ----------
     case
         The case.
-    stop
-        Asked several times a second.
 
     Raises
     ------
     Stopped
-        If ``stop`` was true before they were compiled.
+        If the caller wanted to stop before they were compiled.
     KeyboardInterrupt
         If the other process was interrupted, as by Ctrl-C, which reaches both.
     """
@@ -97,8 +95,7 @@ def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> Non
         child.stdin.write(json.dumps(case.to_toml()).encode() + b"\n")
         child.stdin.flush()
         while child.poll() is None:
-            if stop is not None and stop():
-                raise Stopped
+            ask()
             with suppress(subprocess.TimeoutExpired):
                 child.wait(_LISTEN)
         if child.returncode == -signal.SIGINT:
@@ -109,7 +106,7 @@ def compile_elsewhere(case: Case, stop: Callable[[], bool] | None = None) -> Non
 def _child() -> Iterator[subprocess.Popen[bytes]]:
     """Start a process that compiles; it has ended when the block has."""
     with subprocess.Popen(
-        [sys.executable, "-c", _CHILD],
+        [sys.executable, "-P", "-c", _CHILD],
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import xarray as xr
 
-from tribodyn.integrate import integrate
-from tribodyn.mechanisms.base import Mechanism, Part, Run, Stop, System, SystemCase, Worn
+from tribodyn.core.stopping import Stop, skipped
+from tribodyn.integrate import INTERRUPTED, integrate
+from tribodyn.mechanisms.base import Mechanism, Part, Run, System, SystemCase, Worn
 from tribodyn.results import build
 from tribodyn.simulation.provenance import provenance
 
@@ -26,8 +27,6 @@ class Session:
         What is simulated.
     progress, stop
         As for :func:`tribodyn.simulation.simulate`.
-    before
-        Asked while a place to begin at is looked for; when true the search raises ``Stopped``.
     """
 
     case: SystemCase
@@ -35,12 +34,11 @@ class Session:
     system: System
     progress: Progress = None
     stop: Stop = None
-    before: Stop = None
 
     def integrated(self, duration: float, worn: Worn | None = None, progress: Progress = None) -> Run:
         """Integrate the system over ``duration`` [s] from its start, or from where another run ended."""
         system, solver = self.system, self.case.solver
-        problem = system.problem(duration, worn, self.before)
+        problem = system.problem(duration, worn)
         solution = integrate(
             problem,
             solver=solver.name,
@@ -57,6 +55,8 @@ class Session:
         """Return the result of a run, with what was added to it."""
         part = self.system.gather(run)
         solver, said = self.case.solver, self.case.remarks()
+        # Without what was skipped a result is not whole, whatever its run reached.
+        failure = part.failure or more.failure or (INTERRUPTED if skipped() else "")
         return build(
             variables=self.mechanism.variables,
             coordinates={"time": run.solution.t, **part.coordinates, **more.coordinates},
@@ -71,7 +71,7 @@ class Session:
                 **part.attributes,
                 **more.attributes,
                 "time_reached": float(run.solution.t_end),
-                "failure": part.failure,
+                "failure": failure,
                 "warnings": [*said.warnings, *part.warnings, *more.warnings],
                 "notes": [*said.notes, *part.notes, *more.notes],
             },

@@ -24,9 +24,9 @@ def simulate_plain(session: Session) -> xr.Dataset:
     """Run a case of a system that wears once; its wear is what one run makes, without feedback."""
     system, wear = cast(WearingSystem, session.system), cast(WearingCase, session.case).wear
     run = session.integrated(session.case.duration)
-    depth = _archard(wear).depth(system.sliding_load(run.problem))
+    depth = _archard(system, wear).depth(system.sliding_load(run.problem))
     life = _linear_life(wear, run.solution.t_end / system.period, depth)
-    return session.dataset(run, _worn(system, wear, depth, life))
+    return session.dataset(run, _worn(system, depth, life))
 
 
 def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
@@ -46,11 +46,11 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
         if checkpoint is not None:
             checkpoints.write(checkpoint, campaign, text)
 
-    campaign, _ = run_campaign(cycles, cycles.plan, resumed, keep)
+    campaign, cycle = run_campaign(cycles, cycles.plan, resumed, keep)
     attributes: dict[str, object] = {"wear_cycles_reached": campaign.cycles}
     if math.isfinite(campaign.life):
         attributes["wear_life_cycles"] = campaign.life
-    part = _worn(cycles.system, cycles.case.wear, campaign.depth, attributes)
+    part = _worn(cycles.system, campaign.depth, attributes)
     more = replace(
         part,
         coordinates={
@@ -63,27 +63,28 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
             "stage_depth": cycles.system.as_field(campaign.stage_depth),
         },
         warnings=[*told, *_not_reached(cycles.case.wear, campaign)],
+        failure=cycle.failure or "",
     )
     return session.dataset(replace(cycles.last, cost=campaign.statistics), more)
 
 
-def _archard(wear: groups.Wear) -> Archard:
+def _archard(system: WearingSystem, wear: groups.Wear) -> Archard:
     """Return the wear law of a case."""
-    return Archard(wear.specific_wear_rate + wear.partner_wear_rate, wear.paper_hardness_divisor)
+    bushing, partner = system.wear_rates
+    return Archard(bushing + partner, wear.paper_hardness_divisor)
 
 
-def _of_partner(wear: groups.Wear) -> list[str]:
+def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> list[str]:
     """Say whose the worn depth is where both surfaces wear."""
-    both = wear.specific_wear_rate + wear.partner_wear_rate
-    if wear.partner_wear_rate == 0.0:
+    bushing, partner = (np.broadcast_to(rate, depth.shape) for rate in system.wear_rates)
+    both = np.maximum(bushing + partner, np.finfo(np.float64).tiny)
+    share = 100.0 * worn_volume(depth * partner / both, system.nodes.area) / volume if volume > 0.0 else 0.0
+    if share == 0.0:
         return []
-    share = 100.0 * wear.partner_wear_rate / both
     return [f"Of the worn depth and volume {share:.3g} % are worn off the partner of the bushing."]
 
 
-def _worn(
-    system: WearingSystem, wear: groups.Wear, depth: FloatArray, attributes: Mapping[str, object]
-) -> Part:
+def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> Part:
     """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
     if not depth.size:
         return Part()
@@ -91,7 +92,7 @@ def _worn(
     return Part(
         fields={"wear_depth": system.as_field(depth)},
         attributes={"worn_volume": volume, **attributes},
-        notes=_of_partner(wear),
+        notes=_of_partner(system, depth, volume),
     )
 
 
@@ -122,7 +123,7 @@ class _Cycles:
             settling=self.case.settling_cycles,
             feedback=wear.feedback,
             depth_limit=math.inf if wear.depth_limit is None else wear.depth_limit,
-            law=_archard(wear),
+            law=_archard(self.system, wear),
             control=JumpControl(wear.jump_limit, wear.jump_depth, nodes.roughness),
             node_area=nodes.area,
             of_cycle=tuple(self.session.mechanism.of_cycle),

@@ -21,16 +21,16 @@ class Archard:
     Attributes
     ----------
     specific_rate
-        Specific wear rate C_w [m²/N].
+        Specific wear rate C_w [m²/N], one or one for each node.
     hardness_divisor
         What the paper divides the rate by, a number without a unit; 0 is off.
     """
 
-    specific_rate: float
+    specific_rate: float | FloatArray
     hardness_divisor: float = 0.0
 
     @property
-    def rate(self) -> float:
+    def rate(self) -> float | FloatArray:
         """Wear rate in force [m²/N]."""
         return self.specific_rate / (self.hardness_divisor or 1.0)
 
@@ -42,7 +42,7 @@ class Archard:
         sliding_load
             ∫P_c |u| dt [N/m], any shape.
         """
-        return self.rate * sliding_load
+        return np.asarray(self.rate * sliding_load)
 
 
 def worn_volume(depth: FloatArray, node_area: FloatArray) -> float:

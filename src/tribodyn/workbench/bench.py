@@ -19,6 +19,7 @@ from tribodyn.workbench.cost import Costs
 from tribodyn.workbench.crew import Crew, Failed, Job
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.variant import Origin, Variant
+from tribodyn.workbench.visitor import Budget
 
 COMPILING: Final = 60.0
 """Time that compiling usually takes [s]."""
@@ -136,19 +137,28 @@ class Bench:
             self.compiled.add(choices_of(variant.case))
         return answer == b"true"
 
-    def preparation(self, variant: Variant) -> Job:
-        """Return the job that has the equations of a case compiled and loaded."""
-        return Job({"work": "prepare", "case": variant.toml}, self.rules.longest)
+    def preparation(self, variant: Variant, budget: Budget | None = None) -> Job:
+        """Return the job that has the equations of a case compiled and loaded, as :meth:`order` does."""
+        order = {"work": "prepare", "case": variant.toml}
+        return Job(order, self.rules.longest, budget=budget or Budget())
 
     async def prepare(self, variant: Variant, job: Job) -> None:
         """Have the equations of a case compiled."""
         await self.crew.do(job)
         self.compiled.add(choices_of(variant.case))
 
-    def order(self, variant: Variant, seconds: float, heard: Heard, *, background: bool = False) -> Job:
-        """Return the job that makes the frame of a case."""
-        order = {"work": "picture", "case": variant.toml, "told": variant.told()}
-        return Job(order, seconds, background, heard)
+    def order(
+        self,
+        variant: Variant,
+        seconds: float,
+        heard: Heard,
+        *,
+        background: bool = False,
+        budget: Budget | None = None,
+    ) -> Job:
+        """Return the job that makes the frame of a case, for whoever has this budget."""
+        order = {"work": "picture", "case": variant.toml, "told": variant.told}
+        return Job(order, seconds, background, heard, budget or Budget())
 
     async def made(self, variant: Variant, job: Job) -> bytes:
         """Return the body of the frame that a job makes, and remember what it took."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from statistics import median
 from typing import Final
@@ -33,18 +33,22 @@ class Costs:
         Of the last runs with these equations, for a case of size one.
     """
 
-    seconds: dict[Choices, deque[float]] = field(default_factory=dict)
+    seconds: Mapping[Choices, tuple[float, ...]] = field(default_factory=dict)
 
     def note(self, case: Case, seconds: float) -> None:
         """Remember what a run took."""
-        self.seconds.setdefault(choices_of(case), deque(maxlen=_LAST)).append(seconds / size(case))
+        choices = choices_of(case)
+        last = (*self.seconds.get(choices, ()), seconds / size(case))[-_LAST:]
+        # Anew: threads may be looking at the ones before.
+        self.seconds = {**self.seconds, choices: last}
 
     def expected(self, case: Case) -> float | None:
         """Return what a run will take [s], as if all equations cost the same; None before any run."""
-        if not self.seconds:
+        seconds = self.seconds
+        if not seconds:
             return None
-        last = next(reversed(self.seconds.values()))
-        return median(self.seconds.get(choices_of(case), last)) * size(case)
+        last = next(reversed([*seconds.values()]))
+        return median(seconds.get(choices_of(case), last)) * size(case)
 
 
 def size(case: Case) -> float:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from tribodyn.core import fork_server
+from tribodyn.workbench.visitor import Budget
 from tribodyn.workbench.worker import EVENT, FAILURE, GIVEN_UP, RESULT, STOP, Limits, serve
 
 DEATHS: Final = 2
@@ -44,12 +45,15 @@ class Job:
         Whether nobody waits for it.
     heard
         Called with what a worker tells on the way.
+    budget
+        Of who asked for it.
     """
 
     order: Mapping[str, Any]
     seconds: float
     background: bool = False
     heard: Callable[[Mapping[str, Any]], None] = lambda event: None
+    budget: Budget = field(default_factory=Budget)
     answer: asyncio.Future[bytes] = field(init=False)
     deaths: int = 0
     took: float = 0.0
@@ -122,8 +126,8 @@ class Worker:
 class Crew:
     """A fixed number of workers and what waits for them.
 
-    Whoever asks has at most one job that is waited for and few in the background at a time; so what came
-    first is done first, and nobody gets more than a fair share.
+    Of what is waited for, that of whoever took least of the workers lately is done first; then what came
+    first.
 
     Parameters
     ----------
@@ -131,10 +135,12 @@ class Crew:
         How many processes.
     limits
         What each may take.
+    each
+        How many of the processes one who asks may have at a time; all by default.
     """
 
-    def __init__(self, size: int, limits: Limits) -> None:
-        self.size, self.limits = size, limits
+    def __init__(self, size: int, limits: Limits, each: int | None = None) -> None:
+        self.size, self.limits, self.each = size, limits, each or size
         self.waiting: deque[Job] = deque()
         self.later: deque[Job] = deque()
         self.workers: list[Worker] = []
@@ -211,9 +217,14 @@ class Crew:
 
     def _next(self) -> Job | None:
         """Return what is to be done next; one worker is kept free of what nobody waits for."""
-        if self.waiting:
-            return self.waiting.popleft()
         busy = [worker.job for worker in self.workers if worker.job is not None]
+        budgets = [id(job.budget) for job in busy]
+        if able := [job for job in self.waiting if budgets.count(id(job.budget)) < self.each]:
+            # Looked at once for each: what was taken counts less with every moment.
+            taken = {id(budget): budget.taken for budget in (job.budget for job in able)}
+            chosen = min(able, key=lambda job: taken[id(job.budget)])
+            self.waiting.remove(chosen)
+            return chosen
         if self.later and self.idle and len(busy) < max(1, self.size - 1):
             return self.later.popleft()
         return None
@@ -239,6 +250,7 @@ class Crew:
                 began = loop.time()
                 answer = await loop.run_in_executor(self._threads, worker.order, job)
                 job.took = loop.time() - began
+                job.budget.charge(job.took)
                 if answer is None:
                     job.deaths += 1
                     await self._replaced(worker, job)

@@ -12,6 +12,7 @@ import json
 import traceback
 from collections.abc import Callable, Coroutine, Mapping
 from contextlib import suppress
+from functools import partial
 from typing import Any, Final
 
 from tribodyn.core.errors import TribodynError
@@ -32,8 +33,8 @@ from tribodyn.workbench.messages import (
     understood,
 )
 from tribodyn.workbench.neighbours import neighbours
-from tribodyn.workbench.series import Series, slope_of, sweep_of
-from tribodyn.workbench.variant import Variant
+from tribodyn.workbench.series import Plan, Series, slope_of, sweep_of
+from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.visitor import Visitor
 
 _UNDRAWN: Final = 5.0
@@ -46,6 +47,13 @@ _TOLD: Final = 1.0
 """Expected time from which a page is told what it waits for [s]."""
 
 Send = Callable[[str | bytes], None]
+
+
+def _read(origin: Origin, values: Values) -> Variant:
+    """Return a case with other values, with the texts that are made of it."""
+    variant = origin.varied(values)
+    refuse_rows(variant.case)
+    return variant.filled()
 
 
 class Desk:
@@ -71,6 +79,7 @@ class Desk:
         self.job: Job | None = None
         self.pins: set[str] = set()
         self.series: dict[type[Message], Series] = {}
+        self.asked: dict[type[Message], int] = {}
         self._woken = asyncio.Event()
         self._undrawn: int | None = None
         self._unsent: tuple[bytes, int, int] | None = None
@@ -121,7 +130,7 @@ class Desk:
             case Pin(run, kept):
                 self._pin(run, kept)
             case Sweep() | Slope():
-                self._begin_series(said)
+                self._begin(self._begin_series(said))
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
         task = asyncio.create_task(work)
@@ -163,8 +172,7 @@ class Desk:
                 self.before = self.served.values
             self.served = wish
             try:
-                variant = self.bench.origin.varied(wish.values)
-                refuse_rows(variant.case)
+                variant = await self.visitor.read(partial(_read, self.bench.origin, wish.values))
                 granted = await self._granted(wish, variant)
             except GivenUp:
                 continue
@@ -208,7 +216,7 @@ class Desk:
             self._ask(wish, words, COMPILING)
             return False
         self._state("compiling", "compiling the equations of this case", COMPILING, wish.number)
-        self.job = self.bench.preparation(variant)
+        self.job = self.bench.preparation(variant, self.visitor.budget)
         try:
             await self.bench.prepare(variant, self.job)
         finally:
@@ -244,7 +252,7 @@ class Desk:
             self._state("running", "", None, wish.number, share)
 
         limit = rules.longest if wish.agreed else 3.0 * rules.unasked
-        self.job = self.bench.order(variant, limit, heard)
+        self.job = self.bench.order(variant, limit, heard, budget=self.visitor.budget)
         try:
             return await self.bench.made(variant, self.job)
         finally:
@@ -262,8 +270,9 @@ class Desk:
         if self.served is not None and self.served.number == number:
             self._stop()
         for series in self.series.values():
-            if series.number == number:
+            if series.plan.number == number:
                 series.cancel()
+        self.asked = {kind: asked for kind, asked in self.asked.items() if asked != number}
 
     # Answers
 
@@ -292,33 +301,42 @@ class Desk:
     async def _compute_neighbours(self, wish: Wish) -> None:
         """Compute what the next step of the slider that moved last would ask for."""
         await asyncio.sleep(_CALM)
-        for values in neighbours(self.bench.origin, wish.values, self.before):
+        around = partial(neighbours, self.bench.origin, wish.values, self.before)
+        for values in await self.visitor.read(lambda: [*around()]):
             with suppress(TribodynError, Failed, GivenUp):
-                await self._kept_ahead(self.bench.origin.varied(values))
+                await self._kept_ahead(await self.visitor.read(partial(_read, self.bench.origin, values)))
 
     async def _kept_ahead(self, variant: Variant) -> None:
         bench, rules = self.bench, self.bench.rules
         expected = bench.costs.expected(variant.case)
         if variant.run in self.visitor.frames or expected is None or expected > rules.dragged:
             return
-        job = bench.order(variant, rules.unasked, lambda event: None, background=True)
+        budget = self.visitor.budget
+        job = bench.order(variant, rules.unasked, lambda event: None, background=True, budget=budget)
         try:
             self.visitor.keep(variant.run, variant.toml, await bench.made(variant, job))
         except asyncio.CancelledError:
             bench.crew.stop(job)
             raise
 
-    def _begin_series(self, said: Sweep | Slope) -> None:
+    async def _begin_series(self, said: Sweep | Slope) -> None:
+        self.asked[type(said)] = said.number
         if (old := self.series.pop(type(said), None)) is not None:
             old.cancel()
+        made: Callable[[], Plan]
+        made = (
+            partial(sweep_of, self.bench, said)
+            if isinstance(said, Sweep)
+            else partial(slope_of, self.bench, said)
+        )
         try:
-            if isinstance(said, Sweep):
-                series = sweep_of(self.bench, self.visitor, said, self.tell)
-            else:
-                series = slope_of(self.bench, self.visitor, said, self.tell)
-            self.series[type(said)] = series
+            plan = await self.visitor.read(made)
         except TribodynError as error:
             self.tell(refusal(said.number, error))
+            return
+        # Unless it was given up, or another one was asked for, while it was planned.
+        if self.asked.get(type(said)) == said.number:
+            self.series[type(said)] = Series(self.bench, self.visitor, plan, self.tell)
 
     # Pins
 

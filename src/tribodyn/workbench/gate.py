@@ -2,7 +2,8 @@
 
 A page of another site that is open in the same browser can make the browser send requests here, but neither
 with our name as the host it asks, nor with our cookie, nor, to a socket, without saying where it comes from.
-Another user of the machine can send what he likes but knows neither token nor cookie.
+Another user of the machine can send what he likes but knows neither token nor cookie. Should a browser send
+him the cookie, it opens nothing without the secret that the page holds.
 """
 
 from __future__ import annotations
@@ -20,7 +21,10 @@ from tornado.web import Application
 
 from tribodyn.workbench.visitor import Visitor
 
-TOKEN: Final = "token"
+TOKEN, SECRET = "token", "secret"
+"""Names in addresses: of what the browser is opened with, and of what only the page holds."""
+_SHOWN: Final = ("/", "/assets/")
+"""How addresses begin of what holds no secret: the page and what it is made of."""
 _BYTES: Final = 32
 _REFUSED: Final = b"403: this is not for you\n"
 
@@ -102,15 +106,17 @@ class Door:
     hosts: frozenset[str]
     cookie: str
 
-    @property
-    def headers(self) -> dict[str, str]:
-        """Headers of every answer."""
+    def headers(self, host: str = "") -> dict[str, str]:
+        """Return the headers of an answer to who asked for a host by its right name, or of a refusal.
+
+        They name no other host: whoever knows under which name the cookie is kept could have it sent to them.
+        """
         socket = "wss" if self.scheme == "https" else "ws"
-        sockets = " ".join(f"{socket}://{host}" for host in sorted(self.hosts))
+        connect = f"'self' {socket}://{host}" if host else "'none'"
         return {
             "Content-Security-Policy": (
                 "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
-                f"connect-src 'self' {sockets}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+                f"connect-src {connect}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
             ),
             "X-Content-Type-Options": "nosniff",
             "X-Frame-Options": "DENY",
@@ -163,16 +169,22 @@ class Gate(Router):
             return False
         if origin is not None and origin != f"{self.door.scheme}://{host}":
             return False
-        if self.keys.visitor(self.door.cookie_of(request)) is not None:
-            return True
+        visitor = self.keys.visitor(self.door.cookie_of(request))
+        if visitor is not None:
+            return _is_shown(request.path) or same(argument_of(request, SECRET) or "", visitor.secret)
         if request.path != "/" or "Upgrade" in headers:
             return False
-        return self.keys.welcoming or self.keys.admits(token_of(request))
+        return self.keys.welcoming or self.keys.admits(argument_of(request, TOKEN))
 
 
-def token_of(request: HTTPServerRequest) -> str | None:
-    """Return the token in the address of a request."""
-    values = request.query_arguments.get(TOKEN, [])
+def _is_shown(path: str) -> bool:
+    page, assets = _SHOWN
+    return path == page or path.startswith(assets)
+
+
+def argument_of(request: HTTPServerRequest, name: str) -> str | None:
+    """Return what the address of a request says under a name, once."""
+    values = request.query_arguments.get(name, [])
     return values[0].decode("utf-8", "replace") if len(values) == 1 else None
 
 
@@ -186,7 +198,7 @@ class _Refusal(HTTPMessageDelegate):
 
     def finish(self) -> None:
         """Send it when the request is whole."""
-        headers = HTTPHeaders(self.door.headers)
+        headers = HTTPHeaders(self.door.headers())
         headers["Content-Type"] = "text/plain; charset=utf-8"
         headers["Content-Length"] = str(len(_REFUSED))
         headers["Connection"] = "close"

@@ -15,7 +15,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from tribodyn.workbench.bench import DOWNLOADS, Bench
 from tribodyn.workbench.crew import Failed, GivenUp, Job
 from tribodyn.workbench.desk import Desk
-from tribodyn.workbench.gate import Door, Keyring, token_of
+from tribodyn.workbench.gate import TOKEN, Door, Keyring, argument_of
 from tribodyn.workbench.guests import NEW
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.visitor import Visitor
@@ -39,6 +39,8 @@ _ARRIVED: Final = (
 """A page that goes on to ours: sent on at once, a browser from elsewhere would leave the cookie out."""
 _ASK_AGAIN: Final = _ARRIVED.replace(b"url=/", b"url=/?token=" + NEW.encode())
 """A page that asks for itself again: what a link from elsewhere led to was asked without the cookie."""
+_EMPTY, _FILLED = b'name="secret" content=""', b'name="secret" content="%s"'
+"""Where the page is given its secret, without and with one."""
 _BACKLOG: Final = 200_000_000
 """Bytes on their way to a page that does not read them, at most."""
 _BURST: Final = 1.0
@@ -93,7 +95,7 @@ class _Handler(RequestHandler):
     def set_default_headers(self) -> None:
         """Set the headers of every answer."""
         self.clear_header("Server")
-        for name, value in self.application.settings["headers"].items():
+        for name, value in self.application.settings["door"].headers(self.request.host).items():
             self.set_header(name, value)
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
@@ -121,17 +123,23 @@ class Page(_Handler):
     def get(self) -> None:
         """Answer."""
         self.set_header("Content-Type", _KINDS[".html"])
-        keys, token = self.house.keys, token_of(self.request)
-        if keys.visitor(self.house.door.cookie_of(self.request)) is not None:
+        keys, token = self.house.keys, argument_of(self.request, TOKEN)
+        known = keys.visitor(self.house.door.cookie_of(self.request)) is not None
+        if keys.admits(token):
+            cookie = keys.admit()
+            self._set_cookie(cookie)
+            self.finish(self._page_of(keys.visitor(cookie)))
+        elif known:
             self.finish(self.house.assets[PAGE] if token is None else _ARRIVED)
-        elif keys.admits(token):
-            self._set_cookie(keys.admit())
-            # Where cookies are refused, to be sent on would never end.
-            self.finish(self.house.assets[PAGE] if keys.welcoming else _ARRIVED)
         elif keys.welcoming and token is None:
             self.finish(_ASK_AGAIN)
         else:
             raise HTTPError(403)
+
+    def _page_of(self, visitor: Visitor | None) -> bytes:
+        """Return the page with the secret, which a browser is given once."""
+        assert visitor is not None
+        return self.house.assets[PAGE].replace(_EMPTY, _FILLED % visitor.secret.encode())
 
     def _set_cookie(self, value: str) -> None:
         secure = self.house.door.scheme == "https"
@@ -168,7 +176,8 @@ class Download(_Handler):
         bench = self.house.bench
         try:
             async with self.visitor.downloading:
-                self.job = Job({"work": name, "case": toml}, bench.rules.longest)
+                order = {"work": name, "case": toml}
+                self.job = Job(order, bench.rules.longest, budget=self.visitor.budget)
                 return await bench.crew.do(self.job)
         except Failed as error:
             raise HTTPError(500, reason=str(error).splitlines()[0][:200]) from None
@@ -258,7 +267,7 @@ def application(house: House) -> Application:
         ],
         default_handler_class=Nothing,
         default_handler_args=shared,
-        headers=house.door.headers,
+        door=house.door,
         log_function=lambda handler: None,
         websocket_max_message_size=LARGEST,
     )

@@ -12,7 +12,7 @@ from tribodyn.core.quoting import brief
 LARGEST: Final = 65_536
 """Length of a message [bytes]."""
 _MOST_VALUES: Final = 200
-_LONGEST_TEXT: Final = 2000
+_LONGEST_KEY, _LONGEST_TEXT = 200, 2000
 _LARGEST_NUMBER: Final = 2**32
 _RUN_DIGITS: Final = 16
 _POINTS: Final = (9, 25)
@@ -169,6 +169,8 @@ def _values(said: Mapping[str, Any]) -> Values:
     values = said.get("values", {})
     if not isinstance(values, dict) or len(values) > _MOST_VALUES:
         raise Misunderstood(f"values: at most {_MOST_VALUES} keys with their values are needed")
+    if any(len(key) > _LONGEST_KEY for key in values):
+        raise Misunderstood(f"values: keys of at most {_LONGEST_KEY} characters are needed")
     return {key: _value(key, value) for key, value in values.items()}
 
 

@@ -33,13 +33,12 @@ Point = dict[str, Any]
 Said = Callable[[Sequence[Point], bool], dict[str, Any]]
 
 
-class Series:
-    """Runs that are made one after the other while nobody waits for anything else.
+@dataclass(frozen=True)
+class Plan:
+    """What is to be run along a key.
 
-    Parameters
+    Attributes
     ----------
-    bench, visitor
-        Where they are made, and for whom.
     number
         Of the request.
     variants
@@ -48,22 +47,29 @@ class Series:
         The key that they differ in.
     say
         Returns what the page is told after each point, of all points so far and whether it was the last.
+    """
+
+    number: int
+    variants: Sequence[Variant]
+    key: Key
+    say: Said
+
+
+class Series:
+    """Runs that are made one after the other while nobody waits for anything else.
+
+    Parameters
+    ----------
+    bench, visitor
+        Where they are made, and for whom.
+    plan
+        What is run.
     tell
         Tells the page.
     """
 
-    def __init__(
-        self,
-        bench: Bench,
-        visitor: Visitor,
-        number: int,
-        variants: Sequence[Variant],
-        key: Key,
-        say: Said,
-        tell: Tell,
-    ) -> None:
-        self.bench, self.visitor, self.number = bench, visitor, number
-        self.variants, self.key, self.say, self.tell = variants, key, say, tell
+    def __init__(self, bench: Bench, visitor: Visitor, plan: Plan, tell: Tell) -> None:
+        self.bench, self.visitor, self.plan, self.tell = bench, visitor, plan, tell
         self._task = asyncio.create_task(self._compute())
 
     def cancel(self) -> None:
@@ -73,15 +79,16 @@ class Series:
     async def _compute(self) -> None:
         points: list[Point] = []
         with suppress(GivenUp):
-            for variant in self.variants:
+            for variant in self.plan.variants:
                 points.append(await self._point(variant))
-                self.tell(self.say(points, len(points) == len(self.variants)))
+                self.tell(self.plan.say(points, len(points) == len(self.plan.variants)))
 
     async def _point(self, variant: Variant) -> Point:
-        value = variant.case.at(self.key.path)
+        key = self.plan.key
+        value = variant.case.at(key.path)
         point: Point = {
-            "value": shown_number(self.key, value),
-            "text": text(self.key, value),
+            "value": shown_number(key, value),
+            "text": text(key, value),
             "run": variant.run,
             "headlines": {},
             "failure": "",
@@ -96,7 +103,8 @@ class Series:
         kept = self.visitor.frame(variant.run)
         if kept is not None:
             return kept
-        job = self.bench.order(variant, self.bench.rules.unasked, lambda event: None, background=True)
+        unasked, budget = self.bench.rules.unasked, self.visitor.budget
+        job = self.bench.order(variant, unasked, lambda event: None, background=True, budget=budget)
         try:
             content = await self.bench.made(variant, job)
         except asyncio.CancelledError:
@@ -121,7 +129,7 @@ class _Along:
             variant = self.bench.origin.varied({**self.values, self.key.path: value})
             refuse_rows(variant.case)
             self._refuse_long(variant)
-            found.setdefault(variant.run, variant)
+            found.setdefault(variant.run, variant.filled())
         return list(found.values())
 
     def _refuse_long(self, variant: Variant) -> None:
@@ -144,8 +152,8 @@ def _along(bench: Bench, path: str, values: Values) -> _Along:
     return _Along(bench, keys[path], {name: value for name, value in values.items() if name != path})
 
 
-def sweep_of(bench: Bench, visitor: Visitor, asked: Sweep, tell: Tell) -> Series:
-    """Begin a sweep.
+def sweep_of(bench: Bench, asked: Sweep) -> Plan:
+    """Plan a sweep.
 
     Raises
     ------
@@ -159,7 +167,7 @@ def sweep_of(bench: Bench, visitor: Visitor, asked: Sweep, tell: Tell) -> Series
         told = {"number": asked.number, "key": asked.key, "points": points}
         return {"type": "sweep", **told, "of": len(variants), "finished": finished}
 
-    return Series(bench, visitor, asked.number, variants, along.key, say, tell)
+    return Plan(asked.number, variants, along.key, say)
 
 
 def _levels(key: Key, asked: Sweep) -> Iterator[str]:
@@ -193,8 +201,8 @@ def _written(key: Key, number: float) -> str:
     return f"{float(f'{number:.{_DIGITS}g}')!r} {key.unit}".strip()
 
 
-def slope_of(bench: Bench, visitor: Visitor, asked: Slope, tell: Tell) -> Series:
-    """Begin to find the slope at the present value of a key.
+def slope_of(bench: Bench, asked: Slope) -> Plan:
+    """Plan to find the slope at the present value of a key.
 
     Raises
     ------
@@ -216,7 +224,7 @@ def slope_of(bench: Bench, visitor: Visitor, asked: Slope, tell: Tell) -> Series
             "headlines": slopes(points) if finished else {},
         }
 
-    return Series(bench, visitor, asked.number, variants, along.key, say, tell)
+    return Plan(asked.number, variants, along.key, say)
 
 
 def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:

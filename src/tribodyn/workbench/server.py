@@ -166,7 +166,7 @@ async def many(
     hosts
         Names that browsers know it by, with their ports where these are not 443.
     """
-    bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits()), SHARED)
+    bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits(), max(1, size - 1)), SHARED)
     door = Door("https", hosts, "__Host-tribodyn")
     await serve(bench, door, Guests(SHARED.room), listeners, opened, stop, complain)
 

@@ -98,6 +98,11 @@ class Variant:
         """Name of the run: that of every case with this very text."""
         return hashlib.sha256(self.toml.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGITS]
 
+    def filled(self) -> Variant:
+        """Return itself with all texts that are made of it, which can take as long as reading the case."""
+        _ = self.run, self.told
+        return self
+
     @property
     def follows(self) -> dict[str, str]:
         """Values that differ from those of the origin though the page did not change them."""
@@ -131,8 +136,9 @@ class Variant:
             yield "})"
         yield "result = td.simulate(case)"
 
+    @cached_property
     def told(self) -> dict[str, object]:
-        """Return what the header of a frame says of the case."""
+        """What the header of a frame says of the case."""
         return {
             "run": self.run,
             "values": dict(self.values),

@@ -3,11 +3,35 @@
 from __future__ import annotations
 
 import asyncio
+import secrets
+import time
 from collections import Counter, OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Final, TypeVar
 
 MOST_CASES: Final = 1000
+_SECRET_BYTES: Final = 32
+_HALF_LIFE: Final = 60.0
+"""Time after which half of what somebody took is forgotten [s]."""
+_T = TypeVar("_T")
+
+
+@dataclass
+class Budget:
+    """Time of workers that somebody took lately."""
+
+    _seconds: float = 0.0
+    _since: float = field(default_factory=time.monotonic)
+
+    def charge(self, seconds: float) -> None:
+        """Add the time of a job [s]."""
+        self._seconds, self._since = self.taken + seconds, time.monotonic()
+
+    @property
+    def taken(self) -> float:
+        """How much was taken [s]; what was long ago counts less."""
+        return float(self._seconds * 0.5 ** ((time.monotonic() - self._since) / _HALF_LIFE))
 
 
 @dataclass
@@ -28,6 +52,11 @@ class Visitor:
         Pages that are open.
     downloading
         Held while a file is made: one at a time.
+    budget
+        What they took of the workers.
+    secret
+        Held by their pages alone, and part of every request for more than the page. A browser sends a cookie
+        to every port of the name that it came from, but gives this to pages of this port alone.
     """
 
     room: int
@@ -36,7 +65,31 @@ class Visitor:
     pins: Counter[str] = field(default_factory=Counter)
     sockets: int = 0
     downloading: asyncio.Lock = field(default_factory=asyncio.Lock)
+    secret: str = field(default_factory=lambda: secrets.token_urlsafe(_SECRET_BYTES))
+    budget: Budget = field(default_factory=Budget)
     _size: int = 0
+    _reading: asyncio.Lock = field(default_factory=asyncio.Lock)
+    _free_at: float = 0.0
+
+    async def read(self, work: Callable[[], _T]) -> _T:
+        """Return the outcome of work on a case that was asked for, done beside the loop that serves all.
+
+        Each visitor has one piece of work done at a time, and then none for as long as it took: nobody has
+        more than half a processor. What was begun is finished even if nobody waits for it any more.
+        """
+        reading = asyncio.ensure_future(self._read(work))
+        reading.add_done_callback(lambda done: done.cancelled() or done.exception())
+        return await asyncio.shield(reading)
+
+    async def _read(self, work: Callable[[], _T]) -> _T:
+        loop = asyncio.get_running_loop()
+        async with self._reading:
+            await asyncio.sleep(self._free_at - loop.time())
+            began = loop.time()
+            try:
+                return await asyncio.to_thread(work)
+            finally:
+                self._free_at = 2.0 * loop.time() - began
 
     def keep(self, run: str, toml: str, content: bytes) -> None:
         """Keep a run."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import tribodyn as td
+from tribodyn.cases.case import Case, with_entries
 from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
@@ -132,3 +133,63 @@ def test_a_run_tells_it_too() -> None:
     case = td.load_case("vsv").replace(short)
     assert "asperities are still those" in " ".join(summarise(td.simulate(case))["warnings"])
     assert "asperities are still those" in " ".join(check(case))
+
+
+PTFE = {"surfaces.bushing.material": "ptfe"}
+
+
+def with_pair(pair: dict[str, str]) -> Case:
+    """Return the built-in slider-crank whose wrist has a pair of its own."""
+    keys = {f"pairs.pin.{path}": value for path, value in pair.items()}
+    return with_entries(td.load_case("slider-crank"), {**keys, "joints.wrist.clearance.pair": "pin"}, "test")
+
+
+def test_friction_and_wear_of_a_pair_are_those_of_its_material() -> None:
+    case = with_pair(PTFE)
+    # The middle of 0.008 and 0.28, and the geometric mean of 403e-8 and 5040e-8 mm³/(N m), by hand.
+    assert case.at("pairs.pin.friction_coefficient") == pytest.approx(0.144, rel=1e-12)
+    assert case.at("joints.wrist.clearance.friction_coefficient") == pytest.approx(0.144, rel=1e-12)
+    assert case.at("pairs.pin.wear.specific_wear_rate") == pytest.approx(1.4252e-14, rel=1e-4)
+    assert parse_case(case.to_toml(), "stored").remarks() == case.remarks()
+    told = " ".join(case.remarks().notes)
+    for key in ("pairs.pin.friction_coefficient", "pairs.pin.wear.specific_wear_rate"):
+        assert f"{key} = " in told
+    assert told.count("is the middle of a range that ptfe has") >= 2
+
+
+def test_what_a_pair_or_joint_is_given_goes_before_its_material_and_is_said() -> None:
+    case = with_pair(PTFE).replace({"joints.wrist.clearance.friction_coefficient": 0.3})
+    assert case.at("joints.wrist.clearance.friction_coefficient") == 0.3
+    told = " ".join(case.remarks().notes)
+    assert "joints.wrist.clearance.friction_coefficient = 0.3 goes before 0.144 of ptfe" in told
+    given = with_pair({"friction_coefficient": "0.2", **PTFE})
+    assert given.at("joints.wrist.clearance.friction_coefficient") == 0.2
+    assert "pairs.pin.friction_coefficient = 0.2 goes before" in " ".join(given.remarks().notes)
+
+
+def test_what_the_library_does_not_know_of_the_material_of_a_pair_is_said() -> None:
+    told = " ".join(with_pair(BRONZE).remarks().warnings)
+    assert "no specific_wear_rate of bronze-c93200: pairs.pin.wear.specific_wear_rate stays at" in told
+    assert "no friction_coefficient of bronze-c93200: pairs.pin.friction_coefficient stays at 0.1" in told
+
+
+def test_a_pair_without_a_material_has_friction_and_wear_of_the_case() -> None:
+    case = with_pair({"contact.law": "gw", "contact.restitution": "0.8"})
+    assert case.replace({"wear.specific_wear_rate": "5e-15 m^2/N"}).at(
+        "pairs.pin.wear.specific_wear_rate"
+    ) == pytest.approx(5e-15)
+    rubbed = case.replace({"friction_coefficient": 0.2})
+    assert rubbed.at("joints.wrist.clearance.friction_coefficient") == 0.2
+    assert case.at("joints.wrist.clearance.friction_coefficient") == 0.1
+
+
+def test_surfaces_of_the_case_give_their_friction_to_joints_without_a_pair() -> None:
+    case = td.load_case("slider-crank").replace(LINER)
+    assert case.at("friction_coefficient") == pytest.approx(0.06, rel=1e-12)
+    assert case.at("joints.wrist.clearance.friction_coefficient") == pytest.approx(0.06, rel=1e-12)
+    assert case.at("wear.specific_wear_rate") == pytest.approx(0.6216e-15, rel=1e-4)
+
+
+def test_another_bushing_of_a_pair_wears_as_that_of_the_paper_and_says_so() -> None:
+    case = with_pair({"surfaces.bushing.hardness": "800 MPa"})
+    assert "give pairs.pin.wear.specific_wear_rate" in " ".join(case.remarks().warnings)

@@ -10,12 +10,14 @@ import sys
 import time
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 import xarray as xr
 
 import tribodyn as td
 from tribodyn.cli.main import COMMANDS, main
+from tribodyn.mechanisms.catalogue import parse_case
 
 ROOT = Path(__file__).parents[3]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -125,3 +127,17 @@ def test_the_clearance_that_can_be_allowed_is_the_one_shown(
     shown = float(re.search(r"at joint.clearance = ([0-9.]+) um", TEXT)[1])  # type: ignore[index]
     # The search stops within a hundredth of the range of 50 um, here as when the README was written.
     assert float(found["value"].removesuffix(" um")) == pytest.approx(shown, abs=1.0)
+
+
+def test_the_mechanism_is_a_dozen_lines_and_runs() -> None:
+    found = re.search(r"^    bar = \{.*?^    motion = [^\n]*", TEXT, flags=re.MULTILINE | re.DOTALL)
+    assert found is not None
+    lines = [line[4:] for line in found[0].splitlines()]
+    assert len(lines[1:-1]) <= 12
+    names: dict[str, Any] = {"td": td}
+    exec(compile("\n".join(lines), "README", "exec"), names)
+    motion = names["motion"]
+    assert motion.attrs["failure"] == ""
+    assert [*motion["joint"].values] == ["main", "crankpin", "wrist", "guide"]
+    assert motion.tribodyn.plot.orbit(joint="wrist").axes
+    assert names["press"].case() == parse_case(names["press"].case().to_toml(), "README")

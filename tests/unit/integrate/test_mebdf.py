@@ -45,7 +45,8 @@ def test_pauses_after_every_evaluation_change_no_bit(name: str, monkeypatch: pyt
         yield
 
     def stop() -> bool:
-        pauses[0][0] = AFTER_EVALUATION
+        for pause in pauses:  # None before the integration begins
+            pause[0] = AFTER_EVALUATION
         looks.append(None)
         return False
 

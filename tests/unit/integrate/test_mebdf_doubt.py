@@ -60,14 +60,27 @@ def test_a_jacobian_that_serves_is_left_alone(name, factor, rtol):
     assert solved(name, factor, rtol=rtol).success  # a warning would be an error
 
 
-def test_a_jacobian_that_goes_wrong_later_is_found_out():
+def wrong_later(factor):
     fun, jac, y0, t_end = PROBLEMS["Robertson"]
+    return solve_ivp(
+        fun, (0.0, t_end), y0, method=MEBDF, jac=lambda t, y: (1.0 if t < 0.1 else factor) * jac(t, y)
+    )
+
+
+@pytest.mark.parametrize("factor", [1e3, 0.0])
+def test_a_jacobian_that_goes_wrong_later_is_found_out(factor):
     with pytest.warns(RuntimeWarning, match="`jac` is not the derivative of `fun` at t = "):
-        solution = solve_ivp(
-            fun, (0.0, t_end), y0, method=MEBDF, jac=lambda t, y: (1.0 if t < 0.1 else -1.0) * jac(t, y)
-        )
+        solution = wrong_later(factor)
     assert solution.success
     assert solution.nfev < 2000
+
+
+def test_a_jacobian_that_changes_its_sign_is_left_for_the_last_right_one():
+    # What grows faster than the step by a Jacobian is reason enough not to use it: 112 calls.
+    solution = wrong_later(-1.0)
+    assert solution.success
+    assert np.allclose(solution.y[:, -1], solved("Robertson", 1.0).y[:, -1], rtol=1e-2)
+    assert solution.nfev < 500
 
 
 def test_rounding_is_no_doubt():

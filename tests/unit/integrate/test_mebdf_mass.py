@@ -137,7 +137,7 @@ def test_values_that_break_constraints_are_refused(y0, message):
 
 def test_an_index_that_is_too_low_is_told():
     problem = pendulum(3)
-    with pytest.raises(ValueError, match="the index is above 1, to be told by `index`"):
+    with pytest.raises(ValueError, match="the index is above 1; give `index`"):
         MEBDF(problem.fun, 0.0, problem.y0, 1.0, mass=problem.mass)
 
 

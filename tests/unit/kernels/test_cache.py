@@ -59,6 +59,18 @@ def test_damaged_files_are_compiled_again_and_mended(place: Path, pattern: str) 
     assert (misses(again), misses(later)) == (1, 0)
 
 
+@pytest.mark.parametrize("place_in_file", [0.1, 0.3, 0.5, 0.7, 0.9])
+def test_machine_code_of_which_a_bit_changed_is_not_executed(place: Path, place_in_file: float) -> None:
+    compiled()(2.0)
+    (path,) = place.glob("*.nbc")
+    content = bytearray(path.read_bytes())
+    content[int(place_in_file * len(content))] ^= 1
+    path.write_bytes(content)
+    again, later = compiled(), compiled()
+    assert again(2.0) == later(2.0) == 4.0
+    assert (misses(again), misses(later)) == (1, 0)
+
+
 def test_an_index_of_types_that_are_unknown_here_is_written_anew(place: Path) -> None:
     function = compiled()
     function(2.0)
@@ -198,7 +210,7 @@ def test_kernels_import_nothing_that_the_name_does_not_cover() -> None:
 def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
     """The three places for compiled code, all of them in the folder of this test."""
     names = ("numba", "caches", "temporary")
-    monkeypatch.setattr(nb.config, "CACHE_DIR", str(tmp_path / "numba"))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "numba"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "caches"))
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
     return [tmp_path / name for name in names]
@@ -232,7 +244,7 @@ def test_a_place_that_others_may_have_filled_is_passed_over_with_a_warning(place
 def test_without_a_setting_the_place_is_in_the_home_folder(
     places: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(nb.config, "CACHE_DIR", "")
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", "not/absolute")
     monkeypatch.setenv("HOME", str(tmp_path))
     assert found() == tmp_path / ".cache" / "tribodyn" / cache.fingerprint()

@@ -26,5 +26,5 @@ def force(disabled: str) -> float:
 
 
 def test_a_run_without_compilation_is_the_same() -> None:
-    # Compiled sums run in another order and contract products.
+    # To the rounding of elementary functions, which NumPy evaluates otherwise.
     assert force("1") == pytest.approx(force("0"), rel=1e-9)

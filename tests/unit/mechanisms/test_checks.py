@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tribodyn.contact import law
+from tribodyn.joints.clearances import places
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.quantities import Extremes
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.checks import (
     AREA_LIMIT,
     CLIP_LIMIT,
@@ -21,7 +24,11 @@ from tribodyn.mechanisms.checks import (
     LIFT_OFF_LIMIT,
     REJECTED_LIMIT,
     RESTART_LIMIT,
+    ROUGH_LIMIT,
 )
+from tribodyn.mechanisms.general import checks as general_checks
+from tribodyn.mechanisms.general.contacts import Contacts
+from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.journal import checks as journal_checks
 from tribodyn.mechanisms.vsv import checks
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -86,14 +93,49 @@ def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
     return journal_checks.warnings(found, vsv.joint, loading(seen), **numbers, statistics=cost)
 
 
-@pytest.mark.parametrize("told", [of_vsv, of_journal])
+def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
+    joint, entry = vsv.joint, vsv.joint.entry
+    sizes = {"radius": joint.geometry.radius, "radial": joint.geometry.clearance, "length": 20e-3}
+    pin = Clearance(
+        shape="cylinder",
+        sizes=sizes,
+        grid=(12, 2),
+        roughness=joint.roughness,
+        law=law("rsdc", load_case("vsv").surface_pair),
+        table=joint.table,
+        friction_coefficient=0.1,
+        slip_velocity=1e-5,
+        onset=entry.onset,
+        minimum_velocity=entry.minimum_velocity,
+        tensile_clip=entry.tensile_clip,
+        contact=joint.contact,
+        facets=np.zeros((0, 3, 3)),
+    )
+    contacts = Contacts((pin,), (0,), ("pin:barrel",), places([pin]))
+    peaks = {
+        "separation_least": np.array([seen["depth"] * joint.roughness]),
+        "tensile_clip_time": np.array([seen["clipped"] * T_END]),
+    }
+    found = {name: np.array([value]) for name, value in loading(seen).items()}
+    found["grid_force_error"] = np.array([seen["grid"]])
+    return general_checks.said(
+        general_checks.of_ledgers(seen["energy"], np.zeros(1)),
+        contacts.warnings(peaks, found, T_END),
+        cost=cost,
+    )
+
+
+EVERY = [of_vsv, of_journal, of_general]
+
+
+@pytest.mark.parametrize("told", EVERY)
 def test_a_sound_run_is_silent(make_vsv: Callable[..., Vsv], told: Callable[..., list[str]]) -> None:
     assert told(make_vsv(), SOUND, statistics(SOUND)) == []
 
 
 @pytest.mark.parametrize(
     ("told", "name", "limit", "way", "words"),
-    [(of_vsv, *case) for case in CASES + ONLY_VSV] + [(of_journal, *case) for case in CASES],
+    [(of_vsv, *case) for case in ONLY_VSV] + [(told, *case) for told in EVERY for case in CASES],
 )
 def test_a_threshold_is_where_the_warning_begins(
     make_vsv: Callable[..., Vsv],
@@ -107,16 +149,27 @@ def test_a_threshold_is_where_the_warning_begins(
         seen = SOUND | {name: limit + way * off}
         messages = told(make_vsv(), seen, statistics(seen))
         assert len(messages) == expected
-        assert all(words in message and message.endswith(".") for message in messages)
+        assert all(words.lower() in text.lower() and text.endswith(".") for text in messages)
 
 
 def test_points_of_contact_are_told_of_and_have_no_depth(make_vsv: Callable[..., Vsv]) -> None:
     vsv = make_vsv()
     vsv = replace(vsv, joint=replace(vsv.joint, contact="point-johnson"))
     seen = SOUND | {"depth": -3.0}
-    for told in (of_vsv, of_journal):
+    for told in EVERY:
         (message,) = told(vsv, seen, statistics(seen))
         assert "no pressure field" in message
+
+
+@pytest.mark.parametrize("told", EVERY)
+def test_a_clearance_that_rough_surfaces_fill_is_said(
+    make_vsv: Callable[..., Vsv], told: Callable[..., list[str]]
+) -> None:
+    sigma = make_vsv().joint.roughness
+    for share, expected in ((ROUGH_LIMIT + 1e-6, 0), (ROUGH_LIMIT - 1e-6, 1), (0.04, 1)):
+        messages = told(make_vsv(clearance=share * sigma), SOUND, statistics(SOUND))
+        assert len(messages) == expected
+        assert all("the surfaces touch all around" in message for message in messages)
 
 
 def test_a_run_that_took_no_step_is_silent_about_steps() -> None:
@@ -150,6 +203,14 @@ def test_a_short_lift_off_is_noted_in_per_cent_of_the_run(make_vsv: Callable[...
     (message,) = notes(vsv, lift_off=0.5 * LIFT_OFF_LIMIT)
     assert "for 0.05 % of the run" in message
     assert notes(vsv, lift_off=2.0 * LIFT_OFF_LIMIT) == []
+
+
+def test_every_run_of_the_paper_s_equations_notes_that_they_can_gain_energy(
+    make_vsv: Callable[..., Vsv],
+) -> None:
+    (message,) = notes(make_vsv("paper"))
+    assert message.startswith("The equations of formulation 'paper' can gain energy in an impact")
+    assert "compare with mechanism.formulation = 'exact'" in message
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import tribodyn as td
+from tribodyn.core.errors import InputError
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +26,24 @@ def test_figures_are_methods(result: xr.Dataset) -> None:
 def test_a_mechanism_of_ones_own_has_orbits_too() -> None:
     crank = td.simulate(td.load_case("slider-crank").replace({"run.cycles": 0.01}))
     assert isinstance(crank.tribodyn.plot.mechanism(), Figure)
+
+
+def test_a_figure_of_joints_shows_the_one_that_is_named(result: xr.Dataset) -> None:
+    plot = td.simulate(td.load_case("slider-crank").replace({"run.cycles": 0.01})).tribodyn.plot
+    for figure in (
+        plot.orbit(joint="wrist"),
+        plot.joint_forces(joint="wrist"),
+        plot.wear_maps(joint="wrist"),
+    ):
+        texts = [axes.get_title(loc="left") + axes.get_ylabel() for axes in figure.axes]
+        assert any("wrist" in text for text in texts)
+        assert not any("main" in text for text in texts)
+    with pytest.raises(InputError, match='did you mean "wrist"'):
+        plot.orbit(joint="wirst")
+    with pytest.raises(InputError, match="does not show joints one by one"):
+        plot.energy(joint="wrist")
+    with pytest.raises(InputError, match="does not show joints one by one"):
+        result.tribodyn.plot.orbit(joint="wrist")
 
 
 def test_numbers_show_as_a_table(result: xr.Dataset) -> None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
 from tribodyn.mechanisms.base import Carried
 from tribodyn.simulation.campaign import Cycle, Plan, run_campaign
@@ -193,6 +194,41 @@ def test_a_cycle_that_fails_ends_it_and_what_was_kept_goes_on():
     assert worn.cycles == kept[-1].cycles > 0
     again, *_ = campaign(plan(), resumed=kept[-1])
     same(whole, again)
+
+
+class Stopping(Punch):
+    """A punch whose caller stops the campaign while the model of a later cycle is set up, or after it."""
+
+    def __init__(self, method, after):
+        super().__init__()
+        self.method, self.after = method, after
+
+    def _count(self, method):
+        if method == self.method and len(self.cycles) >= self.after:
+            raise Stopped
+
+    def cycle(self, wear, carried, done):
+        self._count("cycle")
+        return super().cycle(wear, carried, done)
+
+    def contact_energy(self, wear, carried):
+        self._count("contact_energy")
+        return super().contact_energy(wear, carried)
+
+
+@pytest.mark.parametrize("method", ["cycle", "contact_energy"])
+def test_stopped_between_two_cycles_it_ends_as_interrupted_and_what_was_kept_goes_on(method):
+    whole, *_ = campaign(plan())
+    worn, cycle, kept = campaign(plan(), punch=Stopping(method, after=4))
+    assert cycle.failure == "interrupted"
+    assert worn.cycles == kept[-1].cycles > 0
+    again, *_ = campaign(plan(), resumed=kept[-1])
+    same(whole, again)
+
+
+def test_stopped_before_the_first_cycle_it_raises():
+    with pytest.raises(Stopped):
+        campaign(plan(), punch=Stopping("cycle", after=0))
 
 
 def test_a_failure_before_the_first_stop_leaves_an_unworn_bushing():

@@ -9,6 +9,7 @@ import numba as nb
 import pytest
 
 from tribodyn.cases import Case
+from tribodyn.core import stopping
 from tribodyn.core.errors import Stopped
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import compilation
@@ -78,8 +79,8 @@ def test_the_other_process_ends_when_this_one_is_to_stop(
     def stop() -> bool:
         return note.exists() and bool(note.read_text())
 
-    with pytest.raises(Stopped):
-        compilation.compile_elsewhere(CASE, stop)
+    with pytest.raises(Stopped), stopping.asked(stop):
+        compilation.compile_elsewhere(CASE)
     with pytest.raises(ProcessLookupError):
         os.kill(int(note.read_text()), 0)
 

@@ -30,6 +30,7 @@ from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker import Limits
 
+THE_PAGE = b'<!doctype html><meta name="secret" content="">the page'
 PUBLIC = "vanes.example.org"
 """Name of a server for many."""
 TRIBODYN = [
@@ -175,6 +176,10 @@ class Host:
     def cookie(self) -> str:
         return f"tribodyn-{self.port}={self.person._cookie}"
 
+    @property
+    def secret(self) -> str:
+        return f"secret={self.person.who.secret}"
+
     async def get(self, path: str, headers: Mapping[str, str] | None = None, **more: Any) -> HTTPResponse:
         """Ask for a path; by default with the cookie."""
         asked = {"Cookie": self.cookie} if headers is None else dict(headers)
@@ -183,10 +188,10 @@ class Host:
         )
         return await AsyncHTTPClient().fetch(request, raise_error=False)
 
-    async def open(self, headers: Mapping[str, str] | None = None, path: str = "/socket") -> Page:
+    async def open(self, headers: Mapping[str, str] | None = None, path: str = "") -> Page:
         """Open a socket; by default as our own page does."""
         asked = {"Cookie": self.cookie, "Origin": self.origin} if headers is None else dict(headers)
-        address = f"ws://127.0.0.1:{self.port}{path}"
+        address = f"ws://127.0.0.1:{self.port}{path or f'/socket?{self.secret}'}"
         request = HTTPRequest(address, headers=asked)
         self.pages.append(Page(await websocket_connect(request, max_message_size=10**8)))
         return self.pages[-1]
@@ -219,7 +224,13 @@ async def hosting(
     bench = Bench(origin, MECHANISMS[origin.case.kind()], crew or Pretending(), chosen)
     complaints: list[str] = []
     keys = guests or person
-    house = House(bench, door, keys, {PAGE: b"<!doctype html>the page", "a.js": b"1"}, complaints.append)
+    house = House(
+        bench,
+        door,
+        keys,
+        {PAGE: THE_PAGE, "a.js": b"1"},
+        complaints.append,
+    )
     server = HTTPServer(Gate(door, keys, application(house)), max_body_size=0)
     server.add_sockets(listeners)
     warm = asyncio.create_task(bench.warm())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from tests.unit.workbench.host import PUBLIC, Host, Page, hosting, in_loop
 from tests.unit.workbench.test_server import UPGRADE
@@ -13,8 +15,8 @@ from tribodyn.workbench.guests import NEW, Guests
 HTTPS = f"https://{PUBLIC}"
 
 
-async def admitted(host: Host) -> str:
-    """Come as a browser does, and return the cookie."""
+async def admitted(host: Host) -> tuple[str, str]:
+    """Come as a browser does, and return the cookie and the secret as an address has it."""
     first = await host.get("/", {"Host": PUBLIC})
     assert f"/?token={NEW}".encode() in first.body
     assert "Set-Cookie" not in first.headers
@@ -23,11 +25,19 @@ async def admitted(host: Host) -> str:
     cookie = second.headers["Set-Cookie"]
     for part in ("__Host-tribodyn=", "Secure", "HttpOnly", "SameSite=Strict", "Path=/"):
         assert part in cookie
-    return cookie.partition(";")[0]
+    return cookie.partition(";")[0], secret_in(second.body)
 
 
-async def opened(host: Host, cookie: str) -> Page:
-    page = await host.open({"Host": PUBLIC, "Origin": HTTPS, "Cookie": cookie})
+def secret_in(page: bytes) -> str:
+    """Return the secret that a page was given, as an address has it."""
+    found = re.search(rb'name="secret" content="([^"]+)"', page)
+    assert found is not None
+    return f"secret={found[1].decode()}"
+
+
+async def opened(host: Host, cookie: str, secret: str) -> Page:
+    asked = {"Host": PUBLIC, "Origin": HTTPS, "Cookie": cookie}
+    page = await host.open(asked, f"/socket?{secret}")
     await page.until("hello")
     return page
 
@@ -36,14 +46,14 @@ async def opened(host: Host, cookie: str) -> Page:
 async def test_visitors_have_nothing_in_common() -> None:
     async with hosting(guests=Guests(10**6)) as host:
         first, second = await admitted(host), await admitted(host)
-        assert first != second
-        page = await opened(host, first)
+        assert not {*first} & {*second}
+        page = await opened(host, *first)
         await page.run(1, {"joint.clearance": "31 um"}, rest=True)
         run = (await page.picture()).header["run"]
-        path = f"/download/case.toml?run={run}"
-        assert (await host.get(path, {"Host": PUBLIC, "Cookie": first})).code == 200
-        assert (await host.get(path, {"Host": PUBLIC, "Cookie": second})).code == 404
-        other = await opened(host, second)
+        for cookie, secret, status in ((*first, 200), (*second, 404), (first[0], second[1], 403)):
+            path = f"/download/case.toml?run={run}&{secret}"
+            assert (await host.get(path, {"Host": PUBLIC, "Cookie": cookie})).code == status
+        other = await opened(host, *second)
         await other.run(1, {"joint.clearance": "31 um"}, rest=True)
         assert (await other.picture()).flags == 0, "what the first visitor had made is not the second one's"
 
@@ -51,7 +61,7 @@ async def test_visitors_have_nothing_in_common() -> None:
 @in_loop
 async def test_only_the_public_name_and_https_are_let_in() -> None:
     async with hosting(guests=Guests(10**6)) as host:
-        cookie = await admitted(host)
+        cookie, secret = await admitted(host)
         ours = {"Host": PUBLIC, "Cookie": cookie, "Origin": HTTPS}
         assert (await host.get("/", ours)).code == 200
         wrong = (
@@ -62,7 +72,7 @@ async def test_only_the_public_name_and_https_are_let_in() -> None:
             {"Origin": "null"},
         )
         for change in wrong:
-            for path in ("/", "/assets/a.js", "/socket"):
+            for path in ("/", "/assets/a.js", f"/socket?{secret}"):
                 assert (await host.get(path, {**ours, **change})).code == 403, (path, change)
                 assert (await host.get(path, {**ours, **change, **UPGRADE})).code == 403, (path, change)
         for path in ("/assets/a.js", "/socket", "/download/case.toml"):
@@ -74,12 +84,12 @@ async def test_only_the_public_name_and_https_are_let_in() -> None:
 @in_loop
 async def test_a_visitor_has_so_many_pages_and_no_more() -> None:
     async with hosting(guests=Guests(10**6), rules=Rules(each=2)) as host:
-        cookie = await admitted(host)
+        cookie, secret = await admitted(host)
         for _ in range(2):
-            await opened(host, cookie)
+            await opened(host, cookie, secret)
         asked = {"Host": PUBLIC, "Origin": HTTPS, "Cookie": cookie, **UPGRADE}
-        assert (await host.get("/socket", asked)).code == 503
-        await opened(host, await admitted(host))
+        assert (await host.get(f"/socket?{secret}", asked)).code == 503
+        await opened(host, *await admitted(host))
 
 
 def test_who_is_gone_is_forgotten_and_who_has_a_page_open_is_not():

@@ -11,7 +11,8 @@ import sys
 import time
 
 import pytest
-from tests.unit.workbench.host import Pretending, hosting, in_loop
+from tests.unit.workbench.host import SOON, Host, Pretending, hosting, in_loop
+from tornado.httpclient import HTTPClientError
 
 from tribodyn.core.errors import InputError
 from tribodyn.workbench.bench import Rules
@@ -19,7 +20,10 @@ from tribodyn.workbench.gate import same
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.server import listening, own_name, pointer
 
-ROUTES = ("/", "/assets/a.js", "/download/case.toml", "/socket", "/nothing")
+SHOWN = ("/", "/assets/a.js")
+"""What a cookie alone opens: nothing in it is of a person."""
+ROUTES = (*SHOWN, "/download/case.toml", "/socket", "/nothing")
+METHODS = ("GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "TRACE", "CONNECT", "PATCH", "BREW")
 EVIL = "http://evil.example"
 UPGRADE = {
     "Upgrade": "websocket",
@@ -51,11 +55,69 @@ async def test_no_route_answers_who_is_not_our_page() -> None:
     async with hosting() as host:
         for route in ROUTES:
             for headers, plain, socket in combinations(host):
-                status = (await host.get(route, headers)).code
-                assert (status != 403) == plain, (route, headers)
-                if not socket:
-                    status = (await host.get(route, {**headers, **UPGRADE})).code
-                    assert status == 403, (route, headers)
+                for secret in (host.secret, host.secret[:-1], f"{host.secret}&{host.secret}", ""):
+                    path, right = f"{route}?{secret}", secret == host.secret
+                    status = (await host.get(path, headers)).code
+                    assert (status != 403) == (plain and (right or route in SHOWN)), (path, headers)
+                    if not (socket and (right or route in SHOWN)):
+                        status = (await host.get(path, {**headers, **UPGRADE})).code
+                        assert status == 403, (path, headers)
+
+
+@in_loop
+async def test_no_answer_to_a_stranger_names_the_host_that_keeps_the_cookie() -> None:
+    async with hosting() as host:
+        known, name = f"127.0.0.1:{host.port}", f"ours.localhost:{host.port}"
+        right, upgrade = (
+            f"Host: {known}\r\n",
+            "".join(f"{key}: {value}\r\n" for key, value in UPGRADE.items()),
+        )
+        others = (
+            "",
+            "Host:\r\n",
+            "Host: localhost\r\n",
+            f"{right}Origin: {EVIL}\r\n",
+            f"{right}Cookie: x=y\r\n",
+        )
+        paths = (*ROUTES, "/?token=x", "*", "/%00", f"{EVIL}/")
+        lines = [f"{method} {path} HTTP/1.1" for method in METHODS for path in paths]
+        lines += ["GET / HTTP/1.0", "GET / HTTP/9", "nonsense", "GET " + 20_000 * "x"]
+        for line, headers, more in itertools.product(lines, (right, *others), ("", upgrade)):
+            answer = await answer_to(host, f"{line}\r\n{headers}{more}\r\n")
+            assert answer[:12] in ("", "HTTP/1.1 403", "HTTP/1.1 400", "HTTP/1.1 431"), (line, headers)
+            assert "ours" not in answer, (line, headers)
+        for path in ROUTES:
+            # A person is told of the host that was asked alone.
+            own = (await host.get(f"{path}?{host.secret}", {"Cookie": host.cookie, "Host": name})).headers
+            other = (await host.get(f"{path}?{host.secret}")).headers
+            assert name in own["Content-Security-Policy"]
+            assert known not in own["Content-Security-Policy"]
+            assert name not in str(other)
+
+
+async def answer_to(host: Host, request: str) -> str:
+    """Send a request as it is, and return the answer."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", host.port)
+    writer.write(request.encode())
+    writer.write_eof()
+    answer = await asyncio.wait_for(reader.read(), SOON)
+    writer.close()
+    return answer.decode("latin-1")
+
+
+@in_loop
+async def test_a_cookie_that_went_astray_opens_nothing_of_a_person() -> None:
+    async with hosting() as host:
+        page = await host.greeted()
+        await page.run(1, {"joint.clearance": "31 um"}, rest=True)
+        run = (await page.picture()).header["run"]
+        path = f"/download/case.toml?run={run}"
+        assert (await host.get(f"{path}&{host.secret}")).code == 200
+        assert (await host.get(path)).code == 403
+        for shown in SHOWN:
+            assert host.person.who.secret.encode() not in (await host.get(shown)).body
+        with pytest.raises(HTTPClientError, match="403"):
+            await host.open(path="/socket")
 
 
 @in_loop
@@ -87,10 +149,13 @@ async def test_the_token_is_traded_once_for_a_cookie_that_scripts_cannot_read() 
         for part in ("HttpOnly", "SameSite=Strict", "Path=/"):
             assert part in cookie
         assert host.person.token not in first.body.decode()
+        assert f'name="secret" content="{host.person.who.secret}"' in first.body.decode()
         assert (await host.get(address, {})).code == 403
         # Who has the cookie and comes back with the address is sent on.
         assert (await host.get(address)).code == 200
-        assert b"the page" in (await host.get("/")).body
+        again = (await host.get("/")).body
+        assert b"the page" in again
+        assert host.person.who.secret.encode() not in again
 
 
 @in_loop
@@ -121,10 +186,10 @@ async def test_downloads_are_of_runs_that_were_seen_and_paths_lead_nowhere() -> 
         page = await host.greeted()
         await page.run(1, {"joint.clearance": "31 um"}, rest=True)
         run = (await page.picture()).header["run"]
-        case = await host.get(f"/download/case.toml?run={run}")
+        case = await host.get(f"/download/case.toml?run={run}&{host.secret}")
         assert 'clearance = "31 um"' in case.body.decode()
         assert case.headers["Content-Disposition"] == 'attachment; filename="case.toml"'
-        assert (await host.get(f"/download/result.nc?run={run}")).body == b"a file"
+        assert (await host.get(f"/download/result.nc?run={run}&{host.secret}")).body == b"a file"
         for path in (
             "/download/case.toml?run=0000000000000000",
             "/download/case.toml",
@@ -135,7 +200,8 @@ async def test_downloads_are_of_runs_that_were_seen_and_paths_lead_nowhere() -> 
             "/assets/..%2fgate.py",
             "/assets//etc/passwd",
         ):
-            assert (await host.get(path)).code == 404, path
+            asked = f"{path}{'&' if '?' in path else '?'}{host.secret}"
+            assert (await host.get(asked)).code == 404, path
 
 
 @in_loop
@@ -158,7 +224,7 @@ async def test_there_are_only_so_many_sockets() -> None:
     async with hosting(rules=Rules(sockets=3)) as host:
         pages = [await host.open() for _ in range(3)]
         ours = {"Origin": host.origin, "Cookie": host.cookie}
-        assert (await host.get("/socket", {**ours, **UPGRADE})).code == 503
+        assert (await host.get(f"/socket?{host.secret}", {**ours, **UPGRADE})).code == 503
         await pages[0].leave()
         await asyncio.sleep(0.1)
         await host.open()
@@ -187,10 +253,11 @@ async def test_errors_of_our_own_are_told_without_the_address() -> None:
         page = await host.greeted()
         await page.run(1, rest=True)
         run = (await page.picture()).header["run"]
-        assert (await host.get(f"/download/result.nc?run={run}&token=secret")).code == 500
+        assert (await host.get(f"/download/result.nc?run={run}&{host.secret}")).code == 500
         (told,) = host.complaints
         assert "RuntimeError: broken" in told
         assert "secret" not in told
+        assert host.person.who.secret not in told
         host.complaints.clear()
 
 

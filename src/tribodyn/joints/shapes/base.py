@@ -36,6 +36,8 @@ class Surface:
         Names and values of the two coordinates of a map of the nodes, row by row; one for nodes in no order.
     slides
         Whether the nodes stay where they are on the socket while the shaft slides through it.
+    lean
+        Radius ρ of the second-order term of the tilt [m], see ``kernels/joints/surface/tilt.py``.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Surface:
     tilt: float
     axes: dict[str, FloatArray]
     slides: bool = False
+    lean: float = 0.0
 
     @property
     def field_shape(self) -> tuple[int, ...]:

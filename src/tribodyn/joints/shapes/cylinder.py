@@ -1,7 +1,8 @@
 """A shaft in a bore, with or without faces at its ends: trunnions, pins, bearings of cranks and rods.
 
-The barrel has nodes as those of the bushing, weighed by the area of the bore. The shaft's flanges stand
-outside the ends of the bore and rest on them.
+The barrel has nodes as those of the bushing, weighed by the area of the bore. They belong to the shorter
+part: to the bore through which a shaft slides, or to a pin that moves along a longer bore, such as a
+piston. The shaft's flanges stand outside the ends of the bore and rest on them.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ class Cylinder:
         Radial clearance c.
     length
         Of the bore.
+    pin_length
+        Of the shaft; None if it is longer than the bore.
     axial
         Gap at both end faces as drawn; none without faces.
     axial_upper, axial_lower
@@ -45,6 +48,7 @@ class Cylinder:
     radius: float
     radial: float
     length: float
+    pin_length: float | None = None
     axial: float | None = None
     axial_upper: float | None = None
     axial_lower: float | None = None
@@ -54,6 +58,13 @@ class Cylinder:
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
         check_positive("cylinder", radius=self.radius, radial=self.radial, length=self.length)
+        if self.pin_length is not None:
+            check_positive("cylinder", pin_length=self.pin_length)
+        if self._faces and self._pin_is_shorter:
+            raise InputError(
+                f"must be at least the length, {self.length:g} m, with end faces, not {self.pin_length:g} m",
+                key="pin_length",
+            )
         if bool(self._faces) != (self.flange is not None):
             raise InputError(
                 "end faces need both their gap, axial, and their outer radius, flange", key="flange"
@@ -66,16 +77,26 @@ class Cylinder:
         gaps = {end: self.axial if gap is None else gap for end, gap in gaps.items()}
         return {end: gap for end, gap in gaps.items() if gap is not None}
 
+    @property
+    def _pin_is_shorter(self) -> bool:
+        return self.pin_length is not None and self.pin_length < self.length
+
+    @property
+    def overlap(self) -> float:
+        """Length along which shaft and bore can touch [m]."""
+        return self.length if self.pin_length is None else min(self.length, self.pin_length)
+
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the barrel and the faces."""
         n_theta, n_z = grid
-        half = 0.5 * self.length
-        z, weight = with_edges(-half, half, *self.form.quadrature(n_z, self.length))
+        length, lean = self.overlap, -self.radius if self._pin_is_shorter else self.radius
+        half = 0.5 * length
+        z, weight = with_edges(-half, half, *self.form.quadrature(n_z, length))
         ones = np.ones(z.size)
         rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.radial) * weight)
-        barrel = rings.surface("barrel", ("z", z), self.radial + self.form.gap(z, self.length), n_theta, AXIS)
+        barrel = rings.surface("barrel", ("z", z), self.radial + self.form.gap(z, length), n_theta, AXIS)
         measured = self.form.measured(barrel.axes["theta"], z).ravel()
-        barrel = replace(barrel, gap=barrel.gap + measured, slides=True)
+        barrel = replace(barrel, gap=barrel.gap + measured, slides=lean > 0.0, lean=lean)
         return (
             barrel,
             *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self._faces.items()),
@@ -97,5 +118,5 @@ class Cylinder:
             raise InputError(
                 "end faces touch over their surface, not at points; leave axial out", key="axial"
             )
-        half = 0.5 * self.length
-        return Points(self.radius, self.radial, self.length, (-half, half))
+        half = 0.5 * self.overlap
+        return Points(self.radius, self.radial, self.overlap, (-half, half))

@@ -14,6 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve
 from tribodyn.kernels.film.data import HALF_SOMMERFELD, JFO, FilmData, FilmMemory
+from tribodyn.kernels.film.gap import squeeze_rate
 from tribodyn.kernels.film.jfo import couette_by_fill, filled_column, transport_adjoint
 from tribodyn.kernels.jit import kernel
 
@@ -62,7 +63,7 @@ def _solve_for(film: FilmData, memory: FilmMemory, rows: int, solved: int, first
                 continue
             k = system.number[i, j]
             weight = fields.rows[j].weight
-            z = film.z_node[j + 1]
+            z = film.z_node[j + 1] + fields.columns[i].arm_node
             share = 0.0 if positive_only and memory.pressure[i, j] <= 0.0 else 1.0
             loads = (c, s, friction_load(memory, i, j) / weight, -z * s, -z * c)
             for m in range(5):
@@ -87,7 +88,7 @@ def _solve_transport(film: FilmData, memory: FilmMemory, omega: float) -> None:
             c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
             for j in range(rows):
                 k = (i - 1) * rows + j
-                z = film.z_node[j + 1]
+                z = film.z_node[j + 1] + fields.columns[i].arm_node
                 if active[i, j] == 1:
                     memory.amount[k] = (c, s, friction_load(memory, i, j), -z * s, -z * c)[m]
                 else:
@@ -98,7 +99,7 @@ def _solve_transport(film: FilmData, memory: FilmMemory, omega: float) -> None:
 @kernel
 def fill_chart(film: FilmData, memory: FilmMemory, omega: float, rows: int, half: bool) -> None:
     """Fill ``memory.work.chart`` from the adjoints: rows F_x, F_y, M_x, M_y, M_z; columns the chart and ω."""
-    chart = memory.work.chart
+    chart, lean = memory.work.chart, memory.work.lean
     clear(chart)
     step = film.constants.length / film.z_face.size
     scale = force_scale(film)
@@ -108,12 +109,19 @@ def fill_chart(film: FilmData, memory: FilmMemory, omega: float, rows: int, half
         k = order[m]
         gradient = memory.gradient[m]
         clear(gradient)
+        for i in range(4):
+            lean[i] = 0.0
         explicit = 1.0 if m == 2 else 0.0
         speed = _theta_sums(film, memory, omega, m, explicit, rows, step / film.constants.radius)
         _z_sums(memory, m, rows, half)
         if m == 2:
             speed += _couette_sums(memory, omega, couette / scale, rows, half)
+        if k == 2 or k == 3:
+            _add_turning_arms(film, memory, k, rows)
         chart[k, 8] = scale * speed
+        for i in range(2):
+            chart[k, 2 + i] = scale * lean[i]
+            chart[k, 6 + i] = scale * lean[2 + i]
         for j in range(rows):
             z = film.z_node[j + 1]
             _add(chart[k], 0, scale, z, gradient[0, j], gradient[1, j])
@@ -122,6 +130,25 @@ def fill_chart(film: FilmData, memory: FilmMemory, omega: float, rows: int, half
             _add(chart[k], 0, scale, film.z_face[j], gradient[4, j], gradient[5, j])
     if half:
         _mirror(chart)
+
+
+@kernel
+def _add_lean(lean: FloatArray, first: int, factor: float, c: float, s: float) -> None:
+    """Add ``factor`` times (sin θ, cos θ), the derivative of s in t, from place ``first`` on."""
+    lean[first] += factor * s
+    lean[first + 1] += factor * c
+
+
+@kernel
+def _add_turning_arms(film: FilmData, memory: FilmMemory, k: int, rows: int) -> None:
+    """Add the change of the lever arms with the tilt to the derivatives of M_x (2) or M_y (3)."""
+    fields, positive_only = memory.fields, film.constants.cavitation == HALF_SOMMERFELD
+    for i in range(memory.pressure.shape[0]):
+        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
+        for j in range(rows):
+            p = max(memory.pressure[i, j], 0.0) if positive_only else memory.pressure[i, j]
+            load = fields.rows[j].weight * p * film.constants.radius
+            _add_lean(memory.work.lean, 0, -load * (s if k == 2 else c), c, s)
 
 
 @kernel
@@ -171,6 +198,7 @@ def _theta_sums(
 ) -> float:
     """Sum what θ faces and nodes add to the derivatives by offset and velocity; return that by ω."""
     fields, sums, adjoint, pressure = memory.fields, memory.gradient[m], memory.adjoint[m], memory.pressure
+    lean = memory.work.lean
     n = pressure.shape[0]
     squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.constants.clearance
     if film.constants.cavitation == JFO:
@@ -182,6 +210,11 @@ def _theta_sums(
         after = i + 1 if i < n - 1 else 0
         c_f, s_f = fields.columns[i].cos_face, fields.columns[i].sin_face
         c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
+        arm_face, arm, arm_rate = (
+            fields.columns[i].arm_face,
+            fields.columns[i].arm_node,
+            fields.columns[i].arm_rate,
+        )
         for j in range(rows):
             rise = adjoint[i, j] - adjoint[after, j]
             filled = memory.fill[i, j] if omega > 0.0 else memory.fill[after, j]
@@ -193,7 +226,7 @@ def _theta_sums(
                 here, there = max(here, 0.0), max(there, 0.0)
             face += friction * cell.d_drag * (here - there)
             speed -= flow * cell.wedge
-            rate = fields.rows[j].v_a * c + fields.rows[j].v_b * s
+            rate = squeeze_rate(film, fields, i, j)
             node = -squeeze * adjoint[i, j]
             bend = node * cell.d_contact * rate
             node *= cell.contact
@@ -201,6 +234,9 @@ def _theta_sums(
             sums[1, j] += face * s_f + bend * s
             sums[2, j] += node * c
             sums[3, j] += node * s
+            _add_lean(lean, 0, -face * arm_face, c_f, s_f)
+            _add_lean(lean, 0, -bend * arm - node * arm_rate, c, s)
+            _add_lean(lean, 2, -node * arm, c, s)
     return speed
 
 
@@ -213,6 +249,7 @@ def _z_sums(memory: FilmMemory, m: int, rows: int, half: bool) -> None:
         face = -fields.z_faces[i, 0].dk_z * adjoint[i, 0] * pressure[i, 0]
         sums[4, 0] += face * c
         sums[5, 0] += face * s
+        total = face
         for j in range(1, rows):
             face = (
                 -fields.z_faces[i, j].dk_z
@@ -221,10 +258,13 @@ def _z_sums(memory: FilmMemory, m: int, rows: int, half: bool) -> None:
             )
             sums[4, j] += face * c
             sums[5, j] += face * s
+            total += face
         if not half:
             face = -fields.z_faces[i, rows].dk_z * adjoint[i, rows - 1] * pressure[i, rows - 1]
             sums[4, rows] += face * c
             sums[5, rows] += face * s
+            total += face
+        _add_lean(memory.work.lean, 0, -total * fields.columns[i].arm_node, c, s)
 
 
 @kernel
@@ -240,5 +280,6 @@ def _couette_sums(memory: FilmMemory, omega: float, share: float, rows: int, hal
             slope = omega * filled * fields.z_faces[i, j].d_couette
             sums[4, j] += slope * c
             sums[5, j] += slope * s
+            _add_lean(memory.work.lean, 0, -slope * fields.columns[i].arm_node, c, s)
             total += filled * fields.z_faces[i, j].couette
     return total

@@ -1,7 +1,12 @@
 """From the eight states to coordinates in which the gap is linear, and back for the derivatives.
 
 The chart is u = (e_x, e_y, t_x, t_y, v_x, v_y, w_x, w_y) with t = tan φ and w = φ̇ sec²φ. At height z the
-shaft axis is displaced by a = e_x − z t_y, b = e_y − z t_x (Eq. 48), with the same for the velocities.
+shaft axis is displaced by a = e_x − z t_y, b = e_y − z t_x (Eq. 48), with the same for the velocities. The
+cross-section of a tilted shaft is an ellipse. With s = t_y cos θ + t_x sin θ,
+
+    h = c + a cos θ + b sin θ − ½ r s².
+
+Except for the last term the gap is linear in the chart. The derivatives in t are those at the height z + r s.
 """
 
 from __future__ import annotations

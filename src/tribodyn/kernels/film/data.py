@@ -78,8 +78,17 @@ mirror
     1 if the wear is the same at z and −z.
 """
 
-Column: Final = record_type(*((name, "f8") for name in ("cos_node", "sin_node", "cos_face", "sin_face")))
-"""Cosine and sine of θ at the nodes of a column and on the faces behind them."""
+Column: Final = record_type(
+    *((name, "f8") for name in ("cos_node", "sin_node", "cos_face", "sin_face")),
+    *((name, "f8") for name in ("arm_node", "arm_face", "arm_rate")),
+)
+"""Cosine and sine of θ at the nodes of a column and on the faces behind them, and lever arms by the tilt.
+
+arm_node, arm_face
+    r s at nodes and faces [m], see ``kernels.film.attitude``.
+arm_rate
+    Its rate at nodes [m/s].
+"""
 
 
 class FilmData(NamedTuple):
@@ -196,13 +205,17 @@ class BandSystem(NamedTuple):
     size: IntArray
 
 
-Work: Final = record_type(("state", "f8", (8,)), ("chart", "f8", (5, 9)), ("effort", "i8", (2,)))
+Work: Final = record_type(
+    ("state", "f8", (8,)), ("chart", "f8", (5, 9)), ("lean", "f8", (4,)), ("effort", "i8", (2,))
+)
 """Of the last evaluation.
 
 state
     The state in the linear coordinates of ``kernels.film.attitude``.
 chart
     Derivatives of the wrench in these and ω.
+lean
+    Second-order terms of one row of the chart, in t and w.
 effort
     Factorisations, and the number of rows used.
 """

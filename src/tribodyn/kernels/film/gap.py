@@ -32,6 +32,7 @@ def evaluate_gap(
     ``rows`` rows of nodes are filled; with ``half`` the last of them is the middle of a symmetric film.
     """
     _turn_grid(film, fields, u)
+    _lean(film, fields, u)
     _offsets(film, fields, u, rows, half)
     alike = film.constants.uniform == 1 and u[2] == 0.0 and u[3] == 0.0
     least = LEAST_RANGE * film.constants.roughness
@@ -55,6 +56,25 @@ def _turn_grid(film: FilmData, fields: FilmFields, u: FloatArray) -> None:
         fields.columns[i].sin_node = film.columns[i].sin_node * c + film.columns[i].cos_node * s
         fields.columns[i].cos_face = film.columns[i].cos_face * c - film.columns[i].sin_face * s
         fields.columns[i].sin_face = film.columns[i].sin_face * c + film.columns[i].cos_face * s
+
+
+@kernel
+def _lean(film: FilmData, fields: FilmFields, u: FloatArray) -> None:
+    """Fill the second-order lever arms r s, see ``attitude``."""
+    r = film.constants.radius
+    for i in range(film.columns.size):
+        column = fields.columns[i]
+        fields.columns[i].arm_node = r * (u[3] * column.cos_node + u[2] * column.sin_node)
+        fields.columns[i].arm_face = r * (u[3] * column.cos_face + u[2] * column.sin_face)
+        fields.columns[i].arm_rate = r * (u[7] * column.cos_node + u[6] * column.sin_node)
+
+
+@kernel
+def squeeze_rate(film: FilmData, fields: FilmFields, i: int, j: int) -> float:
+    """Return ∂h/∂t at a node [m/s]."""
+    column, row = fields.columns[i], fields.rows[j]
+    leaning = column.arm_node * column.arm_rate / film.constants.radius
+    return row.v_a * column.cos_node + row.v_b * column.sin_node - leaning
 
 
 @kernel
@@ -122,6 +142,7 @@ def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> 
     lowest = math.inf
     for i in range(n):
         c, s = fields.columns[i].cos_face, fields.columns[i].sin_face
+        taken = 0.5 * fields.columns[i].arm_face ** 2 / film.constants.radius
         for j in range(rows):
             weight = fields.rows[j].weight
             if alike and j > 0:
@@ -136,6 +157,7 @@ def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> 
                 film.constants.clearance
                 + fields.rows[j].a * c
                 + fields.rows[j].b * s
+                - taken
                 + film.wear_theta[i, j + 1]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
@@ -162,6 +184,7 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
     lowest = math.inf
     for i in range(n):
         c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
+        taken = 0.5 * fields.columns[i].arm_node ** 2 / film.constants.radius
         for j in range(faces):
             if alike and j > 0:
                 fields.z_faces[i, j].k_z = fields.z_faces[i, 0].k_z
@@ -173,6 +196,7 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
                 film.constants.clearance
                 + fields.rows[j].face_a * c
                 + fields.rows[j].face_b * s
+                - taken
                 + film.wear_z[i, j]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
@@ -195,6 +219,7 @@ def _nodes(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
     lowest = math.inf
     for i in range(film.columns.size):
         c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
+        taken = 0.5 * fields.columns[i].arm_node ** 2 / film.constants.radius
         for j in range(rows):
             if alike and j > 0:
                 fields.cells[i, j].contact = fields.rows[j].weight * fields.cells[i, 0].contact
@@ -204,6 +229,7 @@ def _nodes(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
                 film.constants.clearance
                 + fields.rows[j].a * c
                 + fields.rows[j].b * s
+                - taken
                 + film.wear_node[i, j + 1]
             )
             lowest = min(lowest, gap) if gap == gap else -math.inf
@@ -221,8 +247,7 @@ def _sources(film: FilmData, fields: FilmFields, omega: float, rows: int) -> Non
     squeeze = 2.0 * (2.0 * math.pi / n) * d_zeta / film.constants.clearance
     for i in range(n):
         before = i - 1 if i > 0 else n - 1
-        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
         for j in range(rows):
-            rate = fields.rows[j].v_a * c + fields.rows[j].v_b * s
+            rate = squeeze_rate(film, fields, i, j)
             flow = omega * d_zeta * (fields.cells[i, j].wedge - fields.cells[before, j].wedge)
             fields.cells[i, j].source = -flow - squeeze * fields.cells[i, j].contact * rate

@@ -100,7 +100,7 @@ def _integrate(
     fields = memory.fields
     f_x = f_y = m_x = m_y = torque = 0.0
     for i in range(memory.pressure.shape[0]):
-        c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
+        c, s, arm = fields.columns[i].cos_node, fields.columns[i].sin_node, fields.columns[i].arm_node
         for j in range(rows):
             p = memory.pressure[i, j]
             if film.constants.cavitation == HALF_SOMMERFELD:
@@ -108,8 +108,8 @@ def _integrate(
             load = fields.rows[j].weight * p
             f_x += load * c
             f_y += load * s
-            m_x -= film.z_node[j + 1] * load * s
-            m_y -= film.z_node[j + 1] * load * c
+            m_x -= (film.z_node[j + 1] + arm) * load * s
+            m_y -= (film.z_node[j + 1] + arm) * load * c
             torque += p * friction_load(memory, i, j)
     faces = rows if half else rows + 1
     couette = 0.0

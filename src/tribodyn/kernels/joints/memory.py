@@ -19,7 +19,7 @@ Scratch: Final = record_type(
     ("pose", Pose),
     ("wrench", "f8", (N_WRENCH,)),
     ("jacobian", "f8", (N_WRENCH, N_MOTION)),
-    ("gradient", "f8", (3, 5)),
+    ("gradient", "f8", (5, 9)),
     ("report", Report),
     ("blank", Report),
     ("listed", Listed),

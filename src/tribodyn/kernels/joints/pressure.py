@@ -25,6 +25,25 @@ def total_pressure(rigid: float, damping: float, ratio: float, clip: float) -> f
 
 
 @inlined
+def slopes(
+    d_rigid: float,
+    damping: float,
+    d_damping: float,
+    total: float,
+    approach: float,
+    entry_velocity: float,
+    minimum: float,
+    clip: float,
+) -> tuple[float, float]:
+    """Return ∂P_c/∂h [Pa/m] and ∂P_c/∂δ̇ [Pa s/m] from ∂P_k/∂h, C, ∂C/∂h and P_c."""
+    reference = reference_velocity(entry_velocity, approach, minimum)
+    whole = 0.0 if clip > 0.0 and total == 0.0 else 1.0
+    # Without memory and faster than the least velocity, the ratio is ±1 whatever the speed.
+    follows = 1.0 if entry_velocity > 0.0 or abs(approach) < minimum else 0.0
+    return whole * (d_rigid + d_damping * (approach / reference)), whole * follows * damping / reference
+
+
+@inlined
 def node_pressure(
     table: ContactTable,
     roughness: float,
@@ -66,14 +85,15 @@ def node_pressure(
     """
     rigid, d_rigid, damping, d_damping = pressure_and_damping(table, gap / roughness)
     reference = reference_velocity(entry_velocity, approach, minimum_entry_velocity)
-    ratio = approach / reference
-    total = total_pressure(rigid, damping, ratio, clip)
-    whole = 0.0 if clip > 0.0 and total == 0.0 else 1.0
-    # Without memory and faster than the least velocity, the ratio is ±1 whatever the speed.
-    follows = 1.0 if entry_velocity > 0.0 or abs(approach) < minimum_entry_velocity else 0.0
-    return (
-        rigid,
+    total = total_pressure(rigid, damping, approach / reference, clip)
+    d_gap, d_approach = slopes(
+        d_rigid / roughness,
+        damping,
+        d_damping / roughness,
         total,
-        whole * (d_rigid + d_damping * ratio) / roughness,
-        whole * follows * damping / reference,
+        approach,
+        entry_velocity,
+        minimum_entry_velocity,
+        clip,
     )
+    return rigid, total, d_gap, d_approach

@@ -8,7 +8,9 @@ never leaves compiled code, and Python callables.
 The iteration matrix is dense, or the caller's: with ``count[OUTSIDE]`` the machine holds no matrix and asks
 
 - NEED_JACOBIAN: evaluate the Jacobian; ``count[FINITE]`` = 0 where it is not and the last one stays;
-- NEED_FACTORS: prepare solutions with I − ``real[SCALED]`` J; ``count[REGULAR]`` = 0 where that is singular;
+- NEED_FACTORS: prepare solutions with I − ``real[SCALED]`` J; fill ``count[SIGN]`` with the sign of the
+  determinant, 0 where it vanishes, and ``real[TRACE]`` with the trace of J. If ``count[BACK]`` is 1, J is
+  from now on the one before the newest; if it is 2 and there is no mass matrix, J is zero;
 - NEED_SOLUTION: fill ``rows[DELTA]`` with the solution for ``rows[RESIDUAL]``;
 - NEED_MAGNITUDE: fill ``rows[MAGNITUDE]``. Few steps need it.
 
@@ -31,11 +33,10 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import entry, inlined
-from tribodyn.kernels.mebdf.acceptance import FADING
 from tribodyn.kernels.mebdf.coefficients import SCALARS
 from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
 from tribodyn.kernels.mebdf.history import push, rescale
-from tribodyn.kernels.mebdf.newton import begin_stages, iterate, renew_matrix, start_stage
+from tribodyn.kernels.mebdf.newton import iterate, start_stage
 from tribodyn.kernels.mebdf.phases import (
     ACCEPT,
     AFTER,
@@ -45,6 +46,7 @@ from tribodyn.kernels.mebdf.phases import (
     FACTORISED,
     FAILED,
     ITERATE,
+    LINEARISED,
     NEED_JACOBIAN,
     NO_PROGRESS,
     START_STAGE,
@@ -52,6 +54,7 @@ from tribodyn.kernels.mebdf.phases import (
     STEP_ACCEPTED,
     STEP_TOO_SMALL,
 )
+from tribodyn.kernels.mebdf.renewal import begin_stages, renew_matrix, take_over
 from tribodyn.kernels.mebdf.start import start
 from tribodyn.kernels.mebdf.state import (
     AHEAD,
@@ -59,7 +62,6 @@ from tribodyn.kernels.mebdf.state import (
     CARRIED,
     DIFFERENCED,
     EQUAL_STEPS,
-    EXPLAINED,
     FACTORED,
     FAILURES,
     FRESH,
@@ -71,7 +73,6 @@ from tribodyn.kernels.mebdf.state import (
     MATRIX_AGE,
     N_J,
     OLD_JACOBIAN,
-    OWED,
     PHASE,
     RATE,
     RATE_AGE,
@@ -80,7 +81,6 @@ from tribodyn.kernels.mebdf.state import (
     RENEW,
     SAME_MATRIX,
     SCALED,
-    SEEN,
     SLOW,
     STAGE,
     STEPS,
@@ -133,9 +133,11 @@ def resume(
         elif phase == STEP:
             request = _begin_step(real, count, rows, mass, places)
         elif phase == FACTORISE:
-            request = renew_matrix(real, count, rows, matrices, mass, places)
+            request = renew_matrix(real, count, matrices, mass, places)
         elif phase == FACTORISED:
-            begin_stages(real, count, rows, places.size > 0)
+            begin_stages(real, count, rows, matrices, places.size > 0)
+        elif phase == LINEARISED:
+            request = take_over(count, real, rows, matrices)
         elif phase == ACCEPT:
             _accept(real, count, rows, places)
             request = STEP_ACCEPTED
@@ -192,6 +194,7 @@ def _begin_step(
         for m in range(1, count[K] + 1 if ahead else 0):
             rows[Y, i] += rows[HISTORY + m, i]
     real[T_EVAL] = real[T] + h if ahead else real[T]
+    count[PHASE] = LINEARISED
     count[N_J] += 1
     count[JACOBIAN_AGE] = 0
     count[FRESH] = 1
@@ -236,12 +239,7 @@ def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places
     if places.size == 0 or count[EQUAL_STEPS] > 1:
         count[FAILURES] = 0
     count[WARY] = max(count[WARY] - 1, 0)
-    real[EXPLAINED] *= FADING
-    real[OWED] *= FADING
-    if places.size > 0:
-        for i in range(rows.shape[1]):
-            rows[SEEN, i] *= FADING
     count[BAD] = -1
     count[WORST] = -1
-    count[CARRIED] = 1
+    count[CARRIED] = count[STAGE] > 3
     count[PHASE] = AFTER

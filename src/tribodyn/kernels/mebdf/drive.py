@@ -18,7 +18,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel, unlocked
 from tribodyn.kernels.mebdf.history import value_at
-from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over
+from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over, trace
 from tribodyn.kernels.mebdf.phases import (
     FAILED,
     NEED_F,
@@ -28,15 +28,17 @@ from tribodyn.kernels.mebdf.phases import (
     NEED_SOLUTION,
 )
 from tribodyn.kernels.mebdf.state import (
+    BACK,
     DELTA,
     FINITE,
     H_LAST,
     HISTORY,
     K_LAST,
-    REGULAR,
     SCALED,
+    SIGN,
     T_END,
     T_EVAL,
+    TRACE,
     F,
     MebdfState,
     T,
@@ -141,7 +143,7 @@ def run(
     accept: Callable[..., None],
     observe: Callable[..., None],
     picture: Callable[..., None],
-    factorise: Callable[..., bool] | None,
+    factorise: Callable[..., int] | None,
     solve: Callable[..., None] | None,
     state: MebdfState,
     data: Any,
@@ -171,7 +173,7 @@ def run(
             jacobian.fill(0.0)
             jac(real[T_EVAL], y, data, memory, f, jacobian)
             if own is not None:
-                count[FINITE] = take_over(own)
+                count[FINITE] = take_over(own, count[BACK])
             if pause[0] == AFTER_EVALUATION:
                 return PAUSED
             continue
@@ -179,7 +181,10 @@ def run(
             return FAILED
         if own is not None and factorise is not None and solve is not None:
             if request == NEED_FACTORS:
-                count[REGULAR] = factorise(real[SCALED], data, own.last, own.factors, own.pivots)
+                if count[BACK] > 0:
+                    copy(own.previous, own.last)
+                real[TRACE] = trace(own)
+                count[SIGN] = factorise(real[SCALED], data, own.last, own.factors, own.pivots)
                 continue
             if request == NEED_SOLUTION:
                 set_right_side(rows, places, real[SCALED])

@@ -33,8 +33,8 @@ def factorise(
     mass: FloatArray,
     places: NDArray[np.int64],
     scaled: float,
-) -> bool:
-    """Prepare solutions with M − ``scaled`` J, see :mod:`.mass`; return whether the matrix is regular."""
+) -> int:
+    """Prepare solutions with M − ``scaled`` J, see :mod:`.mass`; return the sign of its determinant or 0."""
     n = matrices.shape[1]
     transposed = n <= LARGEST_INVERSE
     for i in range(n):
@@ -72,12 +72,12 @@ def _add_mass(
 
 
 @kernel
-def _invert(count: NDArray[np.int64], matrices: FloatArray) -> bool:
+def _invert(count: NDArray[np.int64], matrices: FloatArray) -> int:
     """Gauss-Jordan elimination in place, with row pivoting, in FACTORS.
 
     The matrix is the transposed one, so that products run along rows of its inverse.
     """
-    n = matrices.shape[1]
+    n, sign = matrices.shape[1], 1
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
@@ -85,8 +85,8 @@ def _invert(count: NDArray[np.int64], matrices: FloatArray) -> bool:
                 pivot = i
         count[PIVOTS + k] = pivot
         if not abs(matrices[FACTORS, pivot, k]) > 0.0:
-            return False
-        _exchange(matrices, k, pivot)
+            return 0
+        sign *= _exchange(matrices, k, pivot)
         inverse = 1.0 / matrices[FACTORS, k, k]
         matrices[FACTORS, k, k] = 1.0
         for j in range(n):
@@ -104,23 +104,26 @@ def _invert(count: NDArray[np.int64], matrices: FloatArray) -> bool:
                 value = matrices[FACTORS, i, k]
                 matrices[FACTORS, i, k] = matrices[FACTORS, i, pivot]
                 matrices[FACTORS, i, pivot] = value
-    return True
+    return sign
 
 
 @kernel
-def _exchange(matrices: FloatArray, k: int, pivot: int) -> None:
-    """Exchange two rows of FACTORS."""
-    if pivot != k:
-        for j in range(matrices.shape[1]):
-            value = matrices[FACTORS, k, j]
-            matrices[FACTORS, k, j] = matrices[FACTORS, pivot, j]
-            matrices[FACTORS, pivot, j] = value
+def _exchange(matrices: FloatArray, k: int, pivot: int) -> int:
+    """Exchange two rows of FACTORS; return the sign that pivot and exchange give the determinant."""
+    sign = 1 if matrices[FACTORS, pivot, k] > 0.0 else -1
+    if pivot == k:
+        return sign
+    for j in range(matrices.shape[1]):
+        value = matrices[FACTORS, k, j]
+        matrices[FACTORS, k, j] = matrices[FACTORS, pivot, j]
+        matrices[FACTORS, pivot, j] = value
+    return -sign
 
 
 @kernel
-def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
+def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> int:
     """LU decomposition with row pivoting in FACTORS."""
-    n = matrices.shape[1]
+    n, sign = matrices.shape[1], 1
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
@@ -128,8 +131,8 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
                 pivot = i
         count[PIVOTS + k] = pivot
         if not abs(matrices[FACTORS, pivot, k]) > 0.0:
-            return False
-        _exchange(matrices, k, pivot)
+            return 0
+        sign *= _exchange(matrices, k, pivot)
         inverse = 1.0 / matrices[FACTORS, k, k]
         for i in range(k + 1, n):
             factor = matrices[FACTORS, i, k] * inverse
@@ -137,7 +140,7 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> bool:
             if factor != 0.0:
                 for j in range(k + 1, n):
                     matrices[FACTORS, i, j] -= factor * matrices[FACTORS, k, j]
-    return True
+    return sign
 
 
 @kernel

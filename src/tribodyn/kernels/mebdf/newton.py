@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mebdf.acceptance import (
     DIVERGED,
@@ -20,10 +19,7 @@ from tribodyn.kernels.mebdf.acceptance import (
     IN_DOUBT,
     OPEN,
     SOLVED,
-    UNPROVED,
-    has_unproved,
     judge,
-    judge_algebraic,
     judge_beside_rounding,
     note_removed,
 )
@@ -31,55 +27,40 @@ from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, S
 from tribodyn.kernels.mebdf.control import CAUTION, error_weight, newton_failed, norm, reject
 from tribodyn.kernels.mebdf.history import push
 from tribodyn.kernels.mebdf.mass import is_algebraic, multiply, product
-from tribodyn.kernels.mebdf.matrix import factorise, magnify, solve
+from tribodyn.kernels.mebdf.matrix import magnify, solve
 from tribodyn.kernels.mebdf.phases import (
     ACCEPT,
     CONCLUDE,
     CORRECT,
-    FACTORISED,
-    FAILED,
     ITERATE,
-    JACOBIAN_NOT_FINITE,
     NEED_F,
-    NEED_FACTORS,
     NEED_MAGNITUDE,
     NEED_SOLUTION,
-    SINGULAR,
     START_STAGE,
 )
 from tribodyn.kernels.mebdf.start import remember_not_finite
 from tribodyn.kernels.mebdf.state import (
     CARRIED,
-    CAUSE,
     CONSTANT,
     CONSTANT_3,
     DELTA,
     DIFFERENCED,
     DISAGREEMENT,
     ERROR,
-    EXPLAINED,
     F_1,
     F_2,
-    FACTORED,
     FAILURES,
-    FINITE,
     FIXED,
     FORGET,
-    FRESH,
     HIGHER,
     HISTORY,
     IMPLICIT,
     ITERATION,
-    JACOBIAN,
     JACOBIAN_AGE,
     KAPPA,
     LAST,
-    LAST_JACOBIAN,
     LAST_NORM,
-    MATRIX_AGE,
     N_F,
-    N_J,
-    N_LU,
     N_SOLVES,
     OUTSIDE,
     OVERSHOT,
@@ -87,21 +68,18 @@ from tribodyn.kernels.mebdf.state import (
     PREDICTED,
     RATE,
     RATE_AGE,
-    REASON,
-    REGULAR,
     RELAXATION,
     RESIDUAL,
     ROW_WEIGHT,
     SCALED,
     SCRATCH,
-    SEEN,
     SHRINK,
     STAGE,
     STAGE_HISTORY,
     T_EVAL,
+    TRUST,
     UNSOLVED,
     UNSOLVED_BEFORE,
-    VERDICT,
     WARY,
     WEIGHT,
     Y_1,
@@ -119,60 +97,10 @@ LATE: Final = 5
 """Failures in a row after which an error may be that of the algebraic values which the step starts from."""
 FORGIVEN: Final = 10.0
 """Most that such values may be wrong, in units of the tolerance."""
-
-
-@inlined
-def _take_over(matrices: FloatArray) -> bool:
-    """Keep a new Jacobian if it is finite; return whether it is."""
-    n, total = matrices.shape[1], 0.0
-    for i in range(n):
-        for j in range(n):
-            total += matrices[JACOBIAN, i, j]
-    if not math.isfinite(total):
-        return False
-    for i in range(n):
-        copy(matrices[JACOBIAN, i], matrices[LAST_JACOBIAN, i])
-    return True
-
-
-@kernel
-def renew_matrix(
-    real: FloatArray,
-    count: NDArray[np.int64],
-    rows: FloatArray,
-    matrices: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> int:
-    """Take over a new Jacobian, if it is finite, and factorise."""
-    if count[FRESH] == 1:
-        if count[OUTSIDE] == 0:
-            count[FINITE] = _take_over(matrices)
-        if count[FINITE] == 0 and count[N_J] == 1:
-            count[REASON] = JACOBIAN_NOT_FINITE
-            return FAILED
-        for i in range(rows.shape[1]):
-            rows[SEEN, i] = 0.0
-    real[FACTORED] = real[SCALED]
-    real[RELAXATION] = 1.0
-    real[RATE] = 1.0
-    count[MATRIX_AGE] = 0
-    count[N_LU] += 1
-    count[PHASE] = FACTORISED
-    if count[OUTSIDE] == 1:
-        return NEED_FACTORS
-    count[REGULAR] = factorise(count, matrices, mass, places, real[SCALED])
-    return 0
-
-
-@inlined
-def begin_stages(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool) -> None:
-    """Begin with stage 1 if the matrix was regular."""
-    count[STAGE] = 1
-    count[PHASE] = START_STAGE
-    if count[REGULAR] == 0:
-        newton_failed(real, count, rows, massive)
-        count[CAUSE] = SINGULAR
+LARGER_CHANGE: Final = 30.0
+"""How many times as far from its extrapolation as stage 1 stage 2 may be."""
+NO_CHANGE: Final = 1.0e-3
+"""Distance from the extrapolation, as an error in units of the tolerance, that stage 1 is given at least."""
 
 
 @inlined
@@ -256,7 +184,7 @@ def iterate(
 
     Where the caller solves it begins in ``phase`` ITERATE, CORRECT or CONCLUDE.
     """
-    verdict = count[VERDICT]
+    verdict = IN_DOUBT
     if phase == ITERATE:
         if places.size == 0:
             _set_residual(real, rows)
@@ -268,27 +196,21 @@ def iterate(
             return NEED_SOLUTION
         solve(count, rows, matrices)
     if phase != CONCLUDE:
-        verdict = _correct(real, count, rows)
-        if verdict == SOLVED and places.size > 0 and has_unproved(rows, places):
-            verdict = UNPROVED
-    if verdict in (IN_DOUBT, UNPROVED):
+        verdict = _correct(real, count, rows, places)
+    if verdict == IN_DOUBT:
         if phase != CONCLUDE and count[OUTSIDE] == 1:
-            count[VERDICT] = verdict
             count[PHASE] = CONCLUDE
             return NEED_MAGNITUDE
         if count[OUTSIDE] == 0:
             magnify(rows, matrices, mass, places, real[SCALED])
-        if verdict == IN_DOUBT:
-            verdict = judge_beside_rounding(real, count, rows, places.size > 0)
-        if verdict == UNPROVED or (verdict == SOLVED and places.size > 0):
-            verdict = judge_algebraic(rows, places, real[SCALED])
+        verdict = judge_beside_rounding(real, count, rows, places)
     if verdict == SOLVED:
         finish_stage(real, count, rows, mass, places)
         return 0
     if verdict in (DIVERGED, FALSE) or count[ITERATION] >= MAX_ITERATIONS[count[STAGE]]:
         if verdict == FALSE:
             count[WARY] = max(count[WARY], CAUTION)
-            real[EXPLAINED] = 0.0
+            real[TRUST] = 0.0
         newton_failed(real, count, rows, places.size > 0)
         return 0
     count[N_F] += 1
@@ -298,7 +220,7 @@ def iterate(
 
 
 @inlined
-def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> int:
+def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64]) -> int:
     """Add the correction; return whether the stage solves its formula, as far as is known."""
     size = _add_correction(real, rows)
     if not _converging(real, count, size):
@@ -308,7 +230,7 @@ def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> in
     count[ITERATION] += 1
     rate = real[RATE]
     left = size if rate >= 0.5 else size * rate / (1.0 - rate)
-    return judge(real, count, size) if left <= real[KAPPA + count[STAGE]] else OPEN
+    return judge(real, count, rows, places, size) if left <= real[KAPPA + count[STAGE]] else OPEN
 
 
 @inlined
@@ -398,6 +320,9 @@ def finish_stage(
         _test_error(real, count, rows, mass, places)
     elif stage == 2:
         _keep(real, rows, Y_2, F_2)
+        if count[FIXED] == 0 and not _goes_on(real, count, rows, weight):
+            _copy(rows, Y_1, Y, F_1, F)
+            count[PHASE] = ACCEPT
     else:
         for i in range(rows.shape[1]):
             rows[SCRATCH, i] = rows[Y, i] - rows[Y_1, i]
@@ -405,6 +330,19 @@ def finish_stage(
             reject(real, count, rows, 0.5, SCRATCH, weight)
         else:
             count[PHASE] = ACCEPT
+
+
+@inlined
+def _goes_on(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weight: int) -> bool:
+    """Tell whether stage 2, which has no error test, goes on as stage 1 did.
+
+    Beside a jump a stage may have a solution on either side. The extended formula would take the difference
+    of their slopes for a derivative. The step is then that of stage 1, which has passed its test.
+    """
+    for i in range(rows.shape[1]):
+        rows[SCRATCH, i] = rows[Y_2, i] - rows[PREDICTED, i]
+    change = SCALARS[count[K], 3] * norm(rows, SCRATCH, weight)
+    return change <= LARGER_CHANGE * max(real[ERROR], NO_CHANGE)
 
 
 @inlined

@@ -25,7 +25,9 @@ class OwnMatrix(NamedTuple):
     jacobian
         Entries as filled in, shape (n_entries,).
     last
-        The last ones that were finite, shape (n_entries,).
+        Those in use: the last ones that were finite, or those before them, shape (n_entries,).
+    previous
+        The finite ones before the last, shape (n_entries,).
     factors, pivots
         What the problem's ``factorise`` leaves for its ``solve``.
     """
@@ -33,20 +35,33 @@ class OwnMatrix(NamedTuple):
     places: NDArray[np.int64]
     jacobian: FloatArray
     last: FloatArray
+    previous: FloatArray
     factors: FloatArray
     pivots: NDArray[np.int64]
 
 
 @kernel
-def take_over(own: OwnMatrix) -> bool:
-    """Keep a new Jacobian if it is finite; return whether it is."""
+def take_over(own: OwnMatrix, back: int) -> bool:
+    """Keep a new Jacobian if it is finite, and the newest before it; return whether it is."""
     total = 0.0
     for i in range(own.jacobian.size):
         total += own.jacobian[i]
     if not math.isfinite(total):
         return False
+    if back == 0:
+        copy(own.last, own.previous)
     copy(own.jacobian, own.last)
     return True
+
+
+@kernel
+def trace(own: OwnMatrix) -> float:
+    """Return the trace of the Jacobian in use, as far as its entries have places."""
+    total = 0.0
+    for k in range(own.places.shape[1]):
+        if own.places[0, k] == own.places[1, k]:
+            total += own.last[k]
+    return total
 
 
 @kernel

@@ -33,3 +33,4 @@ AFTER: Final = 8
 FACTORISED: Final = 9
 CORRECT: Final = 10
 CONCLUDE: Final = 11
+LINEARISED: Final = 12

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,9 @@ from tribodyn.kernels.mebdf.state import (
     Y,
 )
 
+SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
+"""Shortest first step relative to the time: 16 or more spacings between numbers."""
+
 
 @kernel
 def start(
@@ -58,7 +62,7 @@ def start(
             return _ask(real, count, rows, real[DIRECTION] * real[H], SECOND_F)
     else:
         real[H] = _first_step(real, rows, places)
-    real[H] *= real[DIRECTION]
+    real[H] = max(real[H], _least(real)) * real[DIRECTION]
     for i in range(rows.shape[1]):
         rows[HISTORY + 1, i] = real[H] * rows[F_1, i]
     count[PHASE] = STEP
@@ -94,7 +98,13 @@ def _trial_step(real: FloatArray, rows: FloatArray) -> float:
     """Return a step over which the solution changes by about a hundredth of itself."""
     value, slope = norm(rows, HISTORY, WEIGHT), norm(rows, F_1, WEIGHT)
     size = 1.0e-6 if value < 1.0e-5 or slope < 1.0e-5 else 0.01 * value / slope
-    return min(size, real[H_MAX], abs(real[T_END] - real[T]))
+    return max(min(size, real[H_MAX], abs(real[T_END] - real[T])), _least(real))
+
+
+@kernel
+def _least(real: FloatArray) -> float:
+    """Return the shortest first step: the times of its stages must differ."""
+    return min(SHORTEST * abs(real[T]), real[H_MAX], abs(real[T_END] - real[T]))
 
 
 @kernel

@@ -38,12 +38,12 @@ UNSOLVED_BEFORE: Final = 16
 """The same one iteration earlier."""
 T_MARK: Final = 17
 """Time at which failures began to be counted."""
-EXPLAINED: Final = 18
-"""Largest residual, in units of the tolerance, that the Jacobian was seen to remove; it fades."""
+TRUST: Final = 18
+"""Largest residual, in units of the tolerance, that the present Jacobian is trusted to remove."""
 OVERSHOT: Final = 19
 """What the last correction was magnified by to rise above rounding, 0 where it was not."""
-OWED: Final = 20
-"""Residuals, in units of the tolerance, that small corrections left since the last proof; their sum fades."""
+TRACE: Final = 20
+"""Trace of the Jacobian in use."""
 SETTINGS: Final = 21
 """First of the entries that hold the settings of the controllers."""
 
@@ -81,18 +81,16 @@ EARLY: Final = SETTINGS + 17
 TIGHT: Final = SETTINGS + 18
 """Share of the tolerances that the method uses: errors of steps add up."""
 DOUBTFUL: Final = SETTINGS + 19
-"""Residual of the formula, or a sum of them, in units of the tolerance, small corrections may not leave."""
+"""Residual of the formula, in units of the tolerance, that a small correction may not leave."""
 TINY: Final = SETTINGS + 20
-"""Correction, in units of the tolerance, that is small beside any such residual."""
-SMALL: Final = SETTINGS + 21
-"""Correction that is small, over the square root of the residual, both in units of the tolerance."""
+"""Correction that is small, in units of the tolerance; without trust, over the residual."""
 DEFAULTS: Final = (
     *(0.24, 0.42, 0.20),
     *(0.05, 40.0, 0.05),
     *(1.44, 1.54, 1.62, 1.05, 6.0),
     *(1.9, 0.28, 2.0, 1.9, 20.0, 3.0, 0.9),
     0.3,
-    *(10.0, 0.02, 0.05),
+    *(10.0, 0.02),
 )
 N_REAL: Final = SETTINGS + len(DEFAULTS)
 
@@ -155,17 +153,19 @@ OUTSIDE: Final = 29
 """Whether the caller keeps the Jacobian and solves with the iteration matrix."""
 FINITE: Final = 30
 """Whether the newest Jacobian is finite."""
-REGULAR: Final = 31
-"""Whether the iteration matrix is regular."""
-VERDICT: Final = 32
-"""Whether the stage solves its formula, as far as is known."""
+SIGN: Final = 31
+"""Sign of the determinant of the iteration matrix, 0 where it is singular."""
+BACK: Final = 32
+"""Which Jacobian is in use: 0 the newest, 1 the one before it, 2 zero (with a mass matrix still that)."""
 HIGHER: Final = 33
 """Whether a variable has an index above 1: constraints must then hold better than the tolerance."""
 IMPLICIT: Final = 34
 """Whether the caller evaluates the whole residual of an equation in t, y and y'."""
 AHEAD: Final = 35
 """Whether the next Jacobian is that of the predicted value."""
-PIVOTS: Final = 36
+REFERENCE: Final = 36
+"""Sign of the determinant for short steps, 0 while it is unknown."""
+PIVOTS: Final = 37
 """First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
@@ -201,7 +201,7 @@ POWER: Final = 17
 TESTED: Final = 18
 """1 for a variable in the error test, else 0."""
 SEEN: Final = 19
-"""Largest residual of an algebraic equation that the present Jacobian was seen to remove; it fades."""
+"""Largest residual of an algebraic equation that the present Jacobian was seen to remove."""
 HISTORY: Final = 20
 """First of the backward differences ∇^i y_n."""
 N_DIFFERENCES: Final = MAX_K + 3
@@ -217,6 +217,8 @@ LAST_JACOBIAN: Final = 1
 """Last Jacobian that was finite."""
 FACTORS: Final = 2
 """Inverse or LU factors of the iteration matrix."""
+PREVIOUS_JACOBIAN: Final = 3
+"""Finite Jacobian that was in use before the last one."""
 
 
 class MebdfState(NamedTuple):
@@ -229,7 +231,7 @@ class MebdfState(NamedTuple):
     rows
         Vectors named above, shape (N_ROWS, n).
     matrices
-        Matrices named above, shape (3, n, n); of no size where the caller solves.
+        Matrices named above, shape (4, n, n); of no size where the caller solves.
     mass
         Entries of the mass matrix, row by row; of no size where it is the unit matrix.
     places
@@ -332,11 +334,12 @@ def new_state(
         real[OLD_JACOBIAN] = max(PRICE * differenced, LEAST_PRICE)
     count[OUTSIDE] = outside
     count[[BAD, WORST]] = -1
+    count[REFERENCE] = mass is None
     rows = np.zeros((N_ROWS, n))
     rows[ATOL] = atol
     rows[RTOL] = rtol
     rows[[Y, HISTORY]] = y
-    matrices = np.zeros((3, size, size))
+    matrices = np.zeros((4, size, size))
     if mass is None:
         return MebdfState(real, count, rows, matrices, np.zeros(0), np.zeros(0, dtype=np.int64))
     rows[F_1] = mass.slope

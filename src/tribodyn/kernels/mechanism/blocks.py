@@ -22,11 +22,12 @@ SUBTRACT: Final = 2
 
 
 @kernel
-def invert(matrix: FloatArray, place: IntArray) -> bool:
-    """Replace a block by its inverse, Gauss-Jordan elimination with row pivoting; return whether it has one.
+def invert(matrix: FloatArray, place: IntArray) -> int:
+    """Replace a block by its inverse; return the sign of its determinant, 0 where it has none.
 
-    ``place`` (6,) is work space for row exchanges.
+    Gauss-Jordan elimination with row pivoting; ``place`` (6,) is work space for row exchanges.
     """
+    sign = 1
     for k in range(N):
         pivot = k
         for i in range(k + 1, N):
@@ -34,8 +35,11 @@ def invert(matrix: FloatArray, place: IntArray) -> bool:
                 pivot = i
         place[k] = pivot
         if not abs(matrix[pivot, k]) > 0.0:
-            return False
+            return 0
+        if matrix[pivot, k] < 0.0:
+            sign = -sign
         if pivot != k:
+            sign = -sign
             for j in range(N):
                 matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
         inverse = 1.0 / matrix[k, k]
@@ -52,13 +56,16 @@ def invert(matrix: FloatArray, place: IntArray) -> bool:
         if place[k] != k:
             for i in range(N):
                 matrix[i, k], matrix[i, place[k]] = matrix[i, place[k]], matrix[i, k]
-    return True
+    return sign
 
 
 @kernel
-def factorise(pattern: Pattern, blocks: FloatArray) -> bool:
-    """Factorise in place: diagonal blocks become inverses, those below the diagonal those of L."""
-    steps, place = pattern.factor, pattern.exchanges
+def factorise(pattern: Pattern, blocks: FloatArray) -> int:
+    """Factorise in place; return the sign of the determinant, 0 where a block on the diagonal has no inverse.
+
+    Diagonal blocks become inverses, those below the diagonal those of L.
+    """
+    steps, place, sign = pattern.factor, pattern.exchanges, 1
     for s in range(steps.shape[0]):
         target = blocks[steps[s, 1]]
         if steps[s, 0] == SUBTRACT:
@@ -71,9 +78,11 @@ def factorise(pattern: Pattern, blocks: FloatArray) -> bool:
                             target[i, j] -= factor * right[k, j]
         elif steps[s, 0] == DIVIDE:
             _divide(target, blocks[steps[s, 2]])
-        elif not invert(target, place):
-            return False
-    return True
+        else:
+            sign *= invert(target, place)
+            if sign == 0:
+                return 0
+    return sign
 
 
 @kernel

@@ -43,6 +43,13 @@ CONTACT: Final = 7
 NONE: Final = -1
 """Number of a signal, node, block or coupling that is not there."""
 
+INTACT: Final = 0
+OPENED: Final = 1
+OVERLAPPED: Final = 2
+LEFT: Final = 3
+"""What can have become of a joint: nothing, an ideal one has come apart, mean planes overlap further than the
+contact law reaches, the shaft has left its socket."""
+
 PLAIN: Final = 0.0
 SLOPES: Final = 1.0
 REPORTS: Final = 2.0
@@ -169,6 +176,7 @@ CouplingNow: Final = record_type(
     ("dependent", "f8", (6,)),
     ("multiplier", "f8", (6,)),
     ("wrench", "f8", (6,)),
+    ("effort", "f8", (2,)),
     ("constraint", "f8", (6,)),
     ("slope", "f8", (6, 12)),
     ("Kq", "f8", (12, 12)),
@@ -210,7 +218,9 @@ compliance, scale, dependent
 multiplier
     Of each row.
 wrench, constraint
-    By forces and by constraints.
+    By forces and by constraints, those of drives included.
+effort
+    Part of ``wrench``: given torque [N m] and force [N] of drives along the axis.
 slope
     Derivative of ``wrench`` in relative displacement, small rotation, velocity and angular velocity.
 Kq, Kv, Gq, Gv
@@ -231,9 +241,14 @@ Course: Final = record_type(
     ("potential", "f8"),
     ("momentum", "f8", (6,)),
     ("external", "f8", (6,)),
+    ("broken", "i8"),
+    ("broken_at", "i8"),
 )
 """What the motion has come to: the segment [begin, until] whose pieces of tables hold; accepted steps until
-redundant rows are chosen again; energies [J], momentum and external force with moments about the origin."""
+redundant rows are chosen again; energies [J], momentum and external force with moments about the origin; what
+has become of a joint, ``INTACT`` or another of the kinds above, and the number of the coupling that has
+``OPENED`` or of the surface. From then on no rate is a number, which stops every integrator. Trial states may
+lie beyond a law: it goes on linearly."""
 
 
 Book: Final = record_type(("marks", "f8", (3, 3)), ("sums", "f8", (3,)))

@@ -58,8 +58,10 @@ def force(
     elif kind == CONTACT:
         _contact(coupling.contact, now, data.contact, memory.contact, mode)
     for axis in range(2):
+        now.effort[axis] = 0.0
         if coupling.effort[axis] != NONE:
             value, _, _ = evaluate(data.signals, coupling.effort[axis], t, within)
+            now.effort[axis] = value
             entry = 5 if axis == 0 else 2
             now.wrench[entry] += value
             now.powers[WORK] += value * now.twist[entry]

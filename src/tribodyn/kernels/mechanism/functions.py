@@ -14,6 +14,7 @@ from tribodyn.kernels.mechanism import ledger
 from tribodyn.kernels.mechanism.bodies import rates
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
+    INTACT,
     PLAIN,
     SLOPES,
     MechanismData,
@@ -27,6 +28,7 @@ from tribodyn.kernels.mechanism.newton import fill_entries
 from tribodyn.kernels.mechanism.observe import fill_row
 from tribodyn.kernels.mechanism.redundancy import choose_rows
 from tribodyn.kernels.mechanism.solution import accelerations, settle
+from tribodyn.kernels.mechanism.watch import watch
 
 BEFORE_KINK: Final = 1.0e-9
 """Part of a segment by which its pieces end before the kink."""
@@ -39,6 +41,9 @@ def rhs(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, f
     """Fill ``f`` (n,) with the time derivative of the state."""
     accelerations(data, memory, t, y, PLAIN)
     rates(memory.now.bodies, f)
+    if memory.now.course.broken != INTACT:
+        for i in range(f.size):
+            f[i] = math.nan
 
 
 @inlined
@@ -141,9 +146,10 @@ def observe(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemor
 
 @entry
 def accept(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
-    """Put the state on the constraints, count turns, let contact begin and end."""
+    """Put the state on the constraints, count turns, let contact begin and end, watch the joints."""
     copy(memory.settled, y)
     _mark_angles(memory.now.couplings)
+    watch(data, memory)
     touch(data, memory, 0.0)
     _look_after_rows(data.parts, memory.now, memory.independence)
 

@@ -124,8 +124,12 @@ def _turning(entries: FloatArray, body: int, gamma: float, e: FloatArray) -> Non
 @entry
 def factorise(
     gamma: float, data: MechanismData, jacobian: FloatArray, factors: FloatArray, pivots: IntArray
-) -> bool:
-    """Prepare solutions with 1 − γ ∂f/∂y; return whether the matrix is regular."""
+) -> int:
+    """Prepare solutions with 1 − γ ∂f/∂y; return the sign of its determinant, 0 where it is singular.
+
+    That is the sign for the blocks: it is positive for γ = 0, and what leads to the blocks has a positive
+    determinant for any γ.
+    """
     parts = data.parts
     n_bodies = parts.bodies.size
     entries = jacobian[N_PLACES * n_bodies :]

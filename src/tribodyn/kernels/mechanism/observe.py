@@ -85,30 +85,37 @@ def _body(now: Record, out: FloatArray, turned: FloatArray) -> None:
 
 @kernel
 def _coupling(coupling: Record, now: Record, book: Record, out: FloatArray) -> None:
-    """Motion of the shaft, wrench on it, drive and books of a coupling."""
-    axis = now.pose.rotation[:, 2]
+    """Motion of the shaft, wrench of the joint and of its drives on it, and books of a coupling."""
+    axis, driving = now.pose.rotation[:, 2], now.work[0, :6]
+    _drive(coupling, now, driving)
     out[0] = now.angle
     out[4], out[5] = -axis[1] / axis[2], axis[0] / axis[2]
     for i in range(3):
         out[1 + i] = now.pose.d[i]
     for i in range(6):
         out[6 + i] = now.twist[i]
-        out[12 + i] = now.wrench[i] + now.constraint[i]
+        out[12 + i] = now.wrench[i] + now.constraint[i] - driving[i]
     turn_back(now.RT, out[12:15], out[18:21])
     turn_back(now.RT, out[15:18], out[21:24])
-    moment, force = 0.0, 0.0
-    for m in range(coupling.n_rows):
-        if coupling.row_kind[m] == ANGLE:
-            moment += now.N[m, 5] * now.multiplier[m]
-        elif coupling.row_kind[m] == POSITION:
-            force += now.multiplier[m]
-    out[24], out[25] = moment, force
+    out[24], out[25] = driving[5], driving[2]
     for i in range(3):
         out[26 + i] = book.sums[i]
     out[29] = now.stored
     for i in range(30, 35):
         out[i] = 0.0
     out[35], out[36] = now.powers[FRICTION], now.powers[DAMPING]
+
+
+@kernel
+def _drive(coupling: Record, now: Record, out: FloatArray) -> None:
+    """Fill the wrench of the drives of a joint on its shaft (6,)."""
+    for i in range(6):
+        out[i] = 0.0
+    out[5], out[2] = now.effort[0], now.effort[1]
+    for m in range(coupling.n_rows):
+        if coupling.row_kind[m] == ANGLE or coupling.row_kind[m] == POSITION:
+            for i in range(6):
+                out[i] += now.N[m, i] * now.multiplier[m]
 
 
 @kernel

@@ -45,12 +45,15 @@ COUPLING: Final = (
     *(Quantity(f"tilt_{name}", "rad", f"tilt of the shaft about {name} of the joint") for name in "xy"),
     *(Quantity(f"u_{name}", "m s-1", f"relative velocity, {name} of the joint") for name in "xyz"),
     *(Quantity(f"w_{name}", "rad s-1", f"relative angular velocity, {name} of the joint") for name in "xyz"),
-    *(Quantity(f"F_{name}", "N", f"force on the shaft's body, {name} of the joint") for name in "xyz"),
-    *(Quantity(f"M_{name}", "N m", f"moment at the shaft, {name} of the joint") for name in "xyz"),
-    *(Quantity(f"R_{name}", "N", f"force on the shaft's body, global {name}") for name in "xyz"),
-    *(Quantity(f"T_{name}", "N m", f"moment at the shaft, global {name}") for name in "xyz"),
-    Quantity("drive_moment", "N m", "moment of the drive of the angle"),
-    Quantity("drive_force", "N", "force of the drive of the position"),
+    *(
+        Quantity(f"F_{name}", "N", f"reaction force on the shaft's body, {name} of the joint")
+        for name in "xyz"
+    ),
+    *(Quantity(f"M_{name}", "N m", f"reaction moment at the shaft, {name} of the joint") for name in "xyz"),
+    *(Quantity(f"R_{name}", "N", f"reaction force on the shaft's body, global {name}") for name in "xyz"),
+    *(Quantity(f"T_{name}", "N m", f"reaction moment at the shaft, global {name}") for name in "xyz"),
+    Quantity("drive_moment", "N m", "moment of the drives about the axis"),
+    Quantity("drive_force", "N", "force of the drives along the axis"),
     Quantity("work", "J", "work that the coupling has put in"),
     Quantity("damping", "J", "what it has turned into heat by damping"),
     Quantity("friction", "J", "what it has turned into heat by friction"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,9 +13,11 @@ from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMe
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import kinematics, set_compliance
 from tribodyn.mechanisms.general.closing import CLOSED, DEPENDENT, System
+from tribodyn.mechanisms.general.counterpart import as_drawn, counterpart, has_loops
 from tribodyn.mechanisms.general.description import Description
 from tribodyn.mechanisms.general.equations import new_memory
 from tribodyn.mechanisms.general.inspection import Finding, inspect
+from tribodyn.mechanisms.general.misfit import Misfit
 
 
 @dataclass(frozen=True)
@@ -48,31 +50,47 @@ class Assembly:
         Degrees of freedom that drives leave.
     redundancy
         Constraints beyond the independent ones; None without any.
+    inexact
+        Warnings of bodies whose masses differ so much that reactions lose digits.
     moved
         How far assembly has moved the body that it moved farthest [m].
     state
         State at the start, shape (13 n,).
     data
         What the kernels read.
+    ideal_rank
+        Number of independent constraints if all joints were ideal; in a mechanism with loops.
+    doubts
+        What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
+        when it is led through its cycle.
+    strain
+        Which clearances take what ideal joints do not allow, in words; empty for none.
     """
 
     description: Description
     findings: tuple[Finding, ...]
     freedoms: int
     redundancy: Redundancy | None
+    inexact: tuple[str, ...]
     moved: float
     state: FloatArray
     data: MechanismData
+    ideal_rank: int
+    doubts: tuple[Finding, ...] = ()
+    strain: str = ""
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What a run must repeat: reactions that are not unique."""
+        """What a run must repeat: clearances that are needed to move, reactions not unique, or not exact."""
+        strained = (self.strain,) if self.strain else ()
         if self.redundancy is None:
-            return ()
+            return (*strained, *self.inexact)
         number, joints = self.redundancy.number, ", ".join(self.redundancy.joints)
         return (
+            *strained,
             f"{number} constraint{'s' * (number > 1)} more than are independent, shared by {joints}: "
             "their reactions are those of least norm, and not the only ones possible",
+            *self.inexact,
         )
 
     @property
@@ -104,39 +122,94 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
         Wear depth at the nodes of all joints with clearance [m], shape (n_nodes,); none by default.
     """
     findings = list(inspect(description))
-    ideal = replace(description, joints=tuple(replace(joint, clearance=None) for joint in description.joints))
-    closed = System(ideal)
-    findings += closed.approach()
+    closed, open_joints, doubts = _closed(description)
+    findings += open_joints
     system = System(description, worn)
     system.take_positions(closed)
+    if doubts:
+        system.close()
     rank, dependent = system.independence()
-    drives = {(k, m): name for k, m, name in system.drive_rows()}
     redundancy = None
     if dependent.size:
-        taking_part = np.max(np.abs(dependent), axis=0) > DEPENDENT
-        rows = [row for row, part in zip(system.rows, taking_part, strict=True) if part]
-        driven = sorted({drives[row] for row in rows if row in drives})
-        if driven:
-            findings.append(_contradiction(driven))
-        names = dict.fromkeys(description.joints[k].name for k, _ in rows)
+        names = dict.fromkeys(description.joints[k].name for k, _ in _taking_part(system, dependent))
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
+    contradictions = _contradictions(system, dependent)
+    findings += contradictions
+    ideal_rank = rank
+    if _is_real(description) and has_loops(description) and not (contradictions or open_joints or doubts):
+        ideal = System(counterpart(description))
+        ideal.take_positions(closed)
+        ideal_rank, dependent = ideal.independence()
+        doubts = _contradictions(ideal, dependent)
+        findings += ideal.start(description.speeds) if description.speeds and not doubts else []
     system.parts.constants.rank = rank
-    findings += system.unequal(rank)
-    findings += system.start(description.speeds)
+    unequal, inexact = system.unequal(rank)
+    contrary = system.start(description.speeds)
+    findings += doubts if doubts and contrary else [*unequal, *contrary]
     moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
     state = np.zeros(N_STATES * len(description.bodies))
     collect(system.now.bodies, state)
     freedoms = 6 * len(description.bodies) - rank
-    return Assembly(description, tuple(findings), freedoms, redundancy, moved, state, system.data)
+    return Assembly(
+        description,
+        tuple(findings),
+        freedoms,
+        redundancy,
+        tuple(inexact),
+        moved,
+        state,
+        system.data,
+        ideal_rank,
+        tuple(doubts),
+    )
 
 
-def _contradiction(drives: list[str]) -> Finding:
-    """Return the finding that drives act where nothing is left to drive."""
+def _is_real(description: Description) -> bool:
+    """Tell whether any joint has clearance."""
+    return any(joint.clearance is not None for joint in description.joints)
+
+
+def _closed(description: Description) -> tuple[System, list[Finding], list[Finding]]:
+    """Close the joints as if they were ideal.
+
+    Returns
+    -------
+    system
+        With the bodies where all joints close, or miss least.
+    findings
+        What does not close, whatever the clearances.
+    doubts
+        What does not close but for the clearances.
+    """
+    closed = System(as_drawn(description))
+    found = closed.approach()
+    if not (found and _is_real(description)):
+        return closed, found, []
+    closed = System(counterpart(description))
+    found = closed.approach()
+    fits = not found or Misfit(description, closed).close()
+    return (closed, [], found) if fits else (closed, found, [])
+
+
+def _taking_part(system: System, dependent: FloatArray) -> list[tuple[int, int]]:
+    """Return the rows that depend on each other, as joint and row."""
+    taking_part = np.max(np.abs(dependent), axis=0) > DEPENDENT
+    return [row for row, part in zip(system.rows, taking_part, strict=True) if part]
+
+
+def _contradictions(system: System, dependent: FloatArray) -> list[Finding]:
+    """Return the finding that drives act where nothing is left to drive, if they do."""
+    if not dependent.size:
+        return []
+    names = {(k, m): name for k, m, name in system.drive_rows()}
+    drives = sorted({names[row] for row in _taking_part(system, dependent) if row in names})
+    if not drives:
+        return []
     if len(drives) == 1:
         text = f"drive {drives[0]} has nothing to drive: as drawn, the joints leave its coordinate no freedom"
     else:
         text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
-    return Finding(f"drives.{drives[-1]}", text)
+    return [Finding(f"drives.{drives[-1]}", text)]
 
 
 def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:
@@ -150,29 +223,3 @@ def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:
     if parts.constants.rank < parts.constants.n_rows:
         choose_rows(parts, now, memory.independence)
     return memory
-
-
-def closes_until(assembly: Assembly, duration: float, n: int = 181) -> tuple[float, Finding] | None:
-    """Return the first time at which a joint no longer closes under the drives, with the finding.
-
-    Looked at where drives leave no freedom; None where all joints close, or where freedoms are left.
-
-    Parameters
-    ----------
-    assembly
-        A sound assembly.
-    duration
-        Until when [s].
-    n
-        Number of times looked at.
-    """
-    if assembly.freedoms > 0 or assembly.findings:
-        return None
-    system = System(assembly.description)
-    place(assembly.state, system.now.bodies)
-    for t in np.linspace(0.0, duration, n)[1:].tolist():
-        system.t = t
-        system.refresh()
-        if system.close() > CLOSED:
-            return t, system.open_joint()
-    return None

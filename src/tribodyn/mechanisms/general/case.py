@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
 
 from tribodyn.cases import materials
-from tribodyn.cases.case import Group, NamedGroup, Remarks, demand
+from tribodyn.cases.beyond import Followed, followed, of_tables
+from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
 from tribodyn.cases.groups import Asperities, Contact, Surfaces, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
+from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.core.quoting import meant
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
-from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
+from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair
@@ -23,14 +26,36 @@ if TYPE_CHECKING:
 ROWS: Final = 500
 """Rows of a result for which no interval was given."""
 _PAIRS: Final = "pairs"
+_FRICTION: Final = "friction_coefficient"
+_RATES: Final = ("wear.specific_wear_rate", "wear.partner_wear_rate")
+_CLEARANCE: Final = re.compile(r"(joints\.[^.]+\.clearance\.).+")
+
+
+def _friction(which: str) -> Any:
+    return number(
+        0.1, f"coefficient of friction mu_f of {which}, unless a joint says otherwise", ASSUMED, ge=0, le=2
+    )
+
+
+class PairWear(Group):
+    """Wear of the surfaces of a pair; that of the case without a material of their own."""
+
+    specific_wear_rate: float = quantity(
+        "1.1e-15 m^2/N", "specific wear rate C_w of the bushing", "paper, section 2.4", ge=0
+    )
+    partner_wear_rate: float = quantity(
+        "0 m^2/N", "specific wear rate of what slides in it; both wear in proportion", ASSUMED, ge=0
+    )
 
 
 class PairKeys(NamedGroup):
-    """Surfaces and contact law of joints that name them."""
+    """Surfaces, contact law, friction and wear of joints that name them."""
 
     surfaces: Surfaces = Surfaces()
     asperities: Asperities = Asperities()
     contact: Contact = Contact()
+    friction_coefficient: float = _friction("the joints of this pair")
+    wear: PairWear = PairWear()
 
     @property
     def surface_pair(self) -> SurfacePair:
@@ -84,7 +109,7 @@ class Integration(Group):
     """The time integration; absolute tolerances follow from clearances and sizes."""
 
     name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
-    rtol: float = number(1e-4, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
+    rtol: float = number(1e-5, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
     grid: Nodes = Nodes()
 
 
@@ -95,6 +120,7 @@ class MechanismCase(RoughCase):
 
     case: Literal["mechanism"] = choice("mechanism", "the kind of system", "")
     title: str = text("Mechanism", "heading of figures and report")
+    friction_coefficient: float = _friction("all joints without a pair")
     gravity: Vector = vector(
         "0, 0, 0 m/s^2",
         "acceleration of gravity",
@@ -123,15 +149,57 @@ class MechanismCase(RoughCase):
             }
             found |= materials.resolve(given, keys_of(PairKeys, prefix), prefix)
             found |= {prefix + path: value for path, value in Contact.resolve(own).items()}
+        return found | cls._of_pairs({**found, **given})
+
+    @staticmethod
+    def _of_pairs(known: Mapping[str, Value]) -> dict[str, Value]:
+        """Return friction and wear rates of pairs that follow from the case, and friction of joints."""
+        found: dict[str, Value] = {}
+        for name in {path.split(".")[1] for path in known if path.startswith(f"{_PAIRS}.")}:
+            prefix = f"{_PAIRS}.{name}."
+            if f"{prefix}surfaces.bushing.{materials.MATERIAL}" not in known:
+                taken = {path: known[path] for path in (_FRICTION, *_RATES) if path in known}
+                found |= {prefix + path: value for path, value in taken.items() if prefix + path not in known}
+        for joint in {match[1] for path in known if (match := _CLEARANCE.fullmatch(path))}:
+            pair = known.get(f"{joint}pair")
+            path = _FRICTION if pair is None else f"{_PAIRS}.{pair}.{_FRICTION}"
+            value = known.get(path, found.get(path))
+            if value is not None and joint + _FRICTION not in known:
+                found[joint + _FRICTION] = value
         return found
 
+    def of_pair(self, clearance: ClearanceKeys) -> PairKeys | Self:
+        """Return surfaces, contact law, friction and wear of a joint: its pair, or those of the case."""
+        return self if clearance.pair is None else self.pairs[clearance.pair]
+
     def remarks(self) -> Remarks:
-        """Return what is to be said of the surfaces of all joints."""
-        own = [of_surfaces(self), *(of_surfaces(self, f"{_PAIRS}.{name}.") for name in self.pairs)]
-        return Remarks(
-            tuple(text for one in own for text in one.warnings),
-            tuple(text for one in own for text in one.notes),
-        )
+        """Return what is to be said of the surfaces of all joints and of tables."""
+        of_pairs = (of_surfaces(self, f"{_PAIRS}.{name}.", self._beside(name)) for name in self.pairs)
+        own = of_surfaces(self, "", self._beside(None)) + of_tables(self.followed())
+        return sum(of_pairs, own)
+
+    def _beside(self, pair: str | None) -> dict[str, list[str]]:
+        """Return the friction of joints of a pair, or of none, that differs from that of the pair."""
+        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
+        own = [
+            f"joints.{name}.clearance.{_FRICTION}"
+            for name, clearance in real.items()
+            if clearance.pair == pair
+            and clearance.friction_coefficient != self.of_pair(clearance).friction_coefficient
+        ]
+        return {_FRICTION: own}
+
+    def followed(self) -> Iterable[Followed]:
+        """Return the tables that drives and loads follow."""
+        drives = {f"drives.{name}.{drive.gives}": drive.signal for name, drive in self.drives.items()}
+        loads = {
+            f"loads.{name}.{key}": signal
+            for name, load in self.loads.items()
+            for key, signal in load.given.items()
+        }
+        along = {path: self.loads[path.split(".")[1]].along or "" for path in loads}
+        yield from followed(self, drives, self.duration)
+        yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
 
     @property
     def period(self) -> float | None:
@@ -249,5 +317,7 @@ class MechanismCase(RoughCase):
 def _known(given: str, names: Iterable[str], key: str, what: str) -> None:
     """Refuse a name that no table has."""
     names = tuple(names)
+    if given in names:
+        return
     there = f"known: {', '.join(names)}" if names else "there is none"
-    demand(given in names, key, f'"{given}" is no {what}; {there}{meant(given, names)}')
+    demand(False, key, f'"{given}" is no {what}; {there}{meant(given, names)}')

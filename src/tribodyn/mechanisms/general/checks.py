@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.checks import CLIP_LIMIT, ENERGY_LIMIT, of_steps
+from tribodyn.mechanisms.checks import ENERGY_LIMIT, of_steps
 
 GAP_LIMIT: Final = 1.0e-9
 """Residual of a constraint, in m or rad, below which nobody sees it."""
@@ -48,46 +48,6 @@ def of_start(asked: str, began: Mapping[str, str]) -> list[str]:
         "No place was found in which the loads on all shafts balance, so they start in the middle of their "
         "sockets, and first impacts are those of the start. Is there a shaft that nothing holds along its "
         "axis?"
-    ]
-
-
-def of_surfaces(
-    names: Sequence[str], roughness: Sequence[float], peaks: Mapping[str, FloatArray], t_end: float
-) -> list[str]:
-    """Return what is to be said of contacts, each by its name.
-
-    Parameters
-    ----------
-    names
-        Of the surfaces.
-    roughness
-        Their σ [m].
-    peaks
-        What was largest or least at any accepted step, each of shape (n_surfaces,).
-    t_end
-        Simulated time reached [s].
-    """
-    depth = {
-        name: least / sigma
-        for name, sigma, least in zip(names, roughness, peaks["separation_least"], strict=True)
-    }
-    clipped = {
-        name: time / t_end if t_end > 0.0 else 0.0
-        for name, time in zip(names, peaks["tensile_clip_time"], strict=True)
-    }
-    return [
-        *(
-            f"In {name} the mean planes came within {value:.2g} sigma of each other: below 0 the statistical "
-            "contact law is outside its range."
-            for name, value in depth.items()
-            if value < 0.0
-        ),
-        *(
-            f"In {name} the clip of tensile pressure acted on {100 * share:.2g} % of the contact on average: "
-            "damping is strong against stiffness there."
-            for name, share in clipped.items()
-            if share > CLIP_LIMIT
-        ),
     ]
 
 

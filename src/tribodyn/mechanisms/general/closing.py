@@ -10,9 +10,10 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.bodies import move
 from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, POSITION, Parts
-from tribodyn.kernels.mechanism.redundancy import row_scale
-from tribodyn.kernels.mechanism.solution import kinematics
-from tribodyn.mechanisms.general.description import GROUND, Description
+from tribodyn.kernels.mechanism.functions import SMALL
+from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
+from tribodyn.kernels.mechanism.solution import HARD, ROUNDS, close, kinematics, set_compliance
+from tribodyn.mechanisms.general.description import GROUND, Description, name_of
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.inspection import Finding, sound_drives
 
@@ -28,9 +29,11 @@ _HELD: Final = {
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
-SOLVABLE: Final = 1.0e-9
-"""Square of the least singular value of rows scaled by mass, relative to the largest, with which they can be
-solved: kernels give every row a compliance of 1e-8 and iterate it away three times."""
+_WRONG: Final = 0.1
+_INEXACT: Final = 1.0e-6
+"""Bounds of the relative error of reactions from which on a mechanism is refused, and a warning is given."""
+_BY_MASS: Final = 1.0e-2
+"""Factor by which masses reduce the least singular value squared before an error is attributed to them."""
 _TINY: Final = 1.0e-300
 _TAKES_PART: Final = 0.1
 """Share of a row in a combination of unit length from which on it counts."""
@@ -44,11 +47,20 @@ class System:
     def __init__(self, description: Description, worn: FloatArray | None = None) -> None:
         self.description = description
         self.data = mechanism_data(description, worn)
-        self.parts, self.now = self.data.parts, new_memory(self.data).now
+        memory = new_memory(self.data)
+        self.parts, self.now, self._blocks = self.data.parts, memory.now, memory.blocks
         self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]
         self.n = len(description.bodies)
         self.size = float(self.parts.constants.size)
+        self._wait = 0
+        self._places = tuple(np.array(self.rows, dtype=np.int64).reshape(-1, 2).T)
+        self.row_units = np.array([1.0 if row_is_turn(self.parts, *row) else self.size for row in self.rows])
         self.t = 0.0
+        self.refresh()
+
+    def at(self, t: float) -> None:
+        """Fill kinematics where the bodies are, with the drives at another time [s]."""
+        self.t = t
         self.refresh()
 
     def refresh(self) -> None:
@@ -77,15 +89,15 @@ class System:
     def matrix(self) -> FloatArray:
         """Return G over the velocities of all bodies, shape (n_rows, 6 n)."""
         g = np.zeros((len(self.rows), 6 * (self.n + 1)))
-        for i, (k, m) in enumerate(self.rows):
-            coupling, now = self.parts.couplings[k], self.now.couplings[k]
-            for side, body in enumerate((coupling.socket, coupling.shaft)):
-                g[i, 6 * body : 6 * body + 6] += now.G[m, 6 * side : 6 * side + 6]
+        entries, couplings = self.now.couplings.G[self._places], self._places[0]
+        for side, bodies in enumerate((self.parts.couplings.socket, self.parts.couplings.shaft)):
+            columns = 6 * bodies[couplings][:, None] + np.arange(6)
+            g[np.arange(len(self.rows))[:, None], columns] += entries[:, 6 * side : 6 * side + 6]
         return g[:, : 6 * self.n]
 
     def entries(self, name: str) -> FloatArray:
         """Return one quantity of all rows, shape (n_rows,)."""
-        return np.array([self.now.couplings[k][name][m] for k, m in self.rows])
+        return np.asarray(self.now.couplings[name][self._places], np.float64)
 
     def metric(self) -> FloatArray:
         """Return the inverse square root of the mass matrix, shape (6 n, 6 n)."""
@@ -135,20 +147,61 @@ class System:
 
     def gap(self) -> float:
         """Return the largest residual, ways in units of the size."""
-        scale = np.array([1.0 if row_is_turn(self.parts, k, m) else self.size for k, m in self.rows])
-        return float(np.max(np.abs(self.entries("residual")) / scale, initial=0.0))
+        return float(np.max(np.abs(self.entries("residual")) / self.row_units, initial=0.0))
 
-    def close(self) -> float:
+    def set_rank(self, rank: int) -> None:
+        """Let compiled solutions know how many rows are independent, and what each row moves."""
+        self.parts.constants.rank = rank
+        row_scale(self.parts, self.now)
+        set_compliance(self.parts, self.now)
+        self._wait = 0
+
+    def close_fast(self) -> float:
+        """Move the bodies onto the constraints as runs do, from near by; return the gap left."""
+        n = len(self.rows)
+        if self.parts.constants.rank < n and self._wait <= 0:
+            choose_rows(self.parts, self.now, np.zeros((n, n)))
+            self._wait = 1 + (n // SMALL) ** 3
+        self._wait -= 1
+        close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
+        return self.gap()
+
+    def time_to_move(self, change: float) -> float:
+        """Return the time in which no drive moves more than that, ways in units of the size [s]."""
+        longest = math.inf
+        for k, m, _ in self.drive_rows():
+            unit = 1.0 if row_is_turn(self.parts, k, m) else self.size
+            rates = np.abs(self.now.couplings[k].prescribed[m, 1:]) / (unit * change)
+            longest = min(longest, 1.0 / max(rates[0], math.sqrt(rates[1]), _TINY))
+        return longest
+
+    def wander(self, chance: np.random.Generator) -> bool:
+        """Move the bodies some way along the freedoms that are left; tell whether there are any."""
+        g, root, _ = self.scaled()
+        free = np.eye(6 * self.n) - self.inverse(g, self.matrix()) @ g
+        way = root @ free @ chance.normal(size=6 * self.n)
+        ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
+        if np.max(ways) <= CLOSED:
+            return False
+        self.step(_NEAR * way / np.max(ways))
+        self.close()
+        return True
+
+    def close(self, most: int = _MOST_STEPS) -> float:
         """Move the bodies onto the constraints by Gauss and Newton, least by mass; return the gap left."""
-        gap = self.gap()
-        for _ in range(_MOST_STEPS):
-            if gap < CLOSED:
+        least = self.gap()
+        nearest = self.now.bodies.copy()
+        for _ in range(most):
+            if least < CLOSED:
                 break
             g, root, length = self.scaled()
             change = self.inverse(g, self.matrix()) @ (-self.entries("residual") / length)
             self.step(root @ change)
-            gap = self.gap()
-        return gap
+            if (gap := self.gap()) < least:
+                least, nearest = gap, self.now.bodies.copy()
+        self.now.bodies[:] = nearest
+        self.refresh()
+        return least
 
     def approach(self) -> list[Finding]:
         """Close all joints, drives led from the drawing to where they start; return what fails."""
@@ -186,7 +239,7 @@ class System:
     def _drawn_open(self, gaps: FloatArray) -> Finding:
         """Return which joint is open in the drawing; closing spreads its gap over others."""
         joint = self.description.joints[int(np.argmax(gaps))]
-        first, second = (_name(self.description, b) for b in joint.bodies)
+        first, second = (name_of(self.description, b) for b in joint.bodies)
         text = (
             f"joint {joint.name} between {first} and {second} does not close: its points stand "
             f"{np.max(gaps) * 1e3:.4g} mm apart in the drawing, and no motion of bodies brings them together"
@@ -211,7 +264,7 @@ class System:
         joint = self.description.joints[worst]
         now = self.now.couplings[worst]
         way = float(np.linalg.norm(now.pose.d[_HELD.get(joint.kind, slice(3))]))
-        first, second = (_name(self.description, b) for b in joint.bodies)
+        first, second = (name_of(self.description, b) for b in joint.bodies)
         text = (
             f"joint {joint.name} between {first} and {second} does not close: when all joints are nearest to "
             + (
@@ -238,13 +291,7 @@ class System:
         kept = self.now.bodies.copy()
         rng = np.random.default_rng(1)
         for _ in range(2):
-            g, root, _ = self.scaled()
-            free = np.eye(6 * self.n) - self.inverse(g, self.matrix()) @ g
-            way = root @ free @ rng.normal(size=6 * self.n)
-            ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
-            if np.max(ways) > 1.0e-12:
-                self.step(_NEAR * way / np.max(ways))
-                self.close()
+            if self.wander(rng):
                 other, others = self._rank()
                 if other > rank:
                     rank, vanishing = other, others
@@ -258,22 +305,30 @@ class System:
         rank = rank_of(values)
         return rank, u[:, rank:].T
 
-    def unequal(self, rank: int) -> list[Finding]:
-        """Return a finding where bodies that ideal joints tie differ too much in mass for their equations."""
+    def unequal(self, rank: int) -> tuple[list[Finding], list[str]]:
+        """Return a finding, or a warning, where bodies that ideal joints connect differ too much in mass.
+
+        Kernels give every row a compliance ε and iterate it away. With the least singular value σ of the rows
+        scaled by mass, up to the share (ε/(ε + σ²))³ of a reaction is lost.
+        """
+        if rank == 0:
+            return [], []
         places = np.linalg.svd(self.over_sizes(self.matrix()), compute_uv=False)
         u, values, _ = np.linalg.svd(self.scaled()[0])
-        shares = [0.0 if rank == 0 else float(v[rank - 1] / v[0]) ** 2 for v in (values, places)]
-        if rank == 0 or shares[0] >= SOLVABLE or shares[1] < SOLVABLE:
-            return []
+        share, of_places = float(values[rank - 1]) ** 2, float(places[rank - 1] / places[0]) ** 2
+        lost = (HARD / (HARD + share)) ** ROUNDS
+        if lost < _INEXACT or share > _BY_MASS * of_places:
+            return [], []
         rows = np.flatnonzero(np.abs(u[:, rank - 1]) > _TAKES_PART)
         tied = {b for i in rows for b in self.description.joints[self.rows[i][0]].bodies if b != GROUND}
         light, heavy = (pick(tied, key=lambda b: self.description.bodies[b].mass) for pick in (min, max))
         first, second = self.description.bodies[light], self.description.bodies[heavy]
-        text = (
-            f"{first.name} with {first.mass:.3g} kg is too light beside {second.name} with {second.mass:.3g} "
-            "kg for the ideal joints that tie them: give it more mass, or make a joint of it a spring-damper"
-        )
-        return [Finding(f"bodies.{first.name}.mass", text)]
+        pair = f"light beside {second.name} with {second.mass:.3g} kg for the ideal joints that tie them"
+        change = "give it more mass, or make a joint of it a spring-damper"
+        body = f"{first.name} with {first.mass:.3g} kg"
+        if lost >= _WRONG:
+            return [Finding(f"bodies.{first.name}.mass", f"{body} is too {pair}: {change}")], []
+        return [], [f"{body} is {pair}, whose reactions may be wrong by up to {100.0 * lost:.1g} %: {change}"]
 
     def start(self, speeds: tuple[tuple[int, str, float], ...]) -> list[Finding]:
         """Fill the velocities that drives and given speeds ask for, with the least kinetic energy."""
@@ -313,8 +368,3 @@ def rank_of(values: FloatArray) -> int:
 def row_is_turn(parts: Parts, coupling: int, row: int) -> bool:
     """Tell whether a row is about directions, not about ways."""
     return bool(parts.couplings[coupling].row_kind[row] in (DIRECTION, ANGLE))
-
-
-def _name(description: Description, body: int) -> str:
-    """Return the name of a body."""
-    return "ground" if body == GROUND else description.bodies[body].name

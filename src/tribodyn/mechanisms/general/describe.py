@@ -6,16 +6,17 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tribodyn.cases import groups
+from tribodyn.cases.beyond import lasts_a_cycle
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import Vector
 from tribodyn.cases.temperature import Names
-from tribodyn.contact import SurfacePair
+from tribodyn.contact import Liner
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.signals import Signal, constant, scaled
-from tribodyn.joints import BushingGeometry
+from tribodyn.core.signals import Signal, constant, for_each_cycle, scaled
+from tribodyn.joints import BushingGeometry, Friction
 from tribodyn.joints.clearances import table_of
 from tribodyn.joints.shapes import SHAPES
+from tribodyn.mechanisms.bushing import Bearing
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.description import (
@@ -29,15 +30,39 @@ from tribodyn.mechanisms.general.description import (
     Spring,
 )
 from tribodyn.mechanisms.general.joints import frame
+from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.parts import FLANGE, BodyKeys, ClearanceKeys, JointKeys, SpringKeys, unit
+from tribodyn.mechanisms.general.races import race_axes
 
 SIZES: Mapping[str, tuple[str, ...]] = {
-    "cylinder": ("radius", "radial", "length", "axial", "axial_upper", "axial_lower", "flange"),
+    "cylinder": ("radius", "radial", "length", "pin_length", "axial", "axial_upper", "axial_lower", "flange"),
     "sphere": ("radius", "radial", "band"),
     "ball": ("radius", "radial"),
     "mesh": ("gap",),
 }
 """Which keys of a clearance are dimensions of its shape."""
+
+
+def bearings(case: MechanismCase) -> dict[str, Bearing]:
+    """Return the shafts in bores of a mechanism by the names of their joints, without its equations."""
+    return {
+        name: _bearing(case, name, joint.real)
+        for name, joint in case.joints.items()
+        if joint.real is not None and joint.shape == "cylinder"
+    }
+
+
+def _bearing(case: MechanismCase, name: str, clearance: ClearanceKeys) -> Bearing:
+    pair = case.of_pair(clearance)
+    sizes = _hot(case, name, clearance, _sizes("cylinder", clearance))
+    return Bearing(
+        contact=pair.contact,
+        pair=pair.surface_pair,
+        geometry=BushingGeometry(sizes["radial"], sizes["radius"], sizes["length"]),
+        liner=_liner(case, name, clearance),
+        friction=Friction(clearance.friction_coefficient, "traction", clearance.slip_velocity),
+        nodes=clearance.nodes_around or case.solver.grid.theta,
+    )
 
 
 def describe(case: MechanismCase) -> Description:
@@ -72,10 +97,11 @@ def _joint(case: MechanismCase, name: str, joint: JointKeys, bodies: Mapping[str
         kind=joint.type,
         bodies=_two(joint.between, bodies),
         points=np.array([joint.point, joint.other_point or joint.point]),
-        axes=_axes(joint),
+        axes=_axes(case, joint),
         clearance=None if clearance is None else _clearance(case, name, joint, clearance),
         stiffness=_six(joint, joint.stiffness, joint.angular_stiffness),
         damping=_six(joint, joint.damping, joint.angular_damping),
+        socket=int(clearance is not None and clearance.socket == joint.between[1]),
     )
 
 
@@ -83,11 +109,16 @@ def _two(names: tuple[str, str], bodies: Mapping[str, int]) -> tuple[int, int]:
     return bodies.get(names[0], GROUND), bodies.get(names[1], GROUND)
 
 
-def _axes(joint: JointKeys) -> FloatArray:
+def _axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
     """Return the two unit vectors of a joint, shape (2, 3); the second is across the first if not given."""
-    first = np.array(unit(joint.axis or (0.0, 0.0, 1.0), "axis"))
+    if joint.type == "spherical" and joint.clearance is not None and joint.axis is None:
+        first, second = race_axes(case, joint)
+    else:
+        first, second = np.array(unit(joint.axis or (0.0, 0.0, 1.0), "axis")), None
     if joint.second_axis is not None:
-        return np.array([first, unit(joint.second_axis, "second_axis")])
+        second = np.array(unit(joint.second_axis, "second_axis"))
+    if second is not None:
+        return np.array([first, second])
     across = np.eye(3)[int(np.argmin(np.abs(first)))]
     second = across - first * (first @ across)
     return np.array([first, second / np.linalg.norm(second)])
@@ -100,30 +131,30 @@ def _six(joint: JointKeys, along: Vector | None, about: Vector | None) -> FloatA
 
 
 def _clearance(case: MechanismCase, name: str, joint: JointKeys, clearance: ClearanceKeys) -> Clearance:
-    contact, surfaces = _pair(case, clearance)
-    soft = (case if clearance.pair is None else case.pairs[clearance.pair]).surfaces.bushing
-    given = {key: getattr(clearance, key) for key in SIZES[joint.shape]}
-    sizes = {key: float(size) for key, size in given.items() if size is not None}
+    pair = case.of_pair(clearance)
+    contact, surfaces = pair.contact, pair.surface_pair
+    sizes = _sizes(joint.shape, clearance)
     if clearance.has_faces and clearance.flange is None:
         sizes["flange"] = FLANGE * sizes["radius"]
-    facets = _facets(joint, clearance)
+    facets = _facets(case, joint, clearance)
     if facets.size:
         sizes["edge"] = clearance.mesh_edge or float(np.ptp(facets.reshape(-1, 3), axis=0).max())
     sizes = _hot(case, name, clearance, sizes)
-    grid = case.solver.grid
+    grid, law = case.solver.grid, contact.law_of(surfaces)
+    liner = _liner(case, name, clearance)
     return Clearance(
         shape=joint.shape,
         sizes=sizes,
-        socket=int(clearance.socket == joint.between[1]),
         grid=(clearance.nodes_around or grid.theta, clearance.nodes_along or grid.z),
         roughness=surfaces.roughness_rms,
+        law=law,
         table=table_of(
             clearance.contact,
-            contact.law_of(surfaces),
+            law,
             SHAPES[joint.shape](**sizes, **({"facets": facets} if facets.size else {})),
             onset=contact.onset_separation,
             smoothing_width=contact.smoothing_width,
-            liner=clearance.liner.layer(soft, f"joints.{name}.clearance.liner"),
+            liner=liner,
         ),
         friction_coefficient=clearance.friction_coefficient,
         slip_velocity=clearance.slip_velocity,
@@ -133,7 +164,20 @@ def _clearance(case: MechanismCase, name: str, joint: JointKeys, clearance: Clea
         contact=clearance.contact,
         facets=facets,
         form=clearance.form.form(),
+        liner=liner,
+        slides="position" in KINDS[joint.type].coordinates,
     )
+
+
+def _sizes(shape: str, clearance: ClearanceKeys) -> dict[str, float]:
+    """Return the dimensions that a case gives of a clearance [m]."""
+    given = {key: getattr(clearance, key) for key in SIZES[shape]}
+    return {key: float(size) for key, size in given.items() if size is not None}
+
+
+def _liner(case: MechanismCase, name: str, clearance: ClearanceKeys) -> Liner | None:
+    soft = case.of_pair(clearance).surfaces.bushing
+    return clearance.liner.layer(soft, f"joints.{name}.clearance.liner")
 
 
 def _hot(
@@ -150,7 +194,7 @@ def _hot(
     joint = f"joints.{name}.clearance."
     pair = "" if clearance.pair is None else f"pairs.{clearance.pair}."
     keys = Names(f"{joint}radial", joint, f"{joint}temperature.", pair)
-    surfaces = (case if clearance.pair is None else case.pairs[clearance.pair]).surfaces
+    surfaces = case.of_pair(clearance).surfaces
     geometry = BushingGeometry(cold["radial"], cold["radius"], cold.get("length", 0.0))
     warm = temperature.hot(geometry, surfaces, clearance.liner, keys)
     sizes = {"radius": warm.radius, "radial": warm.clearance, "length": warm.length}
@@ -161,21 +205,15 @@ def _hot(
         words = f"the joint would seize along its axis: more than {1e6 * (play - left):.3g} um of play"
         demand(left > 0.0, f"{joint}temperature", f"{words} are needed at assembly")
         sizes |= {face: cold[face] * left / play for face in cold if face.startswith("axial")}
+    if "pin_length" in cold:
+        sizes["pin_length"] = cold["pin_length"] * (1.0 + temperature.strains(surfaces, keys)[0])
     return cold | {size: value for size, value in sizes.items() if size in cold}
 
 
-def _facets(joint: JointKeys, clearance: ClearanceKeys) -> FloatArray:
+def _facets(case: MechanismCase, joint: JointKeys, clearance: ClearanceKeys) -> FloatArray:
     """Return the triangles of a mesh in the axes of the joint, shape (n, 3, 3); none of other shapes."""
     corners = np.array(clearance.facets if joint.shape == "mesh" else ()).reshape(-1, 3, 3)
-    return np.ascontiguousarray((corners - np.array(joint.point)) @ frame(*_axes(joint)))
-
-
-def _pair(case: MechanismCase, clearance: ClearanceKeys) -> tuple[groups.Contact, SurfacePair]:
-    """Return contact law and surfaces of a joint: those that it names, or those of the case."""
-    if clearance.pair is None:
-        return case.contact, case.surface_pair
-    pair = case.pairs[clearance.pair]
-    return pair.contact, pair.surface_pair
+    return np.ascontiguousarray((corners - np.array(joint.point)) @ frame(*_axes(case, joint)))
 
 
 def _drive(name: str, drive: DriveKeys, joints: Mapping[str, int]) -> Drive:
@@ -191,7 +229,7 @@ def _load(
         body=bodies[load.body],
         point=np.array(load.point or case.bodies[load.body].centre),
         frame="line" if load.frame == "motion" and load.direction is not None else load.frame,
-        signals=_components(load),
+        signals=_components(case, load),
         joint=-1 if load.along is None else joints[load.along],
         slip_velocity=load.slip_rate
         if load.moment is not None and load.frame == "motion"
@@ -199,12 +237,14 @@ def _load(
     )
 
 
-def _components(load: LoadKeys) -> tuple[Signal, ...]:
+def _components(case: MechanismCase, load: LoadKeys) -> tuple[Signal, ...]:
     """Return the six components of a load, which all follow its one force and its one moment."""
     direction = (1.0, 0.0, 0.0) if load.direction is None else unit(load.direction, "direction")
     found: list[Signal] = []
     for keys in (load.force, load.moment):
         signal = constant(0.0) if keys is None else keys.signal()
+        if keys is not None and lasts_a_cycle(keys.times or (), case.period):
+            signal = for_each_cycle(signal, case.period or 0.0, case.duration)
         found += [scaled(signal, share) if share else constant(0.0) for share in direction]
     return tuple(found)
 

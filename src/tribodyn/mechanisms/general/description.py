@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Final
 
+from tribodyn.contact import Liner
+from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.core.tables import ContactTable
@@ -51,14 +53,14 @@ class Clearance:
         end faces is a ``cylinder`` and two faces.
     sizes
         Its dimensions by name [m], for example ``radius``, ``radial``, ``length``, ``axial``.
-    socket
-        Which of the joint's two bodies carries the socket: 0 or 1.
     grid
         Nodes along the two directions of the shape.
     roughness
         Combined rms roughness σ [m].
-    table
-        Tabulated contact law.
+    law, table
+        Contact law, and the same tabulated.
+    liner
+        What the asperities stand on; None where that is rigid.
     friction_coefficient, slip_velocity
         μ and its regularisation u_s [m/s].
     onset, minimum_velocity, tensile_clip
@@ -69,13 +71,15 @@ class Clearance:
         Triangles of a ``mesh`` in the socket's frame [m], shape (n, 3, 3); of no length for other shapes.
     form
         What a ``cylinder`` stands back from one.
+    slides
+        Whether the shaft is meant to slide along its axis, however far.
     """
 
     shape: str
     sizes: dict[str, float]
-    socket: int
     grid: tuple[int, int]
     roughness: float
+    law: ContactLaw
     table: ContactTable
     friction_coefficient: float
     slip_velocity: float
@@ -85,6 +89,8 @@ class Clearance:
     contact: str
     facets: FloatArray
     form: Form = field(default_factory=Form)
+    liner: Liner | None = None
+    slides: bool = False
 
 
 @dataclass(frozen=True)
@@ -112,6 +118,8 @@ class Joint:
     stiffness, damping
         Of a ``spring-damper``, along and about (axis, second axis, their cross product): [N/m] and [N m/rad],
         [N s/m] and [N m s/rad], shape (6,); of no length for others.
+    socket
+        Which of the two bodies carries the socket, in whose axes the joint is described: 0 or 1.
     """
 
     name: str
@@ -122,11 +130,12 @@ class Joint:
     clearance: Clearance | None
     stiffness: FloatArray
     damping: FloatArray
+    socket: int = 0
 
     @property
     def sign(self) -> float:
         """−1 where the second body carries the socket, so that its motion is against that of the shaft."""
-        return -1.0 if self.clearance is not None and self.clearance.socket == 1 else 1.0
+        return -1.0 if self.socket == 1 else 1.0
 
 
 @dataclass(frozen=True)
@@ -237,3 +246,8 @@ class Description:
     springs: tuple[Spring, ...]
     gravity: FloatArray
     speeds: tuple[tuple[int, str, float], ...]
+
+
+def name_of(description: Description, body: int) -> str:
+    """Return the name of a body."""
+    return "ground" if body == GROUND else description.bodies[body].name

@@ -43,4 +43,5 @@ MECHANISM: Final = Mechanism(
         "surfaces.bushing.roughness",
         "contact.law",
     ),
+    bearings="tribodyn.mechanisms.general.describe:bearings",
 )

@@ -71,7 +71,7 @@ def _scatter(dataset: xr.Dataset) -> float:
     force = settled(dataset, sizes(dataset, "reaction_force").max(axis=1))
     edges = np.searchsorted(time, time[0] + _period(dataset) * np.arange(1, n))
     found = np.array([part.max() for part in np.split(force, edges)])
-    return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 else math.nan
+    return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
 
 
 def sizes(dataset: xr.Dataset, name: str) -> FloatArray:

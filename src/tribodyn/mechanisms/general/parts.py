@@ -92,6 +92,13 @@ class ClearanceKeys(NamedGroup):
         None, "radial clearance: bore radius less radius", "", gt=0, example="20 um"
     )
     length: float | None = quantity(None, "of the bore, of a cylinder", "", gt=0, example="20 mm")
+    pin_length: float | None = quantity(
+        None,
+        "length of a pin that is shorter than its bore, such as a piston; the pin passes through without it",
+        "",
+        gt=0,
+        example="15 mm",
+    )
     axial: float | None = quantity(
         None, "gap at each end face when centred; free along the axis without", "", gt=0, example="50 um"
     )
@@ -120,7 +127,13 @@ class ClearanceKeys(NamedGroup):
     socket: str | None = name(
         None, "which of the two bodies holds the bore; the first without it", "", example="rod"
     )
-    friction_coefficient: float = number(0.1, "coefficient of friction mu_f", "assumed", ge=0, le=2)
+    friction_coefficient: float = number(
+        0.1,
+        "coefficient of friction mu_f; without it that of its pair, or of the case",
+        "assumed",
+        ge=0,
+        le=2,
+    )
     slip_velocity: float = quantity(
         "1 mm/s", "slip at which traction is fully developed u_s", "assumed", gt=0
     )
@@ -148,7 +161,13 @@ class ClearanceKeys(NamedGroup):
         """Check what involves several sizes."""
         demand(len(self.facets or ()) % 9 == 0, "facets", "a triangle has nine coordinates")
         self.liner.check_contact(self.contact, "")
-        self.form.check(self.contact, math.inf if self.length is None else self.length, "")
+        lengths = [length for length in (self.length, self.pin_length) if length is not None]
+        self.form.check(self.contact, min(lengths, default=math.inf), "")
+        demand(
+            not self.has_faces or min(lengths, default=None) == self.length,
+            "pin_length",
+            "a pin with end faces passes through its bore; leave pin_length out, or the axial gaps",
+        )
         if self.radius is None or self.radial is None:
             return
         demand(
@@ -186,7 +205,13 @@ class JointKeys(NamedGroup):
         unit="mm",
         example=POINT,
     )
-    axis: Vector | None = vector(None, "its direction in the drawing, of any length", "", example="[0, 0, 1]")
+    axis: Vector | None = vector(
+        None,
+        "its direction in the drawing, of any length; of the race of a ball joint with clearance, without it "
+        "normal to the plane of the joint and the mass centres of both bodies",
+        "",
+        example="[0, 0, 1]",
+    )
     second_axis: Vector | None = vector(
         None,
         "the other one of a universal joint; the direction of angle zero of others",
@@ -194,10 +219,18 @@ class JointKeys(NamedGroup):
         example="[1, 0, 0]",
     )
     start_speed: float | None = quantity(
-        None, "angular speed at the start, where nothing drives it", "", unit="rpm", example="100 rpm"
+        None,
+        "angular speed at the start, where nothing drives it; without it that of least kinetic energy",
+        "",
+        unit="rpm",
+        example="100 rpm",
     )
     start_velocity: float | None = quantity(
-        None, "speed along the axis at the start, where nothing drives it", "", unit="m/s", example="1 m/s"
+        None,
+        "speed along the axis at the start, where nothing drives it; without it that of least kinetic energy",
+        "",
+        unit="m/s",
+        example="1 m/s",
     )
     stiffness: Vector | None = vector(
         None,
@@ -277,6 +310,8 @@ class JointKeys(NamedGroup):
         demand(shape == "cylinder" or clearance.form == FormKeys(), "clearance.form", words)
         words = "the gap of a mesh is given as it is in the run"
         demand(shape != "mesh" or not clearance.temperature.changes, "clearance.temperature", words)
+        words = f"a length of the pin belongs to the shape cylinder, not to {shape}"
+        demand(shape == "cylinder" or clearance.pin_length is None, "clearance.pin_length", words)
         words = f"a bonded sleeve is that of a shaft in a bore, not of the shape {shape}"
         bonded = clearance.temperature.fit == "bonded"
         demand(shape == "cylinder" or not bonded, "clearance.temperature.fit", words)

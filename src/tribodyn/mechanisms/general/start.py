@@ -14,26 +14,23 @@ begin.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.core.errors import Stopped
+from tribodyn.core.stopping import ask
 from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
-from tribodyn.mechanisms.base import Stop
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.description import Joint
+from tribodyn.mechanisms.general.counterpart import counterpart
 
-_HELD: Final = {"sphere": "spherical", "ball": "pin-slot"}
-"""Ideal joint that holds what a shape holds; a mesh holds what the type does."""
 _MOVING: Final = 1.0e-6
 """Slip over the one at which traction is developed that is rest."""
 _SLIDING: Final = 100.0
@@ -62,7 +59,7 @@ _FAR: Final = 0.5
 _TINY: Final = 1.0e-300
 
 
-def initial_state(assembly: Assembly, stop: Stop = None) -> FloatArray | None:
+def initial_state(assembly: Assembly) -> FloatArray | None:
     """Return the state in which the loads on all shafts balance, shape (13 n,); None if none is found.
 
     Without clearance it is that of the assembly.
@@ -70,28 +67,16 @@ def initial_state(assembly: Assembly, stop: Stop = None) -> FloatArray | None:
     Raises
     ------
     Stopped
-        If ``stop`` was true before the end of the search.
+        If the caller wanted to stop before the end of the search.
     """
     description = assembly.description
     if all(joint.clearance is None for joint in description.joints):
         return assembly.state
-    ideal = System(replace(description, joints=tuple(map(_ideal, description.joints))))
+    ideal = System(counterpart(description))
     place(assembly.state, ideal.now.bodies)
     ideal.refresh()
     ideal.close()
-    return _settled(_Loads(assembly, ideal, stop))
-
-
-def _ideal(joint: Joint) -> Joint:
-    """Return the ideal joint that holds what a joint with clearance holds."""
-    if joint.clearance is None:
-        return joint
-    sizes, shape = joint.clearance.sizes, joint.clearance.shape
-    if shape == "cylinder":
-        kind = "revolute" if any(name.startswith("axial") for name in sizes) else "cylindrical"
-    else:
-        kind = _HELD.get(shape, joint.kind)
-    return replace(joint, kind=kind, clearance=None)
+    return _settled(_Loads(assembly, ideal))
 
 
 @dataclass(frozen=True)
@@ -110,6 +95,8 @@ class _Contact:
         Gaps as drawn, and σ [m], shape (n,).
     slides
         1 where the shaft slides past the node, shape (n,).
+    lean
+        Radius ρ of the second-order term of the tilt [m], shape (n,).
     slip
         u_s [m/s].
     """
@@ -120,6 +107,7 @@ class _Contact:
     drawn: FloatArray
     roughness: FloatArray
     slides: FloatArray
+    lean: FloatArray
     slip: float
 
     @cached_property
@@ -130,15 +118,15 @@ class _Contact:
 
     def gaps(self, place: FloatArray) -> FloatArray:
         """Return the gaps [m] at displacement and tilt (d, φ), shape (6,)."""
-        along = place[2] * np.array([place[4], -place[3], 1.0])
-        return np.asarray(self.drawn - self.gradient @ place + self.slides * (self.gradient[:, :3] @ along))
+        axis = self.gradient[:, :3] @ np.array([place[4], -place[3], 1.0])
+        squares = 0.5 * self.lean * (axis - self.gradient[:, 2]) ** 2
+        return np.asarray(self.drawn - self.gradient @ place + self.slides * place[2] * axis - squares)
 
 
 class _Loads:
     """The loads on bodies that are displaced within the clearances."""
 
-    def __init__(self, assembly: Assembly, ideal: System, stop: Stop) -> None:
-        self.stop = stop
+    def __init__(self, assembly: Assembly, ideal: System) -> None:
         self.data, self.n = assembly.data, ideal.n
         self.state = np.zeros(N_STATES * self.n)
         collect(ideal.now.bodies, self.state)
@@ -158,7 +146,7 @@ class _Loads:
 
         Ideal joints are closed; shafts rest in their sockets.
         """
-        self._ask()
+        ask()
         self.state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
         place(self.state, self.real.now.bodies)
         self.real.refresh()
@@ -179,10 +167,6 @@ class _Loads:
             # Once, from the middle: traction itself must not decide where it points.
             self.ahead = self._ahead() if self.ahead is None else self.ahead
             self.slipping = self.ahead
-
-    def _ask(self) -> None:
-        if self.stop is not None and self.stop():
-            raise Stopped
 
     def _ahead(self) -> FloatArray:
         """Return velocities along the accelerations that motion begins with, shape (n, 6), or none."""
@@ -265,7 +249,7 @@ class _Loads:
 
     def change(self, step: FloatArray) -> tuple[float, float]:
         """Return by how much a step (m,) changes gaps at most, over the roughness and over gaps as drawn."""
-        self._ask()
+        ask()
         moved = self.motions @ step
         over_roughness = over_gap = 0.0
         for contact in self.contacts:
@@ -306,6 +290,7 @@ def _contacts(joints: SurfaceData, couplings: IntArray) -> list[_Contact]:
                 drawn=nodes[:, GAP],
                 roughness=np.repeat(surfaces["roughness"], counts),
                 slides=np.repeat(surfaces["slides"], counts),
+                lean=np.repeat(surfaces["lean"], counts),
                 slip=float(max(surfaces["slip_velocity"].max(), _TINY)),
             )
         )

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tribodyn.cases.beyond import Followed
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
+from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import places
-from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Stop, Worn
-from tribodyn.mechanisms.general import checks
-from tribodyn.mechanisms.general.assembly import Assembly, assemble, closes_until
+from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, WearRates, Worn
+from tribodyn.mechanisms.bushing import of_expansion
+from tribodyn.mechanisms.checks import named, of_clearance, of_tables
+from tribodyn.mechanisms.general import broken, checks
+from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.contacts import Contacts
+from tribodyn.mechanisms.general.cycle import drive_through
 from tribodyn.mechanisms.general.describe import describe
 from tribodyn.mechanisms.general.description import Clearance, Description
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
@@ -53,8 +59,12 @@ class MechanismSystem:
 
     @cached_property
     def assembly(self) -> Assembly:
-        """The mechanism put together, its joints not worn."""
-        return self._assembled(None)
+        """The mechanism put together, its joints not worn, and led through its cycle."""
+        found = self._assembled(None)
+        passage = drive_through(found, self.case.duration)
+        if passage.finding is not None:
+            raise InputError(passage.finding.text, key=passage.finding.key)
+        return replace(found, strain=passage.warning)
 
     def _assembled(self, depth: FloatArray | None) -> Assembly:
         found = assemble(self.description, depth)
@@ -84,21 +94,30 @@ class MechanismSystem:
         roughness = min((clearance.roughness for _, clearance in self.real), default=1.0)
         return Nodes(self.maps.area, roughness, _STATES * len(self.description.bodies))
 
+    @property
+    def wear_rates(self) -> WearRates:
+        """Specific wear rates of socket and shaft at the nodes [m²/N], shape (n_nodes,) each."""
+        rates = np.zeros((2, self.maps.area.size))
+        for surface in self.maps.places:
+            clearance = self.case.joints[self.real[surface.joint][0]].clearance
+            assert clearance is not None
+            wear = self.case.of_pair(clearance).wear
+            rates[:, surface.nodes] = [[wear.specific_wear_rate], [wear.partner_wear_rate]]
+        return rates[0], rates[1]
+
     def check(self) -> Sequence[str]:
         """Put the mechanism together, move it through its cycle, and say what there is to know of it."""
-        stuck = closes_until(self.assembly, self.case.duration)
-        if stuck is not None:
-            time, finding = stuck
-            raise InputError(f"at t = {time:.4g} s {finding.text}", key=finding.key)
-        return self.assembly.remarks
+        touches = zip(self.maps.names, self._contacts.touches, strict=True)
+        rough = [text for name, touch in touches for text in named(name, [of_clearance(touch)])]
+        return [*self.assembly.remarks, *rough, *self._of_temperatures()]
 
-    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
         problem = mechanism_problem(
             self.assembly if worn is None else self._assembled(worn.depth),
             duration=duration,
             rtol=self.case.solver.rtol,
-            state=self.start(stop) if worn is None or worn.carried is None else None,
+            state=self.start() if worn is None or worn.carried is None else None,
             carried=None if worn is None else worn.carried,
             # Of all integrators one knows the structure of these equations.
             dense=self.case.solver.name != "mebdf",
@@ -120,14 +139,14 @@ class MechanismSystem:
         edges = np.linspace(0.0, duration, n + 1)
         return Following(np.column_stack([edges[:-1], edges[1:]]), max(most, 2 * len(watched) + 1), watched)
 
-    def start(self, stop: Stop = None) -> FloatArray | None:
+    def start(self) -> FloatArray | None:
         """Return the state in which a run begins, shape (13 n,); None for that of the drawing.
 
-        It is looked for once; ``stop`` ends that by :class:`~tribodyn.core.errors.Stopped`.
+        It is looked for once.
         """
         if not self._starts:
             wanted = self.case.run.start == "equilibrium"
-            self._starts.append(initial_state(self.assembly, stop) if wanted else None)
+            self._starts.append(initial_state(self.assembly) if wanted else None)
         return self._starts[0]
 
     @cached_property
@@ -175,6 +194,8 @@ class MechanismSystem:
         ledger = ledger_columns(found.whole)
         energy = WHOLE.fraction(ledger, self._least_energy(found))
         peaks = self._peaks(run)
+        contacts = self._contacts
+        of_contacts = contacts.numbers_of(run.problem.data.contact, found.couplings, peaks) if peaks else {}
         return Part(
             coordinates=self._coordinates(run),
             columns={
@@ -183,7 +204,7 @@ class MechanismSystem:
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
-            fields={"clearance": self._clearances(), **peaks, **self._pressure(run)},
+            fields={"clearance": self._clearances(), **peaks, **of_contacts, **self._pressure(run)},
             attributes={
                 "energy_residual": energy,
                 **self._began(run),
@@ -193,13 +214,41 @@ class MechanismSystem:
                 [*self.assembly.warnings],
                 checks.of_start(self.case.run.start, self._began(run)),
                 checks.of_ledgers(energy, found.whole["gap"]),
-                checks.of_surfaces(self.maps.names, self._roughness, peaks, float(run.solution.t_end))
-                if peaks
-                else [],
+                contacts.warnings(peaks, of_contacts, float(run.solution.t_end)) if peaks else [],
+                of_tables(self.case.followed(), run.solution.t, partial(self._followed, found)),
                 cost=run.cost,
             ),
-            failure=run.solution.failure or "",
+            notes=[*self._of_temperatures(), *(contacts.notes(peaks, of_contacts) if peaks else [])],
+            failure=self._failure(run),
         )
+
+    @cached_property
+    def _contacts(self) -> Contacts:
+        clearances = tuple(clearance for _, clearance in self.real)
+        return Contacts(clearances, tuple(self._real_numbers), self.maps.names, self.maps.places)
+
+    def _of_temperatures(self) -> list[str]:
+        """Return which clearances are other ones at the temperatures of the run."""
+        keys = ((name, self.case.joints[name].clearance, clearance) for name, clearance in self.real)
+        return [
+            text
+            for name, cold, hot in keys
+            if cold is not None and cold.radial is not None
+            for text in named(name, [of_expansion(cold.radial, hot.sizes["radial"])])
+        ]
+
+    def _followed(self, found: Observed, table: Followed) -> FloatArray:
+        """Return the coordinate of a joint that a load follows, shape (n_t,)."""
+        number = list(self.case.joints).index(table.follows)
+        name = {"angles": "angle", "positions": "d_z"}[table.over]
+        return np.asarray(self.description.joints[number].sign * found.couplings[name][:, number])
+
+    def _failure(self, run: Run) -> str:
+        """Return why the run stopped before its end, empty if it did not."""
+        reason, reached = run.solution.failure or "", float(run.solution.t_end)
+        if reason in ("", INTERRUPTED):
+            return reason
+        return broken.failure(run.problem, self.description, self.maps.names, reached) or reason
 
     def _least_energy(self, found: Observed) -> float:
         """Return the work of the largest force over the way to which positions are resolved [J].
@@ -237,10 +286,6 @@ class MechanismSystem:
     @property
     def _real_numbers(self) -> list[int]:
         return [k for k, joint in enumerate(self.description.joints) if joint.clearance is not None]
-
-    @property
-    def _roughness(self) -> list[float]:
-        return [self.real[place.joint][1].roughness for place in self.maps.places]
 
     def _clearances(self) -> FloatArray:
         joints = self.description.joints

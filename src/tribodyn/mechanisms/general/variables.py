@@ -88,22 +88,28 @@ JOINTS: Final[dict[str, Kept]] = {
         "w_", "rad s-1", "angular velocity of the second body in the joint, axes of the joint", of_second=True
     ),
     "reaction_force": _vector(
-        "F_", "N", "force of the joint on the second body, axes of the joint", of_second=True
+        "F_", "N", "reaction force of the joint on the second body, axes of the joint", of_second=True
     ),
     "reaction_moment": _vector(
-        "M_", "N m", "moment on the second body at the shaft, axes of the joint", of_second=True
+        "M_", "N m", "reaction moment on the second body at the shaft, axes of the joint", of_second=True
     ),
     "reaction_force_global": _vector(
-        "R_", "N", "force of the joint on the second body, global axes", of_second=True
+        "R_", "N", "reaction force of the joint on the second body, global axes", of_second=True
     ),
     "reaction_moment_global": _vector(
-        "T_", "N m", "moment on the second body at the shaft, global axes", of_second=True
+        "T_", "N m", "reaction moment on the second body at the shaft, global axes", of_second=True
     ),
     "drive_moment": _number(
-        "drive_moment", "N m", "moment of the drive of the angle on the second body", of_second=True
+        "drive_moment",
+        "N m",
+        "moment of the drives of the joint on the second body, about the axis",
+        of_second=True,
     ),
     "drive_force": _number(
-        "drive_force", "N", "force of the drive of the position on the second body", of_second=True
+        "drive_force",
+        "N",
+        "force of the drives of the joint on the second body, along the axis",
+        of_second=True,
     ),
     "joint_damping": _number("damping", "J", "heat of damping in the joint"),
     "joint_friction": _number("friction", "J", "heat of friction in the joint"),
@@ -179,6 +185,14 @@ VARIABLES: Final[dict[str, Variable]] = {
         quantity.name: Variable(quantity.unit, f"{quantity.meaning}, of each surface", ("surface",))
         for quantity in PEAKS
     },
+    "hardness_share": Variable("1", "largest contact pressure over the hardness", ("surface",)),
+    "real_area_share": Variable("1", "real over nominal area of contact at the smallest gap", ("surface",)),
+    "grid_force_error": Variable(
+        "1", "largest error of the contact force on the chosen grid, over the largest force", ("surface",)
+    ),
+    "pressure_at_rest": Variable(
+        "Pa", "peak pressure of surfaces at rest where that of the run was largest", ("surface",)
+    ),
     **described(WHOLE),
     "energy_in": Variable("J", "work of drives and loads since the start"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import ClassVar, Final, Literal
 
+from tribodyn.cases.beyond import Followed, followed
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import choice, number, quantity, switch, tables, text
 from tribodyn.cases.film import Film
@@ -156,6 +157,17 @@ class JournalCase(BushingCase):
     def duration(self) -> float:
         """Simulated time of the whole run [s]."""
         return self.run.duration
+
+    def followed(self) -> Iterable[Followed]:
+        """Return the tables that the speed and loads follow."""
+        loads = {
+            f"loads.more.{name}.{key}": signal
+            for name, load in self.loads.more.items()
+            for key, signal in load.given.items()
+        }
+        drives = {} if self.drive.speed is None else {"drive.speed": self.drive.speed}
+        follows = dict.fromkeys(loads, "the journal")
+        return followed(self, drives | loads, self.duration, follows=follows)
 
     def idle(self) -> tuple[str, ...]:
         """Return the speed where a table takes its place."""

@@ -43,7 +43,7 @@ def warnings(
         if not residual <= ENERGY_LIMIT
         else "",
         *of_contact(
-            joint,
+            joint.touch,
             separation=float(extremes.separation_least),
             clipped=float(extremes.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,

@@ -18,16 +18,16 @@ from tribodyn.mechanisms.journal.parameters import Journal
 def course(journal: Journal, duration: float) -> Any:
     """Return the segments of a run of ``duration`` [s] as kernels read them; one of a run without end."""
     spin = constant(journal.speed) if journal.spin is None else journal.spin
-    of_time = np.union1d(kinks_over(journal.terms, TIME), spin.kinks)
-    of_angle = kinks_over(journal.terms, TURNED)
+    of_time = np.union1d(kinks_over(journal.terms, TIME, np.zeros(1)), spin.kinks)
     if not math.isfinite(duration):
         return segments_of(np.empty(0), np.sign(_speed(spin, np.zeros(1))), of_time)
     ends = np.concatenate([[0.0], inside(np.append(_reversals(spin), spin.kinks), duration), [duration]])
-    met = crossings(lambda t: _angle(spin, t), ends, of_angle)
+    of_angle = kinks_over(journal.terms, TURNED, angle(spin, ends))
+    met = crossings(lambda t: angle(spin, t), ends, of_angle)
     breaks = inside(np.concatenate([ends, of_time, met]), duration)
     ends = np.concatenate([[0.0], breaks, [duration]])
     middles = 0.5 * (ends[:-1] + ends[1:])
-    others = [(_angle(spin, middles), of_angle)]
+    others = [(angle(spin, middles), of_angle)]
     return segments_of(breaks, np.sign(_speed(spin, middles)), of_time, others)
 
 
@@ -39,7 +39,7 @@ def _speed(spin: Signal, times: FloatArray) -> FloatArray:
     return np.asarray(PPoly(spin.coefficients, spin.knots)(within))
 
 
-def _angle(spin: Signal, times: FloatArray) -> FloatArray:
+def angle(spin: Signal, times: FloatArray) -> FloatArray:
     """Return the angle of rotation since the start [rad] at times [s]."""
     if not spin.knots.size:
         return np.asarray(spin.coefficients[0] * times)

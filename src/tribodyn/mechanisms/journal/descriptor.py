@@ -32,4 +32,5 @@ MECHANISM: Final = Mechanism(
         "journal.mass",
         "contact.law",
     ),
+    bearings="tribodyn.mechanisms.bushing:bearings",
 )

@@ -10,13 +10,14 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import InputError, Stopped
 from tribodyn.core.problem import Problem
 from tribodyn.core.quantities import names
+from tribodyn.core.signals import constant
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.kernels.journal.quantities import FILM, OBSERVED, WATCHED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
-from tribodyn.mechanisms.base import Part, Run, Stop, Worn
+from tribodyn.mechanisms.base import Part, Run, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -25,9 +26,10 @@ from tribodyn.mechanisms.bushing import (
     loading,
     of_temperature,
 )
-from tribodyn.mechanisms.checks import beyond_law, extremes
+from tribodyn.mechanisms.checks import beyond_law, extremes, of_clearance, of_tables
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
+from tribodyn.mechanisms.journal.course import angle
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
 from tribodyn.mechanisms.journal.ledger import ledger_columns, residual_fraction
 from tribodyn.mechanisms.journal.loads import terms_of
@@ -92,15 +94,14 @@ class JournalSystem:
             return None
         try:
             return equilibrium(self.journal)
-        except InputError:
+        except (InputError, Stopped):
             return None
 
     def check(self) -> Sequence[str]:
         """Put the journal together, its joint, contact law and film with it."""
-        assert self.journal
-        return ()
+        return [text for text in [of_clearance(self.journal.joint.touch)] if text]
 
-    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; a journal does not wear."""
         run = self.case.run
         start = np.array([run.start_x, run.start_y, 0.0, 0.0])
@@ -129,7 +130,8 @@ class JournalSystem:
         grid_error = grid_force_error(self.journal.joint, rows)
         found = run.problem.memory.joint.extremes
         pressure = of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"]
-        load = loading(self.case, self.journal.joint, pressure, float(found.separation_least))
+        law = self.case.contact.law_of(self.case.surface_pair)
+        load = loading(law, self.journal.joint.touch, pressure, float(found.separation_least))
         return Part(
             columns=columns,
             fields=self._numbers(run, rows, balance),
@@ -139,18 +141,26 @@ class JournalSystem:
                 "grid_force_error": grid_error,
                 **load,
             },
-            warnings=warnings(
-                found,
-                self.journal.joint,
-                load,
-                residual=residual,
-                grid_error=grid_error,
-                t_end=float(run.solution.t_end),
-                statistics=run.cost,
-            ),
+            warnings=[
+                *warnings(
+                    found,
+                    self.journal.joint,
+                    load,
+                    residual=residual,
+                    grid_error=grid_error,
+                    t_end=float(run.solution.t_end),
+                    statistics=run.cost,
+                ),
+                *of_tables(self.case.followed(), run.solution.t, lambda _: self._turned(run.solution.t)),
+            ],
             notes=of_temperature(self.case),
             failure=self._failure(run),
         )
+
+    def _turned(self, times: FloatArray) -> FloatArray:
+        """Return the angle of rotation [rad] at times [s]."""
+        spin = self.journal.spin
+        return angle(constant(self.journal.speed) if spin is None else spin, times)
 
     def _columns(self, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
         """Return what is stored over time."""
@@ -215,7 +225,7 @@ class JournalSystem:
             return run.solution.failure or ""
         memory, reason = run.problem.memory, str(run.solution.failure)
         if memory.course.beyond > 0.0:
-            return beyond_law(self.journal.joint, run.solution.t_end)
+            return beyond_law(self.journal.joint.table.h_first, run.solution.t_end, "journal and bushing")
         if memory.scratch.film_status > 0.0:
             reason += f"; the film had no answer: {explain(int(memory.scratch.film_status))}"
         return reason

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
+from tribodyn.cases.beyond import Followed, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, switch, tables, text
 from tribodyn.cases.functions import Doors
@@ -232,6 +233,18 @@ class VsvCase(BushingCase):
         from tribodyn.mechanisms.vsv.drives import drive_of
 
         return drive_of(self.drive, self.duration, again=self.wear.cycles > 0)
+
+    def followed(self) -> Iterable[Followed]:
+        """Return the tables that loads and temperatures follow; that of the drive holds the whole run."""
+        loads = {
+            f"loads.more.{name}.{key}": signal
+            for name, load in self.loads.more.items()
+            for key, signal in load.given.items()
+        }
+        along = {path: f"the {self.loads.more[path.split('.')[2]].along}" for path in loads}
+        warm = {f"{OVER_TIME}.{part}": table for part, table in self.temperature.tables.items()}
+        yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
+        yield from followed(self, warm, self.duration)
 
     def idle(self) -> tuple[str, ...]:
         """Return the keys of the sinusoid that a table takes the place of."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Final
 
 import numpy as np
 
@@ -20,6 +21,12 @@ from tribodyn.mechanisms.checks import (
 )
 from tribodyn.mechanisms.vsv.course import course
 from tribodyn.mechanisms.vsv.parameters import Vsv
+
+GAINS_ENERGY: Final = (
+    "the equations of formulation 'paper' can gain energy in an impact, with damping and at small loads too; "
+    "compare with mechanism.formulation = 'exact'"
+)
+"""Why a run in ``paper`` may leave the range of the contact law: see the manual, two energy ledgers."""
 
 
 def warnings(
@@ -49,7 +56,7 @@ def warnings(
     messages = [
         _energy_message(vsv, whole, clearance),
         *of_contact(
-            vsv.joint,
+            vsv.joint.touch,
             separation=found["separation_least"],
             clipped=found["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
             grid_error=found["grid_force_error"],
@@ -84,6 +91,7 @@ def notes(
     """
     share = lift_off_share(found, t_end)
     messages = [
+        "" if vsv.exact else f"{GAINS_ENERGY[0].upper()}{GAINS_ENERGY[1:]}.",
         of_lift_off(share) if 0.0 < share <= LIFT_OFF_LIMIT else "",
         of_damping_pressure(pressure, found["pressure_at_rest"]),
         _of_reversals(vsv, t_end, turns, carried),

@@ -93,7 +93,9 @@ def _course(
     reversals = inside(np.concatenate([drive.turns(duration), drive.passes(centres, duration)]), duration)
     motion = ideal_motion(lengths, drive, duration)
     ends = np.concatenate([[0.0], reversals, [duration]])
-    of_time, of_vane, of_crank = (kinks_over(terms, over) for over in (TIME, VANE, CRANK_ANGLE))
+    of_time = kinks_over(terms, TIME, ends)
+    of_vane = kinks_over(terms, VANE, motion.vane_angle(ends))
+    of_crank = kinks_over(terms, CRANK_ANGLE, drive.angle(ends))
     if opening is not None:
         of_time = np.union1d(of_time, opening.kinks)
     met = (crossings(motion.vane_angle, ends, of_vane), crossings(drive.angle, ends, of_crank))

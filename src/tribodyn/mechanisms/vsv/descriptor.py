@@ -35,4 +35,5 @@ MECHANISM: Final = Mechanism(
         "drive.speed_amplitude",
         "contact.law",
     ),
+    bearings="tribodyn.mechanisms.bushing:bearings",
 )

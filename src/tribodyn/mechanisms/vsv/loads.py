@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Final
 
-from tribodyn.core.signals import Signal, pulse, repeated, scaled, sinusoid
+from tribodyn.cases.beyond import lasts_a_cycle
+from tribodyn.core.signals import Signal, for_each_cycle, pulse, scaled, sinusoid
 from tribodyn.kernels.vsv.data import (
     AIR_M,
     AIR_X,
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 _TARGETS: Final = {"force_x": AIR_X, "force_y": AIR_Y, "force_z": AIR_Z, "moment": AIR_M}
 _BENDS: Final = {"force_x": BEND_Y, "force_y": BEND_X}
 """What a force does about the centre of the vane where its line of action lies beside it."""
-_SAME: Final = 1.0e-9
 
 
 def terms_of(case: VsvCase, vane_arm: float) -> Iterator[Term]:
@@ -53,21 +52,17 @@ def terms_of(case: VsvCase, vane_arm: float) -> Iterator[Term]:
 
 def _of_table(case: VsvCase, load: VaneLoad, vane_arm: float) -> Iterator[Term]:
     """Yield the terms of one load."""
-    over_angle, arm = VANE if load.along == "vane" else CRANK_ANGLE, load.arm
+    of, arm = {"times": TIME, "angles": VANE if load.along == "vane" else CRANK_ANGLE}, load.arm
     for key, signal in load.given.items():
         for product in signal.products():
-            (first, follows), *others = (
-                (_cyclic(case, found), TIME) if over == "times" else (found, over_angle)
-                for found, over in product
-            )
+            (first, follows), *others = ((_over_run(case, found, over), of[over]) for found, over in product)
             yield Term(_TARGETS[key], ((first, follows), *others), load.against_motion)
             if arm is not None and key in _BENDS:
                 bending = scaled(first, arm - vane_arm)
                 yield Term(_BENDS[key], ((bending, follows), *others), load.against_motion)
 
 
-def _cyclic(case: VsvCase, signal: Signal) -> Signal:
-    """Return a table over time that is as long as a drive cycle once for each cycle of the run."""
-    if signal.kind != "table" or abs(signal.knots[-1] - case.period) > _SAME * case.period:
-        return signal
-    return repeated(signal, max(1, math.ceil(case.duration / case.period * (1.0 - _SAME))))
+def _over_run(case: VsvCase, signal: Signal, over: str) -> Signal:
+    """Return a signal as it holds over the whole run."""
+    again = over == "times" and lasts_a_cycle(signal.knots.tolist(), case.period)
+    return for_each_cycle(signal, case.period, case.duration) if again else signal

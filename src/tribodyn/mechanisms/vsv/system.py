@@ -19,7 +19,7 @@ from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import BEYOND
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
-from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, Stop, Worn
+from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, WearRates, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -29,12 +29,12 @@ from tribodyn.mechanisms.bushing import (
     of_temperature,
     pressure_at_rest,
 )
-from tribodyn.mechanisms.checks import beyond_law, extremes
+from tribodyn.mechanisms.checks import beyond_law, extremes, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.checks import notes, warnings
+from tribodyn.mechanisms.vsv.checks import GAINS_ENERGY, notes, warnings
 from tribodyn.mechanisms.vsv.course import course
 from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
 from tribodyn.mechanisms.vsv.loads import terms_of
@@ -44,6 +44,9 @@ from tribodyn.mechanisms.vsv.reach import at_limit, ideal_vane_angle
 from tribodyn.mechanisms.vsv.times import following, output_times, snapshots
 from tribodyn.results.attributes import CARRIED
 from tribodyn.wear import loaded_depth
+
+_ANGLES: Final = {"the vane": "theta_v", "the crank": "theta_a"}
+"""What tables over angles follow."""
 
 
 def vsv_of(case: VsvCase) -> Vsv:
@@ -108,16 +111,20 @@ class VsvSystem:
         return bushing_of(self.case.run_in(loaded_depth(depth, self._area)))
 
     @property
+    def wear_rates(self) -> WearRates:
+        """Specific wear rates of bushing and trunnion [m²/N]."""
+        return self.case.wear.specific_wear_rate, self.case.wear.partner_wear_rate
+
+    @property
     def period(self) -> float:
         """Time of one drive cycle [s]."""
         return self.case.period
 
     def check(self) -> Sequence[str]:
         """Put the mechanism together, its joint and contact law with it."""
-        assert self.vsv
-        return ()
+        return [text for text in [of_clearance(self.vsv.joint.touch)] if text]
 
-    def problem(self, duration: float, worn: Worn | None = None, stop: Stop = None) -> Problem:
+    def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
         joint = self.worn_bushing(None if worn is None else worn.depth)
         problem = vsv_problem(
@@ -186,7 +193,8 @@ class VsvSystem:
         memory = run.problem.memory
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
-        found |= loading(self.case, bushing, pressure, found["separation_least"])
+        law = self.case.contact.law_of(self.case.surface_pair)
+        found |= loading(law, bushing.touch, pressure, found["separation_least"])
         speed = rows["omega_v"] * bushing.geometry.radius
         flash = flash_of(self.case, bushing, rows, speed)
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
@@ -207,7 +215,10 @@ class VsvSystem:
                 **found,
                 **flash,
             },
-            warnings=warnings(self.vsv, found, whole, of_clearance, t_end, run.cost),
+            warnings=[
+                *warnings(self.vsv, found, whole, of_clearance, t_end, run.cost),
+                *of_tables(self.case.followed(), run.solution.t, lambda table: rows[_ANGLES[table.follows]]),
+            ],
             notes=[
                 *of_temperature(self.case, clearance),
                 *notes(self.vsv, found, pressure, t_end, turns, run.carried),
@@ -263,7 +274,8 @@ class VsvSystem:
         """Return why the run stopped before its end, empty if it did not."""
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
         if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] > 0.0:
-            return beyond_law(self.bushing, t)
+            cause = () if self.vsv.exact else (GAINS_ENERGY,)
+            return beyond_law(self.bushing.table.h_first, t, "trunnion and bushing", *cause)
         angle = float(self.vsv.drive.angle(np.array([t]))[0])
         if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, angle, y):
             return reason

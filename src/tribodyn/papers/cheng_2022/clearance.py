@@ -12,7 +12,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import DASHED, GREY, SMALL, Curves, caption, finish, lines, sheet
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
-from tribodyn.papers.cheng_2022.runs import Runs, is_smooth
+from tribodyn.papers.cheng_2022.runs import Runs, finer, is_smooth, mean_rate, over_clearances
 from tribodyn.views.series import series
 
 DEGREES: Final = float(np.rad2deg(1.0))
@@ -31,15 +31,30 @@ def force_data(runs: Runs, formulation: str) -> xr.Dataset:
 
 
 def attitude_data(runs: Runs, formulation: str) -> xr.Dataset:
-    """Return displacement [m] and tilt [rad] over a cycle."""
-    return keep(first_cycle(runs.over_clearance(formulation)), "e_x", "e_y", "phi_x", "phi_y")
+    """Return displacement [m] and tilt [rad] over a cycle, with samples along free flights."""
+    names = ("e_x", "e_y", "phi_x", "phi_y")
+    kept = (*names, *(f"{name}_dot" for name in names))
+    runs_of_all = [finer(keep(first_cycle(run), *kept), 4) for run in runs.every_clearance(formulation)]
+    return keep(over_clearances(runs_of_all), *names)
 
 
-def errors(dataset: xr.Dataset, name: str) -> Curves:
-    """Return what a variable differs from its ideal [deg or deg/s], a curve a clearance."""
-    ideal = _ideal(dataset, name)
-    curves = by_clearance(dataset, name, DEGREES)
+def angle_errors(dataset: xr.Dataset) -> Curves:
+    """Return the vane angle less the ideal one [deg], a curve a clearance."""
+    ideal = _ideal(dataset, "theta_v")
+    curves = by_clearance(dataset, "theta_v", DEGREES)
     return [(values - ideal, label, colour, dash) for values, label, colour, dash in curves]
+
+
+def speed_errors(dataset: xr.Dataset) -> Curves:
+    """Return the vane speed less the ideal one in smooth motion, mean of 0.2 s [deg/s]."""
+    time = series(dataset, "time")
+    found: Curves = []
+    for error, label, colour, dash in angle_errors(dataset):
+        middle, rate = mean_rate(time, error, dataset)
+        apart = np.append(np.diff(middle) > 0.1, False)  # no line across the impacts
+        values = np.interp(time, middle, np.where(apart, np.nan, rate), left=np.nan, right=np.nan)
+        found.append((values, label, colour, dash))
+    return found
 
 
 def _ideal(dataset: xr.Dataset, name: str) -> FloatArray:
@@ -65,20 +80,22 @@ def draw_motion(dataset: xr.Dataset) -> Figure:
     panels = figure.subplots(2, 2, sharex=True, height_ratios=(1.0, 1.3))
     time = series(dataset, "time")
     quiet = is_smooth(dataset, time)
-    for column, (name, unit, what) in enumerate(
-        (("theta_v", "°", "rotation angle"), ("omega_v", "°/s", "rotation velocity"))
-    ):
+    panels_of = (
+        ("theta_v", "°", "rotation angle", angle_errors, ""),
+        ("omega_v", "°/s", "rotation velocity", speed_errors, ", mean of 0.2 s"),
+    )
+    for column, (name, unit, what, errors, over) in enumerate(panels_of):
         whole, difference = panels[:, column]
         curves = by_clearance(dataset, name, DEGREES)
         ideal = _ideal(dataset, name)
         lines(whole, time, curves, width=1.0)
         whole.plot(time, ideal, color=GREY, linestyle=DASHED, linewidth=1.0)
         limits(whole, [(ideal, "", *STYLES[0])], quiet)
-        lines(difference, time, errors(dataset, name), width=1.0)
-        limits(difference, errors(dataset, name), quiet)
+        lines(difference, time, errors(dataset), width=1.0)
+        limits(difference, errors(dataset), quiet)
         caption(whole, f"({'ab'[column]}) {what}; ideal pair dashed")
         finish(whole, y_label=f"[{unit}]")
-        finish(difference, "time [s]", f"minus ideal [{unit}]")
+        finish(difference, "time [s]", f"minus ideal{over} [{unit}]")
     _legend(figure, by_clearance(dataset, "theta_v"))
     return figure
 

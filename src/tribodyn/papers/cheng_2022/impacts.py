@@ -11,15 +11,15 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre_velocity
 
 HARDEST: Final = 0.05
-"""Rows follow the steps for this long after a reversal [s], ``run.impact_window``; blows are over by then."""
+"""Samples follow the steps for this long after a reversal [s]: ``run.impact_window``."""
 _PARTS: Final = {"c": "contact", "k": "rigid", "d": "damping"}
 
 
-def windows(run: xr.Dataset) -> list[xr.Dataset]:
-    """Return the rows just after each reversal; the start is none."""
+def windows(run: xr.Dataset, length: float = HARDEST) -> list[xr.Dataset]:
+    """Return the samples in a time [s] after each reversal; the start is not one."""
     time = run["time"].values
     turns = run["reversal_time"].values[1:]
-    return [run.sel(time=(time >= turn) & (time < turn + HARDEST)) for turn in turns]
+    return [run.sel(time=(time >= turn) & (time < turn + length)) for turn in turns]
 
 
 def peaks(run: xr.Dataset, part: str) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Figure 15: contact pressure at three vane angles in both directions."""
+"""Figure 15: contact pressure at three vane angles in both directions, in static equilibrium."""
 
 from __future__ import annotations
 
@@ -72,7 +72,9 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw the six maps on the unrolled bushing."""
-    return draw_pictures(dataset, "Fig. 15  Contact pressure at six positions of the vane")
+    return draw_pictures(
+        dataset, "Fig. 15  Contact pressure at six positions of the vane, in static equilibrium"
+    )
 
 
 PRESSURE: Final = PaperFigure("fig15", "contact pressure at six positions of the vane", data, draw)

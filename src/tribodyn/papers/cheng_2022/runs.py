@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
@@ -21,6 +22,10 @@ JOINTS: Final = ("crank-pivot", "crank-ball", "ring-ball", "guide", "pin", "trun
 LAWS: Final = ("rsdc", "ke")
 """Contact laws that section 4 compares."""
 FORMULATIONS: Final = ("paper", "exact")
+_TREND: Final = 0.2
+"""Time over which the speed error is averaged [s]: several periods of what rings after the reversals."""
+_STEP: Final = 5e-3
+"""Time between the instants at which that is done [s]."""
 
 
 def _silent(text: str) -> None:
@@ -56,12 +61,14 @@ class Runs:
         """Return two cycles of the mechanism with a clearance [m]."""
         return self.run("vsv", _vsv_changes(formulation, clearance) | dict(changes or {}))
 
-    def joints(self, clearance: float, real: Iterable[str] = JOINTS) -> xr.Dataset:
-        """Return two cycles of the mechanism as a drawing, with a clearance [m] in some of its joints.
+    def joints(
+        self, clearance: float, real: Iterable[str] = JOINTS, more: Mapping[str, object] | None = None
+    ) -> xr.Dataset:
+        """Return two cycles of the multibody model, with a clearance [m] in some joints and more changes.
 
-        Rows are those at output times, the same in all of these runs.
+        Samples are those at output times, the same in all of these runs.
         """
-        changes: dict[str, object] = {"run.step_rows": 0}
+        changes: dict[str, object] = {"run.step_rows": 0, **(more or {})}
         for joint in JOINTS:
             changes[f"joints.{joint}.clearance.radial"] = f"{clearance * 1e6:g} um"
             changes[f"joints.{joint}.clearance.ideal"] = joint not in real
@@ -76,7 +83,13 @@ class Runs:
 
     def over_clearance(self, formulation: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return the runs with all clearances of the paper along a dimension ``clearance`` [m]."""
-        return over_clearances([self.vsv(formulation, value, changes) for value in CLEARANCES])
+        return over_clearances(self.every_clearance(formulation, changes))
+
+    def every_clearance(
+        self, formulation: str, changes: Mapping[str, object] | None = None
+    ) -> list[xr.Dataset]:
+        """Return the runs with all clearances of the paper."""
+        return [self.vsv(formulation, value, changes) for value in CLEARANCES]
 
 
 def _vsv_changes(formulation: str, clearance: float) -> dict[str, object]:
@@ -94,7 +107,7 @@ def over_clearances(runs: list[xr.Dataset]) -> xr.Dataset:
 def joined(runs: list[xr.Dataset], index: xr.Variable) -> xr.Dataset:
     """Return results side by side along the dimension of ``index``, at the times of all of them.
 
-    In the impacts the rows of each run follow its own steps; between two rows values are on a straight line.
+    In the impacts the samples of each run follow its own steps, see :func:`at_times`.
     """
     if "time" in runs[0].dims:
         times = np.unique(np.concatenate([run["time"].values for run in runs]))
@@ -112,17 +125,36 @@ def joined(runs: list[xr.Dataset], index: xr.Variable) -> xr.Dataset:
 
 
 def at_times(run: xr.Dataset, times: FloatArray) -> xr.Dataset:
-    """Return a result at other times [s], values on straight lines between its rows."""
+    """Return a result at other times [s].
+
+    Between its samples a variable with a rate, such as ``e_x`` with ``e_x_dot``, is the cubic of both; others
+    are on straight lines.
+    """
     old = run["time"].values
     if np.array_equal(old, times):
         return run
     over_time = {
-        name: (("time",), np.interp(times, old, values.values), values.attrs)
+        name: (("time",), _between(run, str(name), times), values.attrs)
         for name, values in run.data_vars.items()
         if values.dims == ("time",)
     }
     rest = run.drop_vars([*over_time, "time"])
     return rest.assign(over_time).assign_coords(time=("time", times, run["time"].attrs))
+
+
+def _between(run: xr.Dataset, name: str, times: FloatArray) -> FloatArray:
+    old, values = run["time"].values, run[name].values
+    rate = f"{name}_dot"
+    if rate not in run:
+        return np.asarray(np.interp(times, old, values))
+    return np.asarray(CubicHermiteSpline(old, values, run[rate].values)(np.clip(times, old[0], old[-1])))
+
+
+def finer(run: xr.Dataset, parts: int = 16) -> xr.Dataset:
+    """Return a result with every time between its samples parted: steps in free flight are long."""
+    old = run["time"].values
+    times = old[:-1, None] + np.diff(old)[:, None] * np.arange(parts) / parts
+    return at_times(run, np.append(times.ravel(), old[-1]))
 
 
 def is_smooth(dataset: xr.Dataset, time: FloatArray) -> NDArray[np.bool_]:
@@ -139,3 +171,16 @@ def smooth(dataset: xr.Dataset) -> xr.Dataset:
 def forward(dataset: xr.Dataset) -> NDArray[np.bool_]:
     """Return whether the vane angle grows in the ideal motion, shape (n_t,)."""
     return np.asarray(dataset["omega_v_ideal"].values > 0.0)
+
+
+def mean_rate(time: FloatArray, error: FloatArray, run: xr.Dataset) -> tuple[FloatArray, FloatArray]:
+    """Return instants of smooth motion [s] and the rate of an error there, averaged over 0.2 s.
+
+    The mean of a rate over a time is the difference of what it is the rate of.
+    """
+    half = 0.5 * _TREND
+    middle = np.arange(half, float(time[-1]) - half, _STEP)
+    inside = is_smooth(run, middle - half) & is_smooth(run, middle + half)
+    middle = middle[inside & (middle % (0.5 * float(run.attrs["cycle_period"])) > half)]
+    change = np.interp(middle + half, time, error) - np.interp(middle - half, time, error)
+    return middle, change / _TREND

@@ -9,6 +9,7 @@ import xarray as xr
 
 from tribodyn.figures.save import save_png
 from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
@@ -31,7 +32,10 @@ def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
 
 
 def save_claims(rows: list[Row], folder: Path) -> None:
-    """Write ``claims.md`` and ``claims.json``."""
+    """Write the table and its counts, each as Markdown and as JSON."""
+    found = summary.summarise(rows)
     write_text(folder / "claims.md", as_markdown(rows))
-    text = json.dumps(as_json(rows), indent=2, ensure_ascii=False, allow_nan=False)
-    write_text(folder / "claims.json", text + "\n")
+    write_text(folder / "counts.md", summary.as_markdown(found))
+    for name, data in (("claims", as_json(rows)), ("counts", found)):
+        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+        write_text(folder / f"{name}.json", text + "\n")

@@ -28,7 +28,7 @@ from tribodyn.figures.style import (
 )
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import enlarge, keep, limits
-from tribodyn.papers.cheng_2022.runs import Runs, is_smooth
+from tribodyn.papers.cheng_2022.runs import Runs, finer, is_smooth
 from tribodyn.views.series import series
 
 CLEARANCE: Final = 20e-6
@@ -52,6 +52,11 @@ def attitude_data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return displacement [m], tilt [rad] and their rates over two cycles."""
     names = ("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot")
     return keep(runs.vsv(formulation, CLEARANCE), *names)
+
+
+def path_data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return displacement [m], tilt [rad] and their rates, with samples along free flights."""
+    return finer(attitude_data(runs, formulation))
 
 
 def draw_forces(dataset: xr.Dataset) -> Figure:
@@ -136,5 +141,5 @@ def draw_velocities(dataset: xr.Dataset) -> Figure:
 
 
 FORCES: Final = PaperFigure("fig12", "contact, rigid and damping forces", force_data, draw_forces)
-PATH: Final = PaperFigure("fig13", "trajectory of the trunnion", attitude_data, draw_path)
+PATH: Final = PaperFigure("fig13", "trajectory of the trunnion", path_data, draw_path)
 VELOCITIES: Final = PaperFigure("fig14", "velocity of the three centres", attitude_data, draw_velocities)

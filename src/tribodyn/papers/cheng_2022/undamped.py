@@ -42,9 +42,12 @@ _ATOL: Final = {
 _SHOWN: Final = 0.3
 """How long after the first reversal a run goes on [s]."""
 _ROWS: Final = 20_000
-"""Rows kept of that time: every step, unless a run takes more."""
-_BINS: Final = np.geomspace(1e-4, _SHOWN, 90)
-"""Times after the reversal between which the largest force is drawn [s]."""
+"""Samples kept of that time: every step, unless a run takes more."""
+_CYCLE: Final = 2.0 * math.pi
+"""Length of a drive cycle [s], which the figure shows."""
+_WHOLE: Final = {"duration": f"{_CYCLE} s", "impact_window": f"{0.5 * _CYCLE} s"}
+_BINS: Final = np.linspace(0.0, _CYCLE, 400)
+"""Times between which the largest force is drawn [s]."""
 _LOOKS: Final = ((GREEN, SOLID), (BLUE, DASHED), (VERMILION, DOTTED))
 
 
@@ -84,20 +87,19 @@ def undamped(
 
 
 def data(runs: Runs, formulation: str) -> xr.Dataset:
-    """Return the contact force [N] after the first reversal of all runs, whatever the formulation."""
+    """Return the contact force [N] over a cycle of all runs, whatever the formulation."""
     combinations = list(product(FORMULATIONS, FRICTIONS, TOLERANCES))
-    results = [undamped(runs, *combination) for combination in combinations]
-    parts = [one.sel(time=one["time"].values >= math.pi) for one in results]
-    longest = max(part.sizes["time"] for part in parts)
+    results = [undamped(runs, *combination, _WHOLE) for combination in combinations]
+    longest = max(one.sizes["time"] for one in results)
     shape = (len(FORMULATIONS), len(FRICTIONS), len(TOLERANCES), longest)
-    time, force = np.full((2, len(parts), longest), np.nan)
-    for k, part in enumerate(parts):
-        time[k, : part.sizes["time"]] = part["time"].values - math.pi
-        force[k, : part.sizes["time"]] = np.hypot(part["F_cx"].values, part["F_cy"].values)
+    time, force = np.full((2, len(results), longest), np.nan)
+    for k, one in enumerate(results):
+        time[k, : one.sizes["time"]] = one["time"].values
+        force[k, : one.sizes["time"]] = np.hypot(one["F_cx"].values, one["F_cy"].values)
     axes = ("formulation", "friction", "rtol", "row")
     return xr.Dataset(
         {
-            "time": (axes, time.reshape(shape), {"units": "s", "long_name": "time after the first reversal"}),
+            "time": (axes, time.reshape(shape), {"units": "s", "long_name": "time"}),
             "force": (axes, force.reshape(shape), {"units": "N", "long_name": "contact force"}),
             "ended": (
                 axes[:3],
@@ -111,24 +113,24 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 
 def draw(dataset: xr.Dataset) -> Figure:
-    """Draw how large the contact force is after the reversal: a panel a combination, a curve a tolerance."""
-    figure = sheet(dataset, "The dry mechanism without damping, after its first reversal", 5.0)
+    """Draw how large the contact force is over a cycle: a panel a combination, a curve a tolerance."""
+    figure = sheet(dataset, "The dry mechanism without damping, over one cycle", 5.0)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for axes, (formulation, friction) in zip(panels.flat, product(FORMULATIONS, FRICTIONS), strict=True):
         _panel(axes, dataset.sel(formulation=formulation, friction=friction))
         caption(axes, f"formulation {formulation}, friction as a {friction}")
     for axes in panels[-1]:
-        axes.set_xlabel("time after the reversal [ms]", size=SMALL)
+        axes.set_xlabel("time [s]", size=SMALL)
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
     return figure
 
 
 def envelope(time: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the largest force between the times :data:`_BINS`, where there are rows, and the middle time."""
+    """Return the middle times of the bins :data:`_BINS` that hold samples, and the largest force in each."""
     bins = np.digitize(time, _BINS)
     held = [k for k in range(1, _BINS.size) if np.isfinite(force[bins == k]).any()]
-    middle = np.sqrt(_BINS[:-1] * _BINS[1:])
+    middle = 0.5 * (_BINS[:-1] + _BINS[1:])
     return middle[np.array(held) - 1], np.array([np.nanmax(force[bins == k]) for k in held])
 
 
@@ -137,8 +139,8 @@ def _panel(axes: Axes, runs: xr.Dataset) -> None:
     for rtol, (colour, dash) in zip(runs["rtol"].values, _LOOKS, strict=True):
         one = runs.sel(rtol=rtol)
         time, force = envelope(one["time"].values, one["force"].values)
-        axes.loglog(
-            time * 1e3,
+        axes.semilogy(
+            time,
             force,
             color=colour,
             linestyle=dash,
@@ -146,7 +148,7 @@ def _panel(axes: Axes, runs: xr.Dataset) -> None:
             label=f"relative tolerance {rtol:.0e}",
         )
         if bool(one["ended"]):
-            axes.plot(time[-1] * 1e3, force[-1], "x", color=colour, markersize=6)
+            axes.plot(time[-1], force[-1], "x", color=colour, markersize=6)
     axes.set_ylim(1.0, 2e6)
     finish(axes, y_label="largest force [N]")
 

@@ -6,7 +6,7 @@ function openAway() {
   if (!shown) return;
   const dialog = document.getElementById("away");
   const links = bench.hello.downloads.map((name) =>
-    element("a", { href: `/download/${name}?run=${shown.run}`, download: name }, name),
+    element("a", { href: `/download/${name}?run=${shown.run}&secret=${secret.now()}`, download: name }, name),
   );
   dialog.querySelector("div").replaceChildren(
     element("p", { class: "lead" }, valuesInWords(shown.values)),

@@ -41,6 +41,7 @@ function tellNumbers() {
   chosen.curve ??= known.find(({ robust }) => robust)?.name;
   const focused = document.activeElement?.dataset.number;
   const table = document.querySelector("#numbers table");
+  table.classList.toggle("doubtful", Boolean(shown.doubtful));
   const other = compared();
   const heads = ["number", "", other ? "from pinned" : "", bench.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
   table.tHead.replaceChildren(element("tr", {}, ...heads.map((text) => element("td", {}, text))));

@@ -12,7 +12,9 @@ const line = {
   hear: {},
 
   open() {
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/socket`);
+    if (!secret.now()) return secret.lost();
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    const socket = new WebSocket(`${scheme}://${location.host}/socket?secret=${secret.now()}`);
     socket.binaryType = "arraybuffer";
     socket.addEventListener("message", ({ data }) => {
       if (typeof data !== "string") return line.hear.run(runOf(data));

@@ -80,7 +80,7 @@ class DiscSystem:
         """There is nothing to refuse."""
         return ()
 
-    def problem(self, duration: float, worn: Any = None, stop: Any = None) -> Problem:
+    def problem(self, duration: float, worn: Any = None) -> Problem:
         disc = self.case.disc
         return Problem(
             functions=CompiledFunctions(rhs, jac, enter, advance, accept, observe, picture),

@@ -257,12 +257,23 @@ class Run:
         return float(np.abs(left).max() / largest)
 
 
-def run(description: Description, times: ArrayLike, rtol: float, solver: str = "mebdf") -> Run:
-    """Run a mechanism from 0 to the last of some times and return what was observed at them."""
+def run(
+    description: Description,
+    times: ArrayLike,
+    rtol: float,
+    solver: str = "mebdf",
+    state: FloatArray | None = None,
+) -> Run:
+    """Run a mechanism from 0 to the last of some times and return what was observed at them.
+
+    It begins in ``state``, shape (13 n,); in that of its assembly by default.
+    """
     t = np.asarray(times, dtype=float)
     assembly = assemble(description)
     assembly.require_sound()
-    problem = mechanism_problem(assembly, duration=float(t[-1]), rtol=rtol, dense=solver != "mebdf")
+    problem = mechanism_problem(
+        assembly, duration=float(t[-1]), rtol=rtol, state=state, dense=solver != "mebdf"
+    )
     solution = integrate(problem, rtol=rtol, output_times=t, solver=solver)
     assert solution.complete, solution.failure
     return Run(description, t, solution.rows, solution.statistics)

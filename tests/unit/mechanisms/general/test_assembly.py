@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -19,9 +20,13 @@ from tests.unit.mechanisms.general.drawings import (
     two_four_bars,
 )
 
+import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.core.signals import constant, sinusoid
-from tribodyn.mechanisms.general.assembly import assemble, closes_until
+from tribodyn.mechanisms.general.assembly import assemble
+from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanisms.general.cycle import drive_through
+from tribodyn.mechanisms.general.describe import describe
 from tribodyn.mechanisms.general.description import GROUND, Description, Drive, Joint
 
 
@@ -174,13 +179,46 @@ def test_a_drive_against_a_locked_joint_has_nothing_to_drive() -> None:
 
 def test_a_loop_that_does_not_close_over_the_drive_is_found() -> None:
     # Crank and ground are too long for coupler and rocker: no full turn.
-    late = closes_until(assemble(four_bar(crank=0.5)), 1.0)
-    assert late is not None
-    assert 0.0 < late[0] < 0.5
-    assert "does not close" in late[1].text
-    assert closes_until(assemble(four_bar()), 0.7) is None
+    late = drive_through(assemble(four_bar(crank=0.5)), 1.0)
+    assert late.finding is not None
+    assert 0.0 < late.time < 0.5
+    assert "does not close" in late.finding.text
+    assert drive_through(assemble(four_bar()), 0.7).finding is None
 
 
 def test_speeds_that_contradict_a_drive_are_refused() -> None:
     findings = assemble(replace(slider_crank(), speeds=((0, "angle", 1.0),))).findings
     assert findings[0].key == "joints.main"
+
+
+def swinging(mass: float) -> Mechanism:
+    """Return a block of 1 kg below the end of a link of some mass, let go with the link level."""
+    drawn = Mechanism("Light link", gravity="0, 0, -9.81 m/s^2", run={"duration": "1 ms"})
+    drawn.body(
+        "link",
+        mass=f"{mass:g} kg",
+        centre="50, 0, 0 mm",
+        inertia=", ".join([f"{mass * 1e-3:g}"] * 3) + " kg m^2",
+    )
+    drawn.body("block", mass="1 kg", centre="100, 0, -100 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.revolute("pivot", "ground", "link", point="0, 0, 0 mm", axis=[0, 1, 0])
+    return drawn.revolute("pin", "link", "block", point="100, 0, 0 mm", axis=[0, 1, 0])
+
+
+@pytest.mark.parametrize(("mass", "warned"), [(1e-4, False), (1e-6, True)])
+def test_reactions_of_a_light_body_are_exact_or_a_warning_names_it(mass: float, warned: bool) -> None:
+    result = td.simulate(swinging(mass).case())
+    # Moments about the pivot, where the link has the inertia 3.5e-3 m^2 times its mass.
+    alpha = 9.81 * (0.05 * mass + 0.1) / (3.5e-3 * mass + 1e-2)
+    found = float(result["reaction_force_global"].sel(joint="pin", axis="z")[0])
+    error = abs(found / (9.81 - 0.1 * alpha) - 1.0) if warned else abs(found - (9.81 - 0.1 * alpha)) / 9.81
+    text = " ".join(json.loads(result.attrs["warnings"]))
+    assert ("link with 1e-06 kg is light beside block with 1 kg" in text) == warned
+    assert (1e-5 < error < 2e-3) if warned else error < 1e-9
+    assert ("may be wrong by up to 2 %" in text) == warned
+
+
+def test_a_body_whose_reactions_would_be_wrong_is_refused() -> None:
+    finding = assemble(describe(swinging(1e-8).case())).findings[0]
+    assert finding.key == "bodies.link.mass"
+    assert "link with 1e-08 kg is too light beside block with 1 kg" in finding.text

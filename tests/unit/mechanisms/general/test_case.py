@@ -68,7 +68,7 @@ def test_the_description_is_in_si_with_numbers_for_names() -> None:
         "axial": 50e-6,
         "flange": 14e-3,
     }
-    assert (wrist.shape, wrist.socket, wrist.grid) == ("cylinder", 0, (96, 16))
+    assert (wrist.shape, found.joints[2].socket, wrist.grid) == ("cylinder", 0, (96, 16))
     assert found.drives[0].level == 1
     assert found.springs[0].length == pytest.approx(0.1)
     force = found.loads[0].signals

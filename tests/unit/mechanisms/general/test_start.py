@@ -10,6 +10,7 @@ from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
 
 import tribodyn as td
 from tribodyn.core.errors import Stopped
+from tribodyn.core.stopping import asked as asked_of
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.system import MechanismSystem
 
@@ -109,13 +110,43 @@ def test_the_search_can_be_stopped_and_takes_up_no_memory_of_it() -> None:
         return len(asked) == 3
 
     system = MechanismSystem(case)
-    with pytest.raises(Stopped):
-        system.start(at_the_third)
+    with asked_of(at_the_third), pytest.raises(Stopped):
+        system.start()
     assert len(asked) == 3
-    whole = system.start(lambda: False)
+    whole = system.start()
     np.testing.assert_array_equal(whole, MechanismSystem(case).start())
 
 
 def test_a_run_that_is_stopped_before_it_begins_says_so() -> None:
     with pytest.raises(Stopped, match="nothing was saved"):
         td.simulate(td.load_case("four-bar"), stop=lambda: True)
+
+
+SHAPES = {
+    "cylinder": 'radius = "9.5 mm"\nradial = "20 um"\nlength = "20 mm"',
+    "faces": 'radius = "9.5 mm"\nradial = "20 um"\nlength = "20 mm"\naxial = "50 um"',
+    "piston": 'radius = "9.5 mm"\nradial = "20 um"\nlength = "30 mm"\npin_length = "20 mm"',
+    "sphere": 'radius = "9.5 mm"\nradial = "20 um"',
+    "ball": 'radius = "9.5 mm"\nradial = "20 um"',
+}
+WRIST_JOINT = 'type = "revolute"\nbetween = ["rod", "slider"]'
+TYPES = {"faces": "revolute", "sphere": "spherical", "ball": "pin-slot"}
+
+
+@pytest.mark.parametrize("between", ['["rod", "slider"]', '["slider", "rod"]'])
+@pytest.mark.parametrize("socket", ["rod", "slider"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_start_is_in_equilibrium_whichever_body_carries_the_bore(
+    shape: str, socket: str, between: str
+) -> None:
+    # At dead centre the rod turns at 218 rad/s and its angular acceleration is zero. A pin
+    # that is displaced by 20 um and at rest in the axes of the wrong body approaches its bore at 4 mm/s.
+    drawn = DRIVEN.replace(WRIST_JOINT, f'type = "{TYPES.get(shape, "cylindrical")}"\nbetween = {between}')
+    case = parsed(
+        f'{drawn}\n[joints.wrist.clearance]\n{SHAPES[shape]}\nsocket = "{socket}"\n'
+        'friction_coefficient = 0.0\nnodes_around = 48\nnodes_along = 6\n[run]\nduration = "1 us"\n'
+    )
+    result = td.simulate(case)
+    assert result.attrs["start"] == "equilibrium"
+    first = result["angular_acceleration"].isel(time=0).sel(body="rod")
+    assert float(abs(first).max()) < 5.0

@@ -11,7 +11,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.cylinder.data import BushingData
-from tribodyn.kernels.joints.cylinder.nodes import row_motion
+from tribodyn.kernels.joints.cylinder.nodes import lean, least_clearance, row_motion
 from tribodyn.kernels.joints.cylinder.window import contact_window
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
@@ -24,20 +24,22 @@ def pressure_field(joint: BushingData, memory: JointMemory, pose: Record, pressu
     n_theta = joint.cos_theta.size
     limit = joint.table.h_last * joint.roughness
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
-    clearance = joint.clearance + pose.opening
+    clearance, least, r_j = joint.clearance + pose.opening, least_clearance(joint, pose), joint.journal_radius
+    l_a, l_b, v_la, v_lb = lean(pose)
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
-        first, count = contact_window(clearance, a, b, limit, n_theta)
+        first, count = contact_window(least, a, b, limit, n_theta)
         for k in range(count):
             i = first + k if first + k < n_theta else first + k - n_theta
             c, s = joint.cos_theta[i], joint.sin_theta[i]
+            w = l_a * c + l_b * s
             _, pressure[j, i], _, _ = node_pressure(
                 joint.table,
                 joint.roughness,
                 joint.minimum_entry_velocity,
                 joint.clip,
-                clearance + a * c + b * s + joint.wear[j, i],
-                -(v_a * c + v_b * s + pose.v_opening),
+                clearance + a * c + b * s - 0.5 * r_j * w * w + joint.wear[j, i],
+                r_j * w * (v_la * c + v_lb * s) - (v_a * c + v_b * s + pose.v_opening),
                 memory.entry_velocity[j, i],
             )
 
@@ -49,17 +51,21 @@ def _update(
     first: int,
     until: int,
     motion: tuple[float, float, float, float, float, float],
+    leaning: tuple[float, float, float, float],
     entry_velocity: FloatArray,
 ) -> None:
     """Update nodes ``first`` to ``until`` of a row with the given clearance, offset and their velocities."""
     clearance, a, b, v_opening, v_a, v_b = motion
+    l_a, l_b, v_la, v_lb = leaning
+    r_j = joint.journal_radius
     cos, sin, wear = joint.cos_theta, joint.sin_theta, joint.wear
     onset = joint.onset * joint.roughness
     j = np.uint64(row)
     for i in range(np.uint64(first), np.uint64(until)):
         c, s = cos[i], sin[i]
-        gap = clearance + a * c + b * s + wear[j, i]
-        speed = v_a * c + v_b * s + v_opening
+        w = l_a * c + l_b * s
+        gap = clearance + a * c + b * s - 0.5 * r_j * w * w + wear[j, i]
+        speed = v_a * c + v_b * s + v_opening - r_j * w * (v_la * c + v_lb * s)
         known = reference_velocity(entry_velocity[j, i], speed, joint.minimum_entry_velocity)
         entry_velocity[j, i] = 0.0 if gap >= onset else known
 
@@ -92,13 +98,15 @@ def update_entry_velocity(joint: BushingData, memory: JointMemory, pose: Record,
     n_theta = joint.cos_theta.size
     heed = 0.0 if at_start > 0.0 else 1.0
     clearance, v_opening = joint.clearance + pose.opening, heed * pose.v_opening
+    least, (l_a, l_b, v_la, v_lb) = least_clearance(joint, pose), lean(pose)
+    leaning = (l_a, l_b, heed * v_la, heed * v_lb)
     for j in range(joint.z.size):
         a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[j])
-        first, count = contact_window(clearance, a, b, onset, n_theta)
+        first, count = contact_window(least, a, b, onset, n_theta)
         motion = (clearance, a, b, v_opening, heed * v_a, heed * v_b)
         until = min(first + count, n_theta)
         again = first + count - until
-        _update(joint, j, first, until, motion, entry_velocity)
-        _update(joint, j, 0, again, motion, entry_velocity)
+        _update(joint, j, first, until, motion, leaning, entry_velocity)
+        _update(joint, j, 0, again, motion, leaning, entry_velocity)
         _forget(j, again, first, entry_velocity)
         _forget(j, until, n_theta, entry_velocity)

@@ -47,6 +47,23 @@ def row_motion(pose: Record, tan_x: float, tan_y: float, z: float) -> tuple[floa
 
 
 @inlined
+def lean(pose: Record) -> tuple[float, float, float, float]:
+    """Return the slope l of the axis along X and Y [1], and its rates [1/s].
+
+    The cross-section of a tilted trunnion is an ellipse: gaps are smaller by ½ r_j w², w = l·(cos θ, sin θ).
+    """
+    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    return tan_y, -tan_x, pose.w_y * (1.0 + tan_y * tan_y), -pose.w_x * (1.0 + tan_x * tan_x)
+
+
+@inlined
+def least_clearance(joint: BushingData, pose: Record) -> float:
+    """Return a lower bound of the clearance less ½ r_j w² [m], for windows of contact."""
+    l_a, l_b, _, _ = lean(pose)
+    return joint.clearance + pose.opening - 0.5 * joint.journal_radius * (l_a * l_a + l_b * l_b)
+
+
+@inlined
 def _load(
     joint: BushingData,
     memory: JointMemory,
@@ -58,6 +75,7 @@ def _load(
     b: float,
     v_a: float,
     v_b: float,
+    leaning: tuple[float, float, float, float],
     slip: float,
     clearance: float,
     v_opening: float,
@@ -65,6 +83,8 @@ def _load(
     """Write ``size`` nodes of a row with given offset and velocity into the list, from place ``at`` on."""
     work, cos, sin, wear = memory.scratch.listed.work, joint.cos_theta, joint.sin_theta, joint.wear
     entry_velocity = memory.entry_velocity
+    l_a, l_b, v_la, v_lb = leaning
+    radius = joint.journal_radius
     area = joint.area[row]
     moment = area * joint.z[row]
     last = last_interval(joint.table)
@@ -76,12 +96,14 @@ def _load(
     for k in range(min(size, PART - at)):
         i, n = source + np.uint64(k), at + k
         c, s = cos[i], sin[i]
-        number, x = interval(shift + scale * (a * c + b * s + wear[j, i]), last)
+        w = l_a * c + l_b * s
+        taken = radius * w
+        number, x = interval(shift + scale * (a * c + b * s - 0.5 * taken * w + wear[j, i]), last)
         work[INTERVAL + n] = number
         work[FRACTION + n] = x
         work[COS + n] = c
         work[SIN + n] = s
-        work[APPROACH + n] = -(v_a * c + v_b * s + v_opening)
+        work[APPROACH + n] = taken * (v_la * c + v_lb * s) - (v_a * c + v_b * s + v_opening)
         work[SLIP + n] = slip + v_a * s - v_b * c
         work[ENTRY + n] = entry_velocity[j, i]
         work[AREA + n] = area
@@ -113,16 +135,32 @@ def gather(joint: BushingData, memory: JointMemory, pose: Record, with_edges: fl
     row, taken, n, n_pieces = cursor[0], cursor[1], 0, 0
     slip = pose.w_z * joint.journal_radius
     clearance, v_opening = joint.clearance + pose.opening, pose.v_opening
+    leaning, least = lean(pose), least_clearance(joint, pose)
     while row < joint.z.size and n < PART:
         left = 0
         if with_edges > 0.0 or joint.area[row] > 0.0:
             a, b, v_a, v_b = row_motion(pose, tan_x, tan_y, joint.z[row])
-            first, count = contact_window(clearance, a, b, limit, n_theta)
+            first, count = contact_window(least, a, b, limit, n_theta)
             left = count - taken
             while left > 0 and n < PART:
                 start = first + taken if first + taken < n_theta else first + taken - n_theta
                 size = min(left, n_theta - start, PART - n)
-                _load(joint, memory, row, start, size, n, a, b, v_a, v_b, slip, clearance, v_opening)
+                _load(
+                    joint,
+                    memory,
+                    row,
+                    start,
+                    size,
+                    n,
+                    a,
+                    b,
+                    v_a,
+                    v_b,
+                    leaning,
+                    slip,
+                    clearance,
+                    v_opening,
+                )
                 n_pieces += 1
                 pieces[n_pieces, 0], pieces[n_pieces, 1], pieces[n_pieces, 2] = row, start, size
                 n, left, taken = n + size, left - size, taken + size

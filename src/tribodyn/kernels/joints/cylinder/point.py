@@ -6,6 +6,8 @@ sin θ = −b/ρ. So the formulas are those of a single node whose place follows
 table holds the force of one end [N] instead of a pressure, over (c − ρ)/σ, so that it takes the place of a
 pressure times an area; there is no pressure field and no wear.
 
+As in the literature, both cross-sections are circles: the ellipse of a tilted trunnion is neglected.
+
 The functions take the arguments of those of the same name for the surface contact.
 """
 
@@ -91,6 +93,7 @@ def wrench_and_jacobian(
     wrench(joint, memory, pose, out)
     clear(jacobian)
     gradient = memory.scratch.gradient
+    clear(gradient)
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
     clearance = joint.clearance + pose.opening
     for k in range(N_ENDS):

@@ -8,11 +8,11 @@ import numpy as np
 
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.extremes import larger, smaller
-from tribodyn.kernels.jit import kernel, summing
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints import listed
 from tribodyn.kernels.joints.cylinder.data import BushingData
-from tribodyn.kernels.joints.cylinder.nodes import gather, look_up, rewind, row_motion
-from tribodyn.kernels.joints.cylinder.wrench import friction_law, ratio_at
+from tribodyn.kernels.joints.cylinder.nodes import gather, lean, look_up, rewind, row_motion
+from tribodyn.kernels.joints.cylinder.wrench import LEAST_SQUARE, friction_law, ratio_at
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.joints.pressure import reference_velocity, total_pressure
 from tribodyn.kernels.lookup import stored_energy
@@ -33,7 +33,7 @@ def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
     n = gather(joint, memory, pose, 1.0)
     while n > 0:
         look_up(joint, memory, n)
-        _add_nodes(joint, memory, pose.w_z, pose.direction, n, out)
+        _add_nodes(joint, memory, pose.w_z, pose.direction, lean(pose), n, out)
         _note_pieces(memory, n)
         n = gather(joint, memory, pose, 1.0)
     nearest = out.separation_min
@@ -97,9 +97,15 @@ def squeeze(joint: BushingData, memory: JointMemory, pose: Record) -> float:
     return total
 
 
-@summing
+@kernel
 def _add_nodes(
-    joint: BushingData, memory: JointMemory, omega: float, direction: float, n: int, out: Record
+    joint: BushingData,
+    memory: JointMemory,
+    omega: float,
+    direction: float,
+    leaning: tuple[float, float, float, float],
+    n: int,
+    out: Record,
 ) -> None:
     """Add the sums over the ``n`` nodes in the list to ``out``, and append what slides to ``memory``.
 
@@ -111,6 +117,7 @@ def _add_nodes(
     v_min, clip = joint.minimum_entry_velocity, joint.clip
     tangential, turning = joint.tangential, (1.0 - joint.tangential) * omega * joint.journal_radius
     onset = (joint.onset - joint.table.h_first) * joint.table.inverse_step + 1.0
+    shift_a, shift_b = joint.journal_radius * leaning[0], joint.journal_radius * leaning[1]
     f_cx = f_cy = m_cx = m_cy = f_kx = f_ky = m_kx = m_ky = f_fx = f_fy = m_fx = m_fy = 0.0
     torque = heat = power = contact = clipped = 0.0
     highest, nearest = out.p_max, out.separation_min
@@ -131,13 +138,14 @@ def _add_nodes(
         tau_c, tau_s = tangential * tau * c, tangential * tau * s
         f_cx += area * p_c
         f_cy += area * p_s
-        m_cx -= moment * p_s
-        m_cy += moment * p_c
+        across = moment - area * (shift_a * c + shift_b * s)
+        m_cx -= across * p_s
+        m_cy += across * p_c
         k_c, k_s = rigid * c, rigid * s
         f_kx += area * k_c
         f_ky += area * k_s
-        m_kx -= moment * k_s
-        m_ky += moment * k_c
+        m_kx -= across * k_s
+        m_ky += across * k_c
         f_fx += area * tau_s
         f_fy -= area * tau_c
         m_fx += moment * tau_c
@@ -177,12 +185,18 @@ def _separation(joint: BushingData, place: float) -> float:
 
 @kernel
 def _far_separation(joint: BushingData, pose: Record) -> float:
-    """Return the least unworn gap [m] of a trunnion out of reach of contact."""
+    """Return the least unworn gap [m] of a trunnion out of reach of contact.
+
+    The second-order term of the tilt is taken where the gap is least without it.
+    """
     tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    l_a, l_b, _, _ = lean(pose)
     farthest = 0.0
     for j in range(joint.z.size):
         a, b, _, _ = row_motion(pose, tan_x, tan_y, joint.z[j])
-        farthest = max(farthest, math.sqrt(a * a + b * b))
+        square = a * a + b * b
+        along = (a * l_a + b * l_b) ** 2 / max(square, LEAST_SQUARE)
+        farthest = max(farthest, math.sqrt(square) + 0.5 * joint.journal_radius * along)
     return joint.clearance + pose.opening - farthest
 
 

@@ -42,13 +42,13 @@ def contact_window(clearance: float, a: float, b: float, limit: float, n_theta: 
 
     The gap of one row is ``clearance + a cos θ + b sin θ`` (Eq. 48), a cosine with its minimum
     opposite to the direction of (a, b). Wear only widens the gap, so the window of the unworn gap
-    holds every node in contact. A node more at each end may be in it: looking up its gap costs less
-    than exact trigonometry.
+    holds every node in contact. The clearance includes a bound of the second-order term of the tilt.
+    A node more at each end may be in it: looking up its gap costs less than exact trigonometry.
 
     Parameters
     ----------
     clearance
-        Radial clearance [m].
+        Radial clearance, less the largest second-order term of the tilt [m].
     a, b
         Offset of the trunnion axis in this row along X and Y [m].
     limit

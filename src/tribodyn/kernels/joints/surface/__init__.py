@@ -12,5 +12,6 @@ and the gap h0_k as drawn,
     f = A (−p n − μ p s/√(s² + u_s²)),
 
 with the displacement d and velocity v of P, the tilt φ and the angular velocity ω. How φ and its rate follow
-from the rotation of the shaft, and why the moment of the pressure needs that too, says ``tilt``.
+from the rotation of the shaft, why the moment of the pressure needs that too, and what the gap of a leaning
+cylinder has besides, says ``tilt``.
 """

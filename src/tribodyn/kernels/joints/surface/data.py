@@ -25,9 +25,10 @@ Surface: Final = record_type(
     *((name, "f8") for name in ("h_first", "h_last", "inverse_step")),
     *((name, "f8") for name in ("roughness", "friction_coefficient", "slip_velocity")),
     *((name, "f8") for name in ("onset", "minimum_entry_velocity", "tensile_clip")),
-    *((name, "f8") for name in ("tilt", "slides", "area")),
+    *((name, "f8") for name in ("tilt", "slides", "lean", "area")),
     *((name, "f8") for name in ("points", "radius", "clearance")),
     ("heights", "f8", (N_POINTS,)),
+    ("reach", "f8", (2,)),
 )
 """One surface.
 
@@ -46,11 +47,16 @@ tilt
     What turning does to its gaps, see ``tilt``.
 slides
     1 if nodes stay where they are on the socket while the shaft slides along its axis, see ``station``.
+lean
+    Radius ρ of the second-order term of the tilt in the gap of a cylinder [m], see ``tilt``: the radius of
+    the pin, positive where the nodes belong to the bore, negative where they belong to the pin; 0 otherwise.
 area
     Of all nodes [m²].
 points, radius, clearance, heights
     Of a contact at points: their number, 0 for contact over the surface; radius of the shaft and radial
     clearance [m]; heights of their centres along the axis [m]. The table then holds the force of a point [N].
+reach
+    How far the shaft may be displaced across and along the axis [m]; beyond, it has left its socket.
 """
 
 Row: Final = record_type(

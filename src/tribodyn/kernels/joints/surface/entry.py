@@ -14,9 +14,11 @@ from tribodyn.kernels.joints.surface.nodes import node_gap, window
 
 
 @inlined
-def node_approach(nodes: FloatArray, i: int, v: FloatArray, rate: FloatArray) -> float:
+def node_approach(nodes: FloatArray, i: int, lean: float, v: FloatArray, tilt: Record) -> float:
     """Return the approach speed δ̇ at node ``i`` [m/s]."""
-    x, y, z = nodes[POSITION, i], nodes[POSITION + 1, i], nodes[POSITION + 2, i]
+    phi, rate = tilt.phi, tilt.rate
+    x, y = nodes[POSITION, i], nodes[POSITION + 1, i]
+    z = nodes[POSITION + 2, i] + lean * (nodes[NORMAL, i] * phi[1] - nodes[NORMAL + 1, i] * phi[0])
     along_x = v[0] + rate[1] * z - rate[2] * y
     along_y = v[1] + rate[2] * x - rate[0] * z
     along_z = v[2] + rate[0] * y - rate[1] * x
@@ -41,10 +43,10 @@ def update_entry_velocity(
     """
     tilt, entry_velocity = memory.scratch.tilt, memory.entry_velocity
     onset, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0
-    law = (onset, surface.minimum_entry_velocity, heed)
+    law = (onset, surface.minimum_entry_velocity, heed, surface.lean)
     for r in range(surface.first_row, surface.last_row):
         row = data.rows[r]
-        first, count = window(row, station.d, tilt.phi, onset)
+        first, count = window(row, surface.lean, station.d, tilt.phi, onset)
         if count == 0 and memory.remembering[r] == 0.0:
             continue
         until = min(first + count, row.count)
@@ -63,16 +65,16 @@ def _update(
     until: int,
     station: Record,
     tilt: Record,
-    law: tuple[float, float, float],
+    law: tuple[float, float, float, float],
     entry_velocity: FloatArray,
 ) -> None:
-    """Update nodes ``first`` to ``until`` by onset [m], v_min and whether to heed the approach."""
-    onset, v_min, heed = law
+    """Update nodes ``first`` to ``until`` by onset [m], v_min, whether to heed the approach, and ``lean``."""
+    onset, v_min, heed, lean = law
     for i in range(np.uint64(first), np.uint64(until)):
         known = reference_velocity(
-            entry_velocity[i], heed * node_approach(nodes, i, station.v, tilt.rate), v_min
+            entry_velocity[i], heed * node_approach(nodes, i, lean, station.v, tilt), v_min
         )
-        entry_velocity[i] = known if node_gap(nodes, i, station.d, tilt.phi) < onset else 0.0
+        entry_velocity[i] = known if node_gap(nodes, i, lean, station.d, tilt.phi) < onset else 0.0
 
 
 @kernel
@@ -90,7 +92,7 @@ def pressure_field(
     tilt, table = memory.scratch.tilt, table_of(data, surface)
     limit = surface.h_last * surface.roughness
     for i in range(surface.first_node, surface.last_node):
-        gap = node_gap(data.nodes, i, station.d, tilt.phi)
+        gap = node_gap(data.nodes, i, surface.lean, station.d, tilt.phi)
         pressure[i] = 0.0
         if gap < limit:
             _, pressure[i], _, _ = node_pressure(
@@ -99,6 +101,6 @@ def pressure_field(
                 surface.minimum_entry_velocity,
                 surface.tensile_clip,
                 gap,
-                node_approach(data.nodes, i, station.v, tilt.rate),
+                node_approach(data.nodes, i, surface.lean, station.v, tilt),
                 memory.entry_velocity[i],
             )

@@ -1,42 +1,31 @@
-"""A part of a list of nodes, of which sums over a surface are made."""
+"""The list of nodes of a surface."""
 
 from __future__ import annotations
 
 from typing import Final
 
 from tribodyn.core.quantities import record_type
+from tribodyn.kernels.joints.columns import OTHERS, PART, PITCH
 
-PART: Final = 256
-"""Nodes in a part: its columns stay in the near caches, and few parts are begun."""
-PITCH: Final = PART + 8
-"""Distance between columns: columns a power of two apart would compete for the same places in the cache."""
-
-INTERVAL: Final = 0 * PITCH
-FRACTION: Final = 1 * PITCH
-"""Interval of the contact table and place in it, see ``kernels/lookup.py``."""
-APPROACH: Final = 2 * PITCH
-"""δ̇ [m/s]."""
-ENTRY: Final = 3 * PITCH
-"""Remembered entry velocity [m/s]."""
-AREA: Final = 4 * PITCH
-POSITION: Final = 5 * PITCH
-NORMAL: Final = 8 * PITCH
-MOMENT: Final = 11 * PITCH
-"""A, x, n, and after it x × n: the six columns from ``NORMAL`` on are (n, x × n)."""
-SLIP: Final = 14 * PITCH
-"""Six columns (ŝ, x × ŝ) with ŝ = s/√(s² + u_s²)."""
-SLIDING: Final = 20 * PITCH
-"""P_c |s| [W/m²]; left by the report."""
-RIGID: Final = 21 * PITCH
-DAMPING: Final = 22 * PITCH
-RIGID_SLOPE: Final = 23 * PITCH
-DAMPING_SLOPE: Final = 24 * PITCH
-"""P_k and C from the contact table [Pa] and their slopes in its intervals, filled by ``look_up``."""
-STIFFNESS: Final = RIGID_SLOPE
-RESISTANCE: Final = DAMPING_SLOPE
-TRACTION: Final = RIGID
-"""A ∂P/∂h, A ∂P/∂δ̇ and A μ P/√(s² + u_s²), put in their places for the derivatives."""
-N_WORK: Final = 25 * PITCH
+POSITION: Final = OTHERS
+NORMAL: Final = OTHERS + 3 * PITCH
+MOMENT: Final = OTHERS + 6 * PITCH
+"""x, n, and after it −∂h/∂φ, which is x × n except for tilted cylinders, see ``tilt``."""
+SLIP: Final = OTHERS + 9 * PITCH
+"""Six columns (ŝ, x × ŝ) with ŝ = s/q, q = √(s² + u_s²)."""
+SLIP_SQUARE: Final = OTHERS + 15 * PITCH
+"""|s|² [m²/s²]."""
+FORCE: Final = OTHERS + 16 * PITCH
+"""A P_c [N]."""
+TRACTION: Final = OTHERS + 17 * PITCH
+"""A μ P_c/q [N s/m]."""
+SLIDING: Final = TRACTION
+HEAT: Final = OTHERS + 18 * PITCH
+POWER: Final = OTHERS + 19 * PITCH
+TOUCHING: Final = OTHERS + 20 * PITCH
+CLIPPED: Final = OTHERS + 21 * PITCH
+"""Of the report: P_c |s|, power of damping and of friction [W/m²]; 1 in contact, and where it pulls."""
+N_WORK: Final = OTHERS + 22 * PITCH
 
 Listed: Final = record_type(("work", "f8", (N_WORK,)), ("node", "i8", (PART,)), ("cursor", "i8", (2,)))
 """The list. Nothing is carried from one call of a kernel to the next.

@@ -13,36 +13,32 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.columns import (
+    APPROACH,
+    AREA,
+    ENTRY,
+    FRACTION,
+    INTERVAL,
+    PART,
+    PITCH,
+    end_list,
+)
 from tribodyn.kernels.joints.cylinder.window import contact_window
 from tribodyn.kernels.joints.surface.data import AREA as NODE_AREA
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.data import NORMAL as NODE_NORMAL
 from tribodyn.kernels.joints.surface.data import POSITION as NODE_POSITION
-from tribodyn.kernels.joints.surface.listed import (
-    APPROACH,
-    AREA,
-    DAMPING,
-    DAMPING_SLOPE,
-    ENTRY,
-    FRACTION,
-    INTERVAL,
-    MOMENT,
-    NORMAL,
-    PART,
-    PITCH,
-    POSITION,
-    RIGID,
-    RIGID_SLOPE,
-)
+from tribodyn.kernels.joints.surface.listed import MOMENT, NORMAL, POSITION
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.lookup import cubic, cubic_slope, interval, offset
+from tribodyn.kernels.lookup import interval
 
 
 @kernel
-def window(row: Record, d: FloatArray, phi: FloatArray, limit: float) -> tuple[int, int]:
+def window(row: Record, lean: float, d: FloatArray, phi: FloatArray, limit: float) -> tuple[int, int]:
     """Return the first node and the number of nodes of a row that hold every gap below ``limit`` [m].
 
-    They count from the first node of the row; in a ring the window may go on at node 0.
+    They count from the first node of the row; in a ring the window may go on at node 0. Of the second-order
+    term of the tilt its lower bound is used.
     """
     if row.whole > 0.0:
         near = row.normal[0] * d[0] + row.normal[1] * d[1] + row.normal[2] * d[2]
@@ -52,18 +48,21 @@ def window(row: Record, d: FloatArray, phi: FloatArray, limit: float) -> tuple[i
         return 0, 0 if row.least - near >= limit else row.count  # this way round for NaN
     a = -(row.normal[0] * d[0] + row.arm * phi[1])
     b = -(row.normal[0] * d[1] - row.arm * phi[0])
-    return contact_window(row.least - row.normal[2] * d[2], a, b, limit, row.count)
+    least = row.least - row.normal[2] * d[2]
+    least -= 0.5 * max(lean, 0.0) * (phi[0] * phi[0] + phi[1] * phi[1])
+    return contact_window(least, a, b, limit, row.count)
 
 
 @inlined
-def node_gap(nodes: FloatArray, i: int, d: FloatArray, phi: FloatArray) -> float:
+def node_gap(nodes: FloatArray, i: int, lean: float, d: FloatArray, phi: FloatArray) -> float:
     """Return the gap at node ``i`` [m]."""
     x, y, z = nodes[NODE_POSITION, i], nodes[NODE_POSITION + 1, i], nodes[NODE_POSITION + 2, i]
     along_x = d[0] + phi[1] * z - phi[2] * y
     along_y = d[1] + phi[2] * x - phi[0] * z
     along_z = d[2] + phi[0] * y - phi[1] * x
     near = nodes[NODE_NORMAL, i] * along_x + nodes[NODE_NORMAL + 1, i] * along_y
-    return nodes[GAP, i] - (near + nodes[NODE_NORMAL + 2, i] * along_z)
+    leaning = nodes[NODE_NORMAL, i] * phi[1] - nodes[NODE_NORMAL + 1, i] * phi[0]
+    return nodes[GAP, i] - (near + nodes[NODE_NORMAL + 2, i] * along_z + 0.5 * lean * leaning * leaning)
 
 
 @inlined
@@ -74,6 +73,7 @@ def _load(
     scale: float,
     shift: float,
     last: float,
+    lean: float,
     station: Record,
     first: int,
     size: int,
@@ -92,8 +92,11 @@ def _load(
         i, n = source + np.uint64(k), at + k
         x, y, z = nodes[NODE_POSITION, i], nodes[NODE_POSITION + 1, i], nodes[NODE_POSITION + 2, i]
         n_x, n_y, n_z = nodes[NODE_NORMAL, i], nodes[NODE_NORMAL + 1, i], nodes[NODE_NORMAL + 2, i]
-        m_x, m_y, m_z = y * n_z - z * n_y, z * n_x - x * n_z, x * n_y - y * n_x
+        leaning = n_x * phi_y - n_y * phi_x
+        arm = lean * leaning
+        m_x, m_y, m_z = y * n_z - (z + arm) * n_y, (z + arm) * n_x - x * n_z, x * n_y - y * n_x
         near = n_x * d_x + n_y * d_y + n_z * d_z + m_x * phi_x + m_y * phi_y + m_z * phi_z
+        near -= 0.5 * arm * leaning
         number, place = interval(shift + scale * (nodes[GAP, i] - near), last)
         work[INTERVAL + n] = number
         work[FRACTION + n] = place
@@ -142,35 +145,27 @@ def gather(
     while r < surface.last_row and n < PART:
         row, left = data.rows[r], 0
         if with_edges > 0.0 or row.area > 0.0:
-            first, count = window(row, station.d, phi, limit)
+            first, count = window(row, surface.lean, station.d, phi, limit)
             left = count - taken
             while left > 0 and n < PART:
                 start = first + taken if first + taken < row.count else first + taken - row.count
                 size = min(left, row.count - start, PART - n)
-                _load(nodes, entry_velocity, scratch, scale, shift, last, station, row.first + start, size, n)
+                _load(
+                    nodes,
+                    entry_velocity,
+                    scratch,
+                    scale,
+                    shift,
+                    last,
+                    surface.lean,
+                    station,
+                    row.first + start,
+                    size,
+                    n,
+                )
                 n, left, taken = n + size, left - size, taken + size
         if left <= 0:
             r, taken = r + 1, 0
     cursor[0], cursor[1] = r, taken
+    end_list(scratch.listed.work, n)
     return n
-
-
-@kernel
-def look_up(cubics: FloatArray, work: FloatArray, n: int) -> None:
-    """Fill in the pressures of the contact table, for loops that write as well as read.
-
-    Such a loop could not take four nodes at once if it read the table, whose places it cannot foresee.
-    """
-    for k in range(min(n, PART)):
-        first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
-        work[RIGID + k] = cubic(cubics, first, x)
-        work[DAMPING + k] = cubic(cubics, first + np.uint64(4), x)
-
-
-@kernel
-def look_up_slopes(cubics: FloatArray, work: FloatArray, n: int) -> None:
-    """Fill in the slopes of these pressures within their intervals."""
-    for k in range(min(n, PART)):
-        first, x = offset(work[INTERVAL + k]), work[FRACTION + k]
-        work[RIGID_SLOPE + k] = cubic_slope(cubics, first, x)
-        work[DAMPING_SLOPE + k] = cubic_slope(cubics, first + np.uint64(4), x)

@@ -4,7 +4,8 @@ Each of some circles of radius r_j + c about the axis of a cylinder, or the one 
 the axis of the socket; the shaft's centre is off it by e = d + φ × z ẑ, in the plane of the circle. Where ρ
 = |e| > c they overlap by ρ − c, and a force acts along n = e/ρ at x = r_j n + z ẑ. So the formulas are those
 of a node whose place and normal follow from the state. The contact table holds the force of a point [N]
-instead of a pressure times an area, over (c − ρ)/σ; there is no pressure field and no wear.
+instead of a pressure times an area, over (c − ρ)/σ; there is no pressure field and no wear. As in the
+literature, the cross-sections are circles: the ellipse of a tilted shaft is neglected.
 """
 
 from __future__ import annotations

@@ -9,6 +9,15 @@ tilted shaft that spins about its own axis would do work against frictionless wa
 Three kinds of surfaces: a sphere has no tilt. On a surface of revolution only the axis a of the shaft counts,
 φ = (−a_y/a_z, a_x/a_z, 0), so that it passes the height z where gaps say it does. Any other surface is held
 against turning about Z, too, with φ_z = ½ (R_yx − R_xy), the sine of a small twist.
+
+The cross-section of a tilted cylinder is an ellipse. With the slope of the axis, l = φ × ẑ, the gap at the
+radial normal n and the height z is
+
+    h = h0 − n·d − z n·l − ½ ρ (n·l)²,    −∂h/∂φ = (z + ρ n·l) ẑ × n.
+
+ρ is the radius of the pin if z is a height on the bore, and minus that radius if z is a height on the pin.
+The pressure acts along the normal of the pin in the first case, along that of the bore in the second; both
+give the lever arm z + ρ n·l. The derivation is in ``docs/theory/mechanisms.md``.
 """
 
 from __future__ import annotations

@@ -5,28 +5,16 @@ from __future__ import annotations
 import math
 from typing import Final
 
-import numpy as np
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import inlined, kernel, summing
-from tribodyn.kernels.joints.pressure import reference_velocity, total_pressure
+from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.columns import AREA, PITCH, PRESSURE, whole
+from tribodyn.kernels.joints.pressures import fill_pressures
 from tribodyn.kernels.joints.surface.data import SurfaceData, table_of
-from tribodyn.kernels.joints.surface.listed import (
-    APPROACH,
-    AREA,
-    ENTRY,
-    FRACTION,
-    INTERVAL,
-    MOMENT,
-    NORMAL,
-    PART,
-    PITCH,
-    POSITION,
-)
+from tribodyn.kernels.joints.surface.listed import FORCE, NORMAL, POSITION, SLIP, SLIP_SQUARE
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import gather, rewind
-from tribodyn.kernels.lookup import cubic, offset
+from tribodyn.kernels.lanes import WIDTH, load, total, zeros
 
 LEAST_SQUARE: Final = 1.0e-300
 """What stands for a squared slip velocity of zero."""
@@ -56,65 +44,55 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
     normal, friction = memory.scratch.normal, memory.scratch.friction
     for k in range(6):
         normal[k] = friction[k] = 0.0
-    cubics = table_of(data, surface).cubics
+    work, cubics = memory.scratch.listed.work, table_of(data, surface).cubics
+    v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
     rewind(surface, memory)
     n = gather(data, surface, memory, station, 0.0)
     while n > 0:
-        _add_nodes(cubics, surface, memory.scratch.listed.work, station, n, normal, friction)
+        fill_pressures(cubics, v_min, clip, work, n)
+        fill_forces(surface, work, station, n)
+        add_columns(work, FORCE, NORMAL, n, -1.0, normal)
+        add_columns(work, FORCE, SLIP, n, -mu, friction)
         n = gather(data, surface, memory, station, 0.0)
 
 
-@summing
-def _add_nodes(
-    cubics: FloatArray,
-    surface: Record,
-    work: FloatArray,
-    station: Record,
-    n: int,
-    normal: FloatArray,
-    friction: FloatArray,
-) -> None:
-    """Add the wrench of the ``n`` nodes in the list."""
-    v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
+@kernel
+def fill_forces(surface: Record, work: FloatArray, station: Record, n: int) -> None:
+    """Fill forces and slips of the ``n`` nodes in the list, whose pressures are filled."""
     square = slip_square(surface)
     v_x, v_y, v_z = station.slip[0], station.slip[1], station.slip[2]
     w_x, w_y, w_z = station.w[0], station.w[1], station.w[2]
-    f_x = f_y = f_z = m_x = m_y = m_z = 0.0
-    g_x = g_y = g_z = l_x = l_y = l_z = 0.0
-    for k in range(min(n, PART)):
-        first, place = offset(work[INTERVAL + k]), work[FRACTION + k]
-        approach = work[APPROACH + k]
+    for k in range(whole(n)):
         x, y, z = work[POSITION + k], work[POSITION + PITCH + k], work[POSITION + 2 * PITCH + k]
         n_x, n_y, n_z = work[NORMAL + k], work[NORMAL + PITCH + k], work[NORMAL + 2 * PITCH + k]
-        reference = reference_velocity(work[ENTRY + k], approach, v_min)
-        rigid, damping = cubic(cubics, first, place), cubic(cubics, first + np.uint64(4), place)
-        push = work[AREA + k] * total_pressure(rigid, damping, approach / reference, clip)
         s_x, s_y, s_z = v_x + w_y * z - w_z * y, v_y + w_z * x - w_x * z, v_z + w_x * y - w_y * x
         along = n_x * s_x + n_y * s_y + n_z * s_z
         s_x, s_y, s_z = s_x - along * n_x, s_y - along * n_y, s_z - along * n_z
-        drag = -mu * push / math.sqrt(s_x * s_x + s_y * s_y + s_z * s_z + square)
-        t_x, t_y, t_z = drag * s_x, drag * s_y, drag * s_z
-        f_x -= push * n_x
-        f_y -= push * n_y
-        f_z -= push * n_z
-        m_x -= push * work[MOMENT + k]
-        m_y -= push * work[MOMENT + PITCH + k]
-        m_z -= push * work[MOMENT + 2 * PITCH + k]
-        g_x += t_x
-        g_y += t_y
-        g_z += t_z
-        l_x += y * t_z - z * t_y
-        l_y += z * t_x - x * t_z
-        l_z += x * t_y - y * t_x
-    normal[0] += f_x
-    normal[1] += f_y
-    normal[2] += f_z
-    normal[3] += m_x
-    normal[4] += m_y
-    normal[5] += m_z
-    friction[0] += g_x
-    friction[1] += g_y
-    friction[2] += g_z
-    friction[3] += l_x
-    friction[4] += l_y
-    friction[5] += l_z
+        slip_2 = s_x * s_x + s_y * s_y + s_z * s_z
+        per_speed = 1.0 / math.sqrt(slip_2 + square)
+        s_x, s_y, s_z = per_speed * s_x, per_speed * s_y, per_speed * s_z
+        work[SLIP + k] = s_x
+        work[SLIP + PITCH + k] = s_y
+        work[SLIP + 2 * PITCH + k] = s_z
+        work[SLIP + 3 * PITCH + k] = y * s_z - z * s_y
+        work[SLIP + 4 * PITCH + k] = z * s_x - x * s_z
+        work[SLIP + 5 * PITCH + k] = x * s_y - y * s_x
+        work[SLIP_SQUARE + k] = slip_2
+        work[FORCE + k] = work[AREA + k] * work[PRESSURE + k]
+
+
+@kernel
+def add_columns(work: FloatArray, weight: int, first: int, n: int, factor: float, out: FloatArray) -> None:
+    """Add ``factor`` Σ w c over six columns from ``first`` on to ``out`` (6,)."""
+    a, b, c, d, e, f = zeros(), zeros(), zeros(), zeros(), zeros(), zeros()
+    for k in range(0, n, WIDTH):
+        w = load(work, weight + k)
+        a += w * load(work, first + k)
+        b += w * load(work, first + PITCH + k)
+        c += w * load(work, first + 2 * PITCH + k)
+        d += w * load(work, first + 3 * PITCH + k)
+        e += w * load(work, first + 4 * PITCH + k)
+        f += w * load(work, first + 5 * PITCH + k)
+    sums = (total(a), total(b), total(c), total(d), total(e), total(f))
+    for i in range(6):
+        out[i] += factor * sums[i]

@@ -6,7 +6,9 @@ from typing import Final
 
 from tribodyn.papers.cheng_2022.claims import (
     attitude,
+    causes,
     clearance,
+    damping,
     errors,
     forces,
     journal,
@@ -19,9 +21,11 @@ from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, a
 
 CLAIMS: Final[tuple[Claim, ...]] = (
     *undamped.CLAIMS,
+    *damping.CLAIMS,
     *journal.CLAIMS,
     *forces.CLAIMS,
     *attitude.CLAIMS,
+    *causes.CLAIMS,
     *pressure.CLAIMS,
     *errors.CLAIMS,
     *clearance.CLAIMS,

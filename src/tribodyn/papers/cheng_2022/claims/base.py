@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Final
+from functools import partial
+from typing import Final, Literal, TypeAlias
 
 import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.bounds import Bound
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs
+from tribodyn.papers.cheng_2022.claims.sentences import SENTENCES
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, smooth
 
 NARROW: Final = CLEARANCES[0]
 """Clearance of section 5.2 [m]."""
+Domain: TypeAlias = Literal["smooth motion", "impacts", "whole"]
+"""Part of a run in which a number is measured: outside the first tenth of each stroke; the 50 ms after each
+reversal; or all of it but the first tenth of the first stroke, where it starts."""
+Formulations: TypeAlias = Literal["both", "alike", "exact"]
 
 
 @dataclass(frozen=True)
@@ -38,6 +45,13 @@ class Trial:
     def vsv(self, clearance: float = NARROW, more: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return two cycles of the mechanism, with ``more`` changes where given."""
         return self.runs.vsv(self.formulation, clearance, {**self.changes, **(more or {})})
+
+    def part(self, domain: Domain, more: Mapping[str, object] | None = None) -> xr.Dataset:
+        """Return two cycles at 20 µm, in smooth motion or whole."""
+        run = self.vsv(more=more)
+        if domain == "smooth motion":
+            return smooth(run)
+        return run.sel(time=run["time"].values > float(run.attrs["impact_time"]))
 
     def every_clearance(self, more: Mapping[str, object] | None = None) -> list[xr.Dataset]:
         """Return the mechanism with each clearance of the paper."""
@@ -71,6 +85,9 @@ FRICTION: Final = Assumption("μ_f", "joint.friction_coefficient", (0.05, 0.1, 0
 ENTRY_VELOCITY: Final = Assumption(
     "v_min", "contact.minimum_entry_velocity", ("0.1 mm/s", "1 mm/s", "5 mm/s")
 )
+GUIDE: Final = Assumption(
+    "length of the ring's guide", "joints.guide.clearance.length", ("5 mm", "10 mm", "20 mm", "40 mm")
+)
 
 
 @dataclass(frozen=True)
@@ -83,10 +100,13 @@ class Finding:
         What was measured, with its unit.
     value
         The number that is judged, in the unit of the bound.
+    span
+        Least and largest number, where the paper does not say which one is meant.
     """
 
     text: str
     value: float
+    span: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -97,33 +117,51 @@ class Claim:
     ----------
     name
         Short name, unique.
-    where
-        Section or figure of the paper.
+    sentences
+        Sentences of the paper that make it, by their names in :data:`SENTENCES`.
     says
         What the paper says.
+    domain
+        Part of the run in which it is measured.
     bound
         How the number is judged.
     measure
-        Returns the finding of a trial; none where the claim is not tested.
+        Returns the finding of a trial; none where the claim is not tested. Its docstring begins with
+        *Measure* and names the quantity.
     reason
         Why the finding is what it is, where it is not simply the paper's.
     condition
         What must be assumed for the claim to hold at all.
     varies
         Assumptions that the finding is measured with, too.
-    mechanism
-        Whether it is about the mechanism, so that the two formulations can differ.
+    formulations
+        ``both``; ``alike`` where it is not about the mechanism; ``exact`` where `paper` has no such model.
     """
 
     name: str
-    where: str
+    sentences: tuple[str, ...]
     says: str
+    domain: Domain
     bound: Bound
     measure: Callable[[Trial], Finding] | None = None
     reason: str = ""
     condition: str = ""
     varies: tuple[Assumption, ...] = ()
-    mechanism: bool = True
+    formulations: Formulations = "both"
+
+    @property
+    def where(self) -> str:
+        """Sections and figures of the paper that make the claim."""
+        return "; ".join(dict.fromkeys(SENTENCES[name].where for name in self.sentences))
+
+    @property
+    def quantity(self) -> str:
+        """What is measured, from the docstring of ``measure``."""
+        if self.measure is None:
+            return ""
+        source = self.measure.func if isinstance(self.measure, partial) else self.measure
+        first = (inspect.getdoc(source) or "a number.").partition("\n")[0]
+        return first.removeprefix("Measure ").removesuffix(".")
 
 
 def listed(values: FloatArray, unit: str) -> str:

@@ -1,19 +1,37 @@
-"""How a measured number is judged: strictly inside a bound or not, and who chose the bound."""
+"""How a measured number is judged: verdicts, bounds, and who chose a bound and when."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
-Verdict: TypeAlias = Literal["reproduced", "differs", "contradicted", "not tested", "on a condition"]
+Verdict: TypeAlias = Literal[
+    "reproduced", "on a condition", "differs", "contradicted", "not decidable", "not tested"
+]
 Chooser: TypeAlias = Literal["the paper", "we"]
 Range: TypeAlias = tuple[float, float]
 
+VERDICTS: Final[dict[Verdict, str]] = {
+    "reproduced": "the number is strictly inside the bound",
+    "on a condition": "it is inside the bound only with a value that the paper does not give, or that no "
+    "equation allows",
+    "differs": "it is outside the bound and strictly inside a wider one",
+    "contradicted": "it is outside both",
+    "not decidable": "the paper does not say which of several numbers is meant, and verdicts on them differ",
+    "not tested": "it is not simulated in this formulation",
+}
+"""All verdicts, each with its meaning."""
 CLOSE: Final = 1.25
-"""A number is reproduced when ours is within this factor of the paper's, which are read off figures."""
+"""A number is reproduced when ours is within this factor of the number that the paper prints."""
 NEAR: Final = 2.0
 """It differs within this factor, and contradicts beyond."""
+FIRST: Final = "2026-11-21"
+"""Day of the first table of claims."""
+STRICT: Final = "2026-11-22"
+"""Day on which every claim got a strict bound with an owner."""
+REVIEWED: Final = "2026-11-23"
+"""Day on which domains, sentences and the claims left out until then were added."""
 
 
 @dataclass(frozen=True)
@@ -29,16 +47,25 @@ class Bound:
     unit
         Unit of the number.
     by
-        Who chose ``full``.
+        Who chose ``full``: the paper where its words do, or we.
+    since
+        Day on which it was chosen. All of ours were chosen with results at hand.
+    origin
+        Number from which the limits are counted when the bound is scaled.
+    factors
+        Whether the limits are factors of ``origin``.
     """
 
     full: Range
     partly: Range
     unit: str
     by: Chooser
+    since: str = STRICT
+    origin: float = 0.0
+    factors: bool = False
 
     def verdict(self, value: float) -> Verdict:
-        """Return what a number makes of the claim; one that is none contradicts it."""
+        """Return what a number makes of the claim; NaN contradicts it."""
         if self.full[0] < value < self.full[1]:
             return "reproduced"
         return "differs" if self.partly[0] < value < self.partly[1] else "contradicted"
@@ -48,8 +75,26 @@ class Bound:
         """The finite ends of ``full``, at which a claim is not reproduced."""
         return tuple(edge for edge in self.full if math.isfinite(edge))
 
+    def scaled(self, factor: float) -> Bound:
+        """Return the bound with its distance from ``origin`` scaled; one that the paper chose stays."""
+        if self.by == "the paper":
+            return self
+        full, partly = (
+            (self._moved(low, factor), self._moved(high, factor)) for low, high in (self.full, self.partly)
+        )
+        return replace(self, full=full, partly=partly)
+
+    def _moved(self, limit: float, factor: float) -> float:
+        if not math.isfinite(limit):
+            return limit
+        if not self.factors:
+            return self.origin + factor * (limit - self.origin)
+        ratio = limit / self.origin
+        wider = 1.0 + factor * (max(ratio, 1.0 / ratio) - 1.0)
+        return self.origin * wider if ratio > 1.0 else self.origin / wider
+
     def __str__(self) -> str:
-        """Return the bound in words, with who chose it."""
+        """Return the bound in words, with who chose it and when."""
         low, high = self.full
         if math.isinf(low):
             text = f"below {high:.4g}"
@@ -57,21 +102,38 @@ class Bound:
             text = f"above {low:.4g}"
         else:
             text = f"{low:.3g} to {high:.3g}"
-        return f"{text}{' ' if self.unit else ''}{self.unit} ({self.by})"
+        return f"{text}{' ' if self.unit else ''}{self.unit} ({self.by}, {self.since})"
 
 
-def above(limit: float, unit: str = "", *, partly: float | None = None, by: Chooser = "we") -> Bound:
+def above(
+    limit: float,
+    unit: str = "",
+    *,
+    partly: float | None = None,
+    by: Chooser = "we",
+    since: str = STRICT,
+    origin: float = 0.0,
+) -> Bound:
     """Return a bound that a number must exceed; above ``partly`` the claim still differs only."""
     other = limit if partly is None else partly
-    return Bound((limit, math.inf), (other, math.inf), unit, by)
+    return Bound((limit, math.inf), (other, math.inf), unit, by, since, origin)
 
 
-def below(limit: float, unit: str = "", *, partly: float | None = None, by: Chooser = "we") -> Bound:
+def below(
+    limit: float,
+    unit: str = "",
+    *,
+    partly: float | None = None,
+    by: Chooser = "we",
+    since: str = STRICT,
+    origin: float = 0.0,
+) -> Bound:
     """Return a bound that a number must stay below; below ``partly`` the claim still differs only."""
     other = limit if partly is None else partly
-    return Bound((-math.inf, limit), (-math.inf, other), unit, by)
+    return Bound((-math.inf, limit), (-math.inf, other), unit, by, since, origin)
 
 
-def near(paper: float, unit: str) -> Bound:
+def near(paper: float, unit: str, since: str = FIRST) -> Bound:
     """Return the bound of a number that the paper gives: within :data:`CLOSE`, or :data:`NEAR`."""
-    return Bound((paper / CLOSE, paper * CLOSE), (paper / NEAR, paper * NEAR), unit, "we")
+    full, partly = ((paper / factor, paper * factor) for factor in (CLOSE, NEAR))
+    return Bound(full, partly, unit, "we", since, paper, factors=True)

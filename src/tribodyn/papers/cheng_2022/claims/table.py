@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any, Final
+from dataclasses import dataclass, replace
+from typing import Any, Final, TypeAlias
 
 from tribodyn.papers.cheng_2022.claims.base import Assumption, Claim, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.bounds import Verdict
@@ -13,8 +13,8 @@ from tribodyn.papers.cheng_2022.runs import Runs
 
 _WIDTH: Final = 100
 _ALIKE: Final = "alike"
-Spread = tuple[Assumption, float, float]
-"""An assumption with the smallest and the largest number over the values tried."""
+Spread: TypeAlias = tuple[Assumption, tuple[float, ...]]
+"""An assumption with the number found for each value tried."""
 
 
 @dataclass(frozen=True)
@@ -26,9 +26,9 @@ class Row:
     claim
         The claim.
     paper, exact
-        Findings in the two formulations; the first alone where they cannot differ, none if not tested.
+        Findings in the two formulations; none where it is not tested, or alike.
     spreads
-        What the assumptions do to the number of the paper's formulation.
+        What the assumptions do to the number, in the paper's formulation where it is tested there.
     """
 
     claim: Claim
@@ -39,36 +39,57 @@ class Row:
     @property
     def verdict(self) -> Verdict:
         """What the paper's own formulation makes of the claim."""
-        return self._verdict(self.paper)
+        return self._verdict(self.paper, varied=self.paper is not None)
 
     @property
     def exact_verdict(self) -> Verdict:
         """What the formulation ``exact`` makes of it."""
-        return self._verdict(self.exact or self.paper)
+        if self.claim.formulations == "alike":
+            return self.verdict
+        return self._verdict(self.exact, varied=self.claim.formulations == "exact")
 
-    def _verdict(self, finding: Finding | None) -> Verdict:
+    def _verdict(self, finding: Finding | None, *, varied: bool) -> Verdict:
         if finding is None:
             return "not tested"
-        found = self.claim.bound.verdict(finding.value)
-        return "on a condition" if found == "reproduced" and self.claim.condition else found
+        bound = self.claim.bound
+        if finding.span is not None:
+            return _of_span(bound.full, bound.partly, finding.span)
+        tried = {bound.verdict(value) for _, values in self.spreads for value in values if varied}
+        found = bound.verdict(finding.value)
+        conditional = len(tried | {found}) > 1 and "reproduced" in tried | {found}
+        if conditional or (found == "reproduced" and self.claim.condition):
+            return "on a condition"
+        return found
+
+    def scaled(self, factor: float) -> Row:
+        """Return the row with our bounds scaled."""
+        return replace(self, claim=replace(self.claim, bound=self.claim.bound.scaled(factor)))
 
     @property
     def reason(self) -> str:
         """Why the findings are what they are, on what condition, and what the assumptions do."""
         claim, agreed = self.claim, self.verdict == self.exact_verdict == "reproduced"
         parts = [claim.condition, "" if agreed else claim.reason]
-        parts += [f"{low:.3g} to {high:.3g} with {about}" for about, low, high in self.spreads]
+        parts += [f"{', '.join(f'{v:.3g}' for v in values)} with {about}" for about, values in self.spreads]
         return "; ".join(part for part in parts if part)
 
     @property
     def found(self) -> tuple[str, str]:
         """The findings in words, that of ``exact`` with its verdict where it is another one."""
-        if self.paper is None:
-            return "", ""
+        paper = self.paper.text if self.paper else ""
+        if self.claim.formulations == "alike" and self.paper:
+            return paper, _ALIKE
         if self.exact is None:
-            return self.paper.text, _ALIKE
+            return paper, ""
         other = "" if self.exact_verdict == self.verdict else f" ({self.exact_verdict})"
-        return self.paper.text, self.exact.text + other
+        return paper, self.exact.text + other
+
+
+def _of_span(full: tuple[float, float], partly: tuple[float, float], span: tuple[float, float]) -> Verdict:
+    """Return the verdict on numbers of which the paper does not say which one is meant."""
+    if full[0] < span[0] and span[1] < full[1]:
+        return "reproduced"
+    return "contradicted" if span[1] <= partly[0] or partly[1] <= span[0] else "not decidable"
 
 
 def judge(runs: Runs, claims: Iterable[Claim]) -> list[Row]:
@@ -81,16 +102,17 @@ def _row(runs: Runs, claim: Claim) -> Row:
         return Row(claim)
     return Row(
         claim,
-        claim.measure(Trial(runs, "paper")),
-        claim.measure(Trial(runs, "exact")) if claim.mechanism else None,
+        None if claim.formulations == "exact" else claim.measure(Trial(runs, "paper")),
+        None if claim.formulations == "alike" else claim.measure(Trial(runs, "exact")),
         tuple(_spread(runs, claim, about) for about in claim.varies),
     )
 
 
 def _spread(runs: Runs, claim: Claim, about: Assumption) -> Spread:
     assert claim.measure is not None
-    values = [claim.measure(Trial(runs, "paper", {about.key: value})).value for value in about.values]
-    return about, min(values), max(values)
+    formulation = "exact" if claim.formulations == "exact" else "paper"
+    tried = (Trial(runs, formulation, {about.key: value}) for value in about.values)
+    return about, tuple(claim.measure(trial).value for trial in tried)
 
 
 def as_json(rows: Iterable[Row]) -> list[dict[str, Any]]:
@@ -98,12 +120,16 @@ def as_json(rows: Iterable[Row]) -> list[dict[str, Any]]:
     return [
         {
             "claim": row.claim.name,
+            "sentences": list(row.claim.sentences),
             "where": row.claim.where,
             "paper_says": row.claim.says,
+            "domain": row.claim.domain,
+            "quantity": row.claim.quantity,
             "paper_formulation": row.found[0],
             "exact_formulation": row.found[1],
             "bound": str(row.claim.bound),
             "bound_chosen_by": row.claim.bound.by,
+            "bound_chosen_on": row.claim.bound.since,
             "verdict": row.verdict,
             "exact_verdict": row.exact_verdict,
             "reason": row.reason,
@@ -112,12 +138,34 @@ def as_json(rows: Iterable[Row]) -> list[dict[str, Any]]:
     ]
 
 
+_HEAD: Final = (
+    "where",
+    "the paper says",
+    "domain",
+    "quantity",
+    "formulation `paper`",
+    "`exact`",
+    "bound (whose, when)",
+    "verdict",
+    "why",
+)
+
+
 def as_markdown(rows: Iterable[Row]) -> str:
     """Return the table as Markdown."""
-    head = "| where | the paper says | formulation `paper` | `exact` | bound (whose) | verdict | why |"
-    lines = [head, "|---|---|---|---|---|---|---|"]
+    lines = [f"| {' | '.join(_HEAD)} |", "|" + "---|" * len(_HEAD)]
     for row in rows:
-        cells = (row.claim.where, row.claim.says, *row.found, str(row.claim.bound), row.verdict, row.reason)
+        claim = row.claim
+        cells = (
+            claim.where,
+            claim.says,
+            claim.domain,
+            claim.quantity,
+            *row.found,
+            str(claim.bound),
+            row.verdict,
+            row.reason,
+        )
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 
@@ -129,8 +177,16 @@ def as_text(rows: Iterable[Row]) -> str:
 
 def _block(row: Row) -> str:
     paper, exact = row.found
-    parts = (("paper", paper), ("exact", exact), ("bound", str(row.claim.bound)), ("why", row.reason))
-    lines = [f"{row.verdict.upper():14s} {row.claim.says}  [{row.claim.where}]"]
+    claim = row.claim
+    number = f"{claim.quantity}; {claim.domain}" if claim.quantity else ""
+    parts = (
+        ("number", number),
+        ("paper", paper),
+        ("exact", exact),
+        ("bound", str(claim.bound)),
+        ("why", row.reason),
+    )
+    lines = [f"{row.verdict.upper():14s} {claim.says}  [{claim.where}]"]
     lines += [f"  {name:6s} {text}" for name, text in parts if text]
     return "\n".join(
         textwrap.fill(line, _WIDTH, subsequent_indent=" " * 9, break_long_words=False) for line in lines

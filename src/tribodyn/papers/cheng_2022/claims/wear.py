@@ -17,7 +17,7 @@ from tribodyn.papers.cheng_2022.claims.base import (
     least_growth,
     listed,
 )
-from tribodyn.papers.cheng_2022.claims.bounds import above, below, near
+from tribodyn.papers.cheng_2022.claims.bounds import FIRST, above, below, near
 from tribodyn.papers.cheng_2022.runs import CLEARANCES
 from tribodyn.papers.cheng_2022.wear import CYCLES, worn
 
@@ -89,27 +89,27 @@ _DIVISOR: Final = "the wear rate is divided by the bare number 65, which no equa
 
 CLAIMS: Final = (
     Claim(
-        "wear at the edges", "5.3, Fig. 19; 6 (2)", "wear is concentrated on the edge of the bushing",
-        below(5.0, "%", partly=20.0), at_the_edges,
+        "wear at the edges", ("W1", "A2", "K3"), "wear is concentrated on the edge of the bushing", "whole",
+        below(5.0, "%", partly=20.0, since=FIRST), at_the_edges,
     ),
     Claim(
-        "both edges wear", "5.3, Fig. 19", "the trunnion keeps in contact with its top and bottom",
+        "both edges wear", ("W1",), "the trunnion keeps in contact with its top and bottom", "whole",
         above(10.0, "% of the deeper", partly=0.0), both_edges,
     ),
     Claim(
-        "wear grows with cycles", "5.3, Fig. 19", "wear deepens with the cycles, 100 to 400",
+        "wear grows with cycles", ("W1",), "wear deepens with the cycles, 100 to 400", "whole",
         above(0.0, "% a step", by="the paper"), grows_with_cycles,
     ),
     Claim(
-        "wear grows with clearance", "5.3, Fig. 19; 6 (3)", "wear becomes more serious with the clearance",
-        above(0.0, "% a step", by="the paper"), grows_with_clearance,
+        "wear grows with clearance", ("W2", "A4", "K6"), "wear becomes more serious with the clearance",
+        "whole", above(0.0, "% a step", by="the paper"), grows_with_clearance,
     ),
     Claim(
-        "wear depth, 40 µm", "5.3, Fig. 19 (e)", "2e-4 µm at 40 µm after 400 cycles",
+        "wear depth, 40 µm", ("W3",), "2e-4 µm at 40 µm after 400 cycles", "whole",
         near(0.2, "nm"), depth_at_40, _PRESSURE, _DIVISOR, (FRICTION,),
     ),
     Claim(
-        "wear ratio", "5.3, Fig. 19", "at 40 µm 1.85 times the depth at 20 µm",
+        "wear ratio", ("W3",), "at 40 µm 1.85 times the depth at 20 µm", "whole",
         near(1.85, "times"), ratio_to_20,
         "the paper does not say how near to the edge its grid ends",
         varies=(FRICTION,),

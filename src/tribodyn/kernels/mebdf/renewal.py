@@ -1,0 +1,145 @@
+"""The iteration matrix I − hβJ, and which Jacobian it is made of.
+
+A component with an eigenvalue λ that grows faster than the step has 1 − hβλ < 0. Its correction points
+against its residual: Newton's iteration moves away from the right side of a jump. No solution is followed by
+such steps. Either the Jacobian is wrong, most often differenced across an upward jump, or the step is too
+long.
+
+Two numbers show this for any basis and scales of the variables. The determinant is negative where the number
+of such components is odd. The trace over the number of equations, the mean rate of growth, exceeds 1/(hβ)
+where several components jump at once. With a mass matrix M the determinant of M − hβJ has the sign that it
+has for short steps, as long as M and the algebraic equations stay regular. The trace is not used there.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.arrays import copy
+from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.mebdf.control import newton_failed
+from tribodyn.kernels.mebdf.matrix import factorise
+from tribodyn.kernels.mebdf.phases import (
+    FACTORISE,
+    FACTORISED,
+    FAILED,
+    JACOBIAN_NOT_FINITE,
+    NEED_FACTORS,
+    SINGULAR,
+    START_STAGE,
+)
+from tribodyn.kernels.mebdf.state import (
+    BACK,
+    CAUSE,
+    FACTORED,
+    FINITE,
+    FRESH,
+    JACOBIAN,
+    LAST_JACOBIAN,
+    MATRIX_AGE,
+    N_J,
+    N_LU,
+    OUTSIDE,
+    PHASE,
+    PREVIOUS_JACOBIAN,
+    RATE,
+    REASON,
+    REFERENCE,
+    RELAXATION,
+    SCALED,
+    SEEN,
+    SIGN,
+    STAGE,
+    TRACE,
+    TRUST,
+)
+
+
+@kernel
+def take_over(count: NDArray[np.int64], real: FloatArray, rows: FloatArray, matrices: FloatArray) -> int:
+    """Keep a new Jacobian if it is finite, and the one before it."""
+    count[PHASE] = FACTORISE
+    real[TRUST] = 0.0
+    for i in range(rows.shape[1]):
+        rows[SEEN, i] = 0.0
+    if count[OUTSIDE] == 0:
+        n, total = matrices.shape[1], 0.0
+        for i in range(n):
+            for j in range(n):
+                total += matrices[JACOBIAN, i, j]
+        count[FINITE] = math.isfinite(total)
+        for i in range(n if count[FINITE] == 1 else 0):
+            if count[BACK] == 0:
+                copy(matrices[LAST_JACOBIAN, i], matrices[PREVIOUS_JACOBIAN, i])
+            copy(matrices[JACOBIAN, i], matrices[LAST_JACOBIAN, i])
+    count[BACK] = 0
+    if count[FINITE] == 0 and count[N_J] == 1:
+        count[REASON] = JACOBIAN_NOT_FINITE
+        return FAILED
+    return 0
+
+
+@kernel
+def renew_matrix(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    matrices: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
+    """Factorise with the Jacobian in use."""
+    real[FACTORED] = real[SCALED]
+    real[RELAXATION] = 1.0
+    real[RATE] = 1.0
+    count[MATRIX_AGE] = 0
+    count[N_LU] += 1
+    count[PHASE] = FACTORISED
+    if count[OUTSIDE] == 1:
+        return NEED_FACTORS
+    real[TRACE] = 0.0
+    for i in range(matrices.shape[1]):
+        real[TRACE] += matrices[LAST_JACOBIAN, i, i]
+    count[SIGN] = factorise(count, matrices, mass, places, real[SCALED])
+    return 0
+
+
+@inlined
+def _is_outgrown(real: FloatArray, count: NDArray[np.int64], n: int, massive: bool) -> bool:
+    """Tell whether, by the Jacobian in use, something grows faster than the step."""
+    if count[REFERENCE] == 0:
+        count[REFERENCE] = count[SIGN]
+    return count[SIGN] != count[REFERENCE] or (not massive and real[SCALED] * real[TRACE] > n)
+
+
+@inlined
+def begin_stages(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    matrices: FloatArray,
+    massive: bool,
+) -> None:
+    """Begin with stage 1 if the matrix is regular and nothing outgrows the step; else go back to another one.
+
+    An old Jacobian is renewed first; where the newest one is outgrown the one before it follows, then none.
+    """
+    count[STAGE] = 1
+    count[PHASE] = START_STAGE
+    if count[SIGN] == 0:
+        newton_failed(real, count, rows, massive)
+        count[CAUSE] = SINGULAR
+    elif count[BACK] < 2 and _is_outgrown(real, count, rows.shape[1], massive):
+        if count[FRESH] == 0:
+            newton_failed(real, count, rows, massive)
+            return
+        count[BACK] += 1
+        count[PHASE] = FACTORISE
+        for i in range(matrices.shape[1]):
+            copy(matrices[PREVIOUS_JACOBIAN, i], matrices[LAST_JACOBIAN, i])
+            if count[BACK] == 2 and not massive:
+                for j in range(matrices.shape[1]):
+                    matrices[LAST_JACOBIAN, i, j] = 0.0

@@ -1,0 +1,193 @@
+"""What a run has made of the contacts of its joints, and what the same attitudes give on a finer grid."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import Stopped
+from tribodyn.core.quantities import Record
+from tribodyn.core.stopping import skip
+from tribodyn.joints.clearances import Place, assemble, places, pose_at
+from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.touch import Touch
+from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
+from tribodyn.kernels.joints.surface.joint import report
+from tribodyn.kernels.joints.surface.memory import new_memory
+from tribodyn.mechanisms.bushing import loading
+from tribodyn.mechanisms.checks import named, of_contact, of_damping_pressure, of_load
+from tribodyn.mechanisms.general.description import Clearance
+from tribodyn.mechanisms.general.joints import frame
+from tribodyn.wear import resampled
+
+_SAMPLES: Final = 24
+_FINER: Final = 4
+_FORCE: Final = ("F_cx", "F_cy", "F_cz")
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """The contacts of all joints with clearance.
+
+    Attributes
+    ----------
+    clearances
+        Of the joints.
+    numbers
+        Of these joints among all.
+    names
+        Of the surfaces, shape (n_surfaces,).
+    places
+        Where they lie among all nodes.
+    """
+
+    clearances: tuple[Clearance, ...]
+    numbers: tuple[int, ...]
+    names: tuple[str, ...]
+    places: tuple[Place, ...]
+
+    @property
+    def touches(self) -> list[Touch]:
+        """Both sides of each surface."""
+        return [_touch(self.clearances[place.joint], place) for place in self.places]
+
+    def numbers_of(
+        self, data: SurfaceData, rows: Mapping[str, FloatArray], peaks: Mapping[str, FloatArray]
+    ) -> dict[str, FloatArray]:
+        """Return how the surfaces were loaded and what the grid makes of it, shape (n_surfaces,) each.
+
+        Parameters
+        ----------
+        data
+            What the kernels of the run read, with its wear.
+        rows
+            Observed of all couplings, shape (n_t, n_couplings) each.
+        peaks
+            What was largest or least of each surface.
+        """
+        loads = [
+            loading(self.clearances[place.joint].law, touch, pressure, separation)
+            for place, touch, pressure, separation in zip(
+                self.places, self.touches, peaks["pressure_peak"], peaks["separation_least"], strict=True
+            )
+        ]
+        error, at_rest = self._on_finer_grid(data, rows)
+        return {
+            "hardness_share": np.array([load["hardness_share"] for load in loads]),
+            "real_area_share": np.array([load["real_area_share"] for load in loads]),
+            "grid_force_error": error,
+            "pressure_at_rest": at_rest,
+        }
+
+    def warnings(
+        self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray], t_end: float
+    ) -> list[str]:
+        """Return what is to be said of each surface; ``found`` is from :meth:`numbers_of`."""
+        said = []
+        for s, (name, touch) in enumerate(zip(self.names, self.touches, strict=True)):
+            load = {key: float(found[key][s]) for key in ("hardness_share", "real_area_share")}
+            of_surface = of_contact(
+                touch,
+                separation=float(peaks["separation_least"][s]),
+                clipped=float(peaks["tensile_clip_time"][s]) / t_end if t_end > 0.0 else 0.0,
+                grid_error=float(found["grid_force_error"][s]),
+            )
+            said += named(name, [*of_surface, *of_load(load)])
+        return said
+
+    def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:
+        """Return what to read the pressures of each surface with."""
+        pairs = zip(self.names, peaks["pressure_peak"], found["pressure_at_rest"], strict=True)
+        return [
+            text
+            for name, peak, at_rest in pairs
+            for text in named(name, [of_damping_pressure(float(peak), float(at_rest))])
+        ]
+
+    def _on_finer_grid(
+        self, data: SurfaceData, rows: Mapping[str, FloatArray]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the error of the contact force, and the pressure of surfaces at rest, of each surface.
+
+        The error is the largest at some attitudes of the run, over the largest force in the joint. The
+        pressure is that of the attitude in which the pressure of the run was largest; 0 where it is not
+        known. Both are NaN from where the caller wanted to stop.
+        """
+        n_rows, n_surfaces = rows["angle"].shape[0], len(self.places)
+        error, at_rest = np.full(n_surfaces, np.nan), np.zeros(n_surfaces)
+        if not n_rows:
+            return error, at_rest
+        try:
+            fine = self._finer(data)
+        except Stopped:
+            skip()
+            return error, np.full(n_surfaces, np.nan)
+        some = np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int))
+        for j, (number, clearance) in enumerate(zip(self.numbers, self.clearances, strict=True)):
+            if clearance.contact != SURFACE:
+                continue
+            own = slice(int(data.joints[j]), int(data.joints[j + 1]))
+            poses = [_pose(rows, number, int(row)) for row in some]
+            pairs = [[_force(grid, j, pose, own) for grid in (data, fine)] for pose in poses if not skip()]
+            if len(pairs) < len(poses):
+                at_rest[own] = np.nan
+                continue
+            forces = np.array(pairs)
+            largest = float(np.max(np.linalg.norm(forces[:, 1].sum(axis=1), axis=-1)))
+            off = np.max(np.linalg.norm(forces[:, 0] - forces[:, 1], axis=-1), axis=0)
+            error[own] = off / largest if largest > 0.0 else 0.0
+            hardest = int(np.argmax(rows["pressure_max"][:, number]))
+            at_rest[own] = _reported(fine, j, _pose(rows, number, hardest))["p_max"][own]
+        return error, at_rest
+
+    def _finer(self, data: SurfaceData) -> SurfaceData:
+        """Return the same joints with their wear on grids finer in both directions."""
+        finer = [replace(c, grid=(_FINER * c.grid[0], _FINER * c.grid[1])) for c in self.clearances]
+        depth = [
+            _resampled(data.nodes[GAP, place.nodes] - place.surface.gap, place, there)
+            for place, there in zip(self.places, places(finer), strict=True)
+        ]
+        return assemble(finer, np.concatenate(depth))
+
+
+def _touch(clearance: Clearance, place: Place) -> Touch:
+    """Return both sides of a surface; faces do not curve round each other, nor does a mesh."""
+    sizes = {} if place.surface.name.endswith("face") else clearance.sizes
+    radial, radius = (sizes.get(name, np.nan) for name in ("radial", "radius"))
+    return Touch(
+        clearance.roughness, clearance.table, clearance.contact, clearance.liner, radial, radius + radial
+    )
+
+
+def _resampled(depth: FloatArray, place: Place, there: Place) -> FloatArray:
+    """Return a wear depth at the nodes of a finer grid; nodes in no order are the same there."""
+    if there.surface.area.size == depth.size:
+        return depth
+    if not np.any(np.abs(depth) > np.spacing(place.surface.gap)):
+        return np.zeros(there.surface.area.size)
+    (rows, _), (fine_rows, fine_angles) = (tuple(one.surface.axes.values()) for one in (place, there))
+    return resampled(depth.reshape(place.surface.field_shape), rows, fine_rows, fine_angles.size).ravel()
+
+
+def _pose(rows: Mapping[str, FloatArray], number: int, row: int) -> Record:
+    """Return the attitude of the shaft of a joint, at rest."""
+    tilt_x, tilt_y = rows["tilt_x"][row, number], rows["tilt_y"][row, number]
+    axes = frame(np.array([tilt_y, -tilt_x, 1.0]), np.array([1.0, 0.0, 0.0]))
+    return pose_at([rows[f"d_{axis}"][row, number] for axis in "xyz"], axes)
+
+
+def _reported(data: SurfaceData, j: int, pose: Record) -> Record:
+    """Return the reports of all surfaces, those of joint ``j`` filled."""
+    memory = new_memory(data)
+    report(data, memory, j, pose)
+    return memory.reports
+
+
+def _force(data: SurfaceData, j: int, pose: Record, own: slice) -> FloatArray:
+    """Return the contact force on the surfaces of a joint [N], shape (n, 3)."""
+    reports = _reported(data, j, pose)
+    return np.stack([reports[name][own] for name in _FORCE], axis=-1)

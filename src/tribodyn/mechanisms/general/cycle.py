@@ -1,0 +1,179 @@
+"""Check that a mechanism can follow its drives through the cycle, before it runs.
+
+Bodies follow the drives step by step, each time by the shortest displacement. In a run, forces decide on the
+degrees of freedom that drives leave; so with such freedoms several paths are tried before a mechanism is
+refused.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from tribodyn.kernels.mechanism.bodies import place
+from tribodyn.kernels.mechanism.data import ANGLE
+from tribodyn.mechanisms.general.assembly import Assembly
+from tribodyn.mechanisms.general.closing import System
+from tribodyn.mechanisms.general.counterpart import counterpart, has_loops
+from tribodyn.mechanisms.general.inspection import Finding
+from tribodyn.mechanisms.general.misfit import Misfit, described
+
+_TURN: Final = 0.1
+"""Largest change of a drive in one step, in radians or units of the size."""
+_FEWEST: Final = 50
+"""Least number of steps of a run."""
+_MOST: Final = 500
+"""Largest number of steps, some eight turns; what comes later has come before, or a run finds it."""
+_PARTS: Final = 8
+"""Parts of a step that bodies are led through where they cannot make it at once."""
+_CORRECTIONS: Final = 20
+"""Steps of Newton's method in which bodies that are near must close."""
+_CLOSED: Final = 1.0e-9
+"""Gap, in units of the size or in radians, of joints that close."""
+_WAYS: Final = 4
+"""How many ways are tried where freedoms are left."""
+
+Close = Callable[[], bool]
+"""Moves the bodies to where the joints close at the system's time; returns whether they do."""
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Result of following the drives through a cycle.
+
+    Attributes
+    ----------
+    finding
+        What forbids a run, if anything does.
+    time
+        When [s].
+    warning
+        Which clearances must take a misfit of the ideal joints; empty for none.
+    """
+
+    finding: Finding | None = None
+    time: float = 0.0
+    warning: str = ""
+
+
+def drive_through(assembly: Assembly, duration: float) -> Passage:
+    """Follow the drives through their cycle with ideal joints; where those forbid it, with clearances.
+
+    Parameters
+    ----------
+    assembly
+        Without findings.
+    duration
+        Of the run [s]; at most some eight turns are looked at.
+    """
+    if not has_loops(assembly.description):
+        return Passage()
+    ideal = counterpart(assembly.description)
+    stuck: tuple[float, Finding] | None = (0.0, assembly.doubts[0]) if assembly.doubts else None
+    if stuck is None:
+        stuck = _stuck(_placed(System(ideal), assembly), assembly.ideal_rank, duration)
+    if stuck is None:
+        return Passage()
+    time, finding = stuck
+    misfit = Misfit(assembly.description, _placed(System(ideal), assembly))
+    if misfit.possible and _led(misfit.system, duration, misfit.close) is None:
+        needed = described(misfit.shares) or "none to speak of"
+        warning = f"clearances must take a misfit, for with ideal joints {finding.text}; share of clearance "
+        return Passage(warning=f"{warning}needed: {needed}")
+    return Passage(finding, time)
+
+
+def _placed(system: System, assembly: Assembly) -> System:
+    """Put the bodies of a system where they are at the start."""
+    place(assembly.state, system.now.bodies)
+    system.refresh()
+    return system
+
+
+def _stuck(system: System, rank: int, duration: float) -> tuple[float, Finding] | None:
+    """Return when joints no longer close on any way that is tried, with the finding, or None."""
+    if not system.drive_rows():
+        return None
+    system.set_rank(rank)
+    start, found = system.now.bodies.copy(), None
+    chance = np.random.default_rng(1)
+    for way in range(_WAYS if 6 * system.n > rank else 1):
+        system.now.bodies[:] = start
+
+        def close(wander: bool = way > 0) -> bool:
+            return _closes(system) and (not wander or _wanders(system, chance))
+
+        time = _led(system, duration, close)
+        if time is None:
+            return None
+        found = found or (time, _finding(system, time))
+    return found
+
+
+def _closes(system: System) -> bool:
+    """Close all joints, by the compiled solution or else thoroughly."""
+    kept = system.now.bodies.copy()
+    if system.close_fast() <= _CLOSED:
+        return True
+    system.now.bodies[:] = kept
+    system.refresh()
+    return system.close(_CORRECTIONS) <= _CLOSED
+
+
+def _wanders(system: System, chance: np.random.Generator) -> bool:
+    """Go elsewhere in the freedoms that are left, as far as joints close there."""
+    kept = system.now.bodies.copy()
+    if not system.wander(chance) or system.gap() > _CLOSED:
+        system.now.bodies[:] = kept
+        system.refresh()
+    return True
+
+
+def _led(system: System, duration: float, close: Close) -> float | None:
+    """Lead the bodies through the drives' motion; return when they cannot follow, None if they can."""
+    system.t, kinks = 0.0, system.data.signals.kinks
+    for _ in range(_MOST):
+        begin = system.t
+        later = kinks[kinks > begin]
+        step = min(duration / _FEWEST, system.time_to_move(_TURN))
+        end = float(min(begin + step, duration, *later[:1]))
+        if not _reached(system, begin, end, close):
+            return end
+        if end >= duration:
+            break
+    return None
+
+
+def _reached(system: System, begin: float, end: float, close: Close) -> bool:
+    """Lead the bodies from one time to another, at once or else in parts."""
+    kept = system.now.bodies.copy()
+    system.at(end)
+    if close():
+        return True
+    system.now.bodies[:] = kept
+    closed = False
+    for part in range(1, _PARTS + 1):
+        system.at(begin + (end - begin) * part / _PARTS)
+        closed = close()
+    return closed
+
+
+def _finding(system: System, time: float) -> Finding:
+    """Return which joint does not close at a time, and where the drives are then."""
+    system.close()
+    finding = system.open_joint()
+    where = " and ".join(_where(system, *row) for row in system.drive_rows())
+    return Finding(finding.key, f"at t = {time:.4g} s, with {where}, {finding.text}")
+
+
+def _where(system: System, coupling: int, row: int, name: str) -> str:
+    """Return where a drive is, in words."""
+    value = float(system.now.couplings[coupling].prescribed[row, 0])
+    value *= system.description.joints[coupling].sign
+    if system.parts.couplings[coupling].row_kind[row] == ANGLE:
+        return f"drive {name} at {math.degrees(math.remainder(value, 2.0 * math.pi)):.4g}°"
+    return f"drive {name} at {1e3 * value:.4g} mm"

@@ -1,0 +1,55 @@
+"""Default axis of the race of a ball joint, derived from the mechanism: it turns with the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.kinds import GROUND
+from tribodyn.mechanisms.general.parts import JointKeys
+
+_PARALLEL: Final = 1e-3
+"""Sine of an angle below which two directions are taken for one."""
+
+
+def race_axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
+    """Return axis and direction of angle zero of a joint that has no axis of its own, unit vectors (2, 3).
+
+    The axis is normal to the plane of the joint and the mass centres of its two bodies, so that forces along
+    the bodies meet the middle of the race. Where these lie on one line, or one body is the ground, other
+    joints of the two bodies take their place, then the rest of the mechanism. Angle zero points to the first
+    of these places.
+    """
+    point = np.array(joint.point)
+    first: FloatArray | None = None
+    for place in _places(case, joint):
+        way = np.array(place) - point
+        length = float(np.linalg.norm(way))
+        if length == 0.0:
+            continue
+        if first is None:
+            first = way / length
+            continue
+        normal = np.cross(first, way / length)
+        if np.linalg.norm(normal) > _PARALLEL:
+            return np.array([normal / np.linalg.norm(normal), first])
+    if first is None:
+        return np.eye(3)[[2, 0]]
+    across = np.cross(first, np.eye(3)[int(np.argmin(np.abs(first)))])
+    return np.array([across / np.linalg.norm(across), first])
+
+
+def _places(case: MechanismCase, joint: JointKeys) -> Iterator[tuple[float, float, float]]:
+    """Yield the places that the axis may follow from, the nearest relations first."""
+    for body in joint.between:
+        if body != GROUND:
+            yield case.bodies[body].centre
+    for other in case.joints.values():
+        if (set(other.between) & set(joint.between)) - {GROUND}:
+            yield other.point
+    yield from (body.centre for body in case.bodies.values())
+    yield from (other.point for other in case.joints.values())

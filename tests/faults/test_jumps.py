@@ -1,0 +1,333 @@
+"""Rates that jump with the state, up and down: random ones, right or refused, and right where BDF is.
+
+Beside an upward jump an implicit formula has two solutions, and a Jacobian by differences across the jump is
+a huge positive number. A solver that trusts either moves against the rate and reports success. The ends are
+known in closed form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from scipy.sparse import eye_array
+
+from tribodyn.core.problem import CompiledFunctions, Problem
+from tribodyn.integrate import MEBDF, integrate
+
+MOST = 20_000
+"""Calls after which a run counts as endless."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A problem for ``solve_ivp``, its end and size, and how much an error at a jump can grow."""
+
+    fun: Callable[[float, Any], Any]
+    t_end: float
+    y0: Any
+    end: Any
+    rtol: float
+    atol: float
+    size: float
+    growth: float = 1.0
+    options: dict[str, Any] = field(default_factory=dict)
+
+
+class TooManyError(Exception):
+    """More calls than a case is worth."""
+
+
+def tolerances(rng):
+    rtol = 10.0 ** rng.uniform(-8, -2)
+    return rtol, rtol * 10.0 ** rng.uniform(-3, 0)
+
+
+def levels_case(rng, levels, rates, share):
+    """Return z' = rates[i] between the levels, up to ``share`` of the time to the last one beyond it."""
+    widths = np.diff(np.append(0.0, levels))
+    times = widths / rates[:-1]
+    after = float(np.sum(times)) * share
+    end = levels[-1] + rates[-1] * after
+    return Case(
+        lambda t, y: rates[np.searchsorted(levels, y, side="right")],
+        float(np.sum(times)) + after, [0.0], [end], *tolerances(rng), end,
+        max(1.0, rates[-1] / np.min(rates)),
+    )  # fmt: skip
+
+
+def one_jump_up(rng):
+    rate = 10.0 ** rng.uniform(-2, 1)
+    rates = rate * np.array([1.0, 10.0 ** rng.uniform(np.log10(2.0), 4.0)])
+    return replace(
+        levels_case(rng, np.array([rng.uniform(0.2, 2.0)]), rates, rng.uniform(0.2, 1.0)), growth=1.0
+    )
+
+
+def one_jump_down(rng):
+    case = one_jump_up(rng)
+    low, high = case.fun(0.0, np.zeros(1))[0], case.fun(0.0, np.full(1, 1e9))[0]
+    return levels_case(rng, np.array([rng.uniform(0.2, 2.0)]), np.array([high, low]), rng.uniform(0.2, 5.0))
+
+
+def steps_up_and_down(rng):
+    n = rng.integers(2, 6)
+    rates = 10.0 ** rng.uniform(-2, 2, n + 1)
+    return levels_case(rng, np.cumsum(10.0 ** rng.uniform(-2, 0, n)), rates, rng.uniform(0.05, 0.5))
+
+
+def smooth_jump(rng):
+    """A rate a + (b − a)(1 + tanh((z − c)/w))/2: time as a function of z in closed form."""
+    w, a, c = 10.0 ** rng.uniform(-10, -2), 10.0 ** rng.uniform(-2, 0), rng.uniform(0.2, 1.0)
+    b = a * 10.0 ** rng.uniform(0.3, 3.5)
+
+    def time(z):
+        return (z - c) / a + 0.5 * w * (1.0 / b - 1.0 / a) * np.logaddexp(
+            np.log(a), np.log(b) + 2.0 * (z - c) / w
+        )
+
+    t_end = (time(c) - time(0.0)) * rng.uniform(1.1, 1.6)
+    end = brentq(lambda z: time(z) - time(0.0) - t_end, 0.0, c + 2.0 * b * t_end + 1.0, xtol=1e-14)
+    options = {}
+    if rng.random() < 0.5:
+        options["jac"] = lambda t, y: [[(b - a) * 0.5 / w / np.cosh(min(abs(y[0] - c) / w, 300.0)) ** 2]]
+    return Case(
+        lambda t, y: a + (b - a) * 0.5 * (1.0 + np.tanh((y - c) / w)),
+        t_end, [0.0], [end], *tolerances(rng), end, options=options,
+    )  # fmt: skip
+
+
+def jump_with_relaxation(rng):
+    k, c = 10.0 ** rng.uniform(-1, 2.5), rng.uniform(0.2, 1.0)
+    a = c * k * rng.uniform(1.02, 3.0)
+    b = a * 10.0 ** rng.uniform(0.3, 3.5)
+    first = -np.log1p(-c * k / a) / k
+    t_end = first * rng.uniform(1.1, 2.0)
+    end = b / k + (c - b / k) * np.exp(-k * (t_end - first))
+    return Case(lambda t, y: np.where(y < c, a, b) - k * y, t_end, [0.0], [end], *tolerances(rng), end)
+
+
+def breakaway(rng):
+    """A pulled mass whose friction falls from static to kinetic at a speed: place and speed."""
+    static, slow = 10.0 ** rng.uniform(-1, 1), 10.0 ** rng.uniform(-3, 0)
+    a = static * 10.0 ** rng.uniform(-3, 0)
+    b = a + static * rng.uniform(0.1, 1.0)
+    first = slow / a
+    rest = first * rng.uniform(0.1, 1.0)
+    end = np.array([slow * first / 2.0 + slow * rest + b * rest**2 / 2.0, slow + b * rest])
+    return Case(
+        lambda t, y: np.array([y[1], a if y[1] < slow else b]),
+        first + rest, [0.0, 0.0], end, *tolerances(rng), float(np.linalg.norm(end)),
+    )  # fmt: skip
+
+
+def equal_jumps(rng):
+    """Equal jumps at once beside stiff components, mixed by a rotation: the determinant may stay positive."""
+    m, q = int(rng.integers(2, 4)), int(rng.integers(0, 3))
+    turn = np.linalg.qr(rng.normal(size=(m + q, m + q)))[0]
+    a, b = np.sort(10.0 ** rng.uniform(-1, 2, 2))
+    c, stiff = a * rng.uniform(0.2, 0.9), 10.0 ** rng.uniform(0, 6, q)
+
+    def fun(t, y):
+        z = turn.T @ y
+        return turn @ np.append(np.where(z[:m] < c, a, b), -stiff * (z[m:] - np.cos(t)) - np.sin(t))
+
+    end = np.append(np.full(m, c + b * (1.0 - c / a)), np.full(q, np.cos(1.0)))
+    return Case(
+        fun, 1.0, turn @ np.append(np.zeros(m), np.ones(q)), turn @ end, *tolerances(rng),
+        float(np.linalg.norm(end)),
+    )  # fmt: skip
+
+
+def jump_at_a_place(rng):
+    """A force that jumps with the place."""
+    a, c = 10.0 ** rng.uniform(-2, 1), rng.uniform(0.2, 1.0)
+    b = a * 10.0 ** rng.uniform(0.3, 3.5)
+    first = np.sqrt(2.0 * c / a)
+    rest = first * rng.uniform(0.1, 0.6)
+    end = np.array([c + a * first * rest + 0.5 * b * rest**2, a * first + b * rest])
+    return Case(
+        lambda t, y: np.array([y[1], a if y[0] < c else b]),
+        first + rest, [0.0, 0.0], end, *tolerances(rng), float(np.linalg.norm(end)),
+    )  # fmt: skip
+
+
+def moving_threshold(rng):
+    a, c, w = 10.0 ** rng.uniform(-1, 0.5), rng.uniform(0.3, 1.0), rng.uniform(1.0, 10.0)
+    b, d = a * 10.0 ** rng.uniform(0.3, 3.0), min(0.8 * a / w, 0.25)
+    first = brentq(lambda t: a * t - c - d * np.sin(w * t), 0.0, 3.0 * c / a + 1.0)
+    t_end = first * rng.uniform(1.1, 1.7)
+    end = a * first + b * (t_end - first)
+    return Case(
+        lambda t, y: np.where(y < c + d * np.sin(w * t), a, b), t_end, [0.0], [end], *tolerances(rng), end
+    )
+
+
+FAMILIES = (
+    one_jump_up, one_jump_down, steps_up_and_down, smooth_jump, jump_with_relaxation, breakaway, equal_jumps,
+    jump_at_a_place, moving_threshold,
+)  # fmt: skip
+
+
+def run(case, method=MEBDF, **options):
+    """Return the solution and the number of calls; ``None`` for the solution of an endless run."""
+    calls = 0
+
+    def fun(*arguments):
+        nonlocal calls
+        calls += 1
+        if calls > MOST:
+            raise TooManyError
+        return case.fun(*arguments)
+
+    both = {"method": method, "rtol": case.rtol, "atol": case.atol} | case.options | options
+    try:
+        return solve_ivp(fun, (0.0, case.t_end), case.y0, **both), calls
+    except TooManyError:
+        return None, calls
+
+
+def error(case, solution):
+    """Return the error at the end in units of the tolerance; ``None`` where no success is claimed."""
+    if solution is None or not solution.success:
+        return None
+    unit = (case.atol + case.rtol * case.size) * case.growth
+    return float(np.linalg.norm(solution.y[: len(case.end), -1] - case.end) / unit)
+
+
+def random_cases(families: Iterable[Callable[..., Case]], n: int):
+    families = tuple(families)
+    for seed in range(n):
+        yield families[seed % len(families)](np.random.default_rng([31, seed]))
+
+
+def jump(t, y):
+    return np.where(y < 0.5, 0.01, 10.0)
+
+
+JUMP = Case(jump, 100.0, [0.0], [500.5], 1e-3, 1e-5, 500.5)
+
+
+def test_a_rate_that_jumps_up_is_followed():
+    # It ended at 297.2, with success, and fell on the way.
+    solution, calls = run(JUMP)
+    assert solution.success
+    assert abs(solution.y[0, -1] - 500.5) < 0.5
+    assert np.all(np.diff(solution.y[0]) >= -1e-5)
+    assert calls < 400
+
+
+def test_hundred_and_fifty_pairs_of_rates():
+    # 49 were right. In calls: 169 here and 132 with BDF, in the median.
+    cases = list(random_cases([one_jump_up], 150))
+    runs, peers = [run(case) for case in cases], [run(case, "BDF") for case in cases]
+    errors = [error(case, solution) for case, (solution, _) in zip(cases, runs, strict=True)]
+    assert [found for found in errors if found is None or found > 100.0] == []
+    assert np.median([calls for _, calls in runs]) < 2.0 * np.median([calls for _, calls in peers])
+    for case, (solution, _) in zip(cases, runs, strict=True):
+        falls = -np.min(np.diff(solution.y[0]))
+        assert falls <= case.atol + case.rtol * case.size
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_each_family_is_right(family):
+    cases = list(random_cases([family], 12))
+    errors = [error(case, run(case)[0]) for case in cases]
+    assert [found for found in errors if found is None or found > 100.0] == []
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_two_thousand_jumps_up_and_down():
+    wrong, right = [], 0
+    for seed, case in enumerate(random_cases(FAMILIES, 2000)):
+        found = error(case, run(case)[0])
+        right += found is not None and found <= 100.0
+        if found is not None and found > 100.0:
+            peers = [error(case, run(case, method)[0]) for method in ("BDF", "Radau")]
+            wrong += [(seed, found, peers)] if any(e is not None and e <= 100.0 for e in peers) else []
+    assert wrong == []
+    assert right >= 0.98 * 2000
+
+
+@pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
+def test_the_smooth_jump_of_any_width(width):
+    def smooth(t, y):
+        return 0.01 + 4.995 * (1.0 + np.tanh((y - 0.5) / width))
+
+    solution, _ = run(replace(JUMP, fun=smooth))
+    exact = solve_ivp(smooth, (0.0, 100.0), [0.0], method="LSODA", rtol=1e-10, atol=1e-12).y[0, -1]
+    assert solution.success
+    # An error of a tolerance before the jump, where the rate is 0.01, is a thousand times as large behind it.
+    assert abs(solution.y[0, -1] - exact) < 100.0 * (1e-5 + 1e-3 * exact)
+
+
+WAYS: dict[str, tuple[Callable[..., Any], int, dict[str, Any]]] = {
+    "mass": (lambda t, y: 3.0 * jump(t, y), 1, {"mass": [3.0]}),
+    "negative mass": (lambda t, y: -jump(t, y), 1, {"mass": [-1.0]}),
+    "implicit": (lambda t, y, slope: slope - jump(t, y), 1, {"slope": [0.01]}),
+    "implicit, LAPACK": (lambda t, y, slope: slope - jump(t, y), 65, {"slope": np.full(65, 0.01)}),
+    "LAPACK": (jump, 65, {}),
+    "odd number, LAPACK": (lambda t, y: np.where(np.arange(65) < 3, jump(t, y), -y), 65, {}),
+    "bands": (jump, 65, {"jac_sparsity": eye_array(65)}),
+    "SuperLU": (
+        lambda t, y: jump(t, y) + 5.0 * (y[::-1] - y), 65,
+        {"jac_sparsity": eye_array(65).toarray() + eye_array(65).toarray()[::-1]},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_every_algebra_and_form_follows_the_jump(way):
+    fun, n, options = WAYS[way]
+    solution, calls = run(replace(JUMP, fun=fun, y0=np.zeros(n)), **options)
+    assert solution.success
+    assert abs(solution.y[0, -1] - 500.5) < 0.5
+    assert calls < 1000
+
+
+def compiled_problem(slope):
+    """Return the jump as the problem of a compiled integration; its Jacobian is ``slope`` around the jump."""
+
+    def rhs(t, y, data, memory, f):
+        f[:] = jump(t, y)
+
+    def jac(t, y, data, memory, f, jacobian):
+        jacobian[0, 0] = slope if abs(y[0] - 0.5) < 1e-3 else 0.0
+
+    def nothing(*arguments):
+        pass
+
+    return Problem(
+        functions=CompiledFunctions(rhs, jac, nothing, nothing, nothing, nothing, nothing),
+        data=0.0, memory=0.0, y0=np.zeros(1), t_span=(0.0, 100.0), breakpoints=(), atol=np.full(1, 1e-5),
+        state_names=("y",), n_observed=0, field_shape=(),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("slope", [0.0, 1e2, 1e5, 1e9])
+def test_integrations_of_problems_follow_the_jump(slope):
+    solution = integrate(compiled_problem(slope), rtol=1e-3)
+    assert solution.complete
+    assert abs(solution.y_end[0] - 500.5) < 0.5
+
+
+def test_a_stable_matrix_may_have_positive_entries_on_its_diagonal():
+    """In a skew basis: a test of the diagonal would refuse such Jacobians."""
+    basis = np.array([[1.0, 2.0], [1.0, 1.0]])
+    inverse = np.linalg.inv(basis)
+
+    def fun(t, y):
+        z = inverse @ y
+        return basis @ np.array([-1e4 * (z[0] - np.cos(t)) * (1.0 + z[0] ** 2), np.sin(z[0]) - z[1]])
+
+    slopes = [(fun(0.0, basis @ [1.0, 1.0] + 1e-6 * e) - fun(0.0, basis @ [1.0, 1.0])) @ e for e in np.eye(2)]
+    assert max(slopes) * 1e6 > 1e3  # grows a thousand times faster than the solution changes
+    solution, calls = run(Case(fun, 10.0, basis @ [1.0, 1.0], [], 1e-5, 1e-8, 1.0))
+    assert solution.success
+    assert calls < 600

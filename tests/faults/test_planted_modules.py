@@ -1,0 +1,110 @@
+"""Modules that somebody has put into the working directory: no command imports one, nor does a helper."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tribodyn.cli.main import BAD_INPUT, COMMANDS, DONE
+from tribodyn.simulation import compilation
+
+NEEDED = {"matplotlib", "numba", "numpy", "pandas", "pydantic", "scipy", "tornado", "tribodyn", "xarray"}
+NAMES = {*sys.stdlib_module_names, *NEEDED}
+"""Names of planted modules: all of Python, and what tribodyn is made of and needs."""
+SHORT = ("vsv", "--set", "run.duration=2 ms", "--set", "run.output_interval=1 ms", "--quiet")
+VARIED = (*SHORT, "--vary", "joint.clearance=20:30:10 um", "--workers", "2", "--summary-only")
+FOUND = (*SHORT, "--vary", "joint.clearance=10..60um", "--until", "vane_angle_error_max_deg=0.03")
+DONE_BY = {
+    "run": ("run", *SHORT, "--no-figures"),
+    "cases": ("cases",),
+    "show": ("show", "vsv"),
+    "check": ("check", "vsv"),
+    "sweep": ("sweep", *VARIED),
+    "find": ("find", *FOUND, "--within", "30", "--workers", "2"),
+    "materials": ("materials",),
+    "completion": ("completion", "bash"),
+}
+"""Commands that come to their end."""
+REFUSED_BY = {
+    "sweep": ("sweep", "vsv", "--vary", "nothing=1:2:1", "--workers", "2"),
+    "find": ("find", "vsv", *FOUND[-4:], "--workers", "-1"),
+    "workbench": ("workbench", "vsv", "--port", "-1"),
+    "serve": ("serve", "vanes.example.org", "--port", "-1"),
+    "report": ("report", "missing"),
+    "bounce": ("bounce", "vsv", "--law", "nothing"),
+    "compare": ("compare", "missing", "missing"),
+    "stribeck": ("stribeck", "missing"),
+    "reproduce": ("reproduce", "missing"),
+    "surface": ("surface", "missing.csv"),
+}
+"""Commands with arguments that they refuse."""
+
+
+@pytest.fixture(scope="module")
+def planted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder of modules, each of which notes that it was imported in a file beside the folder."""
+    folder = tmp_path_factory.mktemp("planted")
+    for name in NAMES:
+        (folder / f"{name}.py").write_text(f"print(__name__, file=open({str(_log(folder))!r}, 'a'))\n")
+    # Code is kept in a place of this user's choice, not in one that this file names.
+    (folder / ".numba_config.yaml").write_text("cache_dir: planted-code\n")
+    return folder
+
+
+def _log(folder: Path) -> Path:
+    return folder.with_suffix(".log")
+
+
+@pytest.fixture(scope="module")
+def script(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """Return the command as it is installed: a script, in whose folder Python looks for modules first."""
+    path = tmp_path_factory.mktemp("bin") / "tribodyn"
+    path.write_text(
+        "import sys\nfrom tribodyn.__main__ import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
+    )
+    return [sys.executable, str(path)]
+
+
+def imported(command: list[str], folder: Path) -> tuple[int, set[str]]:
+    """Run a command until all its helpers have ended; return its status and the planted modules that ran."""
+    log = _log(folder)
+    log.unlink(missing_ok=True)
+    # The end of its output comes when no process holds it any more.
+    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=300)
+    return done.returncode, set(log.read_text().split()) if log.exists() else set()
+
+
+def test_a_planted_module_is_noted(planted: Path) -> None:
+    assert imported([sys.executable, "-c", "import numpy"], planted)[1] >= {"numpy"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        pytest.param(given, status, id=f"{name}-{status}")
+        for status, commands in ((DONE, DONE_BY), (BAD_INPUT, REFUSED_BY))
+        for name, given in commands.items()
+    ],
+)
+def test_no_command_imports_from_the_working_directory(
+    arguments: tuple[str, ...], status: int, planted: Path, script: list[str]
+) -> None:
+    assert imported([*script, *arguments], planted) == (status, set())
+    assert not (planted / "planted-code").exists()
+
+
+def test_the_process_that_compiles_imports_nothing_from_there(
+    planted: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(planted)
+    _log(planted).unlink(missing_ok=True)
+    with compilation._child() as child:
+        child.communicate(timeout=60)
+    assert not _log(planted).exists()
+
+
+def test_every_command_is_tried() -> None:
+    assert {*DONE_BY, *REFUSED_BY} == {*COMMANDS}

@@ -1,0 +1,81 @@
+"""Damping does not ensure stability in the printed equations: which term of them makes the energy.
+
+Appendix 2 gives the ring the displacement e_y along Y, ÿ_O3 = ë_y + ..., while the vane keeps its angle.
+In truth the vane turns with e_x, and the ring follows along Y by −0.56 e_x at θ_v = 120°. The elimination of
+the reactions has the true lever ratio, the inertia force m_3 ÿ_O3 has not: an impact may gain energy.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tribodyn.integrate import integrate
+from tribodyn.kernels.vsv import functions, layout
+from tribodyn.kernels.vsv.quantities import WATCHED
+from tribodyn.mechanisms.peaks import of_reversals
+from tribodyn.mechanisms.vsv.problem import vsv_problem
+
+HALF_LOAD = 0.42
+"""Half the size of M_air in Table 3 [N m]."""
+REVERSAL = np.pi
+
+
+def after_reversal(vsv, moment, rtol, *, ring_along_y=True):
+    """Return the largest contact force [N] after the first reversal, and whether the run went through."""
+    loaded = replace(vsv, air=replace(vsv.air, moment=moment))
+    atol = tuple(1e4 * rtol * np.array([1e-11, 1e-9, 1e-7, 1e-5]))
+    problem = vsv_problem(loaded, duration=3.3, start="equilibrium", atol=atol)
+    if not ring_along_y:
+        problem.data.mechanism.inertia[layout.O3_Y] = 0.0
+    solution = integrate(problem, solver="mebdf", rtol=rtol, output_times=[0.0])
+    peaks = of_reversals(problem.memory.peaks, WATCHED)
+    return peaks["contact_force_impact"][1], solution.complete
+
+
+@pytest.mark.parametrize("moment", [0.36, HALF_LOAD])
+@pytest.mark.parametrize("rtol", [1e-3, 1e-5])
+def test_at_half_the_load_the_damped_run_leaves_the_contact_law(make_vsv, moment, rtol):
+    force, complete = after_reversal(make_vsv("paper"), moment, rtol)
+    assert not complete
+    assert force > 1e4
+
+
+@pytest.mark.parametrize("moment", [0.36, HALF_LOAD])
+def test_without_the_inertia_of_the_ring_along_y_it_does_not(make_vsv, moment):
+    force, complete = after_reversal(make_vsv("paper"), moment, 1e-4, ring_along_y=False)
+    assert complete
+    assert force < 400.0
+
+
+@pytest.mark.parametrize("moment", [0.36, HALF_LOAD])
+def test_consistent_equations_go_through(make_vsv, moment):
+    force, complete = after_reversal(make_vsv(), moment, 1e-4)
+    assert complete
+    assert force < 100.0
+
+
+def accelerations_by_force(vsv):
+    """Return what forces along X and Y at the trunnion accelerate it by [m/s²/N] at θ_v = 120°."""
+    problem = vsv_problem(vsv, duration=3.3, start="centred", atol=(1e-9,) * 4)
+    data, memory = problem.data, problem.memory
+    functions.rhs(REVERSAL, np.zeros(8), data, memory, np.empty(8))
+    test = memory.scratch.test[[layout.E_X, layout.E_Y], 1:5]
+    return np.linalg.solve(memory.scratch.mass[1:5], test.T)[:2]
+
+
+def test_a_force_along_y_accelerates_along_x_and_not_the_other_way_round(make_vsv):
+    printed = accelerations_by_force(make_vsv("paper"))
+    assert printed[0, 1] == pytest.approx(3.31, abs=0.01)
+    assert printed[1, 0] == pytest.approx(0.075, abs=0.001)
+    consistent = accelerations_by_force(make_vsv(friction="moment", coefficient=0.0))
+    assert consistent[0, 1] == pytest.approx(consistent[1, 0], rel=1e-9)
+
+
+def test_the_ring_follows_the_trunnion_by_the_turn_of_the_vane(make_vsv):
+    problem = vsv_problem(make_vsv(), duration=3.3, start="centred", atol=(1e-9,) * 4)
+    functions.rhs(REVERSAL, np.zeros(8), problem.data, problem.memory, np.empty(8))
+    along_y = problem.memory.scratch.motion[layout.O3_Y, 1:3]
+    np.testing.assert_allclose(along_y, [-0.564, 0.966], atol=5e-4)
