@@ -18,6 +18,7 @@ from tribodyn.mechanisms.general.description import Description
 from tribodyn.mechanisms.general.equations import new_memory
 from tribodyn.mechanisms.general.inspection import Finding, inspect
 from tribodyn.mechanisms.general.misfit import Misfit
+from tribodyn.mechanisms.general.speeds import start
 
 
 @dataclass(frozen=True)
@@ -135,16 +136,16 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
     contradictions = _contradictions(system, dependent)
     findings += contradictions
-    ideal_rank = rank
-    if _is_real(description) and has_loops(description) and not (contradictions or open_joints or doubts):
-        ideal = System(counterpart(description))
-        ideal.take_positions(closed)
-        ideal_rank, dependent = ideal.independence()
-        doubts = _contradictions(ideal, dependent)
-        findings += ideal.start(description.speeds) if description.speeds and not doubts else []
+    ideal_rank, ideal = rank, None
+    if _is_real(description):
+        ideal = Misfit(description, System(counterpart(description)))
+        ideal.system.take_positions(system)
+    if ideal and has_loops(description) and not (contradictions or open_joints or doubts):
+        ideal_rank, dependent = ideal.system.independence()
+        doubts = _contradictions(ideal.system, dependent)
     system.parts.constants.rank = rank
     unequal, inexact = system.unequal(rank)
-    contrary = system.start(description.speeds)
+    contrary = start(system, description.speeds, ideal, fits=not doubts)
     findings += doubts if doubts and contrary else [*unequal, *contrary]
     moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
     state = np.zeros(N_STATES * len(description.bodies))

@@ -330,35 +330,6 @@ class System:
             return [Finding(f"bodies.{first.name}.mass", f"{body} is too {pair}: {change}")], []
         return [], [f"{body} is {pair}, whose reactions may be wrong by up to {100.0 * lost:.1g} %: {change}"]
 
-    def start(self, speeds: tuple[tuple[int, str, float], ...]) -> list[Finding]:
-        """Fill the velocities that drives and given speeds ask for, with the least kinetic energy."""
-        root, matrices = self.metric(), [self.matrix()]
-        wanted = [-self.entries("rate")] if self.rows else []
-        for k, coordinate, value in speeds:
-            coupling, now = self.parts.couplings[k], self.now.couplings[k]
-            row = np.zeros(6 * (self.n + 1))
-            entry = 5 if coordinate == "angle" else 2
-            for side, body in enumerate((coupling.socket, coupling.shaft)):
-                row[6 * body : 6 * body + 6] += now.H[entry, 6 * side : 6 * side + 6]
-            matrices.append(row[None, : 6 * self.n])
-            wanted.append(np.array([value * self.description.joints[k].sign]))
-        if not wanted:
-            return []
-        rows, target = np.vstack(matrices), np.concatenate(wanted)
-        scaled = rows @ root
-        length = np.maximum(np.linalg.norm(scaled, axis=1), _TINY)
-        velocity = root @ (self.inverse(scaled / length[:, None], rows) @ (target / length))
-        v = velocity.reshape(-1, 6)
-        self.now.bodies.v[:-1], self.now.bodies.w[:-1] = v[:, :3], v[:, 3:]
-        self.refresh()
-        left = float(np.max(np.abs(rows @ velocity - target)))
-        if left > DEPENDENT * float(np.max(np.abs(target), initial=_TINY)):
-            asked = [self.description.joints[k].name for k, _, _ in speeds]
-            text = "no motion has the speeds at the start that drives and joints ask for"
-            key = f"joints.{asked[0]}" if asked else "drives"
-            return [Finding(key, f"{text}; given are those of {', '.join(asked)}" if asked else text)]
-        return []
-
 
 def rank_of(values: FloatArray) -> int:
     """Return how many of these singular values, falling, are those of independent rows."""

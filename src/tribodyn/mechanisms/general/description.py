@@ -235,8 +235,8 @@ class Description:
     gravity
         [m/s²], shape (3,).
     speeds
-        Speeds of free coordinates at the start, as (joint, coordinate, value in [rad/s] or [m/s]); other
-        freedoms begin at rest.
+        Speeds of free coordinates at the start, as (joint, coordinate, value in [rad/s] or [m/s]); see
+        :mod:`tribodyn.mechanisms.general.speeds` for other freedoms.
     """
 
     bodies: tuple[Body, ...]

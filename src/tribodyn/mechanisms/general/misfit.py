@@ -62,12 +62,17 @@ class Misfit:
         """Whether any joint has clearance."""
         return bool(self._joints)
 
+    @property
+    def weights(self) -> FloatArray:
+        """One over what the joint of each row allows, ways in units of the size, shape (n_rows,)."""
+        hard = _HARD * min(self._allowed[self._allowed > 0.0], default=1.0)
+        return np.asarray(1.0 / np.where(self._allowed > 0.0, self._allowed, hard), np.float64)
+
     def close(self) -> bool:
         """Move the bodies to where the joints miss least; tell whether the clearances take that."""
-        hard = _HARD * min(self._allowed[self._allowed > 0.0], default=1.0)
-        weight = 1.0 / np.where(self._allowed > 0.0, self._allowed, hard)
+        weights = self.weights
         for _ in range(_MOST_STEPS):
-            change = self._change(weight)
+            change = self._change(weights)
             self.system.step(change)
             if np.max(np.abs(change) / self._units, initial=0.0) < _SMALL:
                 break

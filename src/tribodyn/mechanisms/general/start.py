@@ -30,6 +30,7 @@ from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_S
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.counterpart import counterpart
+from tribodyn.mechanisms.general.speeds import start
 
 _MOVING: Final = 1.0e-6
 """Slip over the one at which traction is developed that is rest."""
@@ -154,7 +155,7 @@ class _Loads:
         collect(self.real.now.bodies, self.state)
         place(self.state, self.ideal.now.bodies)
         self.ideal.refresh()
-        self.ideal.start(self.speeds)
+        start(self.ideal, self.speeds)
         collect(self.ideal.now.bodies, self.state)
         g, self.root, length = self.ideal.scaled()
         self.wanted = self.ideal.inverse(g, self.ideal.matrix()) @ (self.ideal.entries("gamma") / length)
