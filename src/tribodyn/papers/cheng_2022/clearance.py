@@ -6,16 +6,21 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.style import DASHED, GREY, SMALL, Curves, caption, finish, lines, sheet
+from tribodyn.figures.style import DASHED, GREY, INK, SMALL, Curves, caption, finish, lines, sheet
 from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
 from tribodyn.papers.cheng_2022.runs import Runs, finer, is_smooth, mean_rate, over_clearances
 from tribodyn.views.series import series
 
 DEGREES: Final = float(np.rad2deg(1.0))
+PAPER_SPEED_ERRORS: Final = {20: 2.5e-4, 40: 7.5e-4}
+"""Speed errors that section 5.3 prints [deg/s], by clearance [µm]."""
+_SPEEDS: Final = (1e-5, 1e-1)
+"""Range of the speed errors drawn [deg/s]."""
 
 
 def motion_data(runs: Runs, formulation: str) -> xr.Dataset:
@@ -76,28 +81,52 @@ def draw_motion(dataset: xr.Dataset) -> Figure:
 
     At the scale of the motion all curves are one; the paper enlarges, here the difference has its own panel.
     """
-    figure = sheet(dataset, "Fig. 16  Motion of the vane with different clearances", 5.4)
-    panels = figure.subplots(2, 2, sharex=True, height_ratios=(1.0, 1.3))
+    figure = sheet(dataset, "Fig. 16  Motion of the vane with different clearances", 5.8)
+    (angle, speed), (angle_error, speed_error) = figure.subplots(2, 2, sharex=True, height_ratios=(1.0, 1.5))
     time = series(dataset, "time")
     quiet = is_smooth(dataset, time)
-    panels_of = (
-        ("theta_v", "°", "rotation angle", angle_errors, ""),
-        ("omega_v", "°/s", "rotation velocity", speed_errors, ", mean of 0.2 s"),
-    )
-    for column, (name, unit, what, errors, over) in enumerate(panels_of):
-        whole, difference = panels[:, column]
-        curves = by_clearance(dataset, name, DEGREES)
-        ideal = _ideal(dataset, name)
-        lines(whole, time, curves, width=1.0)
-        whole.plot(time, ideal, color=GREY, linestyle=DASHED, linewidth=1.0)
-        limits(whole, [(ideal, "", *STYLES[0])], quiet)
-        lines(difference, time, errors(dataset), width=1.0)
-        limits(difference, errors(dataset), quiet)
-        caption(whole, f"({'ab'[column]}) {what}; ideal pair dashed")
-        finish(whole, y_label=f"[{unit}]")
-        finish(difference, "time [s]", f"minus ideal{over} [{unit}]")
+    _motion(angle, dataset, "theta_v", "(a) rotation angle; ideal pair dashed", "[°]")
+    _motion(speed, dataset, "omega_v", "(b) rotation velocity; impacts leave the frame", "[°/s]")
+    errors = angle_errors(dataset)
+    lines(angle_error, time, errors, width=1.0)
+    limits(angle_error, errors, quiet)
+    finish(angle_error, "time [s]", "minus ideal [°]")
+    sizes: Curves = [
+        (np.abs(values), label, colour, dash) for values, label, colour, dash in speed_errors(dataset)
+    ]
+    lines(speed_error, time, sizes, width=0.8)
+    _paper_speeds(speed_error)
+    finish(speed_error, "time [s]", "|minus ideal|, mean of 0.2 s [°/s]")
     _legend(figure, by_clearance(dataset, "theta_v"))
     return figure
+
+
+def _motion(axes: Axes, dataset: xr.Dataset, name: str, heading: str, unit: str) -> None:
+    """Draw angle or speed with every clearance, and that of the ideal pair."""
+    time, ideal = series(dataset, "time"), _ideal(dataset, name)
+    lines(axes, time, by_clearance(dataset, name, DEGREES), width=1.0)
+    axes.plot(time, ideal, color=GREY, linestyle=DASHED, linewidth=1.0)
+    limits(axes, [(ideal, "", *STYLES[0])], is_smooth(dataset, time))
+    caption(axes, heading)
+    finish(axes, y_label=unit)
+
+
+def _paper_speeds(axes: Axes) -> None:
+    """Scale the axis by decades and mark the speed errors that the paper prints."""
+    axes.set_yscale("log")
+    axes.set_ylim(*_SPEEDS)
+    for clearance, value in PAPER_SPEED_ERRORS.items():
+        axes.axhline(value, color=GREY, linewidth=0.8, linestyle=DASHED, zorder=0)
+        axes.annotate(
+            f"the paper, {clearance} µm",
+            (0.01, value),
+            xycoords=("axes fraction", "data"),
+            xytext=(0.0, 2.0),
+            textcoords="offset points",
+            size=SMALL - 1.0,
+            color=INK,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.85},
+        )
 
 
 def draw_forces(dataset: xr.Dataset) -> Figure:
@@ -124,8 +153,8 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
 
 def draw_attitude(dataset: xr.Dataset) -> Figure:
     """Draw Figure 18: trajectories of the centre, and deflection angles."""
-    figure = sheet(dataset, "Fig. 18  Attitude of the trunnion centre with different clearances", 4.4)
-    path, tilt = figure.subplots(1, 2)
+    figure = sheet(dataset, "Fig. 18  Attitude of the trunnion centre with different clearances", 7.4)
+    path, tilt = figure.subplots(2, 1, height_ratios=(1.3, 1.0))
     for (x, _, colour, dash), (y, *_) in zip(
         by_clearance(dataset, "e_x", 1e6), by_clearance(dataset, "e_y", 1e6), strict=True
     ):
@@ -133,7 +162,7 @@ def draw_attitude(dataset: xr.Dataset) -> Figure:
     time = series(dataset, "time")
     lines(tilt, time, by_clearance(dataset, "phi_x", 1e3), width=1.0)
     lines(tilt, time, by_clearance(dataset, "phi_y", 1e3), width=1.0)
-    path.set_aspect("equal", adjustable="datalim")
+    path.set_aspect("equal")
     caption(path, "(a) trajectory")
     caption(tilt, "(b) deflection φx (above) and φy")
     finish(path, "e_x [µm]", "e_y [µm]")

@@ -59,8 +59,8 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
     case = case_of(run)
     assert case is not None
     times, angles = instants(vsv_of(case))
-    pictures = keep(run, "pressure").copy()
-    pictures["pressure"].values[:] = balanced(vsv_of(case), times)
+    pictures = keep(run, "pressure")
+    pictures = pictures.assign(pressure=pictures["pressure"].copy(data=balanced(vsv_of(case), times)))
     found = {"time": times, "theta_v": angles, "direction": np.repeat([1.0, -1.0], len(ANGLES))}
     return pictures.assign_coords(
         {

@@ -39,7 +39,7 @@ class Runs:
     Parameters
     ----------
     note
-        Told what is about to be computed.
+        Called with a description of each run before it is computed.
     """
 
     note: Callable[[str], None] = _silent
@@ -52,7 +52,7 @@ class Runs:
         if key not in self._done:
             changed = ", ".join(f"{path} = {value}" for path, value in (changes or {}).items())
             self.note(f"running {name}" + (f" with {changed}" if changed else ""))
-            self._done[key] = simulate(case)
+            self._done[key] = _frozen(simulate(case))
         return self._done[key]
 
     def vsv(
@@ -90,6 +90,13 @@ class Runs:
     ) -> list[xr.Dataset]:
         """Return the runs with all clearances of the paper."""
         return [self.vsv(formulation, value, changes) for value in CLEARANCES]
+
+
+def _frozen(run: xr.Dataset) -> xr.Dataset:
+    """Return a result whose arrays are read-only: several figures and claims share it."""
+    for variable in run.data_vars.values():
+        variable.values.flags.writeable = False
+    return run
 
 
 def _vsv_changes(formulation: str, clearance: float) -> dict[str, object]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final, Literal, TypeAlias
 
 Verdict: TypeAlias = Literal[
@@ -105,32 +106,27 @@ class Bound:
         return f"{text}{' ' if self.unit else ''}{self.unit} ({self.by}, {self.since})"
 
 
-def above(
+def _one_sided(
     limit: float,
     unit: str = "",
     *,
+    upward: bool,
     partly: float | None = None,
     by: Chooser = "we",
     since: str = STRICT,
     origin: float = 0.0,
 ) -> Bound:
-    """Return a bound that a number must exceed; above ``partly`` the claim still differs only."""
-    other = limit if partly is None else partly
-    return Bound((limit, math.inf), (other, math.inf), unit, by, since, origin)
+    full, wider = (
+        (edge, math.inf) if upward else (-math.inf, edge)
+        for edge in (limit, limit if partly is None else partly)
+    )
+    return Bound(full, wider, unit, by, since, origin)
 
 
-def below(
-    limit: float,
-    unit: str = "",
-    *,
-    partly: float | None = None,
-    by: Chooser = "we",
-    since: str = STRICT,
-    origin: float = 0.0,
-) -> Bound:
-    """Return a bound that a number must stay below; below ``partly`` the claim still differs only."""
-    other = limit if partly is None else partly
-    return Bound((-math.inf, limit), (-math.inf, other), unit, by, since, origin)
+above: Final = partial(_one_sided, upward=True)
+"""Bound that a number must exceed; above ``partly`` the claim still differs only."""
+below: Final = partial(_one_sided, upward=False)
+"""Bound that a number must stay below; below ``partly`` the claim still differs only."""
 
 
 def near(paper: float, unit: str, since: str = FIRST) -> Bound:

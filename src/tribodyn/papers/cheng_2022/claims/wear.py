@@ -25,7 +25,7 @@ _WIDE: Final = CLEARANCES[-1]
 _LAST: Final = CYCLES[-1]
 _NANOMETRE: Final = 1e-9
 _INSIDE: Final = 0.5e-3
-"""Distance from the edge at which the ratio is told, too [m]."""
+"""Distance from the edge at which the ratio is given as well [m]."""
 
 
 def _depth(trial: Trial, clearance: float, cycles: int = _LAST) -> FloatArray:
@@ -42,12 +42,12 @@ def depth_at_40(trial: Trial) -> Finding:
 
 def ratio_to_20(trial: Trial) -> Finding:
     """Measure the depth at 40 µm over that at 20 µm, on the edge; half a millimetre from it beside."""
-    wide, narrow = (_profile(trial, clearance) for clearance in (_WIDE, NARROW))
+    wide, narrow = (profile(trial, clearance) for clearance in (_WIDE, NARROW))
     edge, inside = (wide(at) / narrow(at) for at in (0.0, _INSIDE))
     return Finding(f"{edge:.3g} times on the edge, {inside:.3g} times half a millimetre from it", edge)
 
 
-def _profile(trial: Trial, clearance: float) -> Callable[[float], float]:
+def profile(trial: Trial, clearance: float) -> Callable[[float], float]:
     """Return the depth of the more worn end over the distance from its edge [m]; its logarithm is smooth."""
     run = worn(trial.runs, trial.formulation, clearance, _LAST, trial.changes)
     deepest, z = run["wear_depth"].values.max(axis=0), run["z"].values
