@@ -27,6 +27,7 @@ from tribodyn.cli import (
     stribeck,
     surface,
     sweep,
+    validate,
     workbench,
 )
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
@@ -61,6 +62,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "report": report,
     "compare": compare,
     "reproduce": reproduce,
+    "validate": validate,
     "surface": surface,
     "materials": materials,
     "stribeck": stribeck,
@@ -81,6 +83,7 @@ _EXAMPLES: Final = {
     "report": "tribodyn report results-vsv",
     "compare": "tribodyn compare results-vsv wide",
     "reproduce": "tribodyn reproduce fig9 claims",
+    "validate": "tribodyn validate oblique_impact -o out/validation",
     "surface": "tribodyn surface scan.csv --unit um --spacing '0.5 um'",
     "materials": "tribodyn materials ptfe-liner bronze-c93200",
     "stribeck": "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'",

@@ -1,0 +1,170 @@
+"""What a validation set returns: numbers with uncertainties and verdicts, and curves for its plot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final, Literal
+
+
+class Verdict(StrEnum):
+    """Verdict on one compared number."""
+
+    WITHIN = "within the band"
+    OUTSIDE = "outside"
+    REPORTED = "reported only"
+
+
+@dataclass(frozen=True)
+class Band:
+    """Acceptance band, fixed before any run.
+
+    Exactly one kind of limit is given.
+
+    Attributes
+    ----------
+    name
+        Its key in ``set.toml``.
+    source
+        The text of the source that gives it.
+    relative, absolute
+        Largest difference of computed and measured value, over the measured value or as it is.
+    at_least, at_most
+        Limits of the computed value, one or both.
+    must_exceed
+        Difference (absolute) that a model expected to fail has to exceed.
+    covers
+        Interval that the computed range has to contain.
+    """
+
+    name: str
+    source: str
+    relative: float | None = None
+    absolute: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+    must_exceed: float | None = None
+    covers: tuple[float, float] | None = None
+
+    def limits(self, measured: float | None) -> tuple[float, float] | None:
+        """Return the interval of accepted computed values; None where it is no interval."""
+        if self.covers is not None or self.must_exceed is not None:
+            return None
+        if self.relative is not None or self.absolute is not None:
+            if measured is None:
+                raise ValueError(f"band {self.name} needs a measured value")
+            half = abs(measured) * self.relative if self.relative is not None else self.absolute
+            assert half is not None
+            return measured - half, measured + half
+        low = -math.inf if self.at_least is None else self.at_least
+        return low, math.inf if self.at_most is None else self.at_most
+
+    def accepts(self, lowest: float, highest: float, measured: float | None) -> bool:
+        """Return whether a computed range is accepted as a whole; ``covers`` asks what it contains."""
+        if not (math.isfinite(lowest) and math.isfinite(highest)):
+            return False
+        if self.covers is not None:
+            return lowest <= self.covers[0] and self.covers[1] <= highest
+        if self.must_exceed is not None:
+            assert measured is not None
+            least = min(abs(lowest - measured), abs(highest - measured))
+            return least > self.must_exceed and (lowest - measured) * (highest - measured) > 0.0
+        limits = self.limits(measured)
+        assert limits is not None
+        return limits[0] <= lowest and highest <= limits[1]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One number, measured and computed.
+
+    Attributes
+    ----------
+    name, unit
+        What it is, and the unit of all its values.
+    computed
+        Computed value.
+    measured
+        Measured value; None where there is a limit alone.
+    u_computed, u_measured
+        Half widths of the intervals of both.
+    null
+        What a hand formula or an interpolation gives; None where there is none.
+    band
+        Acceptance band; None if the number is reported only.
+    spread
+        Lowest and highest computed value for which the verdict holds; the computed value alone without it.
+    note
+        Remark on the number.
+    """
+
+    name: str
+    unit: str
+    computed: float
+    measured: float | None = None
+    u_computed: float = 0.0
+    u_measured: float = 0.0
+    null: float | None = None
+    band: Band | None = None
+    spread: tuple[float, float] | None = None
+    note: str = ""
+
+    @property
+    def error(self) -> float | None:
+        """E = |difference| / sqrt(u_c² + u_m²) [1]; None without a measured value or an uncertainty."""
+        width = math.hypot(self.u_computed, self.u_measured)
+        if self.measured is None or width == 0.0:
+            return None
+        return abs(self.computed - self.measured) / width
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict by the band."""
+        if self.band is None:
+            return Verdict.REPORTED
+        low, high = self.spread or (self.computed, self.computed)
+        return Verdict.WITHIN if self.band.accepts(low, high, self.measured) else Verdict.OUTSIDE
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve or points of a plot.
+
+    Attributes
+    ----------
+    label, kind
+        Its name, and whether its values are measured, computed or those of the null model.
+    x, y
+        Values.
+    half_width
+        Half widths of the intervals of ``y``.
+    """
+
+    label: str
+    kind: Literal["measured", "computed", "null"]
+    x: Sequence[float]
+    y: Sequence[float]
+    half_width: Sequence[float] | None = None
+
+
+@dataclass(frozen=True)
+class Plot:
+    """The plot of a set: labels of its axes with units, and curves."""
+
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a set returns."""
+
+    comparisons: tuple[Comparison, ...]
+    plot: Plot | None = None
+
+
+LONGEST_EXPLANATION: Final = 3
+"""Sentences in which a miss is explained, at most."""

@@ -1,0 +1,174 @@
+"""The list of validation sets, and what the files of a set hold."""
+
+from __future__ import annotations
+
+import csv
+import importlib
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from typing import Any, Final, cast
+
+from tribodyn.cases.units import from_si, si_unit, to_si, unit_of
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given, meant
+from tribodyn.validation.base import Band, Outcome
+
+NAMES: Final = (
+    "servo_friction_models",
+    "ball_drop",
+    "journal_peak_pressure",
+    "oblique_impact",
+)
+"""Every set by its folder in ``sets``."""
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input of a computation: a value, the band of its uncertainty and where both come from.
+
+    Attributes
+    ----------
+    name
+        Its key in ``set.toml``.
+    value, low, high
+        Value and ends of its band, SI units; both ends equal the value where there is no band.
+    text
+        The value as written, with its unit.
+    source
+        Text of the source that gives it, empty if it is assumed.
+    assumed
+        Reason of an assumed value, empty if a source gives it.
+    """
+
+    name: str
+    value: float
+    low: float
+    high: float
+    text: str
+    source: str
+    assumed: str
+
+    @property
+    def band_text(self) -> str:
+        """The band as text; empty where there is none."""
+        if self.low == self.high:
+            return ""
+        unit = unit_of(self.text) if not _is_number(self.text) else ""
+        low, high = (from_si(end, unit) if unit else f"{end:g}" for end in (self.low, self.high))
+        return f"{low} to {high}"
+
+
+@dataclass(frozen=True)
+class ValidationSet:
+    """A set: its folder, title, inputs and bands."""
+
+    name: str
+
+    @property
+    def folder(self) -> Traversable:
+        """The folder with its files."""
+        return files(__package__) / "sets" / self.name
+
+    @cached_property
+    def table(self) -> Mapping[str, Any]:
+        """Content of ``set.toml``."""
+        return tomllib.loads((self.folder / "set.toml").read_text(encoding="utf-8"))
+
+    @property
+    def title(self) -> str:
+        """What was measured, in a few words."""
+        return str(self.table["title"])
+
+    @cached_property
+    def inputs(self) -> dict[str, Input]:
+        """Inputs by name."""
+        return {name: _input(name, entry) for name, entry in self.table.get("inputs", {}).items()}
+
+    @cached_property
+    def bands(self) -> dict[str, Band]:
+        """Acceptance bands by name."""
+        return {name: _band(name, entry) for name, entry in self.table.get("bands", {}).items()}
+
+    def value(self, name: str) -> float:
+        """Return the value of an input [SI]."""
+        return self.inputs[name].value
+
+    def explanation(self, row: str) -> str:
+        """Return why the compared number of this name misses its band; empty if nothing is written."""
+        return str(self.table.get("explanations", {}).get(row, ""))
+
+    def rows(self, file: str) -> list[dict[str, str]]:
+        """Return the rows of a CSV file of the set by the names of its columns."""
+        text = (self.folder / file).read_text(encoding="utf-8")
+        return list(csv.DictReader(text.splitlines()))
+
+    def readme(self) -> str:
+        """Return the README of the set."""
+        return (self.folder / "README.md").read_text(encoding="utf-8")
+
+    def run(self) -> Outcome:
+        """Compute what was measured."""
+        module = importlib.import_module(f"{__package__}.sets.{self.name}.compare")
+        return cast("Callable[[ValidationSet], Outcome]", module.compare)(self)
+
+
+def load(name: str) -> ValidationSet:
+    """Return a set by name.
+
+    Raises
+    ------
+    InputError
+        There is no set of this name.
+    """
+    if name not in NAMES:
+        raise InputError(f"{as_given(name)}; allowed: {', '.join(NAMES)}{meant(name, NAMES)}", key="NAME")
+    return ValidationSet(name)
+
+
+def chosen(names: list[str]) -> Iterator[ValidationSet]:
+    """Return the sets of these names, all without names, each once and in the order of the list."""
+    wanted = [load(name).name for name in names] or NAMES
+    return (ValidationSet(name) for name in NAMES if name in wanted)
+
+
+def index() -> str:
+    """Return the index of the data, which holds the rule and the bands of all sets."""
+    return (files(__package__) / "README.md").read_text(encoding="utf-8")
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _si(value: str | float) -> float:
+    return to_si(value, si_unit(unit_of(value))) if isinstance(value, str) else float(value)
+
+
+def _input(name: str, entry: Mapping[str, Any]) -> Input:
+    value = _si(entry["value"])
+    low, high = map(_si, entry.get("band", (entry["value"], entry["value"])))
+    return Input(
+        name,
+        value,
+        low,
+        high,
+        str(entry["value"]),
+        str(entry.get("source", "")),
+        str(entry.get("assumed", "")),
+    )
+
+
+def _band(name: str, entry: Mapping[str, Any]) -> Band:
+    given = dict(entry)
+    if "covers" in given:
+        low, high = given["covers"]
+        given["covers"] = (float(low), float(high))
+    return Band(name=name, **given)

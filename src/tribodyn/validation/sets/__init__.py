@@ -1,0 +1,1 @@
+"""The validation sets, one folder each."""

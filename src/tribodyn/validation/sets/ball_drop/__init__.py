@@ -1,0 +1,1 @@
+"""Validation set ``ball_drop``."""

@@ -1,0 +1,1 @@
+"""Validation set ``dry_liners``."""

@@ -1,0 +1,1 @@
+"""Validation set ``journal_stribeck``."""

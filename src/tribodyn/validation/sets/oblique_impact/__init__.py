@@ -1,0 +1,1 @@
+"""Validation set ``oblique_impact``."""

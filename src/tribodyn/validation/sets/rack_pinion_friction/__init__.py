@@ -1,0 +1,1 @@
+"""Validation set ``rack_pinion_friction``."""

@@ -1,0 +1,1 @@
+"""Validation set ``screw_drive_friction``."""

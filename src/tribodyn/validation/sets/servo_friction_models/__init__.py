@@ -1,0 +1,1 @@
+"""Validation set ``servo_friction_models``."""

@@ -1,0 +1,1 @@
+"""Validation set ``vsv_practice``."""

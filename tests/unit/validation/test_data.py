@@ -1,0 +1,89 @@
+"""Data, inputs and acceptance bands equal those of the collection, and every number has its line."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from tribodyn.validation.catalogue import NAMES, ValidationSet, index, load
+
+FOLDER = Path(str(files("tribodyn.validation")))
+MANIFEST = Path(__file__).with_name("data.sha256")
+"""Hashes of the files of the collection, made there."""
+NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.IGNORECASE)
+
+
+def _manifest() -> dict[str, str]:
+    lines = MANIFEST.read_text(encoding="utf-8").splitlines()
+    return {path: digest for digest, path in (line.split(maxsplit=1) for line in lines)}
+
+
+def _place(path: str) -> Path:
+    return FOLDER / path if "/" not in path else FOLDER / "sets" / path
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"\s+", " ", text)
+
+
+def _numbers(text: str) -> set[float]:
+    """Return the numbers of a text, each also as a hundredth, for percentages."""
+    found = {float(match) for match in NUMBER.findall(text.replace("+-", " "))}
+    return found | {abs(value) for value in found} | {round(value / 100.0, 12) for value in found}
+
+
+@pytest.mark.parametrize("path", [path for path in _manifest()])
+def test_every_file_is_that_of_the_collection(path: str) -> None:
+    place = _place(path)
+    assert hashlib.sha256(place.read_bytes()).hexdigest() == _manifest()[path]
+
+
+def test_every_set_is_in_the_index() -> None:
+    rows = re.findall(r"^\| ([a-z_]+) \|", index(), re.MULTILINE)
+    assert set(NAMES) <= {name for name in rows if name != "set"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_bands_are_those_of_the_index(name: str) -> None:
+    one = load(name)
+    (row,) = [line for line in index().splitlines() if line.startswith(f"| {name} |")]
+    acceptance = _plain(row.split(" | ")[-1])
+    assert one.bands
+    for band in one.bands.values():
+        assert _plain(band.source) in acceptance, band.name
+        given = [band.relative, band.absolute, band.at_least, band.at_most, band.must_exceed]
+        numbers = [value for value in given if value is not None] + list(band.covers or ())
+        assert numbers, band.name
+        assert set(numbers) <= _numbers(band.source), band.name
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_inputs_stand_in_the_quoted_line(name: str) -> None:
+    one = load(name)
+    texts = _plain(one.readme()), _plain(index())
+    for given in one.inputs.values():
+        assert given.source or given.assumed, f"{given.name} has no source"
+        if not given.source:
+            continue
+        assert any(_plain(given.source) in text for text in texts), given.name
+        if not given.assumed:
+            written = NUMBER.match(given.text)
+            assert written is not None
+            assert float(written[0]) in _numbers(given.source), given.name
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_explanations_have_at_most_three_sentences(name: str) -> None:
+    for row, text in load(name).table.get("explanations", {}).items():
+        assert 1 <= len(re.findall(r"[.!?](?:\s|$)", text)) <= 3, row
+
+
+def test_a_changed_band_is_noticed() -> None:
+    """The comparison above is able to fail."""
+    changed = ValidationSet("oblique_impact").bands["sliding"]
+    assert 0.02 in _numbers(changed.source)
+    assert 0.03 not in _numbers(changed.source)
