@@ -118,7 +118,7 @@ def ours(rtol: float, duration: float) -> tuple[FloatArray, float]:
     solution = integrate(problem, rtol=rtol, output_times=times(duration))
     seconds = time.thread_time() - begin
     assert solution.failure is None
-    return observed(solution.rows, len(BODIES)).bodies["x"][:, 2], seconds
+    return observed(solution.rows, len(BODIES)).bodies["position"][:, 2, 0], seconds
 
 
 def with_exudyn(step: float, duration: float) -> tuple[FloatArray, float]:

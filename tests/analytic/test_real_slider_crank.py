@@ -53,11 +53,17 @@ def test_energy_and_momentum_close_at_every_clearance(real: dict[float, Run]) ->
 
 def test_motion_and_mean_forces_tend_to_the_ideal_ones(ideal: Run, real: dict[float, Run]) -> None:
     def force(result: Run) -> float:
-        return float(np.mean(np.hypot(result.joint(WRIST, "F_x"), result.joint(WRIST, "F_y"))[LAST]))
+        return float(
+            np.mean(
+                np.hypot(
+                    result.joint(WRIST, "reaction_force", "x"), result.joint(WRIST, "reaction_force", "y")
+                )[LAST]
+            )
+        )
 
     for clearance, result in real.items():
         # The pin lies within the clearance, and a few micrometres deeper where surfaces give way.
-        off = np.abs(result.body(2, "x") - ideal.body(2, "x")).max()
+        off = np.abs(result.body(2, "position", "x") - ideal.body(2, "position", "x")).max()
         assert off < 1.5 * clearance + 5e-6, clearance
         assert result.whole("gap").max() < 1e-10
     errors = [abs(force(result) / force(ideal) - 1.0) for result in real.values()]
@@ -84,8 +90,13 @@ def test_a_loose_wrist_flies_and_strikes_as_in_the_literature(
         result = run(description, times, rtol)
         assert result.imbalance < 1e-2
         later = times > TURN
-        force = np.hypot(result.joint(WRIST, "F_x"), result.joint(WRIST, "F_y"))[later]
-        peak = np.abs(result.body(2, "a_x")[later]).max() / np.abs(ideal.body(2, "a_x")).max()
+        force = np.hypot(
+            result.joint(WRIST, "reaction_force", "x"), result.joint(WRIST, "reaction_force", "y")
+        )[later]
+        peak = (
+            np.abs(result.body(2, "acceleration", "x")[later]).max()
+            / np.abs(ideal.body(2, "acceleration", "x")).max()
+        )
         # 6 to 10 over tolerances from 1e-4 to 1e-5 and restitutions from 0.5 to 0.9.
         assert peak > 3.0
         flying = force == 0.0
@@ -106,7 +117,7 @@ def test_a_driven_real_joint_turns_the_same_way_wherever_its_socket_is(
     joints[0] = replace(joints[0], clearance=real, socket=socket)
     result = run(replace(slider_crank(), joints=tuple(joints)), TURN * np.linspace(0.0, 0.1, 11), 1e-4)
     # At the start the crank turns at the speed of the drive, to within what the clearance lets it tilt.
-    assert result.body(0, "omega_z") == pytest.approx(5000.0 * np.pi / 30.0, rel=1e-2)
+    assert result.body(0, "angular_velocity", "z") == pytest.approx(5000.0 * np.pi / 30.0, rel=1e-2)
 
 
 def test_every_pin_of_a_chain_may_be_real(make_clearance: Callable[..., Clearance]) -> None:
@@ -118,5 +129,5 @@ def test_every_pin_of_a_chain_may_be_real(make_clearance: Callable[..., Clearanc
     times = np.linspace(0.0, 0.05, 11)
     ours, ideal = run(real, times, 1e-4), run(hanging, times, 1e-6)
     # Four clearances, and what the surfaces give way.
-    assert ours.body(3, "z") == pytest.approx(ideal.body(3, "z"), abs=5e-4)
+    assert ours.body(3, "position", "z") == pytest.approx(ideal.body(3, "position", "z"), abs=5e-4)
     assert ours.imbalance < 1e-2

@@ -27,16 +27,18 @@ SPEED = 5000.0 * 2.0 * np.pi / 60.0
 
 def _table(result: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return what the slider-crank's table holds, what it should, and half a unit of its last digits."""
-    force = np.hypot(result.joint(2, "R_x"), result.joint(2, "R_y"))
+    force = np.hypot(
+        result.joint(2, "reaction_force_global", "x"), result.joint(2, "reaction_force_global", "y")
+    )
     moment = result.joint(0, "drive_moment")
     given = [
-        (result.body(2, "a_x")[0], -19419.3605, 5e-5),
-        (result.body(2, "x")[3], 0.109087121, 5e-10),
-        (result.body(2, "a_x")[3], 6282.9524, 5e-5),
+        (result.body(2, "acceleration", "x")[0], -19419.3605, 5e-5),
+        (result.body(2, "position", "x")[3], 0.109087121, 5e-10),
+        (result.body(2, "acceleration", "x")[3], 6282.9524, 5e-5),
         (force[0], 2718.7105, 5e-5),
         (force[3], 888.1271, 5e-5),
-        (result.joint(1, "R_x")[1], -4919.0023, 5e-5),
-        (result.joint(1, "R_y")[1], 280.1099, 5e-5),
+        (result.joint(1, "reaction_force_global", "x")[1], -4919.0023, 5e-5),
+        (result.joint(1, "reaction_force_global", "y")[1], 280.1099, 5e-5),
         (moment[1], 135.104170, 5e-7),
         (moment[2], 63.578571, 5e-7),
         (moment[3], -76.966167, 5e-7),
@@ -70,8 +72,8 @@ def test_slider_crank_on_stiff_springs_tends_to_ideal_joints_with_their_stiffnes
 def test_two_four_bars_pass_the_position_where_constraints_degenerate() -> None:
     # What passes near the degenerate position is magnified: 1.3e-7 at RTOL, and in proportion to it.
     result = run(two_four_bars(), np.linspace(0.0, 10.0, 101), RTOL / 5.0)
-    place = 2.0 * np.array([result.body(0, "x"), result.body(0, "y")])
-    speed = 2.0 * np.array([result.body(0, "v_x"), result.body(0, "v_y")])
+    place = 2.0 * np.array([result.body(0, "position", "x"), result.body(0, "position", "y")])
+    speed = 2.0 * np.array([result.body(0, "velocity", "x"), result.body(0, "velocity", "y")])
     for found, wanted in (
         (place[:, 50], [-0.8113104610, -0.5846155453]),
         (place[:, -1], [0.3284581115, 0.9445185382]),
@@ -84,15 +86,15 @@ def test_two_four_bars_pass_the_position_where_constraints_degenerate() -> None:
 def test_spatial_slider_crank() -> None:
     result = run(spatial_slider_crank(), [0.0, 0.1, 0.5, 1.0, 5.0], RTOL)
     wanted = [0.226787189, 0.184952630, 0.211721661, 0.240719574]
-    assert result.body(2, "x")[1:] == pytest.approx(wanted, rel=1e-7)
-    assert result.joint(0, "angle")[-1] == pytest.approx(54.333332168, rel=1e-7)
+    assert result.body(2, "position", "x")[1:] == pytest.approx(wanted, rel=1e-7)
+    assert result.joint(0, "joint_angle")[-1] == pytest.approx(54.333332168, rel=1e-7)
     assert result.whole("gap").max() < 1e-10
     assert result.whole("gap_rate").max() < 1e-9
 
 
 def test_bricard_moves_although_it_is_overconstrained() -> None:
     result = run(bricard(), np.linspace(0.0, 10.0, 101), RTOL)
-    assert np.ptp(result.body(2, "y")) > 0.1
+    assert np.ptp(result.body(2, "position", "y")) > 0.1
     assert np.ptp(result.energy) < 1e-7 * np.ptp(result.whole("energy_kinetic"))
     assert result.whole("gap").max() < 1e-10
 

@@ -20,7 +20,9 @@ def test_error_is_in_proportion_to_the_tolerance(make: Callable[[], Description]
 
     def error(rtol: float) -> float:
         result = run(make(), times, rtol)
-        return float(np.sqrt(np.mean((result.body(2, "x") - exact.body(2, "x")) ** 2)))
+        return float(
+            np.sqrt(np.mean((result.body(2, "position", "x") - exact.body(2, "position", "x")) ** 2))
+        )
 
     errors = np.array([error(rtol) for rtol in RTOL])
     slope = np.polyfit(np.log(RTOL), np.log(errors), 1)[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any, Final, NamedTuple, TypeAlias
 
@@ -15,7 +16,7 @@ TIME: Final = ("time",)
 
 
 class Quantity(NamedTuple):
-    """One number that kernels know by its name.
+    """One number or vector that kernels fill in by its name.
 
     Attributes
     ----------
@@ -27,12 +28,15 @@ class Quantity(NamedTuple):
         Plain words, used as axis label and in the documentation.
     dimensions
         Dimensions of the array that a result holds of it.
+    size
+        Number of components.
     """
 
     name: str
     unit: str
     meaning: str
     dimensions: tuple[str, ...] = TIME
+    size: int = 1
 
 
 Table: TypeAlias = Sequence[Quantity]
@@ -48,9 +52,15 @@ def record_type(*fields: Any) -> RecordType:
     return np.dtype((np.record, list(fields)))
 
 
+def slices(table: Table) -> dict[str, slice]:
+    """Return where each quantity is among the numbers of a record that :func:`of_table` makes."""
+    ends = itertools.accumulate(quantity.size for quantity in table)
+    return {quantity.name: slice(end - quantity.size, end) for quantity, end in zip(table, ends, strict=True)}
+
+
 def of_table(table: Table) -> RecordType:
-    """Return the type of a record with a number for each quantity."""
-    return record_type(*((name, "f8") for name in names(table)))
+    """Return the type of a record with a number, or an array of them, for each quantity."""
+    return record_type(*((q.name, "f8") if q.size == 1 else (q.name, "f8", (q.size,)) for q in table))
 
 
 def of_tables(tables: Mapping[str, Table]) -> RecordType:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import Any
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
@@ -22,88 +23,78 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
 )
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
+from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE, Body, Coupling, Whole
 from tribodyn.kernels.mechanism.vectors import turn, turn_back
-
-N_WHOLE: Final = len(WHOLE)
-N_BODY: Final = len(BODY)
-N_COUPLING: Final = len(COUPLING)
 
 
 @kernel
 def fill_row(data: MechanismData, memory: MechanismMemory, row: FloatArray) -> None:
-    """Fill a row with what stands settled."""
-    _whole(data.parts, memory.now, memory.books, row[:N_WHOLE])
+    """Fill a row with the records of the whole, of each body and of each coupling."""
+    _whole(data.parts, memory.now, memory.books, row[:N_WHOLE].view(Whole)[0])
     first = N_WHOLE
     for b in range(data.parts.bodies.size):
-        _body(memory.now.bodies[b], row[first : first + N_BODY], memory.now.rest[0, :3])
+        _body(memory.now.bodies[b], row[first : first + N_BODY].view(Body)[0])
         first += N_BODY
     for k in range(data.parts.couplings.size):
-        coupling, out = data.parts.couplings[k], row[first : first + N_COUPLING]
+        coupling, out = data.parts.couplings[k], row[first : first + N_COUPLING].view(Coupling)[0]
         _coupling(coupling, memory.now.couplings[k], memory.books[k], out)
-        if coupling.force == CONTACT:
-            _contact(data.contact, memory.contact, coupling.contact, out)
+        _contact(data.contact, memory.contact, coupling, out)
         first += N_COUPLING
 
 
 @kernel
-def _whole(data: Parts, memory: Now, books: Any, out: FloatArray) -> None:
+def _whole(data: Parts, memory: Now, books: Any, out: Record) -> None:
     """Energies, works, momenta and impulses of the whole, and how well constraints hold."""
     course, n = memory.course, data.couplings.size
-    for i in range(out.size):
-        out[i] = 0.0
-    out[0], out[1] = course.kinetic, course.potential
+    out.energy_kinetic, out.energy_gravity = course.kinetic, course.potential
+    out.energy_stored = out.work_in = out.heat_damping = out.heat_friction = 0.0
+    out.gap = out.gap_rate = 0.0
     for k in range(n):
         now, book = memory.couplings[k], books[k]
-        out[2] += now.stored
-        out[3] += book.sums[WORK]
-        out[4] += book.sums[DAMPING]
-        out[5] += book.sums[FRICTION]
+        out.energy_stored += now.stored
+        out.work_in += book.sums[WORK]
+        out.heat_damping += book.sums[DAMPING]
+        out.heat_friction += book.sums[FRICTION]
         for m in range(data.couplings[k].n_rows):
-            out[18] = max(out[18], abs(now.residual[m]))
-            out[19] = max(out[19], abs(now.rate[m]))
-    for i in range(6):
-        out[6 + i] = course.momentum[i]
-    for i in range(3):
-        out[12 + i], out[15 + i] = books[n].sums[i], books[n + 1].sums[i]
+            out.gap = max(out.gap, abs(now.residual[m]))
+            out.gap_rate = max(out.gap_rate, abs(now.rate[m]))
+    momentum, impulse, spin = course.momentum, books[n].sums, books[n + 1].sums
+    out.momentum_x, out.momentum_y, out.momentum_z = momentum[0], momentum[1], momentum[2]
+    out.spin_x, out.spin_y, out.spin_z = momentum[3], momentum[4], momentum[5]
+    out.impulse_x, out.impulse_y, out.impulse_z = impulse[0], impulse[1], impulse[2]
+    out.spin_impulse_x, out.spin_impulse_y, out.spin_impulse_z = spin[0], spin[1], spin[2]
 
 
 @kernel
-def _body(now: Record, out: FloatArray, turned: FloatArray) -> None:
-    """Position, quaternion, velocity and acceleration of a body, in global axes."""
-    for i in range(4):
-        out[3 + i] = now.p[i]
-    for i in range(3):
-        out[i], out[7 + i], out[13 + i] = now.r[i], now.v[i], now.acceleration[i]
-    turn(now.A, now.w, turned)
-    for i in range(3):
-        out[10 + i] = turned[i]
-    turn(now.A, now.acceleration[3:6], turned)
-    for i in range(3):
-        out[16 + i] = turned[i]
+def _body(now: Record, out: Record) -> None:
+    """Place, velocities and accelerations of a body."""
+    copy(now.r, out.position)
+    copy(now.p, out.orientation)
+    copy(now.v, out.velocity)
+    turn(now.A, now.w, out.angular_velocity)
+    copy(now.acceleration[:3], out.acceleration)
+    turn(now.A, now.acceleration[3:6], out.angular_acceleration)
 
 
 @kernel
-def _coupling(coupling: Record, now: Record, book: Record, out: FloatArray) -> None:
-    """Motion of the shaft, wrench of the joint and of its drives on it, and books of a coupling."""
+def _coupling(coupling: Record, now: Record, book: Record, out: Record) -> None:
+    """Motion of the shaft, wrench of the joint and of its drives on it, works and powers of a coupling."""
     axis, driving = now.pose.rotation[:, 2], now.work[0, :6]
     _drive(coupling, now, driving)
-    out[0] = now.angle
-    out[4], out[5] = -axis[1] / axis[2], axis[0] / axis[2]
+    out.joint_angle = now.angle
+    copy(now.pose.d, out.displacement)
+    out.tilt_x, out.tilt_y = -axis[1] / axis[2], axis[0] / axis[2]
+    copy(now.twist[:3], out.relative_velocity)
+    copy(now.twist[3:], out.relative_rate)
     for i in range(3):
-        out[1 + i] = now.pose.d[i]
-    for i in range(6):
-        out[6 + i] = now.twist[i]
-        out[12 + i] = now.wrench[i] + now.constraint[i] - driving[i]
-    turn_back(now.RT, out[12:15], out[18:21])
-    turn_back(now.RT, out[15:18], out[21:24])
-    out[24], out[25] = driving[5], driving[2]
-    for i in range(3):
-        out[26 + i] = book.sums[i]
-    out[29] = now.stored
-    for i in range(30, 35):
-        out[i] = 0.0
-    out[35], out[36] = now.powers[FRICTION], now.powers[DAMPING]
+        out.reaction_force[i] = now.wrench[i] + now.constraint[i] - driving[i]
+        out.reaction_moment[i] = now.wrench[3 + i] + now.constraint[3 + i] - driving[3 + i]
+    turn_back(now.RT, out.reaction_force, out.reaction_force_global)
+    turn_back(now.RT, out.reaction_moment, out.reaction_moment_global)
+    out.drive_moment, out.drive_force = driving[5], driving[2]
+    out.joint_work, out.joint_damping = book.sums[WORK], book.sums[DAMPING]
+    out.joint_friction, out.joint_energy = book.sums[FRICTION], now.stored
+    out.friction_power, out.damping_power = now.powers[FRICTION], now.powers[DAMPING]
 
 
 @kernel
@@ -119,13 +110,18 @@ def _drive(coupling: Record, now: Record, out: FloatArray) -> None:
 
 
 @kernel
-def _contact(joints: SurfaceData, memory: SurfaceMemory, j: int, out: FloatArray) -> None:
-    """Add up the surfaces of a joint with clearance."""
-    out[34] = math.inf
-    for s in range(joints.joints[j], joints.joints[j + 1]):
+def _contact(joints: SurfaceData, memory: SurfaceMemory, coupling: Record, out: Record) -> None:
+    """Add up the surfaces of a joint with clearance; without one there is no contact force."""
+    for i in range(3):
+        out.contact_force[i] = 0.0
+    out.pressure_max = out.gap_min = 0.0
+    if coupling.force != CONTACT:
+        return
+    out.gap_min = math.inf
+    for s in range(joints.joints[coupling.contact], joints.joints[coupling.contact + 1]):
         report = memory.reports[s]
-        out[30] += report.F_cx
-        out[31] += report.F_cy
-        out[32] += report.F_cz
-        out[33] = max(out[33], report.p_max)
-        out[34] = min(out[34], report.separation_min)
+        out.contact_force[0] += report.F_cx
+        out.contact_force[1] += report.F_cy
+        out.contact_force[2] += report.F_cz
+        out.pressure_max = max(out.pressure_max, report.p_max)
+        out.gap_min = min(out.gap_min, report.separation_min)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.core.quantities import Quantity
+from tribodyn.core.quantities import Quantity, of_table
 
 WHOLE: Final = (
     Quantity("energy_kinetic", "J", "kinetic energy"),
@@ -30,37 +30,77 @@ WHOLE: Final = (
 )
 
 BODY: Final = (
-    *(Quantity(name, "m", f"mass centre, {name}") for name in "xyz"),
-    *(Quantity(f"p_{i}", "1", f"quaternion from the drawing, entry {i}") for i in range(4)),
-    *(Quantity(f"v_{name}", "m s-1", f"velocity of the mass centre, {name}") for name in "xyz"),
-    *(Quantity(f"omega_{name}", "rad s-1", f"angular velocity, {name}") for name in "xyz"),
-    *(Quantity(f"a_{name}", "m s-2", f"acceleration of the mass centre, {name}") for name in "xyz"),
-    *(Quantity(f"alpha_{name}", "rad s-2", f"angular acceleration, {name}") for name in "xyz"),
+    Quantity("position", "m", "mass centre of the body", size=3),
+    Quantity("orientation", "1", "quaternion that turns the body from the drawing", size=4),
+    Quantity("velocity", "m s-1", "velocity of the mass centre", size=3),
+    Quantity("angular_velocity", "rad s-1", "angular velocity of the body, global axes", size=3),
+    Quantity("acceleration", "m s-2", "acceleration of the mass centre", size=3),
+    Quantity("angular_acceleration", "rad s-2", "angular acceleration of the body, global axes", size=3),
 )
 """In global axes."""
 
 COUPLING: Final = (
-    Quantity("angle", "rad", "angle of the shaft about the axis, whole turns included"),
-    *(Quantity(f"d_{name}", "m", f"displacement of the shaft, {name} of the joint") for name in "xyz"),
-    *(Quantity(f"tilt_{name}", "rad", f"tilt of the shaft about {name} of the joint") for name in "xy"),
-    *(Quantity(f"u_{name}", "m s-1", f"relative velocity, {name} of the joint") for name in "xyz"),
-    *(Quantity(f"w_{name}", "rad s-1", f"relative angular velocity, {name} of the joint") for name in "xyz"),
-    *(
-        Quantity(f"F_{name}", "N", f"reaction force on the shaft's body, {name} of the joint")
-        for name in "xyz"
+    Quantity("joint_angle", "rad", "angle of the second body about the axis, from the drawing"),
+    Quantity("displacement", "m", "displacement of the shaft in its socket, axes of the joint", size=3),
+    Quantity("tilt_x", "rad", "tilt of the shaft in its socket about the x of the joint"),
+    Quantity("tilt_y", "rad", "tilt of the shaft in its socket about the y of the joint"),
+    Quantity(
+        "relative_velocity", "m s-1", "velocity of the second body in the joint, axes of the joint", size=3
     ),
-    *(Quantity(f"M_{name}", "N m", f"reaction moment at the shaft, {name} of the joint") for name in "xyz"),
-    *(Quantity(f"R_{name}", "N", f"reaction force on the shaft's body, global {name}") for name in "xyz"),
-    *(Quantity(f"T_{name}", "N m", f"reaction moment at the shaft, global {name}") for name in "xyz"),
-    Quantity("drive_moment", "N m", "moment of the drives about the axis"),
-    Quantity("drive_force", "N", "force of the drives along the axis"),
-    Quantity("work", "J", "work that the coupling has put in"),
-    Quantity("damping", "J", "what it has turned into heat by damping"),
-    Quantity("friction", "J", "what it has turned into heat by friction"),
-    Quantity("stored", "J", "energy stored in it"),
-    *(Quantity(f"c_{name}", "N", f"normal contact force, {name} of the joint") for name in "xyz"),
-    Quantity("pressure_max", "Pa", "largest contact pressure"),
-    Quantity("gap_min", "m", "smallest gap, negative where mean surfaces overlap"),
-    Quantity("friction_power", "W", "power that friction turns into heat"),
-    Quantity("damping_power", "W", "power that damping turns into heat"),
+    Quantity(
+        "relative_rate",
+        "rad s-1",
+        "angular velocity of the second body in the joint, axes of the joint",
+        size=3,
+    ),
+    Quantity(
+        "reaction_force", "N", "reaction force of the joint on the second body, axes of the joint", size=3
+    ),
+    Quantity(
+        "reaction_moment", "N m", "reaction moment on the second body at the shaft, axes of the joint", size=3
+    ),
+    Quantity(
+        "reaction_force_global", "N", "reaction force of the joint on the second body, global axes", size=3
+    ),
+    Quantity(
+        "reaction_moment_global",
+        "N m",
+        "reaction moment on the second body at the shaft, global axes",
+        size=3,
+    ),
+    Quantity("drive_moment", "N m", "moment of the drives of the joint on the second body, about the axis"),
+    Quantity("drive_force", "N", "force of the drives of the joint on the second body, along the axis"),
+    Quantity("joint_work", "J", "work that drives and loads have put in"),
+    Quantity("joint_damping", "J", "heat of damping in the joint"),
+    Quantity("joint_friction", "J", "heat of friction in the joint"),
+    Quantity("joint_energy", "J", "energy stored in the joint"),
+    Quantity("contact_force", "N", "normal contact force on the shaft, axes of the joint", size=3),
+    Quantity("pressure_max", "Pa", "largest contact pressure in the joint"),
+    Quantity("gap_min", "m", "smallest gap in the joint, negative where mean surfaces overlap"),
+    Quantity("friction_power", "W", "power that friction turns into heat in the joint"),
+    Quantity("damping_power", "W", "power that damping turns into heat in the joint"),
 )
+"""Of a joint, a spring or a load. Kernels observe them for the shaft; results, for the second body."""
+
+OF_SECOND: Final = frozenset(
+    {
+        "joint_angle",
+        "relative_velocity",
+        "relative_rate",
+        "reaction_force",
+        "reaction_moment",
+        "reaction_force_global",
+        "reaction_moment_global",
+        "drive_moment",
+        "drive_force",
+    }
+)
+"""Those that change their sign where the shaft is on the first body."""
+
+Whole: Final = of_table(WHOLE)
+Body: Final = of_table(BODY)
+Coupling: Final = of_table(COUPLING)
+N_WHOLE: Final = Whole.itemsize // 8
+N_BODY: Final = Body.itemsize // 8
+N_COUPLING: Final = Coupling.itemsize // 8
+"""Numbers in each record."""

@@ -65,7 +65,7 @@ class Contacts:
         data
             What the kernels of the run read, with its wear.
         rows
-            Observed of all couplings, shape (n_t, n_couplings) each.
+            Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
         peaks
             What was largest or least of each surface.
         """
@@ -117,7 +117,7 @@ class Contacts:
         pressure is that of the attitude in which the pressure of the run was largest; 0 where it is not
         known. Both are NaN from where the caller wanted to stop.
         """
-        n_rows, n_surfaces = rows["angle"].shape[0], len(self.places)
+        n_rows, n_surfaces = rows["tilt_x"].shape[0], len(self.places)
         error, at_rest = np.full(n_surfaces, np.nan), np.zeros(n_surfaces)
         if not n_rows:
             return error, at_rest
@@ -177,7 +177,7 @@ def _pose(rows: Mapping[str, FloatArray], number: int, row: int) -> Record:
     """Return the attitude of the shaft of a joint, at rest."""
     tilt_x, tilt_y = rows["tilt_x"][row, number], rows["tilt_y"][row, number]
     axes = frame(np.array([tilt_y, -tilt_x, 1.0]), np.array([1.0, 0.0, 0.0]))
-    return pose_at([rows[f"d_{axis}"][row, number] for axis in "xyz"], axes)
+    return pose_at(rows["displacement"][row, number], axes)
 
 
 def _reported(data: SurfaceData, j: int, pose: Record) -> Record:

@@ -11,7 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Algebra, CompiledFunctions, Problem
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
+from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.equations import n_blocks
@@ -86,7 +86,7 @@ def mechanism_problem(
         atol=np.tile(np.repeat(tolerances, [3, 4, 3, 3]), n),
         relative=np.tile(np.repeat([0.0, 1.0], [VELOCITY, N_STATES - VELOCITY]), n),
         state_names=tuple(f"{name} of {body.name}" for body in bodies for name in STATES),
-        n_observed=len(WHOLE) + n * len(BODY) + data.parts.couplings.size * len(COUPLING),
+        n_observed=N_WHOLE + n * N_BODY + data.parts.couplings.size * N_COUPLING,
         field_shape=(data.contact.nodes.shape[1],),
         algebra=None if dense else _algebra(data),
     )

@@ -16,6 +16,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import places
+from tribodyn.kernels.mechanism.quantities import OF_SECOND
 from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, WearRates, Worn
 from tribodyn.mechanisms.bushing import of_expansion
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
@@ -32,12 +33,11 @@ from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem,
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import (
     AXES,
-    BODIES,
     ENTRIES,
     JOINTS,
     Observed,
+    columns_of,
     observed,
-    place,
 )
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED
@@ -131,9 +131,9 @@ class MechanismSystem:
             return None
         joints, drives = range(len(self.description.joints)), self.description.drives
         watched = (
-            *(tuple(place(f"F_{axis}", k, n_bodies) for axis in AXES) for k in joints),
-            *((place("pressure_max", k, n_bodies),) for k in self._real_numbers),
-            *((place(f"drive_{name}", d.joint, n_bodies),) for d in drives for name in ("moment", "force")),
+            *(columns_of("reaction_force", k, n_bodies) for k in joints),
+            *(columns_of("pressure_max", k, n_bodies) for k in self._real_numbers),
+            *(columns_of(f"drive_{name}", d.joint, n_bodies) for d in drives for name in ("moment", "force")),
         )
         n = min(max(round(duration / self.period), 1), self.output_times(duration).size)
         edges = np.linspace(0.0, duration, n + 1)
@@ -181,7 +181,7 @@ class MechanismSystem:
 
     def of_cycle(self, run: Run) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""
-        force = np.linalg.norm(JOINTS["reaction_force"].values(self._observed(run).couplings), axis=-1)
+        force = np.linalg.norm(self._observed(run).couplings["reaction_force"], axis=-1)
         means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self._real_numbers]]
         return {
             "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
@@ -199,8 +199,8 @@ class MechanismSystem:
         return Part(
             coordinates=self._coordinates(run),
             columns={
-                **{name: kept.values(found.bodies) for name, kept in BODIES.items()},
-                **{name: kept.values(self._of_joints(found)) for name, kept in JOINTS.items()},
+                **found.bodies,
+                **self._of_joints(found),
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
@@ -240,8 +240,9 @@ class MechanismSystem:
     def _followed(self, found: Observed, table: Followed) -> FloatArray:
         """Return the coordinate of a joint that a load follows, shape (n_t,)."""
         number = list(self.case.joints).index(table.follows)
-        name = {"angles": "angle", "positions": "d_z"}[table.over]
-        return np.asarray(self.description.joints[number].sign * found.couplings[name][:, number])
+        couplings, sign = found.couplings, self.description.joints[number].sign
+        along = couplings["joint_angle"] if table.over == "angles" else couplings["displacement"][..., 2]
+        return np.asarray(sign * along[:, number])
 
     def _failure(self, run: Run) -> str:
         """Return why the run stopped before its end, empty if it did not."""
@@ -255,7 +256,7 @@ class MechanismSystem:
 
         Where nothing moves there is no more to balance than that.
         """
-        forces = JOINTS["reaction_force"].values(found.couplings)
+        forces = found.couplings["reaction_force"]
         return (
             float(np.max(np.abs(forces), initial=0.0)) * self.case.solver.rtol * length_scale(self.assembly)
         )
@@ -274,14 +275,13 @@ class MechanismSystem:
     def _of_joints(self, found: Observed) -> dict[str, FloatArray]:
         """Return what is observed of the joints alone, which come before springs and loads.
 
-        Kernels tell all of the shaft.
+        Kernels observe all of the shaft.
         """
-        n, signs = len(self.description.joints), [joint.sign for joint in self.description.joints]
-        turned = {entry for kept in JOINTS.values() if kept.of_second for entry in kept.entries}
-        return {
-            name: values[:, :n] * signs if name in turned else values[:, :n]
-            for name, values in found.couplings.items()
-        }
+        signs = np.array([joint.sign for joint in self.description.joints])
+        columns = {name: found.couplings[name][:, : signs.size] for name in JOINTS}
+        for name in OF_SECOND:
+            columns[name] = columns[name] * signs.reshape(-1, *(1,) * (columns[name].ndim - 2))
+        return columns
 
     @property
     def _real_numbers(self) -> list[int]:

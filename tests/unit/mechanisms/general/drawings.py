@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Statistics
-from tribodyn.core.quantities import names
 from tribodyn.core.signals import constant
 from tribodyn.integrate import integrate
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
 from tribodyn.mechanisms.general.assembly import assemble
 from tribodyn.mechanisms.general.description import GROUND, Body, Description, Drive, Joint, Spring
 from tribodyn.mechanisms.general.joints import ROWS
 from tribodyn.mechanisms.general.problem import mechanism_problem
+from tribodyn.mechanisms.general.variables import AXES, Observed, observed
 
 NOTHING = np.zeros(0)
 
@@ -232,16 +232,23 @@ class Run:
 
     def whole(self, name: str) -> FloatArray:
         """Return a quantity of the whole, shape (n_t,)."""
-        return self.rows[:, names(WHOLE).index(name)]
+        return self._observed.whole[name]
 
-    def body(self, number: int, name: str) -> FloatArray:
-        """Return a quantity of a body, shape (n_t,)."""
-        return self.rows[:, len(WHOLE) + len(BODY) * number + names(BODY).index(name)]
+    def body(self, number: int, name: str, axis: str = "") -> FloatArray:
+        """Return a quantity of a body or one component of it, shape (n_t,)."""
+        return self._component(self._observed.bodies[name][:, number], axis)
 
-    def joint(self, number: int, name: str) -> FloatArray:
-        """Return a quantity of a coupling, shape (n_t,)."""
-        first = len(WHOLE) + len(BODY) * len(self.description.bodies)
-        return self.rows[:, first + len(COUPLING) * number + names(COUPLING).index(name)]
+    def joint(self, number: int, name: str, axis: str = "") -> FloatArray:
+        """Return a quantity of a coupling or one component of it, shape (n_t,)."""
+        return self._component(self._observed.couplings[name][:, number], axis)
+
+    @cached_property
+    def _observed(self) -> Observed:
+        return observed(self.rows, len(self.description.bodies))
+
+    @staticmethod
+    def _component(values: FloatArray, axis: str) -> FloatArray:
+        return values[:, AXES.index(axis)] if axis else values
 
     @property
     def energy(self) -> FloatArray:

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from tests.unit.mechanisms.general.slider_crank import parsed
 
+from tribodyn.kernels.mechanism.quantities import BODY, COUPLING
 from tribodyn.mechanisms.general.variables import BODIES, JOINTS, VARIABLES
 from tribodyn.results import build
 
@@ -28,10 +29,11 @@ def result(failure: str = "") -> xr.Dataset:
     along = 0.12 * np.stack([np.cos(swing), np.sin(swing), 0.0 * t], axis=-1)
     zero = 0.0 * turn
     shapes = {"body": (N, 3), "joint": (N, 4)}
+    sizes = {quantity.name: quantity.size for quantity in (*BODY, *COUPLING)}
     columns = {
-        name: np.zeros((*shapes[part], *((4,) if kept.dims == ("entry",) else (3,) if kept.dims else ())))
+        name: np.zeros(shapes[part] if sizes[name] == 1 else (*shapes[part], sizes[name]))
         for part, table in (("body", BODIES), ("joint", JOINTS))
-        for name, kept in table.items()
+        for name in table
     }
     columns["position"] = np.stack([0.0 * pin, pin + 0.5 * along, pin + along], axis=1)
     columns["orientation"] = np.stack([_about_z(turn), _about_z(swing), _about_z(zero)], axis=1)
