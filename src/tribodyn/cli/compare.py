@@ -11,6 +11,7 @@ from urllib.parse import quote
 
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import REPORT
+from tribodyn.cli.headlines import grey
 from tribodyn.cli.tables import LEFT_OUT
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, on_one_line
@@ -63,15 +64,22 @@ def execute(args: Namespace) -> int:
 
 
 def _in_words(names: Sequence[str], found: Differences) -> Iterator[str]:
-    """Give a table of what differs in the cases, and of what came of it."""
-    rows = [[brief(on_one_line(text)) for text in (row["path"], *row["values"])] for row in found.keys]
-    for group in found.groups:
-        if group["name"] not in LEFT_OUT:
-            rows += [_row(row) for row in group["rows"]]
-    widths = [max(map(len, column)) for column in zip(["", *names], *rows, strict=True)]
-    for first, *others in [["", *names], *rows]:
-        cells = (f"{text:>{width}}" for text, width in zip(others, widths[1:], strict=True))
-        yield "  ".join([f"{first:<{widths[0]}}", *cells]).rstrip()
+    """Give a table of what differs in the cases, and of what came of it; grey where numbers are doubtful."""
+    from tribodyn.results.summary import caution
+
+    heads = [["", *names]]
+    heads += [[brief(on_one_line(text)) for text in (row["path"], *row["values"])] for row in found.keys]
+    rows = [_row(row) for group in found.groups if group["name"] not in LEFT_OUT for row in group["rows"]]
+    widths = [max(map(len, column)) for column in zip(*heads, *rows, strict=True)]
+    doubts = [summary["doubtful"] for summary in found.summaries]
+    for table, marks in ((heads, [""] * len(names)), (rows, doubts)):
+        for first, *others in table:
+            cells = [f"{text:>{width}}" for text, width in zip(others, widths[1:], strict=True)]
+            shown = (grey(cell, mark) for cell, mark in zip(cells, marks, strict=True))
+            yield "  ".join([f"{first:<{widths[0]}}", *shown]).rstrip()
+    yield from (
+        caution(mark, f"the numbers of {name}") for name, mark in zip(names, doubts, strict=True) if mark
+    )
     if found.stretch:
         yield found.stretch
 

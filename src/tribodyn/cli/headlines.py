@@ -22,13 +22,18 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     summary
         Content of ``summary.json``.
     """
+    from tribodyn.results.summary import caution
+
     doubt = summary.get("doubtful")
-    if not doubt:
-        yield from _numbers(summary)
-        return
-    yield f"  Do not use these numbers: {doubt}."
-    grey = sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    yield from (f"{_GREY}{line}{_PLAIN}" if grey else line for line in _numbers(summary))
+    if doubt:
+        yield f"  {caution(doubt)}"
+    yield from (grey(line, doubt) for line in _numbers(summary))
+
+
+def grey(text: str, doubt: object) -> str:
+    """Return a text that a terminal shows in grey where there is a doubt, unless colours are unwanted."""
+    wanted = doubt and sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    return f"{_GREY}{text}{_PLAIN}" if wanted else text
 
 
 def _numbers(summary: Mapping[str, object]) -> Iterator[str]:

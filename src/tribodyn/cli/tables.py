@@ -7,9 +7,12 @@ import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
+from tribodyn.cli.headlines import grey
+
 _COLUMN: Final = 13
 _LONGEST: Final = 22
 _MOST_ROWS: Final = 40
+_MOST_DOUBTS: Final = 5
 LEFT_OUT: Final = ("Trust", "Effort")
 """Groups of headline numbers that say nothing about the machine."""
 
@@ -30,8 +33,21 @@ def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iter
     else:
         numbers = _headlines(given, record["kind"], every=bool(shown))
         yield from _points(record["points"], numbers, every=bool(shown))
+    yield from _cautions(record["points"])
     yield from _limits(record)
     yield from _sensitivities(record, shown)
+
+
+def _cautions(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Say which points have numbers that should not be used."""
+    from tribodyn.results.summary import caution
+
+    doubtful = [point for point in points if point.get("doubtful")]
+    for point in doubtful[:_MOST_DOUBTS]:
+        at = ", ".join(f"{path} = {value}" for path, value in point["changes"].items())
+        yield caution(point["doubtful"], f"the numbers at {at}")
+    if len(doubtful) > _MOST_DOUBTS:
+        yield f"... nor those of {len(doubtful) - _MOST_DOUBTS} more points"
 
 
 def _limits(record: Mapping[str, Any]) -> Iterator[str]:
@@ -96,7 +112,7 @@ def _points(points: Sequence[Mapping[str, Any]], numbers: Mapping[str, str], *, 
     yield from _heading({name: (name.replace(".", " "), width) for name, width in widths.items()}, shown)
     for point in points[:_MOST_ROWS]:
         changes = (f"{point['changes'][name]:<{width}.{width}}" for name, width in widths.items())
-        yield "  ".join([*changes, *_cells(point, shown)])
+        yield "  ".join([*changes, *(grey(cell, point.get("doubtful")) for cell in _cells(point, shown))])
     if len(points) > _MOST_ROWS:
         yield f"... {len(points) - _MOST_ROWS} more points"
 

@@ -125,9 +125,14 @@ def _show_pictures() -> None:
 
 def _page(summary: dict[str, Any]) -> Iterator[str]:
     from tribodyn.mechanisms.results import known
+    from tribodyn.results.summary import caution
     from tribodyn.views.numbers import rounded
 
-    yield f"<strong>{escape(str(summary.get('title', '')))}</strong><table>"
+    yield f"<strong>{escape(str(summary.get('title', '')))}</strong>"
+    doubt = summary.get("doubtful")
+    yield (
+        f"<p><strong>{escape(caution(doubt))}</strong></p><table style='color:gray'>" if doubt else "<table>"
+    )
     for name, headline in known(summary, str(summary.get("kind", ""))).items():
         value = summary[name]
         number = f"{rounded(value, headline.digits):.4g}" if isinstance(value, float) else str(value)

@@ -17,6 +17,7 @@ from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
 from tribodyn.results import Headline, json_attribute
 from tribodyn.results.atomic import write_text
+from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common
 from tribodyn.views.numbers import in_words
 
@@ -55,7 +56,7 @@ class Differences:
         Keys of the cases that are not the same in all runs: ``path`` and ``values``.
     groups
         Headline numbers in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each
-        run, a cell of ``value``, ``change`` and whether that is ``notable``, in words.
+        run, a cell of ``value``, ``change``, whether that is ``notable`` and the run ``doubtful``.
     stretch
         What loads and accuracy were taken from, in a sentence; empty where that is the whole of each run.
     summaries
@@ -137,12 +138,14 @@ def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]
 def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:
     """Return name, title and doubts of a run."""
     failure = f"stopped at t = {in_words(summary.get('simulated_time_s', 0.0))} s: {summary['failure']}"
-    doubts = json_attribute(run.dataset, "warnings", [])
+    caution_of_run = caution(summary["doubtful"])
+    doubts = [caution_of_run] if caution_of_run else []
+    doubts += [failure] if summary["failure"] else []
     return {
         "name": run.name,
         "title": summary["title"],
         "link": run.link,
-        "doubts": [failure, *doubts] if summary["failure"] else doubts,
+        "doubts": doubts + json_attribute(run.dataset, "warnings", []),
     }
 
 
@@ -156,7 +159,13 @@ def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
             "label": _label(headline, summaries),
             "unit": headline.unit,
             "group": headline.group,
-            "cells": [_cell(summary.get(name), summaries[0].get(name), headline) for summary in summaries],
+            "cells": [
+                {
+                    **_cell(summary.get(name), summaries[0].get(name), headline),
+                    "doubtful": bool(summary["doubtful"]),
+                }
+                for summary in summaries
+            ],
         }
         for name, headline in known(names, kind).items()
     ]

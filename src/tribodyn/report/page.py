@@ -16,6 +16,7 @@ from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.report.headlines import chosen, facts, grouped, versions
 from tribodyn.results import json_attribute
+from tribodyn.results.summary import caution
 from tribodyn.views.encode import safe_json
 from tribodyn.views.numbers import in_words
 from tribodyn.views.playback import clock
@@ -31,7 +32,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path], folder: Path) -> str:
         title=summary["title"] or "Result",
         version=dataset.attrs.get("tribodyn_version", ""),
         failure=summary["failure"],
-        doubtful=summary["doubtful"],
+        caution=caution(summary["doubtful"]),
         time_reached=in_words(summary.get("simulated_time_s", 0.0)),
         warnings=json_attribute(dataset, "warnings", []),
         notes=json_attribute(dataset, "notes", []),

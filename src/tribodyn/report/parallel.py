@@ -98,11 +98,14 @@ class Point:
         Why it has no numbers, empty where it has.
     link
         Address of its own report, empty where there is none.
+    doubtful
+        Why its numbers should not be used, empty where they can be.
     """
 
     name: str
     failure: str
     link: str
+    doubtful: str = ""
 
 
 def points_of(dataset: xr.Dataset, folder: Path | None) -> list[Point]:
@@ -117,7 +120,11 @@ def points_of(dataset: xr.Dataset, folder: Path | None) -> list[Point]:
     """
     names = [str(name) for name in dataset["points"].values.ravel()]
     failures = [str(failure) for failure in dataset["failure"].values.ravel()]
-    return [Point(name, failure, _link(folder, name)) for name, failure in zip(names, failures, strict=True)]
+    given = dataset["doubtful"].values.ravel() if "doubtful" in dataset else [""] * len(names)
+    return [
+        Point(name, failure, _link(folder, name), str(doubt))
+        for name, failure, doubt in zip(names, failures, given, strict=True)
+    ]
 
 
 def _link(folder: Path | None, name: str) -> str:

@@ -14,6 +14,7 @@ from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.report.page import page
 from tribodyn.report.parallel import Axis, Point, at_first, axes_of, payload, points_of
+from tribodyn.results.summary import caution
 from tribodyn.views.section import Chapter, Section
 
 
@@ -106,5 +107,9 @@ def _row(number: int, point: Point, columns: Sequence[Axis]) -> dict[str, Any]:
         "name": point.name,
         "link": point.link,
         "failure": point.failure,
-        "texts": [axis.texts[number] for axis in columns],
+        "caution": caution(point.doubtful),
+        "cells": [
+            {"text": axis.texts[number], "doubtful": bool(point.doubtful) and not axis.parameter}
+            for axis in columns
+        ],
     }

@@ -37,6 +37,8 @@ LISTS: Final = ("warnings", "notes")
 """What a summary holds lists of."""
 MOST_VARIABLES: Final = 200
 """Variables of a sweep, at most: each is drawn."""
+_ADDED: Final = ("doubtful",)
+"""Texts of points that sweeps of earlier versions lack."""
 
 
 Kinds = Mapping[str, Mapping[str, Variable]]
@@ -233,7 +235,7 @@ def _check_sweep(dataset: xr.Dataset) -> None:
     """Compare a sweep with what the merging of its points makes."""
     if len(dataset.variables) > MOST_VARIABLES:
         raise ValueError(f"a sweep of more than {MOST_VARIABLES} variables")
-    lacking = [name for name in POINT_TEXTS if name not in dataset.data_vars]
+    lacking = [name for name in POINT_TEXTS if name not in (*dataset.data_vars, *_ADDED)]
     if lacking:
         raise ValueError(f"it lacks the variable {lacking[0]}")
     dims = dataset["failure"].dims

@@ -71,6 +71,11 @@ def doubt(dataset: xr.Dataset) -> str:
     return "the energy balance misses " + ("all" if math.isnan(missed) else f"{100 * missed:.2g} %")
 
 
+def caution(doubt: object, numbers: str = "these numbers") -> str:
+    """Return the sentence that accompanies doubtful numbers, see :func:`doubt`; empty without a reason."""
+    return f"Do not use {numbers}: {doubt}." if doubt else ""
+
+
 def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary:
     """Return the headline numbers of a result.
 

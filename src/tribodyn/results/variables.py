@@ -108,6 +108,7 @@ VARIABLES: Final[dict[str, Variable]] = {**COORDINATES, **BUSHING, **FIELDS, **C
 POINT_TEXTS: Final[dict[str, str]] = {
     "failure": "why there are no numbers; empty where there are",
     "warnings": "what the run says about its own trustworthiness",
+    "doubtful": "why the numbers should not be used; empty where they can be",
     "points": "name of the folder of the point below points/",
 }
 """What a sweep says of each of its points in words, with its meaning; all else it holds are numbers."""

@@ -38,7 +38,8 @@ def merge(plan: Plan, summaries: Mapping[str, Summary]) -> xr.Dataset:
         One dimension for each parameter of a grid, named by its dotted path, and ``point`` for samples. The
         values of the parameters are coordinates (SI; ``shown_unit`` and ``shown_scale`` say how to print
         them). One variable for each headline number, NaN where a point failed or was not reached, with
-        ``units`` and ``long_name``; the texts ``failure``, ``warnings`` and ``points`` of each point.
+        ``units`` and ``long_name``; the texts ``failure``, ``warnings``, ``doubtful`` and ``points`` of each
+        point.
     """
     rows = [summaries.get(point.name, {"failure": NOT_COMPUTED}) for point in plan.points]
     shape = tuple(axis.size for axis in plan.axes)
@@ -48,7 +49,7 @@ def merge(plan: Plan, summaries: Mapping[str, Summary]) -> xr.Dataset:
         return xr.Variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
 
     kind = plan.case.kind()
-    texts = {name: [_text(row.get(name, "")) for row in rows] for name in ("failure", "warnings")}
+    texts = {name: [_text(row.get(name, "")) for row in rows] for name in ("failure", "warnings", "doubtful")}
     texts["points"] = [point.name for point in plan.points]
     return xr.Dataset(
         data_vars={name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
