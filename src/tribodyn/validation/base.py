@@ -37,6 +37,8 @@ class Band:
         Difference (absolute) that a model expected to fail has to exceed.
     covers
         Interval that the computed range has to contain.
+    data
+        File of the set that gives the limits, where the line names no number.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Band:
     at_most: float | None = None
     must_exceed: float | None = None
     covers: tuple[float, float] | None = None
+    data: str = ""
 
     def limits(self, measured: float | None) -> tuple[float, float] | None:
         """Return the interval of accepted computed values; None where it is no interval."""

@@ -21,7 +21,12 @@ NAMES: Final = (
     "servo_friction_models",
     "ball_drop",
     "journal_peak_pressure",
+    "journal_stribeck",
     "oblique_impact",
+    "screw_drive_friction",
+    "rack_pinion_friction",
+    "servo_play",
+    "servo_gear_friction",
 )
 """Every set by its folder in ``sets``."""
 

@@ -1,0 +1,156 @@
+"""Least squares from several starts, with covariance and confidence intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+import numpy as np
+from scipy import optimize, stats
+
+from tribodyn.core.arrays import FloatArray
+
+Loss = Literal["linear", "soft_l1"]
+STARTS: Final = 8
+CONFIDENCE: Final = 0.95
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a fit.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    low, high
+        Bounds; starts are spread between them.
+    logarithmic
+        Whether starts are spread evenly in its logarithm.
+    """
+
+    name: str
+    low: float
+    high: float
+    logarithmic: bool = False
+
+    def at(self, share: float) -> float:
+        """Return the value at a share of the range [1], 0 at the lower bound."""
+        if self.logarithmic:
+            return float(self.low * (self.high / self.low) ** share)
+        return self.low + share * (self.high - self.low)
+
+
+@dataclass(frozen=True)
+class LeastSquares:
+    """Fitted parameters.
+
+    Attributes
+    ----------
+    parameters
+        What was fitted.
+    values
+        Fitted values, shape (n,).
+    residuals
+        Residuals there, over the uncertainty of the data, shape (m,).
+    jacobian
+        Derivatives of the residuals, shape (m, n).
+    cost
+        Half the sum of the losses.
+    """
+
+    parameters: tuple[Parameter, ...]
+    values: FloatArray
+    residuals: FloatArray
+    jacobian: FloatArray
+    cost: float
+
+    @property
+    def named(self) -> dict[str, float]:
+        """Fitted values by name."""
+        names = (parameter.name for parameter in self.parameters)
+        return dict(zip(names, map(float, self.values), strict=True))
+
+    @property
+    def freedoms(self) -> int:
+        """Number of data less that of parameters, at least 1."""
+        return max(self.residuals.size - self.values.size, 1)
+
+    def covariance(self, *, known_noise: bool = False) -> FloatArray:
+        """Return the covariance of the parameters, shape (n, n).
+
+        Parameters
+        ----------
+        known_noise
+            Whether residuals are over the true uncertainty of the data; otherwise their scatter gives it.
+        """
+        inverse = np.linalg.pinv(self.jacobian.T @ self.jacobian)
+        scatter = 1.0 if known_noise else float(self.residuals @ self.residuals) / self.freedoms
+        return np.asarray(scatter * inverse)
+
+    def half_width(self, name: str, *, known_noise: bool = False) -> float:
+        """Return the half width of the 95 % interval of a parameter, from the covariance."""
+        k = [parameter.name for parameter in self.parameters].index(name)
+        factor = stats.norm.ppf(0.5 + 0.5 * CONFIDENCE)
+        if not known_noise:
+            factor = stats.t.ppf(0.5 + 0.5 * CONFIDENCE, self.freedoms)
+        return float(factor * np.sqrt(self.covariance(known_noise=known_noise)[k, k]))
+
+    def interval(self, name: str, *, known_noise: bool = False) -> tuple[float, float]:
+        """Return the 95 % interval of a parameter, from the covariance."""
+        value, half = self.named[name], self.half_width(name, known_noise=known_noise)
+        return value - half, value + half
+
+
+def fit(
+    residuals: Callable[[Mapping[str, float]], FloatArray],
+    parameters: Sequence[Parameter],
+    *,
+    starts: int = STARTS,
+    loss: Loss = "linear",
+    start: Mapping[str, float] | None = None,
+) -> LeastSquares:
+    """Fit parameters by least squares, from the best of several starts.
+
+    Parameters
+    ----------
+    residuals
+        From parameters by name to residuals over the uncertainty of the data, shape (m,).
+    parameters
+        What is fitted.
+    starts
+        Number of starts: the middle of the bounds, then points of a Halton sequence.
+    loss
+        ``linear`` for least squares, ``soft_l1`` for a fit that single outliers hardly move.
+    start
+        Values to begin with, instead of the starts.
+    """
+    names = [parameter.name for parameter in parameters]
+    bounds = np.array([[parameter.low, parameter.high] for parameter in parameters]).T
+    places = starting_points(parameters, starts) if start is None else [[start[name] for name in names]]
+
+    def of_values(values: FloatArray) -> FloatArray:
+        return residuals(dict(zip(names, map(float, values), strict=True)))
+
+    best: Any = None
+    for place in places:
+        found = optimize.least_squares(
+            of_values,
+            place,
+            bounds=(bounds[0], bounds[1]),
+            loss=loss,
+            x_scale="jac",
+        )
+        if best is None or found.cost < best.cost:
+            best = found
+    return LeastSquares(
+        tuple(parameters), np.array(best.x), np.array(best.fun), np.array(best.jac), float(best.cost)
+    )
+
+
+def starting_points(parameters: Sequence[Parameter], starts: int) -> list[list[float]]:
+    """Return points inside the bounds: the middle, then a Halton sequence; always the same ones."""
+    shares = stats.qmc.Halton(len(parameters), scramble=False).random(starts)
+    shares = np.clip(np.vstack([np.full((1, len(parameters)), 0.5), shares[1:]]), 0.02, 0.98)
+    return [[one.at(float(share)) for one, share in zip(parameters, row, strict=True)] for row in shares]

@@ -1,0 +1,98 @@
+"""Fitted friction and droop of a geared servo joint."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.studies.least_squares import LeastSquares, Parameter, fit
+from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
+from tribodyn.validation.catalogue import ValidationSet
+
+VOLTAGES: Final = np.array([8.0, 10.0, 12.0])
+"""Supply voltages [V]."""
+_DIRECT: Final = ("yes", "partly")
+
+
+def compare(one: ValidationSet) -> Outcome:
+    """Return friction floor with its interval, friction per torque, and droop at three voltages."""
+    floor = friction_floor(one)
+    low, high = (math.exp(end) for end in floor.interval("logarithm"))
+    value = math.exp(floor.named["logarithm"])
+    units = one.value("unit_low"), one.value("unit_high")
+    slopes = _at_voltages(one, "friction per carried torque")
+    slope_units = one.value("slope_low"), one.value("slope_high")
+    four = replace(one.bands["floor"], at_least=units[0], at_most=units[1])
+    rows = [
+        Comparison(
+            "friction floor, fitted value",
+            "N m",
+            computed=value,
+            measured=sum(units) / 2.0,
+            u_computed=0.5 * (high - low),
+            u_measured=0.5 * (units[1] - units[0]),
+            null=_at_voltages(one, "friction mobilised at a hold, no load")[2],
+            band=four,
+        ),
+        Comparison(
+            "friction floor, interval",
+            "N m",
+            computed=value,
+            u_computed=0.5 * (high - low),
+            spread=(low, high),
+            band=one.bands["floor_interval"],
+        ),
+        Comparison(
+            "friction per carried torque, mean of three voltages",
+            "N m per N m",
+            computed=float(slopes.mean()),
+            measured=sum(slope_units) / 2.0,
+            u_computed=float(np.ptp(slopes)) / 2.0,
+            u_measured=0.5 * (slope_units[1] - slope_units[0]),
+        ),
+    ]
+    measured = _at_voltages(one, "droop")
+    computed = droop(measured)
+    rows += [
+        Comparison(
+            f"droop at {voltage:g} V",
+            "deg per N m",
+            computed=float(computed[k]),
+            measured=float(measured[k]),
+            u_measured=one.value("method_error") * float(measured[k]),
+            null=float(measured.mean()),
+            band=one.bands["droop"],
+        )
+        for k, voltage in enumerate(VOLTAGES)
+    ]
+    width = (one.value("method_error") * measured).tolist()
+    points = Curve("measured", "measured", VOLTAGES.tolist(), measured.tolist(), width)
+    curve = Curve("inverse to the voltage", "computed", VOLTAGES.tolist(), computed.tolist())
+    return Outcome(tuple(rows), Plot("supply voltage [V]", "droop [deg per N m]", (points, curve)))
+
+
+def friction_floor(one: ValidationSet) -> LeastSquares:
+    """Return the fit of one friction floor to the direct measurements, in its logarithm."""
+    rows = [row for row in one.rows("coulomb_by_method.csv") if row["direct"] in _DIRECT]
+    torque = np.log([float(row["coulomb_torque_N_m"]) for row in rows])
+    return fit(lambda given: given["logarithm"] - torque, [Parameter("logarithm", -5.0, 1.0)], starts=1)
+
+
+def droop(measured: FloatArray) -> FloatArray:
+    """Return the droop c/V with c from relative least squares [deg per N m], shape (3,)."""
+    found = fit(
+        lambda given: given["constant"] / VOLTAGES / measured - 1.0,
+        [Parameter("constant", 1.0, 100.0)],
+        starts=1,
+    )
+    return np.asarray(found.named["constant"] / VOLTAGES)
+
+
+def _at_voltages(one: ValidationSet, quantity: str) -> FloatArray:
+    """Return the measured values of a quantity at :data:`VOLTAGES`, shape (3,)."""
+    (row,) = [row for row in one.rows("friction_by_voltage.csv") if row["quantity"] == quantity]
+    return np.array([float(row[f"at_{voltage:.0f}V"]) for voltage in VOLTAGES])
