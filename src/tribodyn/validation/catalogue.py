@@ -27,6 +27,9 @@ NAMES: Final = (
     "rack_pinion_friction",
     "servo_play",
     "servo_gear_friction",
+    "dry_liners",
+    "vsv_practice",
+    "published_statements",
 )
 """Every set by its folder in ``sets``."""
 
