@@ -19,11 +19,12 @@ if TYPE_CHECKING:
     from tribodyn.mechanisms.general.builder import Mechanism
     from tribodyn.mechanisms.journal.curves import stribeck
     from tribodyn.mechanisms.results import read
-    from tribodyn.simulation import simulate
+    from tribodyn.simulation import check, simulate
 
 __all__ = [
     "Mechanism",
     "__version__",
+    "check",
     "contact",
     "integrate",
     "load_case",
@@ -36,6 +37,7 @@ __all__ = [
 
 _HOME = {
     "Mechanism": "tribodyn.mechanisms.general.builder:Mechanism",
+    "check": "tribodyn.simulation:check",
     "load_case": "tribodyn.mechanisms.catalogue:load_case",
     "materials": "tribodyn.cases.materials:MATERIALS",
     "read": "tribodyn.mechanisms.results:read",

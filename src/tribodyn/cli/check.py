@@ -12,6 +12,7 @@ from tribodyn.cli.console import Console, show_json
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
+    from tribodyn.simulation.costs import Estimate
 
 HELP = "validate a case file without running it"
 
@@ -33,20 +34,22 @@ def execute(args: Namespace) -> int:
     console = Console.of(args)
     case = chosen_case(args)
     SOLVERS[str(case.at("solver.name"))].prepare()
-    remarks = _try(case, args.deep, console)
+    remarks, taken = _try(case, args.deep, console)
     cycles = case.campaign_cycles
     length = f"{cycles} cycles of wear" if cycles else f"{case.duration:.6g} s"
     tried = "; its start was found and the first step taken" if args.deep else ""
     console.say(f'{args.case}: valid, a "{case.kind()}" case of {length}{tried}')
+    console.say(f"estimated: {taken}")
     for remark in remarks:
         console.say(remark)
     if args.json:
-        show_json({"case": args.case, "valid": True, "remarks": list(remarks)})
+        estimate = {"memory_bytes": round(taken.memory), "processor_time_s": round(taken.seconds, 3)}
+        show_json({"case": args.case, "valid": True, "estimate": estimate, "remarks": list(remarks)})
     return 0
 
 
-def _try(case: Case, deep: bool, console: Console) -> Sequence[str]:
+def _try(case: Case, deep: bool, console: Console) -> tuple[Sequence[str], Estimate]:
     with announced_compilation(console.note):
-        from tribodyn.simulation import check
+        from tribodyn.simulation import check, estimate
 
-        return check(case, deep=deep)
+        return check(case, deep=deep), estimate(case)

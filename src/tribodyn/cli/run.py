@@ -89,9 +89,11 @@ def _simulate(case: Case, directory: OutputDirectory, console: Console, stop: In
     console.note(f"running {case.title}")
     if case.campaign_cycles and directory.checkpoint.exists():
         console.note(f"going on with the wear campaign kept in {os.fspath(directory.checkpoint)}")
-    with _progress(case, console) as shown, announced_compilation(shown.note):
-        from tribodyn.simulation import simulate
+    from tribodyn.simulation import estimate, simulate
 
+    for warning in estimate(case).warnings:
+        complain(f"warning: {warning}")
+    with _progress(case, console) as shown, announced_compilation(shown.note):
         return simulate(case, progress=shown, stop=stop, checkpoint=directory.checkpoint)
 
 

@@ -203,14 +203,15 @@ def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Inte
     from tribodyn.studies import Watcher, run
 
     with ExitStack() as stack:
-        shown = _Shown(plan, console, stack)
+        shown = _Shown(plan, console, stack, means)
         return run(plan, path, means, Watcher(shown, stop, shown.note))
 
 
 class _Shown:
     """Shows the arrival of points; the bar opens when it is known how many there are to compute."""
 
-    def __init__(self, plan: Plan, console: Console, stack: ExitStack) -> None:
+    def __init__(self, plan: Plan, console: Console, stack: ExitStack, means: Means) -> None:
+        self._plan, self._means = plan, means
         self._n_points = len(plan.points)
         self._console = console
         self._stack = stack
@@ -232,6 +233,11 @@ class _Shown:
     def _begin(self, to_do: int) -> None:
         here = f", {self._n_points - to_do} are there already" if to_do < self._n_points else ""
         self._console.note(f"computing {to_do} of {self._n_points} points{here}")
+        if self._means.scheduler is None:
+            from tribodyn.studies.expected import warnings_of
+
+            for warning in warnings_of(self._plan, to_do, self._means.workers):
+                complain(f"warning: {warning}")
         self._bar = self._stack.enter_context(progress(max(to_do, 1), self._console, POINTS))
         self._stack.enter_context(announced_compilation(self._bar.note))
 

@@ -20,6 +20,7 @@ from tribodyn.cases.load import BuiltIn
 from tribodyn.cases.messages import Remarks
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.mechanisms.workload import Workload
 from tribodyn.results.headline import Headline
 from tribodyn.results.variables import Variable
 
@@ -342,6 +343,10 @@ class Mechanism:
     def system(self, case: SystemCase) -> System:
         """Return the system of a case: ``SYSTEM`` of ``system.py``, called with it."""
         return cast(System, self._module("system").SYSTEM(case))
+
+    def workload(self, case: SystemCase) -> Workload:
+        """Return how much a run of a case computes and keeps: ``WORKLOAD`` of ``workload.py``."""
+        return cast(Workload, self._module("workload").WORKLOAD(case))
 
     @property
     def figures(self) -> Mapping[str, Family]:

@@ -13,9 +13,10 @@ from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.stopping import Stop, asked
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.base import Part, SystemCase
+from tribodyn.mechanisms.base import Mechanism, Part, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
+from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Progress, Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 
@@ -102,11 +103,15 @@ def _simulated(
     return simulate_campaign(session, checkpoint) if case.campaign_cycles else simulate_plain(session)
 
 
-def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Session:
+def _mechanism(case: Case) -> Mechanism:
     kind: str = getattr(case, "case", "")
     if kind not in MECHANISMS:
         raise InputError(f"given {kind!r}; allowed: {', '.join(MECHANISMS)}", key="case")
-    mechanism = MECHANISMS[kind]
+    return MECHANISMS[kind]
+
+
+def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Session:
+    mechanism = _mechanism(case)
     known = cast(SystemCase, case)
     return Session(known, mechanism, mechanism.system(known), progress, stop)
 
@@ -125,13 +130,26 @@ def prepare(case: Case, stop: Stop = None) -> None:
             loaded(case, _first_steps)
 
 
-def check(case: Case, *, deep: bool = False) -> Sequence[str]:
+def estimate(case: AnyCase) -> Estimate:
+    """Return the memory and the processor time that a run of a case is expected to take.
+
+    Parameters
+    ----------
+    case
+        As for :func:`simulate`. Nothing is built or compiled; see the manual's page on case files for the
+        accuracy.
+    """
+    found = case_of(case)
+    return estimated(_mechanism(found).workload(cast(SystemCase, found)))
+
+
+def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
     """Find out without running it what a run of a case would refuse.
 
     Parameters
     ----------
     case
-        The case. Its mechanism is put together, with the tables of its contact laws.
+        As for :func:`simulate`. Its mechanism is put together, with the tables of its contact laws.
     deep
         Whether its equations are compiled too, if they are not yet, its start is found and the first step
         taken.
@@ -139,7 +157,8 @@ def check(case: Case, *, deep: bool = False) -> Sequence[str]:
     Returns
     -------
     sequence of str
-        What a user should know of case and mechanism before it runs, one sentence each.
+        What a user should know of case and mechanism before it runs, one sentence each; also that the run is
+        estimated to take more than 2 GB of memory or an hour.
 
     Raises
     ------
@@ -148,8 +167,9 @@ def check(case: Case, *, deep: bool = False) -> Sequence[str]:
     TribodynError
         If the run would fail at its first step.
     """
+    case = case_of(case)
     said = case.remarks()
-    remarks = (*said.warnings, *said.notes, *_session(case).system.check())
+    remarks = (*said.warnings, *said.notes, *estimate(case).warnings, *_session(case).system.check())
     if not deep:
         return remarks
     prepare(case)
@@ -171,4 +191,4 @@ def compile_for_parent() -> None:
     _first_steps(parse_case(from_parent(), "case"))
 
 
-__all__ = ["check", "compile_for_parent", "load_equations", "prepare", "simulate"]
+__all__ = ["check", "compile_for_parent", "estimate", "load_equations", "prepare", "simulate"]

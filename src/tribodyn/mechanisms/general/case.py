@@ -168,6 +168,19 @@ class MechanismCase(RoughCase):
                 found[joint + _FRICTION] = value
         return found
 
+    def with_plain_grids(self) -> Self:
+        """Return the case with no surface finer than by default."""
+        plain, grid = Nodes(), self.solver.grid
+        joints = {
+            name: joint
+            if joint.clearance is None
+            else joint.model_copy(update={"clearance": joint.clearance.with_nodes(plain.theta, plain.z)})
+            for name, joint in self.joints.items()
+        }
+        at_most = Nodes(theta=min(grid.theta, plain.theta), z=min(grid.z, plain.z))
+        solver = self.solver.model_copy(update={"grid": at_most})
+        return self.model_copy(update={"joints": joints, "solver": solver})
+
     def of_pair(self, clearance: ClearanceKeys) -> PairKeys | Self:
         """Return surfaces, contact law, friction and wear of a joint: its pair, or those of the case."""
         return self if clearance.pair is None else self.pairs[clearance.pair]
@@ -292,8 +305,7 @@ class MechanismCase(RoughCase):
         demand(run.duration is not None or run.cycles is not None, "run.duration", words)
         words = "nothing says how long a cycle is; give run.period, or run.duration instead"
         demand(run.cycles is None or self.period is not None, "run.cycles", words)
-        if run.output_interval is not None:
-            check_output_interval(run.output_interval, self.duration)
+        check_output_interval(self.output_interval, self.duration)
         for name, drive in self.drives.items():
             knots = drive.signal.knots
             if knots and GIVEN[drive.gives][1] == 0:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import ClassVar, Final, Literal
+from typing import ClassVar, Final, Literal, Self
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.fields import (
@@ -177,6 +177,14 @@ class ClearanceKeys(NamedGroup):
             self.flange is None or self.flange > self.radius + self.radial,
             "flange",
             f"the end faces must reach beyond the bore, {(self.radius + self.radial) * 1e3:.6g} mm",
+        )
+
+    def with_nodes(self, around: int, along: int) -> Self:
+        """Return the clearance with at most so many nodes of its own."""
+        most = {"nodes_around": around, "nodes_along": along}
+        given = {key: getattr(self, key) for key in most}
+        return self.model_copy(
+            update={key: min(own, most[key]) for key, own in given.items() if own is not None}
         )
 
     @property

@@ -107,9 +107,11 @@ class MechanismSystem:
 
     def check(self) -> Sequence[str]:
         """Put the mechanism together, move it through its cycle, and say what there is to know of it."""
-        touches = zip(self.maps.names, self._contacts.touches, strict=True)
+        # A finer grid than by default would change nothing of that, and take much memory.
+        coarse = replace(self, case=self.case.with_plain_grids())
+        touches = zip(coarse.maps.names, coarse._contacts.touches, strict=True)
         rough = [text for name, touch in touches for text in named(name, [of_clearance(touch)])]
-        return [*self.assembly.remarks, *rough, *self._of_temperatures()]
+        return [*coarse.assembly.remarks, *rough, *coarse._of_temperatures()]
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""

@@ -1,0 +1,112 @@
+"""How much a run of a case computes and keeps: counts from its keys alone, before anything is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from tribodyn.cases.groups import Wear
+
+
+@dataclass(frozen=True)
+class Keys:
+    """Keys that reduce a part of the workload, as a message names them.
+
+    Attributes
+    ----------
+    nodes, cells, length, samples, followed, cycles
+        Of the counts of :class:`Workload` with these names; ``length`` of the simulated time.
+    """
+
+    nodes: str = "solver.grid.theta or solver.grid.z"
+    cells: str = "film.grid.theta or film.grid.z"
+    length: str = "run.duration"
+    samples: str = "run.output_interval"
+    followed: str = "run.step_rows"
+    cycles: str = "wear.cycles"
+
+
+@dataclass(frozen=True)
+class Workload:
+    """Counts of one run; floats, since a case may ask for more than an array could hold.
+
+    Attributes
+    ----------
+    steps
+        Accepted steps of one run, expected from its motion; see the mechanism's own ``workload.py``.
+    states
+        Number of states.
+    nodes
+        Nodes of all contact surfaces.
+    joints
+        Joints with clearance.
+    fields
+        Pressure fields kept.
+    samples
+        Samples at output times.
+    followed
+        Samples that follow the steps.
+    quantities
+        Numbers of a sample.
+    breaks
+        Times at which the integration restarts.
+    cells, band
+        Cells of an oil film, and how many of them its solution couples at once; none without oil.
+    runs
+        How often the run is made: once, or for each simulated cycle of a wear campaign.
+    own_matrix
+        Whether the equations come with a sparse matrix that the solver of the case uses.
+    compiled
+        Whether the solver of the case runs in compiled code.
+    keys
+        What to change.
+    """
+
+    steps: float
+    states: float
+    nodes: float
+    joints: float
+    fields: float
+    samples: float
+    followed: float
+    quantities: float
+    breaks: float = 0.0
+    cells: float = 0.0
+    band: float = 0.0
+    runs: float = 1.0
+    own_matrix: bool = True
+    compiled: bool = True
+    keys: Keys = field(default_factory=Keys)
+
+
+def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float) -> float:
+    """Return how many cycles a wear campaign simulates.
+
+    Depth per cycle is that of a typical pressure over a slip of one radius, so this is an order of magnitude.
+
+    Parameters
+    ----------
+    wear
+        Its table of the case.
+    settling
+        Cycles before the first one whose wear counts.
+    roughness
+        Combined rms roughness σ [m].
+    radius
+        Of the shaft [m].
+    """
+    if not wear.feedback:
+        return settling + 2.0
+    rate = wear.specific_wear_rate + wear.partner_wear_rate
+    depth = wear.cycles * rate * _PRESSURE * radius
+    if wear.depth_limit is not None:
+        depth = min(depth, wear.depth_limit)
+    jumps = _FIRST_JUMPS + depth / (_SHARE_OF_JUMP * wear.jump_depth * roughness)
+    return settling + 1.0 + min(float(wear.cycles), jumps)
+
+
+_PRESSURE = 5.0e5
+"""Mean contact pressure over a slip of one radius per cycle [Pa], from campaigns of vsv and slider-crank."""
+_SHARE_OF_JUMP = 0.4
+"""Mean gain of a jump over ``wear.jump_depth``, from the same."""
+_FIRST_JUMPS = 20.0
+"""Jumps until their length has grown to that."""
