@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.kernels.mechanism.data import N_STATES
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, WHOLE
+from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.parts import ClearanceKeys
 from tribodyn.mechanisms.playback import EVEN
@@ -44,7 +44,7 @@ def workload(case: MechanismCase) -> Workload:
         fields=(EVEN + 1.0) * min(2.0, windows) if real else 0.0,
         samples=duration / case.output_interval,
         followed=min(case.run.step_rows * windows, steps) if real else 0.0,
-        quantities=float(len(WHOLE) + len(case.bodies) * len(BODY) + couplings * len(COUPLING)),
+        quantities=float(N_WHOLE + len(case.bodies) * N_BODY + couplings * N_COUPLING),
         runs=_runs(case, real),
         own_matrix=compiled,
         compiled=compiled,
