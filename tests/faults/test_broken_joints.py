@@ -68,3 +68,24 @@ def test_surfaces_beyond_their_contact_law_stop_the_run(contact: str, solver: st
 
 def test_an_ideal_joint_that_comes_apart_stops_the_run() -> None:
     stopped(td.simulate(isolated()), r"joint \w+ between \w+ and \w+, which is ideal, came apart by")
+
+
+def overhung(rings: int) -> MechanismCase:
+    """Return a shaft at rest whose weight acts beside its only bearing, on so many rings of nodes."""
+    drawn = Mechanism("Overhung", gravity="0, 0, -9.81 m/s^2", run={"duration": "1 ms"})
+    drawn.body("shaft", mass="4 kg", centre="0, 60, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.revolute("bearing", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 1, 0])
+    sizes = SIZES | {"radial": "200 um", "nodes_along": rings, "axial": "1 mm"}
+    return drawn.clearance("bearing", **sizes).case()
+
+
+def test_an_edge_without_area_counts_and_a_grid_that_resolves_it_carries_the_load() -> None:
+    words = r"the surfaces of joint bearing \(barrel\) came closer .* more nodes along the axis show which"
+    # On four rings the outermost is 1.4 mm from the edge, which is some 28 um deeper than on finer grids.
+    stopped(td.simulate(overhung(4)), words)
+    fine, finer = (td.simulate(overhung(rings)) for rings in (16, 32))
+    for result in (fine, finer):
+        assert not result.attrs["failure"]
+    # There, the edge is about one roughness deep, and hardly depends on the grid.
+    depths = [float(result["gap_min"].isel(time=0).max()) for result in (fine, finer)]
+    assert depths[0] == pytest.approx(depths[1], abs=0.5e-6)

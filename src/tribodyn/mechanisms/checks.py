@@ -46,7 +46,8 @@ def beyond_law(
     h_first: float,
     t_end: float,
     surfaces: str,
-    cause: str = "the load or the impact is too large for this law",
+    cause: str = "the load or the impact is too large for this law, or the grid too coarse for the edge of a "
+    "tilted pin: more nodes along the axis show which",
 ) -> str:
     """Return why a run stopped at ``t_end`` [s] that left the range of its contact law.
 
