@@ -33,8 +33,9 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import entry, inlined
+from tribodyn.kernels.mebdf import state as at
 from tribodyn.kernels.mebdf.coefficients import SCALARS
-from tribodyn.kernels.mebdf.control import choose, limit_step, set_weights
+from tribodyn.kernels.mebdf.control import LEAST_STEP, choose, limit_step, set_weights
 from tribodyn.kernels.mebdf.history import push, rescale
 from tribodyn.kernels.mebdf.newton import iterate, start_stage
 from tribodyn.kernels.mebdf.phases import (
@@ -56,50 +57,7 @@ from tribodyn.kernels.mebdf.phases import (
 )
 from tribodyn.kernels.mebdf.renewal import begin_stages, renew_matrix, take_over
 from tribodyn.kernels.mebdf.start import start
-from tribodyn.kernels.mebdf.state import (
-    AHEAD,
-    BAD,
-    CARRIED,
-    DIFFERENCED,
-    EQUAL_STEPS,
-    FACTORED,
-    FAILURES,
-    FRESH,
-    H_LAST,
-    HISTORY,
-    JACOBIAN_AGE,
-    K_LAST,
-    LAST,
-    MATRIX_AGE,
-    N_J,
-    OLD_JACOBIAN,
-    PHASE,
-    RATE,
-    RATE_AGE,
-    REASON,
-    RELAXATION,
-    RENEW,
-    SAME_MATRIX,
-    SCALED,
-    SLOW,
-    STAGE,
-    STEPS,
-    T_END,
-    T_EVAL,
-    T_MARK,
-    T_OLD,
-    UNSURE,
-    VAIN,
-    WARY,
-    WORST,
-    H,
-    K,
-    T,
-    Y,
-)
 
-LEAST_STEP: Final = 10.0 * float(np.finfo(np.float64).eps)
-"""Smallest step relative to the time."""
 MOST_VAIN: Final = 100
 """Failures of Newton's iteration with a new Jacobian after which the progress is looked at."""
 LEAST_PROGRESS: Final = 1.0e-6
@@ -125,7 +83,7 @@ def resume(
     """
     request = 0
     while request == 0:
-        phase = count[PHASE]
+        phase = count[at.PHASE]
         if phase in (ITERATE, CORRECT, CONCLUDE):
             request = iterate(real, count, rows, matrices, mass, places, phase)
         elif phase == START_STAGE:
@@ -142,7 +100,7 @@ def resume(
             _accept(real, count, rows, places)
             request = STEP_ACCEPTED
         elif phase == AFTER:
-            count[PHASE] = STEP
+            count[at.PHASE] = STEP
             choose(real, count, rows, mass, places)
         else:
             request = start(real, count, rows, mass, places)
@@ -159,87 +117,87 @@ def _begin_step(
 ) -> int:
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
     limit_step(real, count, rows)
-    h = real[H]
+    h = real[at.H]
     # A whole integration that is as short as that is one step.
-    if not abs(h) > LEAST_STEP * abs(real[T]) and (count[LAST] == 0 or h == 0.0):
-        count[REASON] = STEP_TOO_SMALL
+    if not abs(h) > LEAST_STEP * abs(real[at.T]) and (count[at.LAST] == 0 or h == 0.0):
+        count[at.REASON] = STEP_TOO_SMALL
         return FAILED
-    if count[VAIN] >= MOST_VAIN and _stands_still(real, count):
-        count[REASON] = NO_PROGRESS
+    if count[at.VAIN] >= MOST_VAIN and _stands_still(real, count):
+        count[at.REASON] = NO_PROGRESS
         return FAILED
     set_weights(real, rows, mass, places)
-    scaled = h * SCALARS[count[K], 0]
-    real[SCALED] = scaled
-    if count[RATE_AGE] > real[UNSURE]:
-        real[RATE] = 1.0
+    scaled = h * SCALARS[count[at.K], 0]
+    real[at.SCALED] = scaled
+    if count[at.RATE_AGE] > real[at.UNSURE]:
+        real[at.RATE] = 1.0
     if (
-        real[FACTORED] != 0.0
-        and abs(scaled / real[FACTORED] - 1.0) <= real[SAME_MATRIX]
-        and count[MATRIX_AGE] < real[RENEW]
+        real[at.FACTORED] != 0.0
+        and abs(scaled / real[at.FACTORED] - 1.0) <= real[at.SAME_MATRIX]
+        and count[at.MATRIX_AGE] < real[at.RENEW]
     ):
-        real[RELAXATION] = 2.0 / (1.0 + scaled / real[FACTORED])
-        count[STAGE] = 1
-        count[PHASE] = START_STAGE
+        real[at.RELAXATION] = 2.0 / (1.0 + scaled / real[at.FACTORED])
+        count[at.STAGE] = 1
+        count[at.PHASE] = START_STAGE
         return 0
-    count[PHASE] = FACTORISE
+    count[at.PHASE] = FACTORISE
     # Where every stage took one iteration, RATE is 1 for unknown: a Jacobian that costs little is renewed.
-    slow = real[RATE] > real[SLOW] and (real[RATE] != 1.0 or count[DIFFERENCED] == 0)
-    old = count[JACOBIAN_AGE] >= real[OLD_JACOBIAN] or slow or count[N_J] == 0
-    if not old or count[FRESH] == 1:
+    slow = real[at.RATE] > real[at.SLOW] and (real[at.RATE] != 1.0 or count[at.DIFFERENCED] == 0)
+    old = count[at.JACOBIAN_AGE] >= real[at.OLD_JACOBIAN] or slow or count[at.N_J] == 0
+    if not old or count[at.FRESH] == 1:
         return 0
     # Its value ahead is that of the polynomial through the history: the sum of its differences.
-    ahead = count[AHEAD] == 1
+    ahead = count[at.AHEAD] == 1
     for i in range(rows.shape[1]):
-        rows[Y, i] = rows[HISTORY, i]
-        for m in range(1, count[K] + 1 if ahead else 0):
-            rows[Y, i] += rows[HISTORY + m, i]
-    real[T_EVAL] = real[T] + h if ahead else real[T]
-    count[PHASE] = LINEARISED
-    count[N_J] += 1
-    count[JACOBIAN_AGE] = 0
-    count[FRESH] = 1
+        rows[at.Y, i] = rows[at.HISTORY, i]
+        for m in range(1, count[at.K] + 1 if ahead else 0):
+            rows[at.Y, i] += rows[at.HISTORY + m, i]
+    real[at.T_EVAL] = real[at.T] + h if ahead else real[at.T]
+    count[at.PHASE] = LINEARISED
+    count[at.N_J] += 1
+    count[at.JACOBIAN_AGE] = 0
+    count[at.FRESH] = 1
     return NEED_JACOBIAN
 
 
 @inlined
 def _stands_still(real: FloatArray, count: NDArray[np.int64]) -> bool:
     """Tell whether the last failures have brought next to no progress, and count anew."""
-    progress, left = abs(real[T] - real[T_MARK]), abs(real[T_END] - real[T])
-    count[VAIN] = 0
-    real[T_MARK] = real[T]
+    progress, left = abs(real[at.T] - real[at.T_MARK]), abs(real[at.T_END] - real[at.T])
+    count[at.VAIN] = 0
+    real[at.T_MARK] = real[at.T]
     return progress < LEAST_PROGRESS * left
 
 
 @inlined
 def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64]) -> None:
     """Make y_{n+1} the newest value."""
-    push(rows, Y, count[K] + 3, HISTORY)
-    real[T_OLD] = real[T]
-    real[T] += real[H]
-    real[H_LAST] = real[H]
-    beyond = real[T] - real[T_END]
+    push(rows, at.Y, count[at.K] + 3, at.HISTORY)
+    real[at.T_OLD] = real[at.T]
+    real[at.T] += real[at.H]
+    real[at.H_LAST] = real[at.H]
+    beyond = real[at.T] - real[at.T_END]
     # What no step could cross is no distance either.
-    if abs(beyond) <= max(ROUNDING * abs(real[H]), LEAST_STEP * abs(real[T])):
-        real[T] = real[T_END]
-    elif beyond * real[H] > 0.0:
+    if abs(beyond) <= max(ROUNDING * abs(real[at.H]), LEAST_STEP * abs(real[at.T])):
+        real[at.T] = real[at.T_END]
+    elif beyond * real[at.H] > 0.0:
         # The dense output of this step is the solution at the end.
-        share = 1.0 - beyond / real[H]
-        rescale(rows, count[K] + 1, share, share - 1.0)
-        real[H_LAST] *= share
-        real[T] = real[T_END]
-    count[K_LAST] = count[K]
-    count[STEPS] += 1
-    count[EQUAL_STEPS] += 1
-    count[JACOBIAN_AGE] += 1 - count[DIFFERENCED]
-    count[MATRIX_AGE] += 1
-    count[RATE_AGE] += 1
-    count[FRESH] = 0
-    count[AHEAD] = 0
+        share = 1.0 - beyond / real[at.H]
+        rescale(rows, count[at.K] + 1, share, share - 1.0)
+        real[at.H_LAST] *= share
+        real[at.T] = real[at.T_END]
+    count[at.K_LAST] = count[at.K]
+    count[at.STEPS] += 1
+    count[at.EQUAL_STEPS] += 1
+    count[at.JACOBIAN_AGE] += 1 - count[at.DIFFERENCED]
+    count[at.MATRIX_AGE] += 1
+    count[at.RATE_AGE] += 1
+    count[at.FRESH] = 0
+    count[at.AHEAD] = 0
     # Algebraic variables do not heed the history: its noise can make each new step fail, however short.
-    if places.size == 0 or count[EQUAL_STEPS] > 1:
-        count[FAILURES] = 0
-    count[WARY] = max(count[WARY] - 1, 0)
-    count[BAD] = -1
-    count[WORST] = -1
-    count[CARRIED] = count[STAGE] > 3
-    count[PHASE] = AFTER
+    if places.size == 0 or count[at.EQUAL_STEPS] > 1:
+        count[at.FAILURES] = 0
+    count[at.WARY] = max(count[at.WARY] - 1, 0)
+    count[at.BAD] = -1
+    count[at.WORST] = -1
+    count[at.CARRIED] = count[at.STAGE] > 3
+    count[at.PHASE] = AFTER

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel, unlocked
+from tribodyn.kernels.mebdf import state as at
 from tribodyn.kernels.mebdf.history import value_at
 from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over, trace
 from tribodyn.kernels.mebdf.phases import (
@@ -27,23 +28,7 @@ from tribodyn.kernels.mebdf.phases import (
     NEED_MAGNITUDE,
     NEED_SOLUTION,
 )
-from tribodyn.kernels.mebdf.state import (
-    BACK,
-    DELTA,
-    FINITE,
-    H_LAST,
-    HISTORY,
-    K_LAST,
-    SCALED,
-    SIGN,
-    T_END,
-    T_EVAL,
-    TRACE,
-    F,
-    MebdfState,
-    T,
-    Y,
-)
+from tribodyn.kernels.mebdf.state import MebdfState
 
 ENDED: Final = 0
 PAUSED: Final = 1
@@ -113,9 +98,9 @@ class Marks(NamedTuple):
 @kernel
 def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: float, y: FloatArray) -> None:
     """Fill ``y`` with the solution at a time inside the last accepted step."""
-    s = (t - real[T]) / real[H_LAST]
+    s = (t - real[at.T]) / real[at.H_LAST]
     for i in range(y.size):
-        y[i] = value_at(rows, HISTORY, count[K_LAST] + 1, s, i)
+        y[i] = value_at(rows, at.HISTORY, count[at.K_LAST] + 1, s, i)
 
 
 @kernel
@@ -159,21 +144,21 @@ def run(
     needs stands in its arguments.
     """
     real, count, rows, matrices, mass, places = state
-    y, f, newest = rows[Y], rows[F], rows[HISTORY]
+    y, f, newest = rows[at.Y], rows[at.F], rows[at.HISTORY]
     times, position, reached = marks.times, marks.position, marks.reached
     end, tolerance = marks.end, marks.tolerance[0]
     while True:
         request = resume(real, count, rows, matrices, mass, places)
         if request == NEED_F:
-            rhs(real[T_EVAL], y, data, memory, f)
+            rhs(real[at.T_EVAL], y, data, memory, f)
             if pause[0] == AFTER_EVALUATION:
                 return PAUSED
             continue
         if request == NEED_JACOBIAN:
             jacobian.fill(0.0)
-            jac(real[T_EVAL], y, data, memory, f, jacobian)
+            jac(real[at.T_EVAL], y, data, memory, f, jacobian)
             if own is not None:
-                count[FINITE] = take_over(own, count[BACK])
+                count[at.FINITE] = take_over(own, count[at.BACK])
             if pause[0] == AFTER_EVALUATION:
                 return PAUSED
             continue
@@ -181,19 +166,19 @@ def run(
             return FAILED
         if own is not None and factorise is not None and solve is not None:
             if request == NEED_FACTORS:
-                if count[BACK] > 0:
+                if count[at.BACK] > 0:
                     copy(own.previous, own.last)
-                real[TRACE] = trace(own)
-                count[SIGN] = factorise(real[SCALED], data, own.last, own.factors, own.pivots)
+                real[at.TRACE] = trace(own)
+                count[at.SIGN] = factorise(real[at.SCALED], data, own.last, own.factors, own.pivots)
                 continue
             if request == NEED_SOLUTION:
-                set_right_side(rows, places, real[SCALED])
-                solve(data, own.factors, own.pivots, rows[DELTA])
+                set_right_side(rows, places, real[at.SCALED])
+                solve(data, own.factors, own.pivots, rows[at.DELTA])
                 continue
             if request == NEED_MAGNITUDE:
-                magnify(own, rows, mass, places, real[SCALED])
+                magnify(own, rows, mass, places, real[at.SCALED])
                 continue
-        t = real[T]
+        t = real[at.T]
         ended = taken = False
         while not ended:
             mark = position[NEXT_MARK]
@@ -220,7 +205,7 @@ def run(
             marks.step_times[position[N_STEPS]] = t
             position[N_STEPS] += 1
         accept(t, newest, data, memory)
-        if t == real[T_END]:
+        if t == real[at.T_END]:
             return ENDED
         if pause[0] != 0 or position[N_STEPS] == marks.step_times.size:
             return PAUSED

@@ -9,18 +9,8 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mebdf import state as at
 from tribodyn.kernels.mebdf.mass import is_algebraic, magnitude_of_mass
-from tribodyn.kernels.mebdf.state import (
-    ATOL,
-    DELTA,
-    FACTORS,
-    LAST_JACOBIAN,
-    MAGNITUDE,
-    PIVOTS,
-    RESIDUAL,
-    RTOL,
-    Y,
-)
 
 LARGEST_INVERSE: Final = 24
 """Number of equations up to which the inverse is used: a product has no chain of divisions."""
@@ -39,10 +29,10 @@ def factorise(
     transposed = n <= LARGEST_INVERSE
     for i in range(n):
         for j in range(n):
-            entry = matrices[LAST_JACOBIAN, j, i] if transposed else matrices[LAST_JACOBIAN, i, j]
-            matrices[FACTORS, i, j] = -scaled * entry
+            entry = matrices[at.LAST_JACOBIAN, j, i] if transposed else matrices[at.LAST_JACOBIAN, i, j]
+            matrices[at.FACTORS, i, j] = -scaled * entry
         if places.size == 0:
-            matrices[FACTORS, i, i] += 1.0
+            matrices[at.FACTORS, i, i] += 1.0
     if places.size > 0:
         _add_mass(matrices, mass, places, transposed, scaled)
     if transposed:
@@ -60,15 +50,15 @@ def _add_mass(
         for k in range(places[i], places[i + 1]):
             j = places[n + 1 + k]
             if transposed:
-                matrices[FACTORS, j, i] += mass[k]
+                matrices[at.FACTORS, j, i] += mass[k]
             else:
-                matrices[FACTORS, i, j] += mass[k]
+                matrices[at.FACTORS, i, j] += mass[k]
         if is_algebraic(places, i):
             for j in range(n):
                 if transposed:
-                    matrices[FACTORS, j, i] /= scaled
+                    matrices[at.FACTORS, j, i] /= scaled
                 else:
-                    matrices[FACTORS, i, j] /= scaled
+                    matrices[at.FACTORS, i, j] /= scaled
 
 
 @kernel
@@ -79,44 +69,46 @@ def _invert(count: NDArray[np.int64], matrices: FloatArray) -> int:
     """
     n, sign = matrices.shape[1], 1
     for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(matrices[FACTORS, i, k]) > abs(matrices[FACTORS, pivot, k]):
-                pivot = i
-        count[PIVOTS + k] = pivot
-        if not abs(matrices[FACTORS, pivot, k]) > 0.0:
+        sign *= _bring_pivot(count, matrices, k)
+        if sign == 0:
             return 0
-        sign *= _exchange(matrices, k, pivot)
-        inverse = 1.0 / matrices[FACTORS, k, k]
-        matrices[FACTORS, k, k] = 1.0
+        inverse = 1.0 / matrices[at.FACTORS, k, k]
+        matrices[at.FACTORS, k, k] = 1.0
         for j in range(n):
-            matrices[FACTORS, k, j] *= inverse
+            matrices[at.FACTORS, k, j] *= inverse
         for i in range(n):
-            factor = matrices[FACTORS, i, k]
+            factor = matrices[at.FACTORS, i, k]
             if i != k and factor != 0.0:
-                matrices[FACTORS, i, k] = 0.0
+                matrices[at.FACTORS, i, k] = 0.0
                 for j in range(n):
-                    matrices[FACTORS, i, j] -= factor * matrices[FACTORS, k, j]
+                    matrices[at.FACTORS, i, j] -= factor * matrices[at.FACTORS, k, j]
     for k in range(n - 1, -1, -1):
-        pivot = count[PIVOTS + k]
+        pivot = count[at.PIVOTS + k]
         if pivot != k:
             for i in range(n):
-                value = matrices[FACTORS, i, k]
-                matrices[FACTORS, i, k] = matrices[FACTORS, i, pivot]
-                matrices[FACTORS, i, pivot] = value
+                value = matrices[at.FACTORS, i, k]
+                matrices[at.FACTORS, i, k] = matrices[at.FACTORS, i, pivot]
+                matrices[at.FACTORS, i, pivot] = value
     return sign
 
 
 @kernel
-def _exchange(matrices: FloatArray, k: int, pivot: int) -> int:
-    """Exchange two rows of FACTORS; return the sign that pivot and exchange give the determinant."""
-    sign = 1 if matrices[FACTORS, pivot, k] > 0.0 else -1
+def _bring_pivot(count: NDArray[np.int64], matrices: FloatArray, k: int) -> int:
+    """Exchange rows of FACTORS for the largest pivot; return the sign it gives the determinant, 0 if none."""
+    n, pivot = matrices.shape[1], k
+    for i in range(k + 1, n):
+        if abs(matrices[at.FACTORS, i, k]) > abs(matrices[at.FACTORS, pivot, k]):
+            pivot = i
+    count[at.PIVOTS + k] = pivot
+    if not abs(matrices[at.FACTORS, pivot, k]) > 0.0:
+        return 0
+    sign = 1 if matrices[at.FACTORS, pivot, k] > 0.0 else -1
     if pivot == k:
         return sign
-    for j in range(matrices.shape[1]):
-        value = matrices[FACTORS, k, j]
-        matrices[FACTORS, k, j] = matrices[FACTORS, pivot, j]
-        matrices[FACTORS, pivot, j] = value
+    for j in range(n):
+        value = matrices[at.FACTORS, k, j]
+        matrices[at.FACTORS, k, j] = matrices[at.FACTORS, pivot, j]
+        matrices[at.FACTORS, pivot, j] = value
     return -sign
 
 
@@ -125,21 +117,16 @@ def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> int:
     """LU decomposition with row pivoting in FACTORS."""
     n, sign = matrices.shape[1], 1
     for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(matrices[FACTORS, i, k]) > abs(matrices[FACTORS, pivot, k]):
-                pivot = i
-        count[PIVOTS + k] = pivot
-        if not abs(matrices[FACTORS, pivot, k]) > 0.0:
+        sign *= _bring_pivot(count, matrices, k)
+        if sign == 0:
             return 0
-        sign *= _exchange(matrices, k, pivot)
-        inverse = 1.0 / matrices[FACTORS, k, k]
+        inverse = 1.0 / matrices[at.FACTORS, k, k]
         for i in range(k + 1, n):
-            factor = matrices[FACTORS, i, k] * inverse
-            matrices[FACTORS, i, k] = factor
+            factor = matrices[at.FACTORS, i, k] * inverse
+            matrices[at.FACTORS, i, k] = factor
             if factor != 0.0:
                 for j in range(k + 1, n):
-                    matrices[FACTORS, i, j] -= factor * matrices[FACTORS, k, j]
+                    matrices[at.FACTORS, i, j] -= factor * matrices[at.FACTORS, k, j]
     return sign
 
 
@@ -156,12 +143,12 @@ def magnify(
     for i in range(n):
         magnitude = magnitude_of_mass(rows, mass, places, i)
         for j in range(n):
-            magnitude += abs(scaled) * abs(matrices[LAST_JACOBIAN, i, j] * rows[Y, j])
+            magnitude += abs(scaled) * abs(matrices[at.LAST_JACOBIAN, i, j] * rows[at.Y, j])
         if places.size > 0 and is_algebraic(places, i):
             for j in range(n):
-                size = rows[ATOL, j] / rows[RTOL, j]
-                magnitude += abs(scaled * matrices[LAST_JACOBIAN, i, j]) * size
-        rows[MAGNITUDE, i] = magnitude
+                size = rows[at.ATOL, j] / rows[at.RTOL, j]
+                magnitude += abs(scaled * matrices[at.LAST_JACOBIAN, i, j]) * size
+        rows[at.MAGNITUDE, i] = magnitude
 
 
 @kernel
@@ -170,15 +157,15 @@ def solve(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> N
     n = rows.shape[1]
     if n > LARGEST_INVERSE:
         for i in range(n):
-            rows[DELTA, i] = rows[RESIDUAL, i]
+            rows[at.DELTA, i] = rows[at.RESIDUAL, i]
         _substitute(count, rows, matrices)
         return
     for i in range(n):
-        rows[DELTA, i] = 0.0
+        rows[at.DELTA, i] = 0.0
     for j in range(n):
-        value = rows[RESIDUAL, j]
+        value = rows[at.RESIDUAL, j]
         for i in range(n):
-            rows[DELTA, i] += matrices[FACTORS, j, i] * value
+            rows[at.DELTA, i] += matrices[at.FACTORS, j, i] * value
 
 
 @kernel
@@ -186,18 +173,18 @@ def _substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray
     """Replace the row DELTA by the solution with it on the right, with the factors of :func:`_decompose`."""
     n = rows.shape[1]
     for k in range(n):
-        pivot = count[PIVOTS + k]
+        pivot = count[at.PIVOTS + k]
         if pivot != k:
-            value = rows[DELTA, k]
-            rows[DELTA, k] = rows[DELTA, pivot]
-            rows[DELTA, pivot] = value
+            value = rows[at.DELTA, k]
+            rows[at.DELTA, k] = rows[at.DELTA, pivot]
+            rows[at.DELTA, pivot] = value
     for k in range(n):
-        total = rows[DELTA, k]
+        total = rows[at.DELTA, k]
         for j in range(k):
-            total -= matrices[FACTORS, k, j] * rows[DELTA, j]
-        rows[DELTA, k] = total
+            total -= matrices[at.FACTORS, k, j] * rows[at.DELTA, j]
+        rows[at.DELTA, k] = total
     for k in range(n - 1, -1, -1):
-        total = rows[DELTA, k]
+        total = rows[at.DELTA, k]
         for j in range(k + 1, n):
-            total -= matrices[FACTORS, k, j] * rows[DELTA, j]
-        rows[DELTA, k] = total / matrices[FACTORS, k, k]
+            total -= matrices[at.FACTORS, k, j] * rows[at.DELTA, j]
+        rows[at.DELTA, k] = total / matrices[at.FACTORS, k, k]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.mebdf import state as at
 from tribodyn.kernels.mebdf.acceptance import (
     DIVERGED,
     FALSE,
@@ -39,57 +40,6 @@ from tribodyn.kernels.mebdf.phases import (
     START_STAGE,
 )
 from tribodyn.kernels.mebdf.start import remember_not_finite
-from tribodyn.kernels.mebdf.state import (
-    CARRIED,
-    CONSTANT,
-    CONSTANT_3,
-    DELTA,
-    DIFFERENCED,
-    DISAGREEMENT,
-    ERROR,
-    F_1,
-    F_2,
-    FAILURES,
-    FIXED,
-    FORGET,
-    HIGHER,
-    HISTORY,
-    IMPLICIT,
-    ITERATION,
-    JACOBIAN_AGE,
-    KAPPA,
-    LAST,
-    LAST_NORM,
-    N_F,
-    N_SOLVES,
-    OUTSIDE,
-    OVERSHOT,
-    PHASE,
-    PREDICTED,
-    RATE,
-    RATE_AGE,
-    RELAXATION,
-    RESIDUAL,
-    ROW_WEIGHT,
-    SCALED,
-    SCRATCH,
-    SHRINK,
-    STAGE,
-    STAGE_HISTORY,
-    T_EVAL,
-    TRUST,
-    UNSOLVED,
-    UNSOLVED_BEFORE,
-    WARY,
-    WEIGHT,
-    Y_1,
-    Y_2,
-    F,
-    H,
-    K,
-    T,
-    Y,
-)
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
@@ -112,26 +62,26 @@ def start_stage(
     places: NDArray[np.int64],
 ) -> int:
     """Fill what the stage knows already, predict, and ask for f where it is not known."""
-    stage, h = count[STAGE], real[H]
+    stage, h = count[at.STAGE], real[at.H]
     _set_constant(real, count, rows)
-    count[ITERATION] = 0
-    real[OVERSHOT] = 0.0
-    count[PHASE] = ITERATE
-    real[T_EVAL] = real[T] + (2.0 * h if stage == 2 else h)
+    count[at.ITERATION] = 0
+    real[at.OVERSHOT] = 0.0
+    count[at.PHASE] = ITERATE
+    real[at.T_EVAL] = real[at.T] + (2.0 * h if stage == 2 else h)
     massive = places.size > 0
     if stage == 3:
-        _copy(rows, Y_1, Y, F_1, F)
-        if massive and count[HIGHER] == 0:
-            multiply(mass, places, rows, F_1, F)
-        if count[HIGHER] == 0:
+        _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
+        if massive and count[at.HIGHER] == 0:
+            multiply(mass, places, rows, at.F_1, at.F)
+        if count[at.HIGHER] == 0:
             return 0
-    elif stage == 1 and count[CARRIED] == 1:
-        _copy(rows, Y_2, Y, F_2, F)
+    elif stage == 1 and count[at.CARRIED] == 1:
+        _copy(rows, at.Y_2, at.Y, at.F_2, at.F)
         if not massive:
             return 0
     else:
-        _copy(rows, PREDICTED, Y, F, F)
-    count[N_F] += 1
+        _copy(rows, at.PREDICTED, at.Y, at.F, at.F)
+    count[at.N_F] += 1
     return NEED_F
 
 
@@ -148,15 +98,15 @@ def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
 
     What stage 3 takes from the history is gathered with stage 1, in one pass.
     """
-    k, stage, h = count[K], count[STAGE], real[H]
+    k, stage, h = count[at.K], count[at.STAGE], real[at.H]
     if stage == 3:
         slope_1 = h * (SCALARS[k, 1] - SCALARS[k, 0])
         slope_2 = h * SCALARS[k, 2]
         for i in range(rows.shape[1]):
-            slopes = slope_1 * rows[F_1, i] + slope_2 * rows[F_2, i]
-            rows[CONSTANT, i] = rows[CONSTANT_3, i] + slopes
+            slopes = slope_1 * rows[at.F_1, i] + slope_2 * rows[at.F_2, i]
+            rows[at.CONSTANT, i] = rows[at.CONSTANT_3, i] + slopes
         return
-    first = STAGE_HISTORY if stage == 2 else HISTORY
+    first = at.STAGE_HISTORY if stage == 2 else at.HISTORY
     for i in range(rows.shape[1]):
         constant = extended = predicted = rows[first, i]
         for m in range(1, k):
@@ -164,10 +114,10 @@ def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
             constant += BDF_HISTORY[k, m] * difference
             extended += EXTENDED_HISTORY[k, m] * difference
             predicted += difference
-        rows[CONSTANT, i] = constant
-        rows[PREDICTED, i] = predicted + rows[first + k, i]
+        rows[at.CONSTANT, i] = constant
+        rows[at.PREDICTED, i] = predicted + rows[first + k, i]
         if stage == 1:
-            rows[CONSTANT_3, i] = extended
+            rows[at.CONSTANT_3, i] = extended
 
 
 @inlined
@@ -190,32 +140,32 @@ def iterate(
             _set_residual(real, rows)
         else:
             _set_residual_with_mass(real, count, rows, mass, places)
-        count[N_SOLVES] += 1
-        if count[OUTSIDE] == 1:
-            count[PHASE] = CORRECT
+        count[at.N_SOLVES] += 1
+        if count[at.OUTSIDE] == 1:
+            count[at.PHASE] = CORRECT
             return NEED_SOLUTION
         solve(count, rows, matrices)
     if phase != CONCLUDE:
         verdict = _correct(real, count, rows, places)
     if verdict == IN_DOUBT:
-        if phase != CONCLUDE and count[OUTSIDE] == 1:
-            count[PHASE] = CONCLUDE
+        if phase != CONCLUDE and count[at.OUTSIDE] == 1:
+            count[at.PHASE] = CONCLUDE
             return NEED_MAGNITUDE
-        if count[OUTSIDE] == 0:
-            magnify(rows, matrices, mass, places, real[SCALED])
+        if count[at.OUTSIDE] == 0:
+            magnify(rows, matrices, mass, places, real[at.SCALED])
         verdict = judge_beside_rounding(real, count, rows, places)
     if verdict == SOLVED:
         finish_stage(real, count, rows, mass, places)
         return 0
-    if verdict in (DIVERGED, FALSE) or count[ITERATION] >= MAX_ITERATIONS[count[STAGE]]:
+    if verdict in (DIVERGED, FALSE) or count[at.ITERATION] >= MAX_ITERATIONS[count[at.STAGE]]:
         if verdict == FALSE:
-            count[WARY] = max(count[WARY], CAUTION)
-            real[TRUST] = 0.0
+            count[at.WARY] = max(count[at.WARY], CAUTION)
+            real[at.TRUST] = 0.0
         newton_failed(real, count, rows, places.size > 0)
         return 0
-    count[N_F] += 1
-    count[JACOBIAN_AGE] += count[DIFFERENCED]
-    count[PHASE] = ITERATE
+    count[at.N_F] += 1
+    count[at.JACOBIAN_AGE] += count[at.DIFFERENCED]
+    count[at.PHASE] = ITERATE
     return NEED_F
 
 
@@ -227,23 +177,23 @@ def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, place
         if not math.isfinite(size):
             remember_not_finite(real, count, rows)
         return DIVERGED
-    count[ITERATION] += 1
-    rate = real[RATE]
+    count[at.ITERATION] += 1
+    rate = real[at.RATE]
     left = size if rate >= 0.5 else size * rate / (1.0 - rate)
-    return judge(real, count, rows, places, size) if left <= real[KAPPA + count[STAGE]] else OPEN
+    return judge(real, count, rows, places, size) if left <= real[at.KAPPA + count[at.STAGE]] else OPEN
 
 
 @inlined
 def _set_residual(real: FloatArray, rows: FloatArray) -> None:
     """Fill the row RESIDUAL and note its norm."""
     n = rows.shape[1]
-    scaled, total = real[SCALED], 0.0
+    scaled, total = real[at.SCALED], 0.0
     for i in range(n):
-        residual = scaled * rows[F, i] + rows[CONSTANT, i] - rows[Y, i]
-        rows[RESIDUAL, i] = residual
-        total += (residual * rows[WEIGHT, i]) ** 2
-    real[UNSOLVED_BEFORE] = real[UNSOLVED]
-    real[UNSOLVED] = math.sqrt(total / n)
+        residual = scaled * rows[at.F, i] + rows[at.CONSTANT, i] - rows[at.Y, i]
+        rows[at.RESIDUAL, i] = residual
+        total += (residual * rows[at.WEIGHT, i]) ** 2
+    real[at.UNSOLVED_BEFORE] = real[at.UNSOLVED]
+    real[at.UNSOLVED] = math.sqrt(total / n)
 
 
 @kernel
@@ -256,35 +206,37 @@ def _set_residual_with_mass(
 ) -> None:
     """Fill the row RESIDUAL and note its norm over the equations with derivatives."""
     n = rows.shape[1]
-    scaled, total = real[SCALED], 0.0
+    scaled, total = real[at.SCALED], 0.0
     # What the caller has evaluated of an implicit equation is the whole of it.
-    whole = count[IMPLICIT] == 1 and (count[STAGE] < 3 or count[ITERATION] > 0 or count[HIGHER] == 1)
+    whole = count[at.IMPLICIT] == 1 and (
+        count[at.STAGE] < 3 or count[at.ITERATION] > 0 or count[at.HIGHER] == 1
+    )
     for i in range(n):
-        rows[SCRATCH, i] = rows[CONSTANT, i] - rows[Y, i]
+        rows[at.SCRATCH, i] = rows[at.CONSTANT, i] - rows[at.Y, i]
     for i in range(n):
         if is_algebraic(places, i):
-            residual = rows[F, i]
-            if count[ITERATION] > 0:
+            residual = rows[at.F, i]
+            if count[at.ITERATION] > 0:
                 note_removed(rows, i, residual)
         else:
-            residual = scaled * rows[F, i]
+            residual = scaled * rows[at.F, i]
             if not whole:
-                residual += product(mass, places, rows, SCRATCH, i)
-        rows[RESIDUAL, i] = residual
-        total += (residual * rows[ROW_WEIGHT, i]) ** 2
-    real[UNSOLVED_BEFORE] = real[UNSOLVED]
-    real[UNSOLVED] = math.sqrt(total / n)
+                residual += product(mass, places, rows, at.SCRATCH, i)
+        rows[at.RESIDUAL, i] = residual
+        total += (residual * rows[at.ROW_WEIGHT, i]) ** 2
+    real[at.UNSOLVED_BEFORE] = real[at.UNSOLVED]
+    real[at.UNSOLVED] = math.sqrt(total / n)
 
 
 @inlined
 def _add_correction(real: FloatArray, rows: FloatArray) -> float:
     """Add the row DELTA, adapted to the present step, to Y; return its norm."""
-    relaxation, squares = real[RELAXATION], 0.0
+    relaxation, squares = real[at.RELAXATION], 0.0
     for i in range(rows.shape[1]):
-        change = rows[DELTA, i] * relaxation
-        rows[DELTA, i] = change
-        rows[Y, i] += change
-        squares += (change * rows[WEIGHT, i]) ** 2
+        change = rows[at.DELTA, i] * relaxation
+        rows[at.DELTA, i] = change
+        rows[at.Y, i] += change
+        squares += (change * rows[at.WEIGHT, i]) ** 2
     return math.sqrt(squares / rows.shape[1])
 
 
@@ -293,13 +245,13 @@ def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool
     """Update the convergence rate; return whether there is hope."""
     if not math.isfinite(size):
         return False
-    if count[ITERATION] > 0:
-        ratio = size / real[LAST_NORM] if real[LAST_NORM] > 0.0 else 0.0
+    if count[at.ITERATION] > 0:
+        ratio = size / real[at.LAST_NORM] if real[at.LAST_NORM] > 0.0 else 0.0
         if ratio > DIVERGING:
             return False
-        real[RATE] = max(real[FORGET] * real[RATE], ratio)
-        count[RATE_AGE] = 0
-    real[LAST_NORM] = size
+        real[at.RATE] = max(real[at.FORGET] * real[at.RATE], ratio)
+        count[at.RATE_AGE] = 0
+    real[at.LAST_NORM] = size
     return True
 
 
@@ -312,24 +264,24 @@ def finish_stage(
     places: NDArray[np.int64],
 ) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
-    stage, weight = count[STAGE], error_weight(places)
-    count[PHASE] = START_STAGE
-    count[STAGE] = stage + 1
+    stage, weight = count[at.STAGE], error_weight(places)
+    count[at.PHASE] = START_STAGE
+    count[at.STAGE] = stage + 1
     if stage == 1:
-        _keep(real, rows, Y_1, F_1)
+        _keep(real, rows, at.Y_1, at.F_1)
         _test_error(real, count, rows, mass, places)
     elif stage == 2:
-        _keep(real, rows, Y_2, F_2)
-        if count[FIXED] == 0 and not _goes_on(real, count, rows, weight):
-            _copy(rows, Y_1, Y, F_1, F)
-            count[PHASE] = ACCEPT
+        _keep(real, rows, at.Y_2, at.F_2)
+        if count[at.FIXED] == 0 and not _goes_on(real, count, rows, weight):
+            _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
+            count[at.PHASE] = ACCEPT
     else:
         for i in range(rows.shape[1]):
-            rows[SCRATCH, i] = rows[Y, i] - rows[Y_1, i]
-        if count[FIXED] == 0 and norm(rows, SCRATCH, weight) > real[DISAGREEMENT]:
-            reject(real, count, rows, 0.5, SCRATCH, weight)
+            rows[at.SCRATCH, i] = rows[at.Y, i] - rows[at.Y_1, i]
+        if count[at.FIXED] == 0 and norm(rows, at.SCRATCH, weight) > real[at.DISAGREEMENT]:
+            reject(real, count, rows, 0.5, at.SCRATCH, weight)
         else:
-            count[PHASE] = ACCEPT
+            count[at.PHASE] = ACCEPT
 
 
 @inlined
@@ -340,18 +292,18 @@ def _goes_on(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weigh
     of their slopes for a derivative. The step is then that of stage 1, which has passed its test.
     """
     for i in range(rows.shape[1]):
-        rows[SCRATCH, i] = rows[Y_2, i] - rows[PREDICTED, i]
-    change = SCALARS[count[K], 3] * norm(rows, SCRATCH, weight)
-    return change <= LARGER_CHANGE * max(real[ERROR], NO_CHANGE)
+        rows[at.SCRATCH, i] = rows[at.Y_2, i] - rows[at.PREDICTED, i]
+    change = SCALARS[count[at.K], 3] * norm(rows, at.SCRATCH, weight)
+    return change <= LARGER_CHANGE * max(real[at.ERROR], NO_CHANGE)
 
 
 @inlined
 def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
     """Store a stage; its slope follows from the formula without another call."""
-    inverse = 1.0 / real[SCALED]
+    inverse = 1.0 / real[at.SCALED]
     for i in range(rows.shape[1]):
-        rows[y, i] = rows[Y, i]
-        rows[f, i] = (rows[Y, i] - rows[CONSTANT, i]) * inverse
+        rows[y, i] = rows[at.Y, i]
+        rows[f, i] = (rows[at.Y, i] - rows[at.CONSTANT, i]) * inverse
 
 
 @inlined
@@ -363,15 +315,15 @@ def _test_error(
     places: NDArray[np.int64],
 ) -> None:
     """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
-    k, weight = count[K], error_weight(places)
-    push(rows, Y_1, k + 2, STAGE_HISTORY)
-    error = SCALARS[k, 3] * norm(rows, STAGE_HISTORY + k + 1, weight)
-    real[ERROR] = error
-    if error > 1.0 and count[FIXED] == 0 and not _is_of_the_start(count, rows, mass, places, error):
-        shrink = 1.0 / (real[SHRINK] * error ** (1.0 / (k + 1)))
-        reject(real, count, rows, min(0.9, max(0.1, shrink)), STAGE_HISTORY + k + 1, weight)
-    elif count[LAST] == 1:
-        count[PHASE] = ACCEPT
+    k, weight = count[at.K], error_weight(places)
+    push(rows, at.Y_1, k + 2, at.STAGE_HISTORY)
+    error = SCALARS[k, 3] * norm(rows, at.STAGE_HISTORY + k + 1, weight)
+    real[at.ERROR] = error
+    if error > 1.0 and count[at.FIXED] == 0 and not _is_of_the_start(count, rows, mass, places, error):
+        shrink = 1.0 / (real[at.SHRINK] * error ** (1.0 / (k + 1)))
+        reject(real, count, rows, min(0.9, max(0.1, shrink)), at.STAGE_HISTORY + k + 1, weight)
+    elif count[at.LAST] == 1:
+        count[at.PHASE] = ACCEPT
 
 
 @inlined
@@ -387,11 +339,11 @@ def _is_of_the_start(
     They may have been left beside their equations by more than a tolerance. No step is so short that it
     would not lead back to them; M y, which has an error of its own, hardly changes in it.
     """
-    k = count[K]
-    if places.size == 0 or count[FAILURES] < LATE or k > 1 or error > FORGIVEN:
+    k = count[at.K]
+    if places.size == 0 or count[at.FAILURES] < LATE or k > 1 or error > FORGIVEN:
         return False
     for i in range(rows.shape[1]):
-        change = SCALARS[k, 3] * product(mass, places, rows, STAGE_HISTORY + k + 1, i)
-        if abs(change) * rows[ROW_WEIGHT, i] > 1.0:
+        change = SCALARS[k, 3] * product(mass, places, rows, at.STAGE_HISTORY + k + 1, i)
+        if abs(change) * rows[at.ROW_WEIGHT, i] > 1.0:
             return False
     return True

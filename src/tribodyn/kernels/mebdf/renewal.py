@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.mebdf import state as at
 from tribodyn.kernels.mebdf.control import newton_failed
 from tribodyn.kernels.mebdf.matrix import factorise
 from tribodyn.kernels.mebdf.phases import (
@@ -32,53 +33,28 @@ from tribodyn.kernels.mebdf.phases import (
     SINGULAR,
     START_STAGE,
 )
-from tribodyn.kernels.mebdf.state import (
-    BACK,
-    CAUSE,
-    FACTORED,
-    FINITE,
-    FRESH,
-    JACOBIAN,
-    LAST_JACOBIAN,
-    MATRIX_AGE,
-    N_J,
-    N_LU,
-    OUTSIDE,
-    PHASE,
-    PREVIOUS_JACOBIAN,
-    RATE,
-    REASON,
-    REFERENCE,
-    RELAXATION,
-    SCALED,
-    SEEN,
-    SIGN,
-    STAGE,
-    TRACE,
-    TRUST,
-)
 
 
 @kernel
 def take_over(count: NDArray[np.int64], real: FloatArray, rows: FloatArray, matrices: FloatArray) -> int:
     """Keep a new Jacobian if it is finite, and the one before it."""
-    count[PHASE] = FACTORISE
-    real[TRUST] = 0.0
+    count[at.PHASE] = FACTORISE
+    real[at.TRUST] = 0.0
     for i in range(rows.shape[1]):
-        rows[SEEN, i] = 0.0
-    if count[OUTSIDE] == 0:
+        rows[at.SEEN, i] = 0.0
+    if count[at.OUTSIDE] == 0:
         n, total = matrices.shape[1], 0.0
         for i in range(n):
             for j in range(n):
-                total += matrices[JACOBIAN, i, j]
-        count[FINITE] = math.isfinite(total)
-        for i in range(n if count[FINITE] == 1 else 0):
-            if count[BACK] == 0:
-                copy(matrices[LAST_JACOBIAN, i], matrices[PREVIOUS_JACOBIAN, i])
-            copy(matrices[JACOBIAN, i], matrices[LAST_JACOBIAN, i])
-    count[BACK] = 0
-    if count[FINITE] == 0 and count[N_J] == 1:
-        count[REASON] = JACOBIAN_NOT_FINITE
+                total += matrices[at.JACOBIAN, i, j]
+        count[at.FINITE] = math.isfinite(total)
+        for i in range(n if count[at.FINITE] == 1 else 0):
+            if count[at.BACK] == 0:
+                copy(matrices[at.LAST_JACOBIAN, i], matrices[at.PREVIOUS_JACOBIAN, i])
+            copy(matrices[at.JACOBIAN, i], matrices[at.LAST_JACOBIAN, i])
+    count[at.BACK] = 0
+    if count[at.FINITE] == 0 and count[at.N_J] == 1:
+        count[at.REASON] = JACOBIAN_NOT_FINITE
         return FAILED
     return 0
 
@@ -92,27 +68,27 @@ def renew_matrix(
     places: NDArray[np.int64],
 ) -> int:
     """Factorise with the Jacobian in use."""
-    real[FACTORED] = real[SCALED]
-    real[RELAXATION] = 1.0
-    real[RATE] = 1.0
-    count[MATRIX_AGE] = 0
-    count[N_LU] += 1
-    count[PHASE] = FACTORISED
-    if count[OUTSIDE] == 1:
+    real[at.FACTORED] = real[at.SCALED]
+    real[at.RELAXATION] = 1.0
+    real[at.RATE] = 1.0
+    count[at.MATRIX_AGE] = 0
+    count[at.N_LU] += 1
+    count[at.PHASE] = FACTORISED
+    if count[at.OUTSIDE] == 1:
         return NEED_FACTORS
-    real[TRACE] = 0.0
+    real[at.TRACE] = 0.0
     for i in range(matrices.shape[1]):
-        real[TRACE] += matrices[LAST_JACOBIAN, i, i]
-    count[SIGN] = factorise(count, matrices, mass, places, real[SCALED])
+        real[at.TRACE] += matrices[at.LAST_JACOBIAN, i, i]
+    count[at.SIGN] = factorise(count, matrices, mass, places, real[at.SCALED])
     return 0
 
 
 @inlined
 def _is_outgrown(real: FloatArray, count: NDArray[np.int64], n: int, massive: bool) -> bool:
     """Tell whether, by the Jacobian in use, something grows faster than the step."""
-    if count[REFERENCE] == 0:
-        count[REFERENCE] = count[SIGN]
-    return count[SIGN] != count[REFERENCE] or (not massive and real[SCALED] * real[TRACE] > n)
+    if count[at.REFERENCE] == 0:
+        count[at.REFERENCE] = count[at.SIGN]
+    return count[at.SIGN] != count[at.REFERENCE] or (not massive and real[at.SCALED] * real[at.TRACE] > n)
 
 
 @inlined
@@ -127,19 +103,19 @@ def begin_stages(
 
     An old Jacobian is renewed first; where the newest one is outgrown the one before it follows, then none.
     """
-    count[STAGE] = 1
-    count[PHASE] = START_STAGE
-    if count[SIGN] == 0:
+    count[at.STAGE] = 1
+    count[at.PHASE] = START_STAGE
+    if count[at.SIGN] == 0:
         newton_failed(real, count, rows, massive)
-        count[CAUSE] = SINGULAR
-    elif count[BACK] < 2 and _is_outgrown(real, count, rows.shape[1], massive):
-        if count[FRESH] == 0:
+        count[at.CAUSE] = SINGULAR
+    elif count[at.BACK] < 2 and _is_outgrown(real, count, rows.shape[1], massive):
+        if count[at.FRESH] == 0:
             newton_failed(real, count, rows, massive)
             return
-        count[BACK] += 1
-        count[PHASE] = FACTORISE
+        count[at.BACK] += 1
+        count[at.PHASE] = FACTORISE
         for i in range(matrices.shape[1]):
-            copy(matrices[PREVIOUS_JACOBIAN, i], matrices[LAST_JACOBIAN, i])
-            if count[BACK] == 2 and not massive:
+            copy(matrices[at.PREVIOUS_JACOBIAN, i], matrices[at.LAST_JACOBIAN, i])
+            if count[at.BACK] == 2 and not massive:
                 for j in range(matrices.shape[1]):
-                    matrices[LAST_JACOBIAN, i, j] = 0.0
+                    matrices[at.LAST_JACOBIAN, i, j] = 0.0
