@@ -128,14 +128,9 @@ class Binding:
 
     def jac(self, t: float, y: FloatArray) -> FloatArray:
         """Return the Jacobian of the right-hand side, a new array of shape (n, n)."""
-        self._statistics.jacobian_evaluations += 1
-        f = np.empty(self._n)
-        jacobian = np.zeros((self._n, self._n))
-        if self._places is None:
-            self._jac(t, y, self._data, self._memory, f, jacobian)
-        else:
-            entries = np.zeros(self._places.shape[1])
-            self._jac(t, y, self._data, self._memory, f, entries)
+        jacobian = self._filled(t, y)
+        if self._places is not None:
+            entries, jacobian = jacobian, np.zeros((self._n, self._n))
             np.add.at(jacobian, tuple(self._places), entries)
         if np.isfinite(jacobian).all():
             self._last_jacobian = jacobian
@@ -144,6 +139,23 @@ class Binding:
             entry = f"d(rate of {self._names[row]})/d({self._names[column]})"
             raise IntegrationFailure(t, f"the Jacobian entry {entry} is not finite")
         return self._last_jacobian.copy()
+
+    def sparse_jac(self, t: float, y: FloatArray) -> Any:
+        """Return the Jacobian in compressed columns, shape (n, n); as it is where it is not finite."""
+        from scipy.sparse import coo_array, csc_array
+
+        filled = self._filled(t, y)
+        if self._places is None:
+            return csc_array(filled)
+        return coo_array((filled, tuple(self._places)), shape=(self._n, self._n)).tocsc()
+
+    def _filled(self, t: float, y: FloatArray) -> FloatArray:
+        """Return what ``jac`` fills: shape (n, n), or (n_entries,) with an algebra of the problem's own."""
+        self._statistics.jacobian_evaluations += 1
+        shape = (self._n, self._n) if self._places is None else self._places.shape[1:]
+        jacobian = np.zeros(shape)
+        self._jac(t, y, self._data, self._memory, np.empty(self._n), jacobian)
+        return jacobian
 
     def first_not_finite(self, values: FloatArray) -> str:
         """Return the name of the first state whose value is not finite, empty if all are."""

@@ -153,23 +153,28 @@ class _CompiledWalk(Walk):
         from tribodyn.integrate.mebdf_consistent import consistent
         from tribodyn.integrate.mebdf_differences import plain_jacobian
         from tribodyn.integrate.mebdf_index import check_index
-        from tribodyn.integrate.mebdf_mass import LARGEST, split
+        from tribodyn.integrate.mebdf_mass import LARGEST, with_index
 
         problem, rhs, matrix = self.problem, self.binding.rhs, self._matrix
-        if self.y.size > LARGEST:
-            self._mass = matrix.for_core(split(matrix).slope(rhs(self.t, self.y)))
-            return
         scale = problem.atol + self._relative * np.abs(self.y)
         end, names = float(self.schedule.edges[-1]), problem.state_names
         typical = problem.atol / self._relative
-        jacobian = plain_jacobian(rhs, typical)
+        given = self.y.size > LARGEST and self._has_all_places
+        jacobian = self.binding.sparse_jac if given else plain_jacobian(rhs, typical)
         try:
             self.y, slope, _ = consistent(rhs, jacobian, self.t, self.y, end, matrix, scale, names)
             if self.t == self.schedule.edges[0]:
-                check_index(jacobian, self.t, self.y, matrix.matrix, matrix.index, typical, names)
+                index = check_index(jacobian, self.t, self.y, matrix.matrix, matrix.index, typical, names)
+                self._matrix = matrix = with_index(matrix.matrix, index, None)
         except ValueError as wrong:
             raise IntegrationFailure(self.t, str(wrong)) from wrong
         self._mass = matrix.for_core(slope)
+
+    @property
+    def _has_all_places(self) -> bool:
+        """Whether the Jacobian that the problem gives can be put together: each entry has a place."""
+        algebra = self.problem.algebra
+        return algebra is None or algebra.n_entries in (0, algebra.places.shape[1])
 
     def _read_mass(self) -> MassMatrix | None:
         """Return the mass matrix of the problem, if it has one."""

@@ -29,6 +29,8 @@ LEAST: Final = _EPS**0.5
 
 Where large rates cancel, a move that is right changes their sum by much.
 """
+ROUNDINGS: Final = 100.0
+"""Shortest move of a variable near zero, in roundings of the size at which its tolerances are equal."""
 SHORT: Final = 1e-7
 """Move relative to the size of a variable where nothing is known of rounding."""
 FAR: Final = 1e-6
@@ -53,6 +55,21 @@ class Differences(Protocol):
             State and its right-hand side, shape (n,) each: the moves go where it goes.
         """
         ...
+
+
+def typical_sizes(rtol: FloatArray, atol: FloatArray) -> FloatArray:
+    """Return sizes below which those of variables do not shrink their moves, shape (n,).
+
+    SciPy's own solvers take absolute tolerances. Moves by a share ``LEAST`` of these are lost in rounding if
+    relative tolerances are small: equations of a variable near zero have other terms, and their rounding is
+    that of the size at which both tolerances are equal. No move of these sizes exceeds an absolute tolerance.
+
+    Parameters
+    ----------
+    rtol, atol
+        Relative and absolute tolerance of each variable, shape (n,) each; ``rtol`` at least 100 roundings.
+    """
+    return np.asarray(atol * np.maximum(1.0, ROUNDINGS * _EPS / (LEAST * rtol)))
 
 
 class DenseDifferences:

@@ -45,8 +45,8 @@ def check_index(
     given: Indices,
     typical: FloatArray,
     names: Sequence[str],
-) -> None:
-    """Refuse an index above that of its variable, and warn of one below it.
+) -> Indices:
+    """Return the index of each variable: refuse one that is too high; raise one that is too low, and warn.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def check_index(
         If errors of a variable would be weighed by a power of the step that its index does not justify.
     """
     if given.max(initial=1) == 1:
-        return
+        return given
     least, most = _bounds(jacobian, t, y, mass, typical)
     for wrong, what in ((given > most, "too high"), (given < least, "too low")):
         if not np.any(wrong):
@@ -83,7 +83,9 @@ def check_index(
         )
         if what == "too high":
             raise ValueError(text)
-        warnings.warn(f"{text} The integration is right but may take many more steps.", stacklevel=5)
+        warnings.warn(f"{text} The integration takes this index.", stacklevel=6)
+        return np.asarray(np.maximum(given, right))
+    return given
 
 
 def _bounds(

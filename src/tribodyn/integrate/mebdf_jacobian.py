@@ -18,6 +18,7 @@ from tribodyn.integrate.mebdf_differences import (
     Differences,
     DifferencesOfTerms,
     GroupedDifferences,
+    typical_sizes,
 )
 from tribodyn.integrate.mebdf_doubt import Doubted
 from tribodyn.integrate.mebdf_mass import MassMatrix
@@ -95,11 +96,12 @@ def make_jacobian(
     """
     n = solver.n
     rtol, atol = tolerances
+    sizes = typical_sizes(rtol, atol)
 
     def watched(given: Linear) -> Linear:
         if given.algebra is not None:
             return given
-        differences = _differenced(solver, DenseDifferences(atol), mass)
+        differences = _differenced(solver, DenseDifferences(sizes), mass)
         return given._replace(
             jacobian=Doubted(given.jacobian, differences, solver.fun_single, atol, in_trouble)
         )
@@ -108,7 +110,7 @@ def make_jacobian(
         raise ValueError("Give either `jac_sparsity` or `lband` and `uband`.")
     matrices = _matrices(mass, n, atol / rtol) if n > LARGEST_IN_CORE else None
     if jac is None:
-        return _by_differences(solver, _pattern(sparsity, bands, n), atol, mass, matrices)
+        return _by_differences(solver, _pattern(sparsity, bands, n), sizes, mass, matrices)
     given = jac if callable(jac) and not isinstance(jac, LinearOperator) else _Constant(jac)
     if bands is not None:
         return watched(_by_diagonals(_checked(given, (bands[0] + bands[1] + 1, n)), bands, matrices))

@@ -146,9 +146,13 @@ def read_mass(mass: Any, index: ArrayLike | None, test_algebraic: bool | None, n
         return None
     matrix = _matrix(mass, n)
     numbers = np.ones(n, dtype=np.int64) if index is None else _index(index, n)
-    algebraic = algebraic_variables(matrix)
-    tested = numbers == 1 if test_algebraic is None else np.full(n, test_algebraic)
-    return MassMatrix(matrix, numbers, tested | ~algebraic)
+    return with_index(matrix, numbers, test_algebraic)
+
+
+def with_index(matrix: Any, index: NDArray[np.int64], test_algebraic: bool | None) -> MassMatrix:
+    """Return a mass matrix, in compressed rows without zeros, with the index of each variable."""
+    tested = index == 1 if test_algebraic is None else np.full(index.size, test_algebraic)
+    return MassMatrix(matrix, index, tested | ~algebraic_variables(matrix))
 
 
 def _matrix(mass: Any, n: int) -> Any:

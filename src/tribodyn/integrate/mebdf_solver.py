@@ -32,7 +32,7 @@ from tribodyn.integrate.mebdf_differences import plain_jacobian
 from tribodyn.integrate.mebdf_implicit import ImplicitFull, Residual, fill_mass, mass_at_start
 from tribodyn.integrate.mebdf_index import check_index
 from tribodyn.integrate.mebdf_jacobian import LARGEST_IN_CORE, Linear, make_jacobian
-from tribodyn.integrate.mebdf_mass import LARGEST, MassMatrix, read_mass
+from tribodyn.integrate.mebdf_mass import LARGEST, MassMatrix, read_mass, with_index
 from tribodyn.integrate.mebdf_reasons import reason
 from tribodyn.kernels.mebdf import state as entry
 from tribodyn.kernels.mebdf.coefficients import MAX_K
@@ -90,7 +90,7 @@ class MEBDF(OdeSolver):
     index
         Index of each variable, 1 to 3, shape (n,); ``None`` for 1. The errors of variables of index 2 and 3
         are multiplied by the step and its square (of steps below 1), so theirs may be many tolerances. An
-        index that is too high is refused, one that is too low gives a warning.
+        index that is too high is refused, one that is too low is raised with a warning.
     test_algebraic
         Whether variables without derivatives are in the error test; ``None`` for those of index 1.
     breakpoints
@@ -184,7 +184,7 @@ class MEBDF(OdeSolver):
         if self._residual:
             mass, warning = self._implicit_start(self._residual)
         elif self._mass is not None:
-            slope, warning = self._consistent(self.fun_single, self._slopes, self._mass)
+            self._mass, slope, warning = self._consistent(self.fun_single, self._slopes, self._mass)
             mass = self._mass.for_core(slope)
         if warning:
             warn(warning, stacklevel=4)
@@ -196,16 +196,18 @@ class MEBDF(OdeSolver):
 
     def _consistent(
         self, fun: Callable[..., FloatArray], jacobian: Callable[..., Any], mass: MassMatrix
-    ) -> tuple[FloatArray, str]:
-        """Find consistent values; return y' there, and what was changed. Compare the index at the start."""
+    ) -> tuple[MassMatrix, FloatArray, str]:
+        """Find consistent values; return the matrix with the right index, y', and what was changed."""
         t = float(self.t)
         # A step leaves variables of higher index as wrong as its weights allow.
         step = 1.0 if self.t_old is None else min(abs(self._state.real.item(entry.H_LAST)), 1.0)
         scale = (self.atol + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
         self.y, slope, warning = consistent(fun, jacobian, t, self.y, self._ends[0], mass, scale, self._names)
         if self.t_old is None:
-            check_index(jacobian, t, self.y, mass.matrix, mass.index, self._typical, self._names)
-        return slope, warning
+            found = check_index(jacobian, t, self.y, mass.matrix, mass.index, self._typical, self._names)
+            if found is not mass.index:
+                self._index, mass = found, with_index(mass.matrix, found, self._test_algebraic)
+        return mass, slope, warning
 
     @property
     def _typical(self) -> FloatArray:
@@ -226,7 +228,7 @@ class MEBDF(OdeSolver):
         of_slope = residual.linearise(t, self.y, typical, left)[1]
         read = read_mass(of_slope, self._index, self._test_algebraic, self.n)
         assert read is not None
-        _, more = self._consistent(
+        read, _, more = self._consistent(
             residual.explicit(of_slope), lambda t, y: residual.linearise(t, y, typical, left)[0], read
         )
         if more:

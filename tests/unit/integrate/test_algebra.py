@@ -183,6 +183,29 @@ def test_values_that_cannot_be_consistent_end_the_run():
     assert "not consistent" in (integrate(problem).failure or "")
 
 
+@pytest.mark.parametrize("own", [False, True])
+def test_the_equation_that_does_not_hold_is_named_among_many_equations(own):
+    def unsolvable(t, y, data, memory, f):
+        rhs(t, y, data, memory, f)
+        f[401] = 1.0 + y[401] ** 2
+
+    problem = with_mass(601, own)
+    problem = replace(problem, functions=replace(problem.functions, rhs=unsolvable))
+    failure = integrate(problem).failure or ""
+    assert "The values at t = 0 are not consistent: equation 401 leaves a residual of" in failure
+    assert "no consistent value was found for y401" in failure
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_many_equations_begin_with_consistent_values(own):
+    problem = with_mass(601, own, t_span=(0.0, 1e-4), breakpoints=())
+    run = integrate(replace(problem, y0=problem.y0 * problem.mass), rtol=1e-6, output_times=[0.0])
+    assert run.complete, run.failure
+    y = run.y_end
+    inner = RATE * (y[:-2:2] - 2.0 * y[1::2] + y[2::2]) - y[1::2] ** 3
+    np.testing.assert_allclose(inner, 0.0, atol=1e-4 * RATE)
+
+
 def test_a_jacobian_that_is_not_finite_is_told_by_its_entry():
     def broken(t, y, data, memory, f, jacobian):
         jac_entries(t, y, data, memory, f, jacobian)

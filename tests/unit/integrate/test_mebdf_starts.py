@@ -252,6 +252,29 @@ def test_the_implicit_form_reports_an_index_that_is_too_low():
         )
 
 
+@pytest.mark.parametrize("index", [[1, 1, 1, 1, 3], [1, 1, 1, 2, 3]])
+@pytest.mark.parametrize("implicit", [False, True])
+def test_an_index_that_is_too_low_is_raised(index, implicit):
+    problem, calls = pendulum(3), 0
+
+    def fun(t, y):
+        nonlocal calls
+        calls += 1
+        return problem.fun(t, y)
+
+    def residual(t, y, slope):
+        return problem.mass @ slope - fun(t, y)
+
+    options = {"rtol": 1e-6, "atol": 1e-6, "index": index}
+    form = {"slope": np.zeros(5)} if implicit else {"mass": problem.mass}
+    with pytest.warns(UserWarning, match=r"`index` is too low for .*give `index=\[1, 1, 2, 2, 3\]`"):
+        solution = solve(residual if implicit else fun, (0.0, 1.0), problem.y0, **options, **form)
+    assert solution.success
+    np.testing.assert_allclose(solution.y[:2, -1], problem.end[:2], atol=1e-4)
+    # 200 and 263; they were 131,808 and 113,581 with the first index, after the warning.
+    assert calls < 700
+
+
 @pytest.mark.parametrize("start", [1e11, -1e11, 1e14])
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 @pytest.mark.parametrize("rate", [0.0, 1e-9])
@@ -270,6 +293,28 @@ def test_the_first_step_is_at_least_sixteen_spacings(start, fastest):
     solver.step()
     steps = np.array([time - start for time in times if time > start])
     assert steps[0] >= 16.0 * np.spacing(start)
+
+
+@pytest.mark.parametrize("start", [1e8, 3e8, 1e9, 3e9, 1e10])
+def test_equal_steps_late_in_time_lead_to_the_time_of_the_solution(start):
+    """The spacing of times is up to 2e-6 and steps are some 0.05: rounded they added up to another time."""
+    solution = solve(lambda t, y: [y[1], -y[0]], (start, start + 10.0), [1.0, 0.0], rtol=1e-8, atol=1e-9)
+    assert solution.success, solution.message
+    # 6 to 3700 tolerances before; 0.03, or what half a spacing of times changes.
+    np.testing.assert_allclose(solution.y[:, -1], [np.cos(10.0), -np.sin(10.0)], atol=50.0 * 1e-8)
+
+
+@pytest.mark.parametrize("start", [1e9, 1e10, 1e11])
+def test_the_shortest_step_is_tried_before_a_late_start_fails(start):
+    solver = MEBDF(lambda t, y: -1e3 * y, start, [1.0], start + 1.0, rtol=1e-8, atol=1e-8)
+    times = []
+    solver.fun_single, inner = lambda t, y: (times.append(t), inner(t, y))[1], solver.fun_single
+    message = ""
+    while solver.status == "running":
+        message = solver.step()
+    assert "shorter than the spacing between numbers" in message
+    # The first step, of 16 roundings, was the last one, too.
+    assert min(time for time in times if time > start) - start < 12.5 * np.finfo(np.float64).eps * start
 
 
 @pytest.mark.parametrize(
