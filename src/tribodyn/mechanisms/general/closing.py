@@ -34,6 +34,8 @@ _INEXACT: Final = 1.0e-6
 """Bounds of the relative error of reactions from which on a mechanism is refused, and a warning is given."""
 _BY_MASS: Final = 1.0e-2
 """Factor by which masses reduce the least singular value squared before an error is attributed to them."""
+_ALIKE: Final = 100.0
+"""Ratio of masses, and square root of that of moments of inertia, up to which no body is called light."""
 _TINY: Final = 1.0e-300
 _TAKES_PART: Final = 0.1
 """Share of a row in a combination of unit length from which on it counts."""
@@ -323,6 +325,10 @@ class System:
         tied = {b for i in rows for b in self.description.joints[self.rows[i][0]].bodies if b != GROUND}
         light, heavy = (pick(tied, key=lambda b: self.description.bodies[b].mass) for pick in (min, max))
         first, second = self.description.bodies[light], self.description.bodies[heavy]
+        moments = [np.linalg.eigvalsh(self.description.bodies[b].inertia) for b in tied]
+        # A long chain of like bodies is ill-conditioned by its length, and its reactions are exact.
+        if second.mass <= _ALIKE * first.mass and np.max(moments) <= _ALIKE**2 * np.min(moments):
+            return [], []
         pair = f"light beside {second.name} with {second.mass:.3g} kg for the ideal joints that tie them"
         change = "give it more mass, or make a joint of it a spring-damper"
         body = f"{first.name} with {first.mass:.3g} kg"

@@ -222,3 +222,16 @@ def test_a_body_whose_reactions_would_be_wrong_is_refused() -> None:
     finding = assemble(describe(swinging(1e-8).case())).findings[0]
     assert finding.key == "bodies.link.mass"
     assert "link with 1e-08 kg is too light beside block with 1 kg" in finding.text
+
+
+def test_no_body_of_a_chain_of_like_bodies_is_light() -> None:
+    chain = td.Mechanism("Chain", gravity="9.81, 0, 0 m/s^2", run={"duration": "1 ms"})
+    for k in range(50):
+        inertia = "1e-5, 1e-4, 1e-4 kg m^2"
+        chain.body(f"link-{k}", mass="0.1 kg", centre=f"{100 * k + 50}, 0, 0 mm", inertia=inertia)
+        before = "ground" if k == 0 else f"link-{k - 1}"
+        chain.revolute(f"pin-{k}", before, f"link-{k}", point=f"{100 * k}, 0, 0 mm", axis=[0, 0, 1])
+    assert not [text for text in td.check(chain) if "light" in text]
+    force = td.simulate(chain)["reaction_force"].isel(time=0).to_numpy()
+    # Each pin bears the weight of what hangs from it.
+    np.testing.assert_allclose(np.abs(force[:, 0]), 0.981 * np.arange(50, 0, -1), rtol=1e-9)
