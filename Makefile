@@ -85,7 +85,7 @@ lock:
 	uv pip compile --generate-hashes --universal --no-header --python-version 3.11 -c requirements.lock pyproject.toml -o tools/container.lock
 
 clean:
-	rm -rf $(VENV) docs/_build docs/reference/generated docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
+	rm -rf $(VENV) docs/_build docs/reference/generated docs/validation/sets docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
 
 # Stamps: an environment is made once, and again when pyproject.toml changes.
 

@@ -33,6 +33,7 @@ extensions = [
     "mathml",
     "numbers_of_runs",
     "reference",
+    "validation_pages",
 ]
 exclude_patterns = ["_build"]
 

@@ -9,10 +9,10 @@ from typing import Any, Final
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from tribodyn.figures.style import BLUE, DPI, GREY, INK, SMALL, VERMILION
+from tribodyn.figures.style import BLUE, DPI, GREEN, GREY, INK, PURPLE, SMALL, VERMILION
 from tribodyn.validation.base import Plot
 
-_COLOURS: Final = {"measured": (INK, GREY), "computed": (BLUE, VERMILION), "null": (GREY, INK)}
+_COLOURS: Final = {"measured": (INK, GREY), "computed": (BLUE, VERMILION, GREEN, PURPLE), "null": (GREY, INK)}
 _MARKERS: Final = "os^Dv"
 
 
@@ -24,7 +24,7 @@ def save_plot(plot: Plot, title: str, path: Path) -> None:
     seen = {kind: count() for kind in _COLOURS}
     for curve in plot.curves:
         place = next(seen[curve.kind])
-        colour = _COLOURS[curve.kind][place % 2]
+        colour = _COLOURS[curve.kind][place % len(_COLOURS[curve.kind])]
         look: dict[str, Any] = {"color": colour, "label": curve.label}
         if curve.kind == "measured":
             marker = _MARKERS[place % len(_MARKERS)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -102,6 +102,34 @@ def as_page(judged: Judged) -> str:
         parts.append("## Inputs\n\n" + "\n".join(_inputs(one)))
     parts.append("## The data\n\n" + _demoted(one.readme()))
     return "\n\n".join(parts) + "\n"
+
+
+def sets_table(all_judged: Iterable[Judged]) -> Iterator[str]:
+    """Give the table of all sets with their counts, links to their pages included."""
+    yield f"| set | measured | {' | '.join(verdict.value for verdict in Verdict)} |"
+    yield "|---|---|" + "---|" * len(Verdict)
+    total: Counter[str] = Counter()
+    for one in all_judged:
+        total += one.counts
+        counts = " | ".join(str(one.counts[verdict.value]) for verdict in Verdict)
+        yield f"| [`{one.set.name}`](sets/{one.set.name}.md) | {one.set.title} | {counts} |"
+    yield f"| all | | {' | '.join(str(total[verdict.value]) for verdict in Verdict)} |"
+
+
+def predictions_table(entries: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+    """Give the register of predictions as a table."""
+    yield "| set | quantity | value | interval | unit | entered | hash of inputs and data |"
+    yield "|---|---|---|---|---|---|---|"
+    for entry in entries:
+        low, high = number(entry["low"]), number(entry["high"])
+        cells = (
+            f"`{entry['set']}`",
+            entry["name"],
+            number(entry["value"]),
+            f"{low} to {high}",
+            entry["unit"],
+        )
+        yield f"| {' | '.join(cells)} | {entry['date']} | `{entry['hash'][:12]}` |"
 
 
 def allowed(band: Band | None, measured: float | None) -> str:

@@ -1,0 +1,28 @@
+"""Compute every validation set: a page and a plot each, the table of all sets, the register of predictions.
+
+python docs/plots/validation.py OUTPUT_DIRECTORY
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from tribodyn.validation.catalogue import chosen
+from tribodyn.validation.predictions import register
+from tribodyn.validation.report import Judged, predictions_table, sets_table
+from tribodyn.validation.save import save
+
+
+def main() -> None:
+    """Write everything into the given directory."""
+    target = Path(sys.argv[1]) / "validation"
+    target.mkdir(parents=True, exist_ok=True)
+    judged = [Judged(one, one.run()) for one in chosen([])]
+    save(judged, target)
+    (target / "table_of_sets.md").write_text("\n".join(sets_table(judged)) + "\n", encoding="utf-8")
+    (target / "predictions.md").write_text("\n".join(predictions_table(register())) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
