@@ -72,6 +72,8 @@ docs/_build/drawn/%: docs/plots/%.py $(PROGRAM)
 	$(BIN)/python $< docs/_static/generated
 	@mkdir -p $(@D) && touch $@
 
+docs/_build/drawn/measured: $(wildcard docs/plots/measures/*.py) docs/_static/benchmarks.json
+
 docs/_build/unread: $(PROGRAM)
 	rm -rf $(DOCS)/.doctrees
 	@mkdir -p $(@D) && touch $@

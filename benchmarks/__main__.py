@@ -29,6 +29,7 @@ NAMES: Final = (
     "workbench",
     "cash",
     "kinks",
+    "random_machines",
 )
 """Every benchmark once: to add one, write a module with ``run`` and name it here."""
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"

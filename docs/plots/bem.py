@@ -85,6 +85,7 @@ def statistical_law(spectrum: SelfAffine, separation_from: str = "surface") -> C
 def draw(target: Path) -> None:
     """Draw pressure over separation, its ratio over the real area, and the area over the load."""
     figure, axes = plt.subplots(2, 2, figsize=(9, 7), layout="constrained")
+    ratios: dict[str, tuple[np.ndarray, np.ndarray]] = {}
     h = np.linspace(0.0, 4.0, 200)
     for curve, (name, spectrum), marker, colour in zip(
         axes[0], SURFACES.items(), "os", ("C0", "C1"), strict=True
@@ -107,7 +108,7 @@ def draw(target: Path) -> None:
         area = summits.real_area_fraction(h)
         load = summits.stiffness_pressure(h) / MODULUS / (2.0 * spectrum.moments(2).m2) ** 0.5
         axes[1, 1].loglog(load, area, "-" + colour, linewidth=0.8, label=f"law, {name}")
-        report(name, solution, ratio)
+        ratios[name] = solution.area, ratio
     axes[1, 0].axhline(1.0, color="k", linewidth=0.8)
     axes[1, 0].axhspan(0.8, 1.25, color="0.9")
     axes[1, 0].set(
@@ -123,13 +124,16 @@ def draw(target: Path) -> None:
         axis.grid(True, which="major", color="0.9")
         axis.legend(fontsize="small")
     figure.savefig(target / "bem.png", dpi=150)
+    (target / "bem.md").write_text(table(ratios), encoding="utf-8")
 
 
-def report(name: str, solution: Solution, ratio: np.ndarray) -> None:
-    """Print what the figure shows, for the text of the manual."""
-    print(f"{name}: separation, real area, pressure of the law over that of the boundary elements")
-    for row in zip(solution.separation, solution.area, ratio, strict=True):
-        print("  " + "".join(f"{value:10.4f}" for value in row))
+def table(ratios: dict[str, tuple[np.ndarray, np.ndarray]]) -> str:
+    """Return real areas and pressures of the law over those of the boundary elements as a table."""
+    lines = [f"| {' | '.join(f'{name}: real area | law over elements' for name in ratios)} |"]
+    lines.append("|---" * (2 * len(ratios)) + "|")
+    for row in zip(*(zip(*pair, strict=True) for pair in ratios.values()), strict=True):
+        lines.append(f"| {' | '.join(f'{100.0 * area:.2g} % | {ratio:.2f}' for area, ratio in row)} |")
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -12,18 +13,16 @@ import pytest
 from benchmarks.__main__ import NAMES, TARGET
 from benchmarks.figure import bars, draw
 
-EXTENSION = Path(__file__).parents[3] / "docs" / "_ext" / "benchmark_tables.py"
+EXTENSIONS = Path(__file__).parents[3] / "docs" / "_ext"
 
 
 @pytest.fixture(scope="module")
-def tables() -> ModuleType:
+def tables() -> Iterator[ModuleType]:
     pytest.importorskip("docutils")
-    spec = importlib.util.spec_from_file_location("benchmark_tables", EXTENSION)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(EXTENSIONS))
+        importlib.import_module("counted_tables").setup(None)
+        yield importlib.import_module("benchmark_tables")
 
 
 def test_every_table_has_rows_of_one_width(tables: ModuleType) -> None:

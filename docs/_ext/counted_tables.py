@@ -1,0 +1,78 @@
+"""Tables of the directive ``benchmark`` that hold counts instead of times."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from benchmark_tables import SOURCE, TABLES, Found, Lines, head, row
+
+VARIANTS: Final = {
+    "as it is": "default",
+    "no clip": "total pressure may be tensile: no cut-off",
+    "entry velocity v_min, for ever": "entry velocity $v_{min}$ everywhere and always",
+    "no memory: |approach| of the moment": "no memory: the approach speed at each instant",
+    "no moment of the collar": "no moment of the collar, hence no φ/\\|φ\\|",
+    "air force switched over 10 times the angle": "air force switched over 10 times the angle",
+    "traction developed at 100 times the slip": "traction developed at 100 times the slip",
+    "friction as a moment": "friction as a moment",
+    "no clip, v_min, no collar, wide switches": "no cut-off, $v_{min}$, no collar, wide switches",
+}
+"""Variants of the mechanism by their names in the store, as the page calls them."""
+PROBLEMS: Final = {"VDP11": "Van der Pol", "PENDULUM": "Pendulum"}
+
+
+def kinks(found: Found) -> Lines:
+    """Give the steps of the vane mechanism with one thing changed at a time."""
+    yield from head("", "steps", "evaluations", "steps in 50 ms after reversals", "later than 100 ms")
+    for name, title in VARIANTS.items():
+        counts = (found["kinks"][name][what] for what in ("steps", "evaluations", "steps to 50 ms", "later"))
+        yield row(title, *(f"{count:.0f}" for count in counts))
+
+
+def cash(found: Found) -> Lines:
+    """Give the work of Cash's own code and of ours at equal digits."""
+    yield from head("", "digits", "steps, Cash", "here", "evaluations, Cash", "here", "LU, Cash", "here")
+    for name, title in PROBLEMS.items():
+        for line in found["cash"][name]:
+            costs = ((f"{line[f'{cost}, Cash']}", _count(line[cost])) for cost in ("steps", "rhs", "lu"))
+            yield row(title, f"{line['digits']:.1f}", *(cell for pair in costs for cell in pair))
+
+
+def _count(value: float) -> str:
+    return f"{value:.0f}" if value >= 100.0 else f"{value:.1f}"
+
+
+def machines(found: Found) -> Lines:
+    """Give how the runs of random machines ended."""
+    kinds = [found["random_machines"][name] for name in ("MECHANISM", "UNDAMPED", "DRY")]
+    yield from head("", "mechanisms", "without damping", "dry journals")
+    yield row("simulated", *(str(kind["machines"]) for kind in kinds))
+    for title, name in (
+        ("reached their end, all energy residuals below 1 %", "sound"),
+        ("reached their end and warned that energy is missed", "warned"),
+        ("of these below 1 % once the advice was followed", "closed at once"),
+        ("of these below 1 % once it was followed twice", "closed at the second time"),
+        ("of these not below 1 % after that", "not closed"),
+        ("stopped, with the reason", "stopped"),
+    ):
+        yield row(title, *(str(kind[name]) for kind in kinds))
+    for title, name, scale, unit in (
+        ("residual of the whole system", "energy_residual", 100.0, "%"),
+        ("residual of the clearance motion", "clearance_energy_residual", 100.0, "%"),
+        ("computing time of a run", "seconds", 1.0, "s"),
+    ):
+        yield row(
+            f"{title}: median, 99 %, largest", *(_quantiles(kind.get(name), scale, unit) for kind in kinds)
+        )
+
+
+def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
+    if values is None:
+        return "–"
+    return ", ".join(f"{scale * values[name]:.1g} {unit}" for name in ("median", "99 %", "largest"))
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register the tables."""
+    TABLES.update({"kinks": (SOURCE, kinks), "cash": (SOURCE, cash), "random": (SOURCE, machines)})
+    return {"parallel_read_safe": True}
