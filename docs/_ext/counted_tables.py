@@ -11,7 +11,7 @@ VARIANTS: Final = {
     "no clip": "total pressure may be tensile: no cut-off",
     "entry velocity v_min, for ever": "entry velocity $v_{min}$ everywhere and always",
     "no memory: |approach| of the moment": "no memory: the approach speed at each instant",
-    "no moment of the collar": "no moment of the collar, hence no φ/\\|φ\\|",
+    "no moment of the collar": "no moment of the collar",
     "air force switched over 10 times the angle": "air force switched over 10 times the angle",
     "traction developed at 100 times the slip": "traction developed at 100 times the slip",
     "friction as a moment": "friction as a moment",
