@@ -57,12 +57,12 @@ BOUNDS: Final = (
     Bound("page", "serious faults by axe", most=0.0),
     Bound("pins", "growth over its standard error", most=2.0),
     Bound("pins", "errors of the page", most=0.0),
-    Bound("pins", "numbers of other values than wished", most=0.0),
+    Bound("pins", "numbers of other values than requested", most=0.0),
     Bound("sockets", "server, growth over its standard error", most=2.0),
     Bound("sockets", "workers, growth over its standard error", most=2.0),
     Bound("sockets", "processes left behind", most=0.0),
     Bound("worker killed", "late pictures", most=1.0),
-    Bound("worker killed", "wishes never answered", most=0.0),
+    Bound("worker killed", "requests never answered", most=0.0),
     Bound("hostile", "tests of 10,000 messages and requests that fail", most=0.0),
 )
 
@@ -110,7 +110,7 @@ def workbench() -> Iterator[tuple[psutil.Process, str]]:
 async def _alone(process: psutil.Process, address: str, seconds: float) -> dict[str, dict[str, float]]:
     """Ask for the first picture and drag, without a browser; once more while a worker is killed."""
     hand = await Hand.at(*await Hand.entry(address))
-    await hand.wish({}, rest=True)
+    await hand.request({}, rest=True)
     await hand.picture()
     found = {"first picture": {"seconds": time.time() - process.create_time()}}
     found["drag"] = await hand.dragged(seconds)

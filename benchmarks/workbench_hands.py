@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from tribodyn.workbench.bench import Rules
+from tribodyn.workbench.server_state import Rules
 from tribodyn.workbench.visitor import MOST_CASES
 
 KEY: Final = "joint.clearance"
@@ -59,7 +59,7 @@ class Hand:
         request = HTTPRequest(sockets, headers=headers)
         return cls(await websocket_connect(request, max_message_size=LARGEST))
 
-    async def wish(self, values: dict[str, str], *, rest: bool = False) -> None:
+    async def request(self, values: dict[str, str], *, rest: bool = False) -> None:
         """Ask for a run."""
         self.number += 1
         self.sent[self.number] = time.perf_counter()
@@ -88,7 +88,7 @@ class Hand:
         """Let go at places of which hardly any comes twice, each once there is a picture."""
         chance, begin = np.random.default_rng(seed), time.perf_counter()
         while time.perf_counter() - begin < seconds:
-            await self.wish({KEY: f"{chance.uniform(20.0, 50.0):.4f} um"}, rest=True)
+            await self.request({KEY: f"{chance.uniform(20.0, 50.0):.4f} um"}, rest=True)
             await self.picture()
 
     async def dragged(self, seconds: float) -> dict[str, float]:
@@ -117,9 +117,9 @@ class Hand:
     async def _moved(self, begin: float, seconds: float) -> None:
         while (now := time.perf_counter() - begin) < seconds:
             place = 35.0 + 15.0 * np.sin(0.7 * now)
-            await self.wish({KEY: f"{place:.3f} um"})
+            await self.request({KEY: f"{place:.3f} um"})
             await asyncio.sleep(1.0 / PER_SECOND)
-        await self.wish({}, rest=True)
+        await self.request({}, rest=True)
 
 
 def family(process: psutil.Process) -> list[psutil.Process]:
@@ -138,7 +138,7 @@ async def killed(hand: Hand, process: psutil.Process, seconds: float) -> dict[st
         "late pictures": float(np.count_nonzero(whole > _LATE * np.quantile(whole, 0.95))),
         "longest [s]": float(whole.max()),
         "95 % [s]": float(np.quantile(whole, 0.95)),
-        "wishes never answered": float(hand.answered != hand.number or hand.number == before),
+        "requests never answered": float(hand.answered != hand.number or hand.number == before),
     }
 
 

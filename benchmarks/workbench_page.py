@@ -21,7 +21,7 @@ from benchmarks.workbench_hands import KEY, PER_SECOND
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
 OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader")
 """WebGL alone in software: a page put together in software by it, too, costs a third more."""
-DRAWN: Final = "() => typeof bench === 'object' && bench.shown && !wishes.awaited"
+DRAWN: Final = "() => typeof pageState === 'object' && pageState.shown && !requests.awaited"
 """Ends in a truth: a run that it returned would be held by Playwright."""
 DRAG: Final = """async ([key, apart, seconds]) => {
   const slider = controlAt(key).querySelector("input[type=range]");
@@ -41,9 +41,9 @@ DRAG: Final = """async ([key, apart, seconds]) => {
     decoding = performance.now() - begun;
     return run;
   };
-  const known = new Set([bench.shown.run]);
-  const show = bench.show;
-  bench.show = (run) => {
+  const known = new Set([pageState.shown.run]);
+  const show = pageState.show;
+  pageState.show = (run) => {
     const begun = performance.now();
     show(run);
     const drawn = performance.now();

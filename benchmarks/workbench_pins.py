@@ -24,13 +24,14 @@ APART: Final = 0.04
 """Time between two of them [s]."""
 OWN: Final = """() => {
   const whose = document.getElementById("whose").textContent;
-  const { values } = bench.shown;
+  const { values } = pageState.shown;
   const refused = !document.getElementById("trouble").hidden;
-  return whose.endsWith(valuesInWords(values)) && (refused || sameValues(values, bench.values));
+  return whose.endsWith(valuesInWords(values)) && (refused || sameValues(values, pageState.values));
 }"""
-"""Whether numbers are those of the run shown, and that is what is wished, unless the page says why not."""
+"""Whether numbers are those of the run shown and requested, unless the page gives the reason why not."""
 RUNS: Final = """() => {
-  const buffers = [bench.shown, ...bench.trail, ...bench.pins].map(({ clock }) => clock.time.buffer);
+  const { shown, trail, pins } = pageState;
+  const buffers = [shown, ...trail, ...pins].map(({ clock }) => clock.time.buffer);
   return [...new Set(buffers)].reduce((size, buffer) => size + buffer.byteLength, 0);
 }"""
 """Size of the runs that the page keeps, some large and some small [bytes]."""
@@ -103,9 +104,9 @@ def _drag(page: Page, slider: Any, end: float) -> None:
 
 def _pin(page: Page) -> None:
     """Pin the run that is shown, and let the oldest go where there are too many."""
-    if page.evaluate("() => bench.pins.every(({ run }) => run !== bench.shown.run)"):
+    if page.evaluate("() => pageState.pins.every(({ run }) => run !== pageState.shown.run)"):
         page.keyboard.press("p")
-    if page.evaluate("() => bench.pins.length") > PINS:
+    if page.evaluate("() => pageState.pins.length") > PINS:
         page.locator("#pins .pinned button", has_text="Let go").first.click()
 
 
@@ -123,5 +124,5 @@ def _told(rows: Any) -> dict[str, float]:
         "growth over its standard error": slope / error,
         "elements from then": float(nodes[later][0]),
         "elements at last": float(nodes[-1]),
-        "numbers of other values than wished": float(strange.sum()),
+        "numbers of other values than requested": float(strange.sum()),
     }

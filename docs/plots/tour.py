@@ -53,8 +53,8 @@ class Recorder:
         self.page.evaluate("words => { document.getElementById('words').textContent = words; }", words)
 
     def take(self, milliseconds: int) -> None:
-        """Take a picture once what is shown is what is wished."""
-        self.page.wait_for_function("() => bench.shown && !wishes.awaited", timeout=600_000)
+        """Take a picture once the run shown is the one requested."""
+        self.page.wait_for_function("() => pageState.shown && !requests.awaited", timeout=600_000)
         self.page.wait_for_timeout(150)
         picture = Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")
         self.pictures.append(picture.resize(SHOWN, Image.Resampling.LANCZOS))
@@ -185,7 +185,7 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
         page = browser.new_page(viewport=SIZE)
         page.goto(address)
-        page.wait_for_function("() => typeof bench === 'object' && bench.shown", timeout=600_000)
+        page.wait_for_function("() => typeof pageState === 'object' && pageState.shown", timeout=600_000)
         page.evaluate(OVERLAY)
         film = Recorder(page)
         tour(film)

@@ -65,7 +65,7 @@ class Person(Reader):
 
     def shown(self) -> Any:
         """Return what is said of the run that is drawn."""
-        return self.page.evaluate("({...bench.shown, sections: null, clock: null})")
+        return self.page.evaluate("({...pageState.shown, sections: null, clock: null})")
 
     def wait_for(self, truth: str) -> None:
         self.page.wait_for_function(f"() => {truth}", timeout=SOON)
@@ -73,7 +73,8 @@ class Person(Reader):
     def wait_until_shown(self, values: dict[str, str]) -> None:
         """Wait until the run with some values is drawn, and nothing else is waited for."""
         self.wait_for(
-            f"bench.shown && !wishes.awaited && sameValues(bench.shown.values, {json.dumps(values)})"
+            "pageState.shown && !requests.awaited && "
+            f"sameValues(pageState.shown.values, {json.dumps(values)})"
         )
 
     def control(self, key: str) -> Any:
@@ -166,7 +167,7 @@ def test_the_first_picture_is_of_the_case(at: Opened) -> None:
     assert person.plot("mechanism", "plot.plotted.gl instanceof WebGL2RenderingContext")
     assert person.overflow() == 0
     first = person.page.locator(".live-numbers tbody tr").first
-    expected = person.page.evaluate("bench.hello.headlines[0].label")
+    expected = person.page.evaluate("pageState.hello.headlines[0].label")
     assert first.locator("th").inner_text() == expected
     person.keep_picture("workbench")
 
@@ -192,19 +193,19 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
     person.page.evaluate(
         """() => {
           window.seen = [];
-          bench.on('shown', () => requestAnimationFrame(() => seen.push([
-            bench.shown.values['joint.clearance'] ?? '20 um',
+          pageState.on('shown', () => requestAnimationFrame(() => seen.push([
+            pageState.shown.values['joint.clearance'] ?? '20 um',
             document.getElementById('whose').textContent,
             document.querySelector('#orbit .plot').plotted.data.clearance,
-            bench.shown.headlines.vane_angle_error_rms_deg,
+            pageState.shown.headlines.vane_angle_error_rms_deg,
           ])));
         }"""
     )
     # Where the machine does other things too, the hand moves until it has seen two.
     _drag(person, 0.39, 0.75, until="new Set(seen.map(([value]) => value)).size > 1")
-    person.wait_for("!wishes.awaited && bench.past.length === 1")
-    wished = person.page.evaluate("bench.values['joint.clearance']")
-    person.wait_until_shown({CLEARANCE: wished})
+    person.wait_for("!requests.awaited && pageState.past.length === 1")
+    requested = person.page.evaluate("pageState.values['joint.clearance']")
+    person.wait_until_shown({CLEARANCE: requested})
     seen = person.page.evaluate("seen")
     assert len({value for value, *_ in seen}) >= 2
     for value, words, circle, _ in seen:
@@ -213,12 +214,12 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
     # A wider clearance lets the vane stray farther: 2 µm make 8 % of it, rounding nothing.
     errors = [error for value, _, _, error in sorted(seen, key=lambda one: float(one[0][:-3]))]
     assert errors == sorted(errors)
-    assert person.slider().get_attribute("aria-valuetext") == wished
+    assert person.slider().get_attribute("aria-valuetext") == requested
     assert person.control(CLEARANCE).get_attribute("class") == "control changed"
     person.page.get_by_role("button", name="Undo").click()
     person.wait_until_shown({})
     person.page.get_by_role("button", name="Redo").click()
-    person.wait_until_shown({CLEARANCE: wished})
+    person.wait_until_shown({CLEARANCE: requested})
     person.click_twice(person.control(CLEARANCE).locator("label"))
     person.wait_until_shown({})
     assert person.control(CLEARANCE).get_attribute("class") == "control"
@@ -274,12 +275,12 @@ def test_every_kind_of_mechanism_has_its_workbench(
         person.wait_until_shown({})
         assert person.overflow() == 0
         _drag(person, 0.39, 0.75, steps=3, key=key)
-        person.wait_for("!wishes.awaited && bench.past.length === 1")
-        wished = person.page.evaluate("bench.values")
-        person.wait_until_shown(wished)
-        assert person.page.evaluate("location.hash") == f"#{key}={wished[key].replace(' ', '')}"
+        person.wait_for("!requests.awaited && pageState.past.length === 1")
+        requested = person.page.evaluate("pageState.values")
+        person.wait_until_shown(requested)
+        assert person.page.evaluate("location.hash") == f"#{key}={requested[key].replace(' ', '')}"
         person.look_at(figure)
-        value = float(wished[key].removesuffix(" um"))
+        value = float(requested[key].removesuffix(" um"))
         # What was drawn while it was off the screen is drawn anew a moment after it came.
         person.wait_for(f"document.querySelector('#{figure} .plot').plotted.data.clearance === {value}")
         # The first picture shines through.
@@ -300,7 +301,7 @@ def test_what_cannot_be_is_said_beside_its_box(at: Opened) -> None:
     assert "not a unit of length" in fault.inner_text()
     assert person.control(CLEARANCE).locator(".entry").input_value() == "40 mN"
     assert person.shown()["run"] == before
-    assert person.page.evaluate("[bench.values, bench.past.length]") == [{}, 0]
+    assert person.page.evaluate("[pageState.values, pageState.past.length]") == [{}, 0]
     person.type_into(CLEARANCE, "0.04 mm")
     person.wait_until_shown({CLEARANCE: "40 um"})
     assert not fault.is_visible()
@@ -323,7 +324,7 @@ def test_a_pinned_run_stays_behind_with_differences(at: Opened) -> None:
     person.wait_until_shown({CLEARANCE: "1 um"})
     rms = person.page.locator("[data-row=vane_angle_error_rms_deg] td").nth(1).inner_text()
     pinned, now = person.page.evaluate(
-        "[bench.pins[0], bench.shown].map(run => run.headlines.vane_angle_error_rms_deg)"
+        "[pageState.pins[0], pageState.shown].map(run => run.headlines.vane_angle_error_rms_deg)"
     )
     assert float(rms.replace("−", "-").removesuffix(" %")) == pytest.approx(
         100 * (now / pinned - 1), rel=0.06
@@ -344,7 +345,7 @@ def test_a_run_that_fails_says_so_and_can_be_left(at: Opened) -> None:
     person = at("#joint.clearance=30um")
     person.wait_until_shown({CLEARANCE: "30 um"})
     person.type_into("loads.air_moment", "2000 N m")
-    person.wait_for("bench.shown.failure")
+    person.wait_for("pageState.shown.failure")
     trouble = person.page.locator("#trouble")
     assert "came closer than the contact law reaches" in trouble.inner_text()
     assert trouble.get_attribute("role") == "alert"
@@ -361,7 +362,7 @@ def test_a_run_under_way_can_be_stopped(at: Opened, by: str) -> None:
     stop = person.page.locator("#stop")
     assert not stop.is_visible()
     # Sixty cycles, to which somebody has agreed.
-    person.page.evaluate("bench.values = {'run.duration': '400 s'}; wishes.send(true, true)")
+    person.page.evaluate("pageState.values = {'run.duration': '400 s'}; requests.send(true, true)")
     stop.wait_for(timeout=SOON)
     if by == "pointer":
         stop.click()
@@ -403,9 +404,14 @@ def test_before_something_long_it_asks(at: Opened) -> None:
         server = route.connect_to_server()
 
         def said(message: str | bytes) -> None:
-            wish = json.loads(message)
-            if wish["type"] == "run" and wish["values"] and not wish["agreed"]:
-                question = {"type": "ask", "number": wish["number"], "seconds": 40, "message": "takes 40 s"}
+            request = json.loads(message)
+            if request["type"] == "run" and request["values"] and not request["agreed"]:
+                question = {
+                    "type": "ask",
+                    "number": request["number"],
+                    "seconds": 40,
+                    "message": "takes 40 s",
+                }
                 route.send(json.dumps(question))
             else:
                 server.send(message)
@@ -415,41 +421,41 @@ def test_before_something_long_it_asks(at: Opened) -> None:
     person = at(line=line)
     person.wait_until_shown({})
     question = person.page.locator("#ask")
-    for answer, wished in (("Leave it", {}), ("Run it", {CLEARANCE: "30 um"})):
+    for answer, requested in (("Leave it", {}), ("Run it", {CLEARANCE: "30 um"})):
         person.type_into(CLEARANCE, "30 um")
         question.wait_for(timeout=SOON)
         assert "takes 40 s" in question.inner_text()
         assert person.shown()["values"] == {}
         question.get_by_role("button", name=answer).click()
-        person.wait_until_shown(wished)
+        person.wait_until_shown(requested)
         assert not question.is_visible()
-        assert person.page.evaluate("bench.values") == wished
+        assert person.page.evaluate("pageState.values") == requested
 
 
-def test_over_a_slow_line_the_last_wish_is_shown_last(at: Opened) -> None:
+def test_over_a_slow_line_the_last_request_is_shown_last(at: Opened) -> None:
     person, delayed = _over_a_line_held_up(at)
-    _deliver(person, delayed, "bench.shown")
+    _deliver(person, delayed, "pageState.shown")
     _drag(person, 0.39, 0.6, steps=4)
-    _deliver(person, delayed, "!wishes.awaited")
-    shown, wished = person.page.evaluate("[bench.shown.values, bench.values]")
-    assert shown == wished
+    _deliver(person, delayed, "!requests.awaited")
+    shown, requested = person.page.evaluate("[pageState.shown.values, pageState.values]")
+    assert shown == requested
     assert shown != {}
 
 
-def test_a_picture_that_comes_late_does_not_take_away_why_a_wish_was_refused(at: Opened) -> None:
+def test_a_picture_that_comes_late_does_not_take_away_why_a_request_was_refused(at: Opened) -> None:
     person, delayed = _over_a_line_held_up(at)
-    _deliver(person, delayed, "bench.shown && !wishes.awaited")
-    person.page.evaluate("bench.gesture({'drive.speed_amplitude': '18 deg/s'})")
+    _deliver(person, delayed, "pageState.shown && !requests.awaited")
+    person.page.evaluate("pageState.gesture({'drive.speed_amplitude': '18 deg/s'})")
     while not any(isinstance(message, bytes) for _, message in delayed):
         person.page.wait_for_timeout(50)
-    person.page.evaluate("bench.gesture({'drive.speed_amplitude': '-45 deg/s'})")
+    person.page.evaluate("pageState.gesture({'drive.speed_amplitude': '-45 deg/s'})")
     while not any('"refused"' in message for _, message in delayed if isinstance(message, str)):
         person.page.wait_for_timeout(50)
     delayed.sort(key=lambda one: isinstance(one[1], bytes))
-    _deliver(person, delayed, "bench.shown.values['drive.speed_amplitude'] === '18 deg/s'")
+    _deliver(person, delayed, "pageState.shown.values['drive.speed_amplitude'] === '18 deg/s'")
     assert "reaches only" in person.page.locator("#trouble").inner_text()
     person.press("u")
-    _deliver(person, delayed, "!wishes.awaited")
+    _deliver(person, delayed, "!requests.awaited")
     assert not person.page.locator("#trouble").is_visible()
 
 
@@ -479,7 +485,7 @@ def _deliver(person: Person, delayed: Delayed, truth: str) -> None:
         if delayed:
             route, message = delayed.pop(0)
             route.send(message)
-        if not delayed and person.page.evaluate(f"Boolean(bench.hello && ({truth}))"):
+        if not delayed and person.page.evaluate(f"Boolean(pageState.hello && ({truth}))"):
             return
     raise AssertionError(f"never: {truth}")
 
@@ -498,7 +504,7 @@ def test_a_line_that_breaks_is_taken_up_again(at: Opened) -> None:
         }"""
     )
     person.wait_for("said.some((text) => text.includes('does not answer'))")
-    person.wait_for("server.connected && !wishes.awaited")
+    person.wait_for("server.connected && !requests.awaited")
     person.wait_until_shown({CLEARANCE: "25 um"})
 
 
@@ -557,9 +563,9 @@ def _find_the_clearance_by_keyboard(person: Person) -> None:
     assert len(points) == 15
     good = [p for p in points if p["headlines"]["vane_angle_error_outside_deg"] < 0.03]
     person.press("[")
-    while person.page.evaluate("bench.text('joint.clearance')") != good[-1]["text"]:
+    while person.page.evaluate("pageState.text('joint.clearance')") != good[-1]["text"]:
         person.press("]")
-        person.wait_for("!wishes.awaited")
+        person.wait_for("!requests.awaited")
     person.wait_until_shown({} if good[-1]["text"] == "20 um" else {CLEARANCE: good[-1]["text"]})
     assert person.shown()["headlines"]["vane_angle_error_outside_deg"] < 0.03
     person.wait_for("slope.finished && slope.key === 'joint.clearance'")
@@ -590,13 +596,13 @@ def _find_the_clearance_by_pointer(person: Person) -> None:
     person.control(CLEARANCE).get_by_role("button", name="Sweep").click()
     person.wait_for("sweeps.get('joint.clearance')?.finished")
     curve = person.control(CLEARANCE).locator("canvas")
-    place = "(k => placedPoints(document.querySelector('.curve'), bench.controls.get('joint.clearance'),"
+    place = "(k => placedPoints(document.querySelector('.curve'), pageState.controls.get('joint.clearance'),"
     place += " sweeps.get('joint.clearance'))[k])"
     last, good = person.page.evaluate(f"[{place}(14), {place}(4)]")
     box = curve.bounding_box()
     person.page.mouse.move(box["x"] + last["x"], box["y"] + last["y"])
-    person.wait_for(f"bench.shown.run === '{last['run']}'")
-    assert person.page.evaluate("bench.values") == {}
+    person.wait_for(f"pageState.shown.run === '{last['run']}'")
+    assert person.page.evaluate("pageState.values") == {}
     person.page.mouse.move(box["x"] + good["x"], box["y"] + good["y"])
     person.page.mouse.down()
     person.page.mouse.up()
@@ -611,7 +617,7 @@ def _compare_materials_by_pointer(person: Person) -> None:
     slider.scroll_into_view_if_needed()
     box = slider.bounding_box()
     person.page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.5 * box["height"])
-    person.wait_for("!wishes.awaited && bench.shown.values['surfaces.bushing.hardness']")
+    person.wait_for("!requests.awaited && pageState.shown.values['surfaces.bushing.hardness']")
     difference = person.page.locator("[data-row=wear_depth_rate_nm_per_1000_cycles] td").nth(1).inner_text()
     assert difference.endswith("%")
 
@@ -627,7 +633,7 @@ def _compare_materials_by_keyboard(person: Person) -> None:
     person.press("Control+a")
     person.page.keyboard.type("2 GPa")
     person.press("Enter")
-    person.wait_for(f"!wishes.awaited && bench.shown.values['{key}']")
+    person.wait_for(f"!requests.awaited && pageState.shown.values['{key}']")
     difference = person.page.locator("[data-row=wear_depth_rate_nm_per_1000_cycles] td").nth(1).inner_text()
     assert difference.endswith("%")
     person.press("Escape")

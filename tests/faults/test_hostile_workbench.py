@@ -14,9 +14,9 @@ import pytest
 from tests.unit.workbench.host import SOON, Host, Page, Pretending, finished, hosting
 
 from tribodyn.core import fork_server
-from tribodyn.workbench.bench import Rules
-from tribodyn.workbench.crew import Crew
-from tribodyn.workbench.worker import Limits
+from tribodyn.workbench.server_state import Rules
+from tribodyn.workbench.work import Limits
+from tribodyn.workbench.worker_pool import WorkerPool
 
 SIZES = [pytest.param(600, id="some"), pytest.param(10_000, id="many", marks=pytest.mark.long)]
 TEXTS = (
@@ -181,7 +181,7 @@ async def fed(page: Page, number: int, source: random.Random) -> None:
 
 
 async def drained(page: Page) -> None:
-    """Hear what a page is told until the answer to its last wish."""
+    """Receive messages until the answer to the last request."""
     while (said := await page.hear()) is not None:
         if getattr(said, "number", None) == 2**32 - 1:
             return
@@ -211,7 +211,7 @@ def test_a_page_that_says_anything_is_answered_and_nothing_is_touched(number: in
             watch.on = False
             kinds = {said["type"] for said in page.heard}
             assert {"error", "refused"} <= kinds
-            assert len(host.person.who.frames) < 400
+            assert len(host.person.user.frames) < 400
         assert watch.touched == []
 
     finished(test())
@@ -247,7 +247,7 @@ def test_real_workers_outlive_ten_thousand_messages() -> None:
     async def test() -> None:
         fork_server.start(name="vsv")
         rules = Rules(messages=10**6, longest=SOON, unasked=5.0)
-        async with hosting(Crew(2, Limits()), rules=rules) as host:
+        async with hosting(WorkerPool(2, Limits()), rules=rules) as host:
             page = await host.greeted()
             hearing = asyncio.create_task(drained(page))
             source = random.Random(1)

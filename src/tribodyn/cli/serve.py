@@ -74,7 +74,7 @@ def execute(args: Namespace) -> int:
             size=args.workers or workers(many=True),
             opened=lambda: console.note(f"serving {args.case} at {args.listen}:{port} for {hosts}"),
             stop=stop,
-            complain=complain,
+            log_error=complain,
         )
         asyncio.run(served)
     return 0

@@ -56,7 +56,7 @@ def execute(args: Namespace) -> int:
             size=args.workers or workers(),
             opened=lambda address: _show(address, args, stack),
             stop=stop,
-            complain=complain,
+            log_error=complain,
         )
         asyncio.run(served)
     return 0

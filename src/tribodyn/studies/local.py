@@ -1,16 +1,11 @@
-"""Points computed by processes of this machine.
-
-A worker holds one end of a pair of sockets without a name, the sweep holds the other: nothing listens, so
-there is nothing that another user could connect to. The fork server listens where only this user may look.
-"""
+"""Points computed by worker processes of this machine, see :mod:`tribodyn.core.workers`."""
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
+import pickle
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from typing import Any, Final
@@ -18,22 +13,17 @@ from typing import Any, Final
 from tribodyn.core import fork_server, machine
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
+from tribodyn.core.workers import DEATHS, DIED, UNREADY, Service, WorkerProcess
 from tribodyn.studies.job import LISTEN, Finished, Job, stop_while_preparing
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import compute, failed, import_what_points_need, warm_up
 
-DEATHS: Final = 2
-"""How many deaths of its worker a task survives: it is tried once more after each."""
-LOST: Final = failed("its worker process died at every attempt", final=False)
-"""What comes of a task whose worker died once more than that."""
-_UNREADY: Final = (
-    "worker processes die while they get ready: the memory may be short, or a script calls sweep outside of "
-    '`if __name__ == "__main__":`'
-)
+LOST: Final = failed(DIED, final=False)
+"""Outcome of a task whose worker died at every attempt."""
 _HANDLES: Final = 3
-"""Handles that this process holds of a worker: the connection, and two to tell when either has ended."""
+"""Handles of this process for a worker: the connection, and two that detect the end of either process."""
 _OTHER_HANDLES: Final = 16
-"""Those that starting a process and writing files take for a moment."""
+"""Handles that starting a process and writing files take temporarily."""
 
 
 def local(job: Job, workers: int | None) -> Finished:
@@ -56,7 +46,7 @@ def local(job: Job, workers: int | None) -> Finished:
     size = _affordable(min(workers or machine.processors(), len(job.points)), job.note)
     fork_server.start(toml=job.points[0].toml)
     own = version("tribodyn")
-    with crew(size) as workforce:
+    with started(size) as workforce:
         _prepare(workforce[0], job)
         tasks = [
             Task(compute, (point.toml, own, job.keep_result, job.staging), point) for point in job.points
@@ -91,65 +81,53 @@ class Task:
     deaths: int = 0
 
 
-class Worker:
-    """A process that does one task at a time."""
+class SweepWorker(WorkerProcess):
+    """A worker process that calls functions; tasks and what they return are pickled."""
 
     def __init__(self) -> None:
-        self._start()
-
-    def _start(self) -> None:
-        self.connection, end = multiprocessing.Pipe()
-        try:
-            with end:
-                self.process = fork_server.process(serve, end)
-        except EOFError:  # that is how the fork server ends, too
-            raise TribodynError(_UNREADY) from None
+        super().__init__(Service(_called, import_what_points_need))
 
     def give(self, task: Task) -> None:
-        """Hand over a task; where the process is dead, the connection ends instead of giving an answer."""
+        """Hand over a task."""
         self.task = task
-        with suppress(OSError):
-            self.connection.send((task.function, task.arguments))
+        self.send(pickle.dumps((task.function, task.arguments)))
 
     def answer(self) -> Any:
-        """Return what came of the task; if the process has died meanwhile, begin another one."""
-        try:
-            return self.connection.recv()
-        except (EOFError, OSError):
-            self.task.deaths += 1
-            self.end()
-            self._start()
-            return LOST
+        """Return the result of the task; if the process has died, start another one and return ``LOST``."""
+        if (reply := self.receive()) is not None:
+            return pickle.loads(reply)
+        self.task.deaths += 1
+        self.restart()
+        return LOST
 
-    def end(self) -> None:
-        """Kill the process."""
-        self.process.kill()
-        self.process.join()
-        self.process.close()
-        self.connection.close()
+
+def _called(message: bytes, connection: Connection) -> bytes:
+    """Call the function of a task in the worker process."""
+    function, arguments = pickle.loads(message)
+    return pickle.dumps(function(*arguments))
 
 
 @contextmanager
-def crew(size: int) -> Iterator[list[Worker]]:
-    """Have so many workers while the block runs."""
+def started(size: int) -> Iterator[list[SweepWorker]]:
+    """Provide this many workers; they are killed at the end of the block."""
     with ExitStack() as stack:
         workers = []
         for _ in range(size):
-            workers.append(Worker())
+            workers.append(SweepWorker())
             stack.callback(workers[-1].end)
         yield workers
 
 
-def _prepare(worker: Worker, job: Job) -> None:
+def _prepare(worker: SweepWorker, job: Job) -> None:
     """Let one worker fill the cache of compiled code, from which the others read it."""
     task = Task(warm_up, (job.points[0].toml,))
     for _, answer in answers([worker], [task], stop_while_preparing(job)):
         if answer is LOST:
-            raise TribodynError(_UNREADY)
+            raise TribodynError(UNREADY)
 
 
 def answers(
-    workers: Sequence[Worker], tasks: Iterable[Task], stop: Callable[[], bool]
+    workers: Sequence[SweepWorker], tasks: Iterable[Task], stop: Callable[[], bool]
 ) -> Iterator[tuple[Task, Any]]:
     """Yield tasks and what came of them as they are done.
 
@@ -163,9 +141,9 @@ def answers(
         Asked several times a second; when true, what has arrived is still yielded.
     """
     waiting = deque(tasks)
-    busy: dict[Any, Worker] = {}
+    busy: dict[Any, SweepWorker] = {}
 
-    def employ(worker: Worker) -> None:
+    def employ(worker: SweepWorker) -> None:
         if waiting:
             worker.give(waiting.popleft())
             busy[worker.connection] = worker
@@ -184,21 +162,3 @@ def answers(
                 employ(worker)
             if not again:
                 yield task, answer
-
-
-def serve(connection: Connection) -> None:
-    """Do what a worker is told, until nobody tells any more.
-
-    Parameters
-    ----------
-    connection
-        Gives functions and their arguments, and takes what they return.
-    """
-    # Ctrl-C is for the command, which ends its workers.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    fork_server.end_with_parent()
-    import_what_points_need()
-    with suppress(EOFError, OSError):
-        while True:
-            function, arguments = connection.recv()
-            connection.send(function(*arguments))

@@ -1,4 +1,4 @@
-"""What is behind the gate: the page, its assets, downloads and the socket."""
+"""Handlers of requests that have passed access control: the page, its assets, downloads and the socket."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from typing import Any, Final
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from tribodyn.workbench.bench import DOWNLOADS, Bench
-from tribodyn.workbench.crew import Failed, GivenUp, Job
-from tribodyn.workbench.desk import Desk
-from tribodyn.workbench.gate import TOKEN, Door, Keyring, argument_of
-from tribodyn.workbench.guests import NEW
+from tribodyn.workbench.access import TOKEN, Endpoint, SessionStore, argument_of
 from tribodyn.workbench.messages import LARGEST
+from tribodyn.workbench.page_session import PageSession
+from tribodyn.workbench.server_state import DOWNLOADS, ServerState
+from tribodyn.workbench.sessions import NEW
 from tribodyn.workbench.visitor import Visitor
+from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
 PAGE: Final = "page.html"
 _FOLDERS: Final = ("tribodyn.report.assets", "tribodyn.workbench.assets")
@@ -36,41 +36,41 @@ _ARRIVED: Final = (
     b'<link rel="icon" href="data:,"><meta http-equiv="refresh" content="0; url=/">'
     b'<p><a href="/">The workbench</a></html>\n'
 )
-"""A page that goes on to ours: sent on at once, a browser from elsewhere would leave the cookie out."""
+"""A page that leads to ours: a browser that is redirected from another site would leave the cookie out."""
 _ASK_AGAIN: Final = _ARRIVED.replace(b"url=/", b"url=/?token=" + NEW.encode())
-"""A page that asks for itself again: what a link from elsewhere led to was asked without the cookie."""
+"""A page that loads itself again: a link on another site loads it without the cookie."""
 _EMPTY, _FILLED = b'name="secret" content=""', b'name="secret" content="%s"'
-"""Where the page is given its secret, without and with one."""
+"""Place of the secret in the page, without and with one."""
 _BACKLOG: Final = 200_000_000
-"""Bytes on their way to a page that does not read them, at most."""
+"""Most bytes on their way to a page that does not read them."""
 _BURST: Final = 1.0
 """Time for which messages may come as fast as they like [s]."""
 
 
 @dataclass
-class House:
-    """What all handlers share.
+class ServerContext:
+    """Objects that all handlers share.
 
     Attributes
     ----------
-    bench, door, keys
+    state, endpoint, sessions
         See there.
     assets
         Content by name.
-    complain
-        Told of errors of our own.
+    log_error
+        Called with internal errors.
     """
 
-    bench: Bench
-    door: Door
-    keys: Keyring
+    state: ServerState
+    endpoint: Endpoint
+    sessions: SessionStore
     assets: Mapping[str, bytes]
-    complain: Callable[[str], None]
+    log_error: Callable[[str], None]
     sockets: int = 0
 
 
 def assets() -> dict[str, bytes]:
-    """Return all that pages may be made of, by name."""
+    """Return all assets of pages, by name."""
     found = {}
     for folder in _FOLDERS:
         for file in files(folder).iterdir():
@@ -84,67 +84,67 @@ def _suffix(name: str) -> str:
 
 
 class _Handler(RequestHandler):
-    """What plain requests and sockets have in common."""
+    """Common part of the handlers of plain requests and sockets."""
 
-    house: House
+    context: ServerContext
 
-    def initialize(self, house: House) -> None:
-        """Take what all handlers share."""
-        self.house = house
+    def initialize(self, context: ServerContext) -> None:
+        """Store the objects that all handlers share."""
+        self.context = context
 
     def set_default_headers(self) -> None:
         """Set the headers of every answer."""
         self.clear_header("Server")
-        for name, value in self.application.settings["door"].headers(self.request.host).items():
+        for name, value in self.application.settings["endpoint"].headers(self.request.host).items():
             self.set_header(name, value)
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
-        """Say in a line what is wrong."""
+        """Send the reason in one line."""
         self.set_header("Content-Type", "text/plain; charset=utf-8")
         self.finish(f"{status_code}: {self._reason}\n")
 
     def log_exception(self, kind: Any, value: BaseException | None, trace: Any) -> None:
-        """Tell of an error of our own, without the address of the request, in which secrets can be."""
+        """Report an internal error without the address of the request, which may contain secrets."""
         if not isinstance(value, HTTPError | WebSocketClosedError):
-            self.house.complain("".join(traceback.format_exception(kind, value, trace)))
+            self.context.log_error("".join(traceback.format_exception(kind, value, trace)))
 
     @property
     def visitor(self) -> Visitor:
-        """Who asks; the gate has made sure that there is somebody."""
-        found = self.house.keys.visitor(self.house.door.cookie_of(self.request))
+        """Visitor of the request; access control has made sure that there is one."""
+        found = self.context.sessions.visitor(self.context.endpoint.cookie_of(self.request))
         if found is None:
             raise HTTPError(403)
         return found
 
 
 class Page(_Handler):
-    """``/``: the page, and the trade of a token for a cookie."""
+    """``/``: the page, and the exchange of a token for a cookie."""
 
     def get(self) -> None:
         """Answer."""
         self.set_header("Content-Type", _KINDS[".html"])
-        keys, token = self.house.keys, argument_of(self.request, TOKEN)
-        known = keys.visitor(self.house.door.cookie_of(self.request)) is not None
-        if keys.admits(token):
-            cookie = keys.admit()
+        sessions, token = self.context.sessions, argument_of(self.request, TOKEN)
+        known = sessions.visitor(self.context.endpoint.cookie_of(self.request)) is not None
+        if sessions.admits(token):
+            cookie = sessions.admit()
             self._set_cookie(cookie)
-            self.finish(self._page_of(keys.visitor(cookie)))
+            self.finish(self._page_of(sessions.visitor(cookie)))
         elif known:
-            self.finish(self.house.assets[PAGE] if token is None else _ARRIVED)
-        elif keys.welcoming and token is None:
+            self.finish(self.context.assets[PAGE] if token is None else _ARRIVED)
+        elif sessions.authenticated_elsewhere and token is None:
             self.finish(_ASK_AGAIN)
         else:
             raise HTTPError(403)
 
     def _page_of(self, visitor: Visitor | None) -> bytes:
-        """Return the page with the secret, which a browser is given once."""
+        """Return the page with the secret, which a browser gets once."""
         assert visitor is not None
-        return self.house.assets[PAGE].replace(_EMPTY, _FILLED % visitor.secret.encode())
+        return self.context.assets[PAGE].replace(_EMPTY, _FILLED % visitor.secret.encode())
 
     def _set_cookie(self, value: str) -> None:
-        secure = self.house.door.scheme == "https"
+        secure = self.context.endpoint.scheme == "https"
         self.set_cookie(
-            self.house.door.cookie, value, path="/", httponly=True, samesite="Strict", secure=secure
+            self.context.endpoint.cookie, value, path="/", httponly=True, samesite="Strict", secure=secure
         )
 
 
@@ -152,15 +152,15 @@ class Asset(_Handler):
     """``/assets/NAME``."""
 
     def get(self, name: str) -> None:
-        """Answer with what stands in the list, and never with a file by its path."""
-        if name not in self.house.assets or name == PAGE:
+        """Answer with an asset of the list, never with a file by its path."""
+        if name not in self.context.assets or name == PAGE:
             raise HTTPError(404)
         self.set_header("Content-Type", _KINDS[_suffix(name)])
-        self.finish(self.house.assets[name])
+        self.finish(self.context.assets[name])
 
 
 class Download(_Handler):
-    """``/download/NAME?run=ID``: files of a run, made when they are asked for."""
+    """``/download/NAME?run=ID``: files of a run, made on request."""
 
     async def get(self, name: str) -> None:
         """Answer."""
@@ -173,64 +173,64 @@ class Download(_Handler):
         self.finish(content)
 
     async def _made(self, name: str, toml: str) -> bytes:
-        bench = self.house.bench
+        state = self.context.state
         try:
             async with self.visitor.downloading:
                 order = {"work": name, "case": toml}
-                self.job = Job(order, bench.rules.longest, budget=self.visitor.budget)
-                return await bench.crew.do(self.job)
+                self.job = Job(order, state.rules.longest, budget=self.visitor.budget)
+                return await state.pool.do(self.job)
         except Failed as error:
             raise HTTPError(500, reason=str(error).splitlines()[0][:200]) from None
         except GivenUp:
             raise HTTPError(503) from None
 
     def on_connection_close(self) -> None:
-        """Give up what nobody waits for any more."""
+        """Stop the work for a browser that has gone."""
         if (job := getattr(self, "job", None)) is not None:
-            self.house.bench.crew.stop(job)
+            self.context.state.pool.stop(job)
 
 
 class Socket(_Handler, WebSocketHandler):
-    """``/socket``: the conversation with a page."""
+    """``/socket``: messages from and to a page."""
 
-    desk: Desk | None = None
+    session: PageSession | None = None
     free_at = 0.0
     backlog = 0
 
     def prepare(self) -> None:
-        """Refuse a socket too many."""
-        rules = self.house.bench.rules
-        if self.house.sockets >= rules.sockets or self.visitor.sockets >= rules.each:
+        """Refuse a socket beyond the limit."""
+        rules = self.context.state.rules
+        if self.context.sockets >= rules.sockets or self.visitor.sockets >= rules.each:
             raise HTTPError(503)
 
     def open(self, *_: str, **__: str) -> None:
-        """Greet the page."""
+        """Open the session of the page."""
         self.set_nodelay(True)
-        self.guest = self.visitor
-        self.house.sockets += 1
-        self.guest.sockets += 1
-        self.desk = Desk(self.house.bench, self.guest, self._send, self.house.complain)
-        self.desk.open()
+        self.owner = self.visitor
+        self.context.sockets += 1
+        self.owner.sockets += 1
+        self.session = PageSession(self.context.state, self.owner, self._send, self.context.log_error)
+        self.session.open()
 
     async def on_message(self, message: str | bytes) -> None:
         """Take a message; the next one is not read before this returns."""
-        assert self.desk is not None
-        self.desk.hear(message)
-        loop, apart = asyncio.get_running_loop(), 1.0 / self.house.bench.rules.messages
+        assert self.session is not None
+        self.session.receive(message)
+        loop, apart = asyncio.get_running_loop(), 1.0 / self.context.state.rules.messages
         self.free_at = max(self.free_at, loop.time() - _BURST) + apart
         if (wait := self.free_at - loop.time()) > 0.0:
             await asyncio.sleep(wait)
 
     def on_close(self) -> None:
-        """Forget the page."""
-        if self.desk is not None:
-            self.house.sockets -= 1
-            self.guest.sockets -= 1
-            self.desk.close()
-            self.desk = None
+        """Close the session of the page."""
+        if self.session is not None:
+            self.context.sockets -= 1
+            self.owner.sockets -= 1
+            self.session.close()
+            self.session = None
 
     def _send(self, message: str | bytes) -> None:
-        """Send without waiting; a page that does not read is left."""
+        """Send without waiting; close the socket of a page that does not read."""
         if self.backlog + len(message) > _BACKLOG:
             self.close(1008, "read what you are sent")
             return
@@ -244,20 +244,20 @@ class Socket(_Handler, WebSocketHandler):
     def _arrived(self, done: asyncio.Future[None], length: int) -> None:
         self.backlog -= length
         if not done.cancelled():
-            done.exception()  # the page has gone: nobody need be told
+            done.exception()  # the page has gone
 
 
 class Nothing(_Handler):
-    """Whatever else is asked for."""
+    """Any other address."""
 
     def prepare(self) -> None:
-        """Say that it is not there."""
+        """Answer that there is none."""
         raise HTTPError(404)
 
 
-def application(house: House) -> Application:
-    """Return all routes. The gate stands before them."""
-    shared = {"house": house}
+def application(context: ServerContext) -> Application:
+    """Return all routes; access control comes before them."""
+    shared = {"context": context}
     return Application(
         [
             (r"/", Page, shared),
@@ -267,7 +267,7 @@ def application(house: House) -> Application:
         ],
         default_handler_class=Nothing,
         default_handler_args=shared,
-        door=house.door,
+        endpoint=context.endpoint,
         log_function=lambda handler: None,
         websocket_max_message_size=LARGEST,
     )

@@ -1,4 +1,4 @@
-"""What a page may say: a few kinds of messages, each with its fields, and nothing else."""
+"""Messages from a page: their kinds and fields."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _POINTS: Final = (9, 25)
 Values: TypeAlias = Mapping[str, str]
 
 
-class Misunderstood(ValueError):
-    """A message is not one that a page may send; the text says why."""
+class InvalidMessage(ValueError):
+    """A message is not one that a page may send; the text gives the reason."""
 
 
 @dataclass(frozen=True)
-class Wish:
-    """A run with other values; ``rest``: the hand rests; ``agreed``: a person knows what it will take."""
+class RunRequest:
+    """A run with other values; ``rest``: the gesture has ended; ``agreed``: the user accepts its cost."""
 
     number: int
     values: Values
@@ -37,14 +37,14 @@ class Wish:
 
 @dataclass(frozen=True)
 class Drawn:
-    """The page has drawn the answer to a wish."""
+    """The page has drawn the answer to a request."""
 
     number: int
 
 
 @dataclass(frozen=True)
 class Cancel:
-    """What has this number is no longer wanted."""
+    """The request with this number is cancelled."""
 
     number: int
 
@@ -77,45 +77,45 @@ class Slope:
     values: Values
 
 
-Message: TypeAlias = Wish | Drawn | Cancel | Pin | Sweep | Slope
+Message: TypeAlias = RunRequest | Drawn | Cancel | Pin | Sweep | Slope
 
 
-def understood(text: str | bytes) -> Message:
-    """Return what a page said.
+def parsed(text: str | bytes) -> Message:
+    """Return the message that a page sent.
 
     Raises
     ------
-    Misunderstood
-        It is none of the messages that there are.
+    InvalidMessage
+        It has no known kind, or its fields are invalid.
     """
     if isinstance(text, bytes):
-        raise Misunderstood("a message is text")
+        raise InvalidMessage("a message is text")
     try:
         said = json.loads(text)
     except (ValueError, RecursionError):
-        raise Misunderstood("a message is JSON") from None
+        raise InvalidMessage("a message is JSON") from None
     if not isinstance(said, dict):
-        raise Misunderstood("a message is an object")
+        raise InvalidMessage("a message is an object")
     kind = said.pop("type", None)
     if not isinstance(kind, str) or kind not in _KINDS:
-        raise Misunderstood(f"there is no message {brief(kind)!r}; known: {', '.join(_KINDS)}")
+        raise InvalidMessage(f"there is no message {brief(kind)!r}; known: {', '.join(_KINDS)}")
     fields, made = _KINDS[kind]
     if unknown := said.keys() - fields:
-        raise Misunderstood(
+        raise InvalidMessage(
             f"{kind} has no field {brief(min(unknown))!r}; known: {', '.join(sorted(fields))}"
         )
     return made(said)
 
 
-def _wish(said: Mapping[str, Any]) -> Wish:
-    return Wish(_number(said), _values(said), _switch(said, "rest"), _switch(said, "agreed"))
+def _run(said: Mapping[str, Any]) -> RunRequest:
+    return RunRequest(_number(said), _values(said), _switch(said, "rest"), _switch(said, "agreed"))
 
 
 def _sweep(said: Mapping[str, Any]) -> Sweep:
     ends = _text(said, "from", ""), _text(said, "to", "")
     points = said.get("points", _POINTS[0])
     if type(points) is not int or not _POINTS[0] <= points <= _POINTS[1]:
-        raise Misunderstood(f"points: a whole number from {_POINTS[0]} to {_POINTS[1]} is needed")
+        raise InvalidMessage(f"points: a whole number from {_POINTS[0]} to {_POINTS[1]} is needed")
     return Sweep(_number(said), _text(said, "key"), _values(said), ends, points)
 
 
@@ -123,14 +123,14 @@ def _pin(kept: bool) -> Callable[[Mapping[str, Any]], Pin]:
     def made(said: Mapping[str, Any]) -> Pin:
         run = _text(said, "run")
         if len(run) != _RUN_DIGITS or set(run) - set("0123456789abcdef"):
-            raise Misunderstood(f"run: {_RUN_DIGITS} hexadecimal digits are needed")
+            raise InvalidMessage(f"run: {_RUN_DIGITS} hexadecimal digits are needed")
         return Pin(run, kept)
 
     return made
 
 
 _KINDS: Final[dict[str, tuple[frozenset[str], Callable[[Mapping[str, Any]], Message]]]] = {
-    "run": (frozenset({"number", "values", "rest", "agreed"}), _wish),
+    "run": (frozenset({"number", "values", "rest", "agreed"}), _run),
     "drawn": (frozenset({"number"}), lambda said: Drawn(_number(said))),
     "cancel": (frozenset({"number"}), lambda said: Cancel(_number(said))),
     "pin": (frozenset({"run"}), _pin(True)),
@@ -141,45 +141,45 @@ _KINDS: Final[dict[str, tuple[frozenset[str], Callable[[Mapping[str, Any]], Mess
         lambda said: Slope(_number(said), _text(said, "key"), _values(said)),
     ),
 }
-"""Fields and makers of all messages, by their type."""
+"""Fields and constructors of all messages, by their type."""
 
 
 def _number(said: Mapping[str, Any]) -> int:
     number = said.get("number")
     if type(number) is not int or not 0 <= number < _LARGEST_NUMBER:
-        raise Misunderstood("number: a whole number from 0 to 2^32 - 1 is needed")
+        raise InvalidMessage("number: a whole number from 0 to 2^32 - 1 is needed")
     return number
 
 
 def _switch(said: Mapping[str, Any], name: str) -> bool:
     value = said.get(name, False)
     if not isinstance(value, bool):
-        raise Misunderstood(f"{name}: true or false is needed")
+        raise InvalidMessage(f"{name}: true or false is needed")
     return value
 
 
 def _text(said: Mapping[str, Any], name: str, default: str | None = None) -> str:
     value = said.get(name, default)
     if not isinstance(value, str) or len(value) > _LONGEST_TEXT:
-        raise Misunderstood(f"{name}: a text of at most {_LONGEST_TEXT} characters is needed")
+        raise InvalidMessage(f"{name}: a text of at most {_LONGEST_TEXT} characters is needed")
     return value
 
 
 def _values(said: Mapping[str, Any]) -> Values:
     values = said.get("values", {})
     if not isinstance(values, dict) or len(values) > _MOST_VALUES:
-        raise Misunderstood(f"values: at most {_MOST_VALUES} keys with their values are needed")
+        raise InvalidMessage(f"values: at most {_MOST_VALUES} keys with their values are needed")
     if any(len(key) > _LONGEST_KEY for key in values):
-        raise Misunderstood(f"values: keys of at most {_LONGEST_KEY} characters are needed")
+        raise InvalidMessage(f"values: keys of at most {_LONGEST_KEY} characters are needed")
     return {key: _value(key, value) for key, value in values.items()}
 
 
 def _value(key: str, value: object) -> str:
-    """Return a value as a person would write it."""
+    """Return a value as text."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int | float):
         return repr(value)
     if not isinstance(value, str) or len(value) > _LONGEST_TEXT:
-        raise Misunderstood(f"{brief(key)}: a text of at most {_LONGEST_TEXT} characters is needed")
+        raise InvalidMessage(f"{brief(key)}: a text of at most {_LONGEST_TEXT} characters is needed")
     return value

@@ -23,7 +23,7 @@ def neighbours(origin: Origin, values: Values, before: Values) -> Iterator[dict[
     origin
         The case of the workbench.
     values, before
-        What the page wished for last, and the time before.
+        Values of the last request and of the one before.
     """
     turned = [path for path in {**before, **values} if values.get(path) != before.get(path)]
     keys = turnable(origin.case)

@@ -1,4 +1,4 @@
-"""Runs along one key that nobody waits for: a sweep, and the slope at a value."""
+"""Background runs along one key: a sweep, and the slope at a value."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.results.summary import EFFORT
 from tribodyn.workbench import frame
-from tribodyn.workbench.bench import Bench
 from tribodyn.workbench.controls import shown_number, text
 from tribodyn.workbench.cost import in_words, refuse_rows
-from tribodyn.workbench.crew import Failed, GivenUp
 from tribodyn.workbench.messages import Slope, Sweep, Values
+from tribodyn.workbench.server_state import ServerState
 from tribodyn.workbench.variant import Variant
 from tribodyn.workbench.visitor import Visitor
+from tribodyn.workbench.worker_pool import Failed, GivenUp
 
 AROUND: Final = (-0.10, -0.05, 0.0, 0.05, 0.10)
 """Where a slope is fitted, relative to the value."""
 _DIGITS: Final = 10
 
-Tell = Callable[[Mapping[str, Any]], None]
+Report = Callable[[Mapping[str, Any]], None]
 Point = dict[str, Any]
 Said = Callable[[Sequence[Point], bool], dict[str, Any]]
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be run along a key.
+    """Runs along a key.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Plan:
     key
         The key that they differ in.
     say
-        Returns what the page is told after each point, of all points so far and whether it was the last.
+        Returns the message after each point, from all points so far and whether it was the last.
     """
 
     number: int
@@ -56,24 +56,24 @@ class Plan:
 
 
 class Series:
-    """Runs that are made one after the other while nobody waits for anything else.
+    """Runs that are made one after the other while no other job waits.
 
     Parameters
     ----------
-    bench, visitor
-        Where they are made, and for whom.
+    state, visitor
+        State of the server, and the visitor.
     plan
         What is run.
-    tell
-        Tells the page.
+    report
+        Sends a message to the page.
     """
 
-    def __init__(self, bench: Bench, visitor: Visitor, plan: Plan, tell: Tell) -> None:
-        self.bench, self.visitor, self.plan, self.tell = bench, visitor, plan, tell
+    def __init__(self, state: ServerState, visitor: Visitor, plan: Plan, report: Report) -> None:
+        self.state, self.visitor, self.plan, self.report = state, visitor, plan, report
         self._task = asyncio.create_task(self._compute())
 
     def cancel(self) -> None:
-        """Give it up."""
+        """Stop it."""
         self._task.cancel()
 
     async def _compute(self) -> None:
@@ -81,7 +81,7 @@ class Series:
         with suppress(GivenUp):
             for variant in self.plan.variants:
                 points.append(await self._point(variant))
-                self.tell(self.plan.say(points, len(points) == len(self.plan.variants)))
+                self.report(self.plan.say(points, len(points) == len(self.plan.variants)))
 
     async def _point(self, variant: Variant) -> Point:
         key = self.plan.key
@@ -103,12 +103,12 @@ class Series:
         kept = self.visitor.frame(variant.run)
         if kept is not None:
             return kept
-        unasked, budget = self.bench.rules.unasked, self.visitor.budget
-        job = self.bench.order(variant, unasked, lambda event: None, background=True, budget=budget)
+        unasked, budget = self.state.rules.unasked, self.visitor.budget
+        job = self.state.order(variant, unasked, lambda event: None, background=True, budget=budget)
         try:
-            content = await self.bench.made(variant, job)
+            content = await self.state.made(variant, job)
         except asyncio.CancelledError:
-            self.bench.crew.stop(job)
+            self.state.pool.stop(job)
             raise
         self.visitor.keep(variant.run, variant.toml, content)
         return content
@@ -118,22 +118,22 @@ class Series:
 class _Along:
     """A key, and the values of the others."""
 
-    bench: Bench
+    state: ServerState
     key: Key
     values: Values
 
     def variants(self, texts: Iterator[str]) -> list[Variant]:
-        """Return the cases with these values of the key; what cannot be computed at once is refused."""
+        """Return the cases with these values of the key; refuse those that take too long."""
         found: dict[str, Variant] = {}
         for value in texts:
-            variant = self.bench.origin.varied({**self.values, self.key.path: value})
+            variant = self.state.origin.varied({**self.values, self.key.path: value})
             refuse_rows(variant.case)
             self._refuse_long(variant)
             found.setdefault(variant.run, variant.filled())
         return list(found.values())
 
     def _refuse_long(self, variant: Variant) -> None:
-        expected, most = self.bench.costs.expected(variant.case), self.bench.rules.unasked
+        expected, most = self.state.costs.expected(variant.case), self.state.rules.unasked
         if variant.case.campaign_cycles:
             raise InputError("points with wear campaigns are for `tribodyn sweep`", key="wear.cycles")
         if expected is not None and expected > most:
@@ -144,15 +144,15 @@ class _Along:
             )
 
 
-def _along(bench: Bench, path: str, values: Values) -> _Along:
-    keys = bench.origin.keys
+def _along(state: ServerState, path: str, values: Values) -> _Along:
+    keys = state.origin.keys
     path = plain_path(path, keys)
     if path not in keys:
         raise InputError("there is no such key", key=path)
-    return _Along(bench, keys[path], {name: value for name, value in values.items() if name != path})
+    return _Along(state, keys[path], {name: value for name, value in values.items() if name != path})
 
 
-def sweep_of(bench: Bench, asked: Sweep) -> Plan:
+def sweep_of(state: ServerState, asked: Sweep) -> Plan:
     """Plan a sweep.
 
     Raises
@@ -160,12 +160,12 @@ def sweep_of(bench: Bench, asked: Sweep) -> Plan:
     InputError
         There is nothing to sweep over.
     """
-    along = _along(bench, asked.key, asked.values)
+    along = _along(state, asked.key, asked.values)
     variants = along.variants(_levels(along.key, asked))
 
     def say(points: Sequence[Point], finished: bool) -> dict[str, Any]:
-        told = {"number": asked.number, "key": asked.key, "points": points}
-        return {"type": "sweep", **told, "of": len(variants), "finished": finished}
+        about = {"number": asked.number, "key": asked.key, "points": points}
+        return {"type": "sweep", **about, "of": len(variants), "finished": finished}
 
     return Plan(asked.number, variants, along.key, say)
 
@@ -201,7 +201,7 @@ def _written(key: Key, number: float) -> str:
     return f"{float(f'{number:.{_DIGITS}g}')!r} {key.unit}".strip()
 
 
-def slope_of(bench: Bench, asked: Slope) -> Plan:
+def slope_of(state: ServerState, asked: Slope) -> Plan:
     """Plan to find the slope at the present value of a key.
 
     Raises
@@ -209,17 +209,17 @@ def slope_of(bench: Bench, asked: Slope) -> Plan:
     InputError
         The value is no number, or zero.
     """
-    along = _along(bench, asked.key, asked.values)
-    middle = shown_number(along.key, bench.origin.varied(asked.values).case.at(along.key.path))
+    along = _along(state, asked.key, asked.values)
+    middle = shown_number(along.key, state.origin.varied(asked.values).case.at(along.key.path))
     if not middle:
         raise InputError("a slope needs a number other than zero", key=asked.key)
     variants = along.variants(_written(along.key, middle * (1.0 + share)) for share in AROUND)
 
     def say(points: Sequence[Point], finished: bool) -> dict[str, Any]:
-        told = {"number": asked.number, "key": asked.key, "done": len(points), "of": len(variants)}
+        about = {"number": asked.number, "key": asked.key, "done": len(points), "of": len(variants)}
         return {
             "type": "slope",
-            **told,
+            **about,
             "finished": finished,
             "headlines": slopes(points) if finished else {},
         }

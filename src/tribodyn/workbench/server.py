@@ -21,15 +21,15 @@ from tornado.httpserver import HTTPServer
 from tribodyn.core import machine
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.workbench.bench import Bench, Rules
-from tribodyn.workbench.crew import Crew
-from tribodyn.workbench.gate import TOKEN, Door, Gate, Keyring, OnePerson
-from tribodyn.workbench.guests import Guests
-from tribodyn.workbench.handlers import House, application, assets
+from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, SessionStore, SingleSession
+from tribodyn.workbench.handlers import ServerContext, application, assets
 from tribodyn.workbench.memory import give_back_large_blocks
+from tribodyn.workbench.server_state import Rules, ServerState
+from tribodyn.workbench.sessions import Sessions
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
-from tribodyn.workbench.worker import Limits
+from tribodyn.workbench.work import Limits
+from tribodyn.workbench.worker_pool import WorkerPool
 
 ADDRESS: Final = "127.0.0.1"
 _ADDRESS_6: Final = "::1"
@@ -37,7 +37,7 @@ _ATTEMPTS: Final = 20
 _BACKLOG: Final = 128
 _NAME_BYTES: Final = 16
 SHARED: Final = Rules(longest=60.0, sockets=200, each=4, room=16_000_000)
-"""What each of many may ask for."""
+"""What each of many visitors may request."""
 _LISTEN: Final = 0.2
 """Time between two looks at whether to stop [s]."""
 _LARGEST_HEADER: Final = 16_384
@@ -108,7 +108,7 @@ async def attended(
     size: int,
     opened: Callable[[str], None],
     stop: Callable[[], bool],
-    complain: Callable[[str], None],
+    log_error: Callable[[str], None],
     rules: Rules | None = None,
 ) -> None:
     """Serve one person until ``stop`` is true.
@@ -125,16 +125,16 @@ async def attended(
         Called with the address when the server listens; it holds the token.
     stop
         Asked several times a second.
-    complain
-        Told of errors of our own.
+    log_error
+        Called with internal errors.
     """
     chosen = rules or Rules()
     port, name = listeners[0].getsockname()[1], own_name()
-    door = Door("http", frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
-    person = OnePerson(Visitor(chosen.room))
-    bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits()), chosen)
+    endpoint = Endpoint("http", frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
+    person = SingleSession(Visitor(chosen.room))
+    state = ServerState(origin, MECHANISMS[origin.case.kind()], WorkerPool(size, Limits()), chosen)
     opened_at = f"http://{name}:{port}/?{TOKEN}={person.token}"
-    await serve(bench, door, person, listeners, lambda: opened(opened_at), stop, complain)
+    await serve(state, endpoint, person, listeners, lambda: opened(opened_at), stop, log_error)
 
 
 def public(address: str, port: int) -> list[socket.socket]:
@@ -157,7 +157,7 @@ async def many(
     size: int,
     opened: Callable[[], None],
     stop: Callable[[], bool],
-    complain: Callable[[str], None],
+    log_error: Callable[[str], None],
 ) -> None:
     """Serve many, whom a proxy with a certificate has authenticated; see :func:`attended`.
 
@@ -166,32 +166,34 @@ async def many(
     hosts
         Names that browsers know it by, with their ports where these are not 443.
     """
-    bench = Bench(origin, MECHANISMS[origin.case.kind()], Crew(size, Limits(), max(1, size - 1)), SHARED)
-    door = Door("https", hosts, "__Host-tribodyn")
-    await serve(bench, door, Guests(SHARED.room), listeners, opened, stop, complain)
+    state = ServerState(
+        origin, MECHANISMS[origin.case.kind()], WorkerPool(size, Limits(), max(1, size - 1)), SHARED
+    )
+    endpoint = Endpoint("https", hosts, "__Host-tribodyn")
+    await serve(state, endpoint, Sessions(SHARED.room), listeners, opened, stop, log_error)
 
 
 async def serve(
-    bench: Bench,
-    door: Door,
-    keys: Keyring,
+    state: ServerState,
+    endpoint: Endpoint,
+    sessions: SessionStore,
     listeners: Sequence[socket.socket],
     opened: Callable[[], None],
     stop: Callable[[], bool],
-    complain: Callable[[str], None],
+    log_error: Callable[[str], None],
 ) -> None:
-    """Serve whoever has a key, until ``stop`` is true; see :func:`attended`."""
+    """Serve visitors with access until ``stop`` is true; see :func:`attended`."""
     _silence()
     give_back_large_blocks()
-    house = House(bench, door, keys, assets(), complain)
+    context = ServerContext(state, endpoint, sessions, assets(), log_error)
     server = HTTPServer(
-        Gate(door, keys, application(house)),
+        AccessControl(endpoint, sessions, application(context)),
         max_header_size=_LARGEST_HEADER,
         max_body_size=0,
         idle_connection_timeout=300,
     )
     server.add_sockets(listeners)
-    warm = asyncio.create_task(bench.warm())
+    warm = asyncio.create_task(state.warm())
     try:
         opened()
         while not stop():
@@ -199,7 +201,7 @@ async def serve(
     finally:
         server.stop()
         warm.cancel()
-        await bench.crew.end()
+        await state.pool.end()
         await server.close_all_connections()
 
 

@@ -100,7 +100,7 @@ class Variant:
 
     def filled(self) -> Variant:
         """Return itself with all texts that are made of it, which can take as long as reading the case."""
-        _ = self.run, self.told
+        _ = self.run, self.header
         return self
 
     @property
@@ -137,8 +137,8 @@ class Variant:
         yield "result = td.simulate(case)"
 
     @cached_property
-    def told(self) -> dict[str, object]:
-        """What the header of a frame says of the case."""
+    def header(self) -> dict[str, object]:
+        """Part of the header of a frame that describes the case."""
         return {
             "run": self.run,
             "values": dict(self.values),

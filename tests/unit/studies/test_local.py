@@ -12,13 +12,14 @@ import psutil
 import pytest
 
 from tribodyn.core import fork_server
-from tribodyn.studies.local import DEATHS, LOST, Task, Worker, answers, crew
+from tribodyn.core.workers import DEATHS
+from tribodyn.studies.local import LOST, SweepWorker, Task, answers, started
 
 
 @pytest.fixture(scope="module")
-def workers() -> Iterator[list[Worker]]:
+def workers() -> Iterator[list[SweepWorker]]:
     fork_server.start()
-    with crew(2) as made:
+    with started(2) as made:
         yield made
 
 
@@ -26,7 +27,7 @@ def never() -> bool:
     return False
 
 
-def test_a_task_that_kills_its_workers_is_lost_and_the_others_are_done(workers: list[Worker]) -> None:
+def test_a_task_that_kills_its_workers_is_lost_and_the_others_are_done(workers: list[SweepWorker]) -> None:
     deadly = Task(signal.raise_signal, (signal.SIGKILL,))
     others = [Task(math.sqrt, (float(number),)) for number in range(4)]
     found = [(task, answer) for task, answer in answers(workers, [deadly, *others], never)]
@@ -37,7 +38,7 @@ def test_a_task_that_kills_its_workers_is_lost_and_the_others_are_done(workers: 
     assert sorted(answer for task, answer in found if task is not deadly) == [math.sqrt(n) for n in range(4)]
 
 
-def test_a_task_is_tried_again_when_its_worker_dies_by_chance(workers: list[Worker]) -> None:
+def test_a_task_is_tried_again_when_its_worker_dies_by_chance(workers: list[SweepWorker]) -> None:
     task = Task(time.sleep, (0.5,))
     killed = []
 
@@ -51,7 +52,7 @@ def test_a_task_is_tried_again_when_its_worker_dies_by_chance(workers: list[Work
     assert task.deaths == 1
 
 
-def test_a_worker_that_died_between_tasks_is_replaced(workers: list[Worker]) -> None:
+def test_a_worker_that_died_between_tasks_is_replaced(workers: list[SweepWorker]) -> None:
     victim = workers[0].process
     victim.kill()
     victim.join()
@@ -59,7 +60,7 @@ def test_a_worker_that_died_between_tasks_is_replaced(workers: list[Worker]) -> 
     assert answer[1] == workers[0].process.pid
 
 
-def test_a_stop_is_heard_at_once_and_keeps_what_has_arrived(workers: list[Worker]) -> None:
+def test_a_stop_is_heard_at_once_and_keeps_what_has_arrived(workers: list[SweepWorker]) -> None:
     began = time.monotonic()
 
     def stop() -> bool:
@@ -70,17 +71,17 @@ def test_a_stop_is_heard_at_once_and_keeps_what_has_arrived(workers: list[Worker
     tasks = [Task(math.sqrt, (4.0,)), Task(time.sleep, (60.0,)), Task(math.sqrt, (9.0,))]
     assert [answer for _, answer in answers(workers, tasks, stop)] == [2.0]
     assert time.monotonic() - began < 5.0
-    with crew(1) as fresh:
+    with started(1) as fresh:
         assert [answer for _, answer in answers(fresh, [Task(math.sqrt, (9.0,))], never)] == [3.0]
 
 
-def test_workers_are_gone_with_the_crew() -> None:
-    with crew(2) as made:
+def test_workers_are_gone_with_the_block() -> None:
+    with started(2) as made:
         pids = [worker.process.pid for worker in made]
         assert all(psutil.pid_exists(pid) for pid in pids)
     assert not any(psutil.pid_exists(pid) for pid in pids)
 
 
-def test_workers_leave_ctrl_c_to_the_command(workers: list[Worker]) -> None:
+def test_workers_leave_ctrl_c_to_the_command(workers: list[SweepWorker]) -> None:
     (found,) = answers(workers[:1], [Task(signal.getsignal, (signal.SIGINT,))], never)
     assert found[1] == signal.SIG_IGN

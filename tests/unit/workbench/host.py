@@ -1,4 +1,4 @@
-"""A workbench in the loop of a test, with a crew that pretends to compute, and a page that talks to it."""
+"""A workbench in the loop of a test, with a pool that pretends to compute, and a page that talks to it."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 from tribodyn.mechanisms.catalogue import MECHANISMS, load_case
 from tribodyn.views.encode import packed
 from tribodyn.workbench import frame
-from tribodyn.workbench.bench import Bench, Rules
-from tribodyn.workbench.crew import Crew, GivenUp, Job
-from tribodyn.workbench.gate import Door, Gate, OnePerson
-from tribodyn.workbench.guests import Guests
-from tribodyn.workbench.handlers import PAGE, House, application
+from tribodyn.workbench.access import AccessControl, Endpoint, SingleSession
+from tribodyn.workbench.handlers import PAGE, ServerContext, application
 from tribodyn.workbench.server import listening
+from tribodyn.workbench.server_state import Rules, ServerState
+from tribodyn.workbench.sessions import Sessions
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Visitor
-from tribodyn.workbench.worker import Limits
+from tribodyn.workbench.work import Limits
+from tribodyn.workbench.worker_pool import GivenUp, Job, WorkerPool
 
 THE_PAGE = b'<!doctype html><meta name="secret" content="">the page'
 PUBLIC = "vanes.example.org"
@@ -42,8 +42,8 @@ SOON = 20.0
 """Time within which everything must have happened, on a machine that does other things too [s]."""
 
 
-class Pretending(Crew):
-    """A crew without processes: every picture takes a little while, and holds one array.
+class Pretending(WorkerPool):
+    """A pool without processes: every picture takes a little while, and holds one array.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ class Pretending(Crew):
         if job.order["work"] != "picture":
             return b"a file"
         shown = {"headlines": {"a": 1.0}, "failure": "", "sections": {"one": {"x": packed([1.0, 2.0])}}}
-        return frame.body({**job.order["told"], **shown})
+        return frame.body({**job.order["header"], **shown})
 
 
 @dataclass
@@ -161,9 +161,9 @@ class Page:
 class Host:
     """A server that listens, and how to reach it."""
 
-    bench: Bench
-    house: House
-    person: OnePerson
+    state: ServerState
+    context: ServerContext
+    person: SingleSession
     port: int
     complaints: list[str]
     pages: list[Page] = field(default_factory=list)
@@ -178,7 +178,7 @@ class Host:
 
     @property
     def secret(self) -> str:
-        return f"secret={self.person.who.secret}"
+        return f"secret={self.person.user.secret}"
 
     async def get(self, path: str, headers: Mapping[str, str] | None = None, **more: Any) -> HTTPResponse:
         """Ask for a path; by default with the cookie."""
@@ -197,44 +197,44 @@ class Host:
         return self.pages[-1]
 
     async def greeted(self) -> Page:
-        """Open a socket and wait until the bench is ready."""
+        """Open a socket and wait until the state is ready."""
         page = await self.open()
         await page.until("hello")
-        await asyncio.wait_for(self.bench.ready.wait(), SOON)
+        await asyncio.wait_for(self.state.ready.wait(), SOON)
         return page
 
 
 @asynccontextmanager
 async def hosting(
-    crew: Crew | None = None,
+    pool: WorkerPool | None = None,
     case: str = "vsv",
     rules: Rules | None = None,
-    guests: Guests | None = None,
+    sessions: Sessions | None = None,
 ) -> AsyncIterator[Host]:
     """Serve while the block runs; no error of our own may be told of."""
     chosen = rules or Rules()
     listeners = listening(0)
     port = listeners[0].getsockname()[1]
     hosts = frozenset((f"127.0.0.1:{port}", f"ours.localhost:{port}"))
-    door = Door("http", hosts, f"tribodyn-{port}")
-    if guests is not None:
-        door = Door("https", frozenset({PUBLIC}), "__Host-tribodyn")
-    person = OnePerson(Visitor(chosen.room))
+    endpoint = Endpoint("http", hosts, f"tribodyn-{port}")
+    if sessions is not None:
+        endpoint = Endpoint("https", frozenset({PUBLIC}), "__Host-tribodyn")
+    person = SingleSession(Visitor(chosen.room))
     origin = Origin(load_case(case), case)
-    bench = Bench(origin, MECHANISMS[origin.case.kind()], crew or Pretending(), chosen)
+    state = ServerState(origin, MECHANISMS[origin.case.kind()], pool or Pretending(), chosen)
     complaints: list[str] = []
-    keys = guests or person
-    house = House(
-        bench,
-        door,
-        keys,
+    open_sessions = sessions or person
+    context = ServerContext(
+        state,
+        endpoint,
+        open_sessions,
         {PAGE: THE_PAGE, "a.js": b"1"},
         complaints.append,
     )
-    server = HTTPServer(Gate(door, keys, application(house)), max_body_size=0)
+    server = HTTPServer(AccessControl(endpoint, open_sessions, application(context)), max_body_size=0)
     server.add_sockets(listeners)
-    warm = asyncio.create_task(bench.warm())
-    host = Host(bench, house, person, port, complaints)
+    warm = asyncio.create_task(state.warm())
+    host = Host(state, context, person, port, complaints)
     try:
         yield host
     finally:
@@ -242,7 +242,7 @@ async def hosting(
             await page.leave()
         server.stop()
         warm.cancel()
-        await bench.crew.end()
+        await state.pool.end()
         await server.close_all_connections()
     assert complaints == []
 

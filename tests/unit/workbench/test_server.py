@@ -1,4 +1,4 @@
-"""The gate and what is behind it, over real connections."""
+"""Access control and the routes behind it, over real connections."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from tests.unit.workbench.host import SOON, Host, Pretending, hosting, in_loop
 from tornado.httpclient import HTTPClientError
 
 from tribodyn.core.errors import InputError
-from tribodyn.workbench.bench import Rules
-from tribodyn.workbench.gate import same
+from tribodyn.workbench.access import same
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.server import listening, own_name, pointer
+from tribodyn.workbench.server_state import Rules
 
 SHOWN = ("/", "/assets/a.js")
 """What a cookie alone opens: nothing in it is of a person."""
@@ -115,7 +115,7 @@ async def test_a_cookie_that_went_astray_opens_nothing_of_a_person() -> None:
         assert (await host.get(f"{path}&{host.secret}")).code == 200
         assert (await host.get(path)).code == 403
         for shown in SHOWN:
-            assert host.person.who.secret.encode() not in (await host.get(shown)).body
+            assert host.person.user.secret.encode() not in (await host.get(shown)).body
         with pytest.raises(HTTPClientError, match="403"):
             await host.open(path="/socket")
 
@@ -149,13 +149,13 @@ async def test_the_token_is_traded_once_for_a_cookie_that_scripts_cannot_read() 
         for part in ("HttpOnly", "SameSite=Strict", "Path=/"):
             assert part in cookie
         assert host.person.token not in first.body.decode()
-        assert f'name="secret" content="{host.person.who.secret}"' in first.body.decode()
+        assert f'name="secret" content="{host.person.user.secret}"' in first.body.decode()
         assert (await host.get(address, {})).code == 403
         # Who has the cookie and comes back with the address is sent on.
         assert (await host.get(address)).code == 200
         again = (await host.get("/")).body
         assert b"the page" in again
-        assert host.person.who.secret.encode() not in again
+        assert host.person.user.secret.encode() not in again
 
 
 @in_loop
@@ -196,8 +196,8 @@ async def test_downloads_are_of_runs_that_were_seen_and_paths_lead_nowhere() -> 
             f"/download/load?run={run}",
             f"/download/..%2f..%2fetc%2fpasswd?run={run}",
             "/assets/page.html",
-            "/assets/%2e%2e%2fgate.py",
-            "/assets/..%2fgate.py",
+            "/assets/%2e%2e%2faccess.py",
+            "/assets/..%2faccess.py",
             "/assets//etc/passwd",
         ):
             asked = f"{path}{'&' if '?' in path else '?'}{host.secret}"
@@ -234,7 +234,7 @@ async def test_there_are_only_so_many_sockets() -> None:
 async def test_who_does_not_read_is_left() -> None:
     async with hosting() as host:
         page = await host.greeted()
-        handler = host.bench.told[0].__self__.send.__self__  # type: ignore[attr-defined]
+        handler = host.state.listeners[0].__self__.send.__self__  # type: ignore[attr-defined]
         handler.backlog = 2 * 10**8
         await page.run(1, rest=True)
         while await page.hear() is not None:
@@ -257,7 +257,7 @@ async def test_errors_of_our_own_are_told_without_the_address() -> None:
         (told,) = host.complaints
         assert "RuntimeError: broken" in told
         assert "secret" not in told
-        assert host.person.who.secret not in told
+        assert host.person.user.secret not in told
         host.complaints.clear()
 
 

@@ -9,15 +9,15 @@ import time
 
 import pytest
 from tests.unit.workbench.host import Pretending, hosting, in_loop
-from tests.unit.workbench.test_guests import admitted, opened
+from tests.unit.workbench.test_sessions import admitted, opened
 
 from tribodyn.core.errors import MOST_HINTS, InputError
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.workbench.crew import Crew, Job
-from tribodyn.workbench.guests import Guests
+from tribodyn.workbench.sessions import Sessions
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.visitor import Budget, Visitor
-from tribodyn.workbench.worker import Limits
+from tribodyn.workbench.work import Limits
+from tribodyn.workbench.worker_pool import Job, WorkerPool
 
 
 def test_of_many_unknown_keys_the_meaning_of_few_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -50,10 +50,10 @@ def test_a_page_waits_for_no_other_whose_case_takes_long_to_read(monkeypatch: py
 
     @in_loop
     async def test() -> None:
-        async with hosting(Pretending(), guests=Guests(10**6)) as host:
+        async with hosting(Pretending(), sessions=Sessions(10**6)) as host:
             hog = await opened(host, *await admitted(host))
             other = await opened(host, *await admitted(host))
-            await asyncio.wait_for(host.bench.ready.wait(), 20.0)
+            await asyncio.wait_for(host.state.ready.wait(), 20.0)
             for kind in ("run", "sweep", "slope"):
                 begun.clear()
                 done.clear()
@@ -92,13 +92,15 @@ async def test_a_visitor_has_one_case_read_at_a_time_and_pauses_as_long_as_it_to
 
 def test_who_took_least_of_the_workers_is_served_first() -> None:
     async def test() -> None:
-        crew = Crew(3, Limits(), each=2)
-        hog, guest = Budget(), Budget()
-        hog.charge(60.0)
-        jobs = [Job({"work": name}, 1.0, budget=who) for name, who in (("a", hog), ("b", hog), ("c", guest))]
-        crew.waiting.extend(jobs)
-        assert [crew._next() for _ in jobs] == [jobs[2], jobs[0], jobs[1]]
-        crew._threads.shutdown()
+        pool = WorkerPool(3, Limits(), each=2)
+        heavy, light = Budget(), Budget()
+        heavy.charge(60.0)
+        jobs = [
+            Job({"work": name}, 1.0, budget=who) for name, who in (("a", heavy), ("b", heavy), ("c", light))
+        ]
+        pool.waiting.extend(jobs)
+        assert [pool._next() for _ in jobs] == [jobs[2], jobs[0], jobs[1]]
+        pool._threads.shutdown()
 
     asyncio.run(test())
 
@@ -109,14 +111,14 @@ def test_one_visitor_never_has_all_workers() -> None:
             self.job = job
 
     async def test() -> None:
-        crew = Crew(3, Limits(), each=2)
-        hog, guest = Budget(), Budget()
-        crew.workers = [Busy(Job({}, 1.0, budget=hog)), Busy(Job({}, 1.0, budget=hog)), Busy(None)]  # type: ignore[list-item]
-        crew.waiting.append(Job({}, 1.0, budget=hog))
-        assert crew._next() is None
-        crew.waiting.append(other := Job({}, 1.0, budget=guest))
-        assert crew._next() is other
-        crew._threads.shutdown()
+        pool = WorkerPool(3, Limits(), each=2)
+        heavy, light = Budget(), Budget()
+        pool.workers = [Busy(Job({}, 1.0, budget=heavy)), Busy(Job({}, 1.0, budget=heavy)), Busy(None)]  # type: ignore[list-item]
+        pool.waiting.append(Job({}, 1.0, budget=heavy))
+        assert pool._next() is None
+        pool.waiting.append(other := Job({}, 1.0, budget=light))
+        assert pool._next() is other
+        pool._threads.shutdown()
 
     asyncio.run(test())
 

@@ -9,9 +9,9 @@ const gesture = { key: "", ended: -Infinity, before: null };
 
 /** Make all controls anew. */
 function makeControls() {
-  bench.controls = new Map(bench.hello.controls.map((control) => [control.key, control]));
+  pageState.controls = new Map(pageState.hello.controls.map((control) => [control.key, control]));
   const first = document.getElementById("first");
-  first.replaceChildren(...bench.hello.controls.filter((one) => one.first).map(controlOf));
+  first.replaceChildren(...pageState.hello.controls.filter((one) => one.first).map(controlOf));
   const search = document.getElementById("search");
   const all = document.getElementById("all-keys");
   const find = () => findControls(search.value, all.getAttribute("aria-pressed") === "true");
@@ -20,17 +20,17 @@ function makeControls() {
     all.setAttribute("aria-pressed", String(all.getAttribute("aria-pressed") !== "true"));
     find();
   });
-  bench.on("wished", find);
+  pageState.on("requested", find);
   find();
 }
 
 /** Show the controls whose name or meaning holds some words, or all; and those that differ from the case. */
 function findControls(text, all) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  const others = bench.hello.controls.filter((one) => !one.first);
+  const others = pageState.hello.controls.filter((one) => !one.first);
   const fits = ({ key, label, meaning }) => words.every((word) => `${key} ${label} ${meaning}`.toLowerCase().includes(word));
   const found = words.length || all ? others.filter(fits) : [];
-  const changed = others.filter(({ key }) => key in bench.values);
+  const changed = others.filter(({ key }) => key in pageState.values);
   const shown = [...new Set([...changed, ...(all ? found : found.slice(0, MOST_FOUND))])];
   const place = document.querySelector("#controls .others");
   const there = [...place.children].map((one) => one.dataset.key).join();
@@ -75,7 +75,7 @@ function entryOf(control, id) {
   if (choices.length || kind === "switch") {
     const texts = choices.length ? choices : ["true", "false"];
     const list = element("select", { id, class: "entry" }, ...texts.map((text) => element("option", {}, text)));
-    list.addEventListener("change", () => bench.gesture(bench.changed(key, list.value)));
+    list.addEventListener("change", () => pageState.gesture(pageState.changed(key, list.value)));
     return list;
   }
   const about = { id, class: "entry", type: "text", spellcheck: "false", autocomplete: "off" };
@@ -93,12 +93,12 @@ function entryOf(control, id) {
 /** Wish a value as it was typed; what cannot be is refused by the server and said beside the box. */
 function typedIn(key, typed) {
   complain(key, "");
-  const text = typed || bench.controls.get(key).text;
-  const before = bench.values;
-  const values = bench.changed(key, text);
+  const text = typed || pageState.controls.get(key).text;
+  const before = pageState.values;
+  const values = pageState.changed(key, text);
   if (sameValues(values, before)) return fillControls();
-  wishes.typed.set(wishes.number + 1, { key, text, before });
-  return bench.gesture(values);
+  requests.typed.set(requests.number + 1, { key, text, before });
+  return pageState.gesture(values);
 }
 
 /** Return the slider of a control, in a list, with room for the curve of a sweep in its track. */
@@ -106,15 +106,15 @@ function trackOf({ key, label, least, greatest, step, unit }) {
   const slider = element("input", { type: "range", min: least, max: greatest, step, "aria-label": label });
   const text = () => `${Number(Number(slider.value).toPrecision(12))} ${unit}`.trim();
   slider.addEventListener("input", () => {
-    if (gesture.before === null) gesture.before = bench.values;
+    if (gesture.before === null) gesture.before = pageState.values;
     complain(key, "");
-    bench.wish(bench.changed(key, text()), false);
+    pageState.request(pageState.changed(key, text()), false);
   });
   slider.addEventListener("change", () => {
     const now = performance.now();
-    const goesOn = gesture.key === key && now - gesture.ended < ONE_GESTURE && bench.past.length > 0;
-    bench.wish(bench.values, true);
-    bench.remember(goesOn ? bench.past.pop() : gesture.before ?? bench.values);
+    const goesOn = gesture.key === key && now - gesture.ended < ONE_GESTURE && pageState.past.length > 0;
+    pageState.request(pageState.values, true);
+    pageState.remember(goesOn ? pageState.past.pop() : gesture.before ?? pageState.values);
     Object.assign(gesture, { key, ended: now, before: null });
   });
   slider.addEventListener("focus", () => askSlope(key));
@@ -126,19 +126,19 @@ function trackOf({ key, label, least, greatest, step, unit }) {
 /** Wish the value of the case again. */
 function giveBack(key) {
   complain(key, "");
-  bench.gesture(bench.changed(key, bench.controls.get(key).text));
+  pageState.gesture(pageState.changed(key, pageState.controls.get(key).text));
   fillControls();
   // A double click on the name has put the focus into the box, which is else left as it is.
   const entry = controlAt(key)?.querySelector(".entry");
   if (entry) entry.value = shownText(key);
 }
 
-/** Write what is wished into the controls, and mark what differs from the case. */
+/** Write the requested values into the controls, and mark those that differ from the case. */
 function fillControls() {
   for (const box of document.querySelectorAll(".control")) {
     const { key } = box.dataset;
-    const control = bench.controls.get(key);
-    const changed = key in bench.values;
+    const control = pageState.controls.get(key);
+    const changed = key in pageState.values;
     box.classList.toggle("changed", changed);
     box.querySelector(".back").disabled = !changed;
     const entry = box.querySelector(".entry");
@@ -146,15 +146,15 @@ function fillControls() {
     if (entry !== document.activeElement && !wrong) entry.value = shownText(key);
     else if (entry.tagName === "SELECT") entry.value = shownText(key);
     const slider = box.querySelector("input[type=range]");
-    if (slider) fillSlider(slider, control, bench.text(key));
+    if (slider) fillSlider(slider, control, pageState.text(key));
   }
-  document.getElementById("undo").disabled = !bench.past.length;
-  document.getElementById("redo").disabled = !bench.future.length;
+  document.getElementById("undo").disabled = !pageState.past.length;
+  document.getElementById("redo").disabled = !pageState.future.length;
 }
 
-/** Return the wished value of a key as it is shown: what follows from others as the run shown has it. */
+/** Return the requested value of a key as it is shown: what follows from others as the run shown has it. */
 function shownText(key) {
-  return bench.values[key] ?? bench.shown?.follows[key] ?? bench.controls.get(key).text;
+  return pageState.values[key] ?? pageState.shown?.follows[key] ?? pageState.controls.get(key).text;
 }
 
 /** Set a slider; a text in another unit leaves it where it is until the run says its number. */

@@ -2,10 +2,10 @@
 
 /** Open what can be taken away of the run that is shown. */
 function openAway() {
-  const { shown } = bench;
+  const { shown } = pageState;
   if (!shown) return;
   const dialog = document.getElementById("away");
-  const links = bench.hello.downloads.map((name) =>
+  const links = pageState.hello.downloads.map((name) =>
     element("a", { href: `/download/${name}?run=${shown.run}&secret=${secret.now()}`, download: name }, name),
   );
   dialog.querySelector("div").replaceChildren(

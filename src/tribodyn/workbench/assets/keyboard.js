@@ -3,9 +3,9 @@
 const KEYS = [
   { keys: ["?"], does: "these keys", act: () => document.getElementById("keys").showModal() },
   { keys: ["p"], does: "pin the run, or let it go", act: () => togglePin() },
-  { keys: ["u", "Ctrl+z"], does: "undo", act: () => bench.undo() },
-  { keys: ["r", "Ctrl+y", "Ctrl+Z"], does: "redo", act: () => bench.redo() },
-  { keys: ["Escape"], does: "stop the run that is waited for", act: () => wishes.stop() },
+  { keys: ["u", "Ctrl+z"], does: "undo", act: () => pageState.undo() },
+  { keys: ["r", "Ctrl+y", "Ctrl+Z"], does: "redo", act: () => pageState.redo() },
+  { keys: ["Escape"], does: "stop the run that is waited for", act: () => requests.stop() },
   { keys: ["c"], does: "copy or save the run", act: () => openAway() },
   { keys: ["/"], does: "search any key", act: () => document.getElementById("search").focus() },
   { keys: ["1"], shown: "1 … 8", does: "go to a slider", act: () => focusControl(0) },

@@ -20,7 +20,7 @@ function difference(value, other) {
 
 /** Return the smallest and the largest of a number over the run shown and the trail, in words. */
 function rangeText({ name, digits }) {
-  const values = [...bench.trail, bench.shown].map((run) => run.headlines[name]).filter(Number.isFinite);
+  const values = [...pageState.trail, pageState.shown].map((run) => run.headlines[name]).filter(Number.isFinite);
   const [low, high] = [Math.min(...values), Math.max(...values)];
   if (values.length < 2 || low === high) return "";
   return `${headlineText(low, digits)} … ${headlineText(high, digits)}`;
@@ -28,22 +28,22 @@ function rangeText({ name, digits }) {
 
 /** Return the run that numbers are compared with. */
 function compared() {
-  return bench.pins.find((run) => run.run === chosen.against) ?? bench.pins[bench.pins.length - 1];
+  return pageState.pins.find((run) => run.run === chosen.against) ?? pageState.pins[pageState.pins.length - 1];
 }
 
 /** Write the numbers of the run that is shown. */
 function tellNumbers() {
-  const { shown } = bench;
+  const { shown } = pageState;
   if (!shown) return;
   document.getElementById("whose").textContent = `Numbers and pictures of: ${valuesInWords(shown.values)}`;
   tellDoubts();
-  const known = bench.hello.headlines.filter(({ name }) => name in shown.headlines);
+  const known = pageState.hello.headlines.filter(({ name }) => name in shown.headlines);
   chosen.curve ??= known.find(({ robust }) => robust)?.name;
   const focused = document.activeElement?.dataset.number;
   const table = document.querySelector("#numbers table");
   table.classList.toggle("doubtful", Boolean(shown.doubtful));
   const other = compared();
-  const heads = ["number", "", other ? "from pinned" : "", bench.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
+  const heads = ["number", "", other ? "from pinned" : "", pageState.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
   table.tHead.replaceChildren(element("tr", {}, ...heads.map((text) => element("td", {}, text))));
   for (const [k, robust] of [true, false].entries()) {
     const rows = known.filter((one) => one.robust === robust);
@@ -57,13 +57,13 @@ function tellNumbers() {
 /** Return the numbers that are shown before all are asked for. */
 function atFirst(rows, robust) {
   if (!robust) return rows.filter(({ key }) => key);
-  return rows.filter(({ key, name }) => key || !Number.isInteger(bench.shown.headlines[name])).slice(0, MOST_AT_FIRST[isNarrow() ? "narrow" : "wide"]);
+  return rows.filter(({ key, name }) => key || !Number.isInteger(pageState.shown.headlines[name])).slice(0, MOST_AT_FIRST[isNarrow() ? "narrow" : "wide"]);
 }
 
 /** Return the row of a number; a press of its name chooses it for the curves of sweeps. */
 function numberRow(one) {
   const { name, label, unit, meaning, digits, robust } = one;
-  const value = bench.shown.headlines[name];
+  const value = pageState.shown.headlines[name];
   const choose = () => {
     chosen.curve = name;
     tellNumbers();
@@ -81,8 +81,8 @@ function numberRow(one) {
 
 /** Say what speaks against trusting the run. */
 function tellDoubts() {
-  const { failure, warnings, number: mine } = bench.shown;
-  if (mine >= wishes.troubled) trouble(failure && `This run is not complete: ${failure}`, mine);
+  const { failure, warnings, number: mine } = pageState.shown;
+  if (mine >= requests.troubled) trouble(failure && `This run is not complete: ${failure}`, mine);
   const doubts = document.getElementById("doubts");
   doubts.hidden = !warnings.length;
   doubts.querySelector("summary").textContent = `Before you trust these numbers (${warnings.length})`;

@@ -2,13 +2,13 @@
 
 /** Pin the run that is shown, or let it go where it is pinned. */
 function togglePin() {
-  const { shown } = bench;
+  const { shown } = pageState;
   if (!shown) return;
-  if (bench.pins.some((run) => run.run === shown.run)) return letGo(shown);
-  if (bench.pins.length >= bench.hello.limits.pins) {
-    return trouble(`At most ${bench.hello.limits.pins} runs can be pinned: let one go first.`);
+  if (pageState.pins.some((run) => run.run === shown.run)) return letGo(shown);
+  if (pageState.pins.length >= pageState.hello.limits.pins) {
+    return trouble(`At most ${pageState.hello.limits.pins} runs can be pinned: let one go first.`);
   }
-  bench.pins = [...bench.pins, shown];
+  pageState.pins = [...pageState.pins, shown];
   chosen.against = shown.run;
   line.say({ type: "pin", run: shown.run });
   return afterPins();
@@ -16,7 +16,7 @@ function togglePin() {
 
 /** Let a pinned run go. */
 function letGo(run) {
-  bench.pins = bench.pins.filter((one) => one.run !== run.run);
+  pageState.pins = pageState.pins.filter((one) => one.run !== run.run);
   line.say({ type: "unpin", run: run.run });
   afterPins();
 }
@@ -29,9 +29,9 @@ function afterPins() {
 
 /** Write the pinned runs with what can be done with each. */
 function tellPins() {
-  document.getElementById("pin").textContent = bench.pins.some((run) => run.run === bench.shown?.run) ? "Unpin" : "Pin";
+  document.getElementById("pin").textContent = pageState.pins.some((run) => run.run === pageState.shown?.run) ? "Unpin" : "Pin";
   const against = compared();
-  const rows = bench.pins.map((run) => {
+  const rows = pageState.pins.map((run) => {
     const name = valuesInWords(run.values);
     const choose = () => {
       chosen.against = run.run;
@@ -41,7 +41,7 @@ function tellPins() {
       "div",
       { class: "pinned" },
       button(name, choose, { "aria-pressed": String(run === against), title: "Compare with this run" }),
-      button("Go there", () => bench.gesture(run.values), { "aria-label": `Go to ${name}` }),
+      button("Go there", () => pageState.gesture(run.values), { "aria-label": `Go to ${name}` }),
       button("Let go", () => letGo(run), { "aria-label": `Let ${name} go` }),
     );
   });

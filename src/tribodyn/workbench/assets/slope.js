@@ -9,11 +9,11 @@ const slope = { key: "", number: -1, done: 0, of: 0, finished: true, headlines: 
 function askSlope(key) {
   clearTimeout(slope.due);
   slope.due = setTimeout(() => {
-    if (focusedSlider() !== key || slope.key === key || !bench.shown) return;
-    if (wishes.awaited) return askSlope(key);
-    wishes.number += 1;
-    Object.assign(slope, { key, number: wishes.number, done: 0, of: 0, finished: false, headlines: {} });
-    line.say({ type: "slope", number: slope.number, key, values: bench.values });
+    if (focusedSlider() !== key || slope.key === key || !pageState.shown) return;
+    if (requests.awaited) return askSlope(key);
+    requests.number += 1;
+    Object.assign(slope, { key, number: requests.number, done: 0, of: 0, finished: false, headlines: {} });
+    line.say({ type: "slope", number: slope.number, key, values: pageState.values });
     return tellNumbers();
   }, PATIENCE);
 }

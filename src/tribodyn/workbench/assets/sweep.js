@@ -21,16 +21,16 @@ function toggleSweep(key) {
     return drawTracks();
   }
   for (const [other, sweep] of sweeps) if (!sweep.finished) sweeps.set(other, { ...sweep, finished: true });
-  const { least, greatest, unit } = bench.controls.get(key);
-  wishes.number += 1;
+  const { least, greatest, unit } = pageState.controls.get(key);
+  requests.number += 1;
   const ends = {};
   if (least !== null) {
     const points = Number(document.getElementById("points").value);
     Object.assign(ends, { from: `${least} ${unit}`.trim(), to: `${greatest} ${unit}`.trim(), points });
   }
-  const values = { ...bench.values };
-  sweeps.set(key, { number: wishes.number, points: [], of: ends.points ?? 0, finished: false, values });
-  line.say({ type: "sweep", number: wishes.number, key, values, ...ends });
+  const values = { ...pageState.values };
+  sweeps.set(key, { number: requests.number, points: [], of: ends.points ?? 0, finished: false, values });
+  line.say({ type: "sweep", number: requests.number, key, values, ...ends });
   return drawTracks();
 }
 
@@ -43,10 +43,10 @@ function sweepArrived({ number: mine, key, points, of, finished, failure }) {
   drawTracks();
 }
 
-/** Tell whether a sweep was made with what is wished now, but for its own key. */
+/** Return whether a sweep was made with the requested values, apart from its own key. */
 function isOfNow(key, { values }) {
   const without = ({ [key]: _, ...rest }) => rest;
-  return sameValues(without(values), without(bench.values));
+  return sameValues(without(values), without(pageState.values));
 }
 
 /** Draw all sweeps that there are. */
@@ -60,19 +60,19 @@ function drawTracks() {
     const old = isOfNow(key, sweep) ? "" : ", of other values";
     readout.textContent = `${numberLabel()}: ${sweep.points.length} of ${sweep.of || "…"} points${old}`;
     const canvas = box.querySelector(".curve");
-    if (canvas) drawTrack(canvas, bench.controls.get(key), sweep);
+    if (canvas) drawTrack(canvas, pageState.controls.get(key), sweep);
     else readout.textContent += `: ${choicesInWords(sweep)}`;
   }
 }
 
 /** Return the name of the number whose curves are drawn. */
 function numberLabel() {
-  return bench.hello.headlines.find(({ name }) => name === chosen.curve)?.label ?? "";
+  return pageState.hello.headlines.find(({ name }) => name === chosen.curve)?.label ?? "";
 }
 
 /** Return the chosen number at each choice of a sweep in words. */
 function choicesInWords({ points }) {
-  const { digits } = bench.hello.headlines.find(({ name }) => name === chosen.curve);
+  const { digits } = pageState.hello.headlines.find(({ name }) => name === chosen.curve);
   return points.map(({ text, headlines }) => `${text} ${headlineText(headlines[chosen.curve], digits)}`).join(", ");
 }
 
@@ -102,25 +102,25 @@ function drawTrack(canvas, control, sweep) {
   pen.stroke();
   for (const { x, y, run } of points) {
     pen.beginPath();
-    pen.arc(x, y, run === bench.shown?.run ? 4 : 2.2, 0, 2 * Math.PI);
+    pen.arc(x, y, run === pageState.shown?.run ? 4 : 2.2, 0, 2 * Math.PI);
     pen.fill();
   }
 }
 
-/** Show the run of a point of a sweep at once; what is wished comes back with `lookBack`. */
+/** Show the run of a point of a sweep at once; the requested values come back with `lookBack`. */
 function lookAt(key, sweep, point) {
   if (sweep.looked === point.text) return;
   sweep.looked = point.text;
   const values = { ...sweep.values, [key]: point.text };
-  if (plain(point.text) === plain(bench.controls.get(key).text)) delete values[key];
-  wishes.ask(values, false);
+  if (plain(point.text) === plain(pageState.controls.get(key).text)) delete values[key];
+  requests.ask(values, false);
 }
 
 function lookBack(key) {
   const sweep = sweeps.get(key);
   if (!sweep?.looked) return;
   sweep.looked = "";
-  wishes.send(true);
+  requests.send(true);
 }
 
 /** Let a pointer over a curve show the runs of its points; a click takes the value. */
@@ -129,7 +129,7 @@ function followSweep(canvas, key) {
     const sweep = sweeps.get(key);
     if (!sweep) return null;
     const [x] = pointerAt(canvas, event);
-    const points = placedPoints(canvas, bench.controls.get(key), sweep);
+    const points = placedPoints(canvas, pageState.controls.get(key), sweep);
     const far = (point) => Math.abs(point.x - x);
     const best = points.reduce((a, b) => (a && far(a) <= far(b) ? a : b), null);
     return best && far(best) <= NEAR_POINT ? { sweep, point: best } : null;
@@ -148,14 +148,14 @@ function followSweep(canvas, key) {
 /** Wish the value of a point. */
 function takePoint(key, sweep, { text }) {
   sweep.looked = "";
-  bench.gesture(bench.changed(key, text));
+  pageState.gesture(pageState.changed(key, text));
 }
 
 /** Wish the value of the next point of the sweep of a key, or of the one before. */
 function stepPoint(key, way) {
   const sweep = sweeps.get(key);
   if (!sweep) return;
-  const here = parseFloat(bench.text(key));
+  const here = parseFloat(pageState.text(key));
   const beyond = sweep.points.filter(({ value }) => way * (value - here) > 1e-9 * Math.abs(here));
   const next = beyond.sort((a, b) => way * (a.value - b.value))[0];
   if (next) takePoint(key, sweep, next);

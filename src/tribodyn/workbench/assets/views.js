@@ -11,8 +11,8 @@ function makeViews() {
   const place = document.getElementById("views");
   place.replaceChildren();
   figures.length = 0;
-  for (const { name, title, lead } of bench.hello.chapters) {
-    const sections = bench.hello.sections.filter((section) => section.chapter === name);
+  for (const { name, title, lead } of pageState.hello.chapters) {
+    const sections = pageState.hello.sections.filter((section) => section.chapter === name);
     const moving = sections.some((one) => one.playback);
     const about = { id: `chapter-${name}`, class: moving ? "moving" : "" };
     const chapter = element("section", about, element("h2", {}, title));
@@ -35,16 +35,16 @@ function viewOf({ name, title, caption, widget }) {
 
 /** Return the other runs that show through, the oldest first: [{run, strength}]. */
 function others() {
-  const { run: shown } = bench.shown;
-  const trail = bench.trail.filter(({ run }) => bench.pins.every((pin) => pin.run !== run));
-  const pinned = bench.pins.map((run) => ({ run, strength: PINNED, pinned: true }));
+  const { run: shown } = pageState.shown;
+  const trail = pageState.trail.filter(({ run }) => pageState.pins.every((pin) => pin.run !== run));
+  const pinned = pageState.pins.map((run) => ({ run, strength: PINNED, pinned: true }));
   const late = trail.map((run, k) => ({ run, strength: (FADING * (k + 1)) / trail.length }));
   return [...late, ...pinned].filter(({ run }) => run.run !== shown);
 }
 
 /** Give the figures the run that is shown. */
 function giveViews() {
-  const { shown } = bench;
+  const { shown } = pageState;
   page.clock = shown.clock;
   page.figures = shown.sections;
   clock.take();

@@ -1,39 +1,36 @@
-"""The workers as the server sees them: what somebody waits for goes first, then what was asked first."""
+"""Worker pool of the server: runs that a person waits for come first, then the order of requests."""
 
 from __future__ import annotations
 
 import asyncio
 import json
-import multiprocessing
-import threading
 from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Final
 
-from tribodyn.core import fork_server
+from tribodyn.core.errors import TribodynError
+from tribodyn.core.workers import DEATHS, DIED, Service, WorkerProcess
 from tribodyn.workbench.visitor import Budget
-from tribodyn.workbench.worker import EVENT, FAILURE, GIVEN_UP, RESULT, STOP, Limits, serve
+from tribodyn.workbench.work import EVENT, FAILURE, GIVEN_UP, RESULT, STOP, Limits, reply
 
-DEATHS: Final = 2
-"""How many deaths of its worker a job survives: it is done once more after each."""
 _PATIENCE: Final = 2.0
-"""Time that a worker has to give up before it is killed [s]."""
+"""Time that a worker has to stop before it is killed [s]."""
 
 
 class Failed(Exception):
-    """A job came to nothing; the message says why."""
+    """A job has no result; the message says why."""
 
 
 class GivenUp(Exception):
-    """A job was stopped by who asked for it."""
+    """A job was stopped by the page that requested it."""
 
 
 @dataclass(eq=False)
 class Job:
-    """One thing for a worker to do.
+    """One task for a worker.
 
     Attributes
     ----------
@@ -43,21 +40,21 @@ class Job:
         Time that it may take.
     background
         Whether nobody waits for it.
-    heard
-        Called with what a worker tells on the way.
+    on_event
+        Called with the progress that a worker reports.
     budget
-        Of who asked for it.
+        Of the visitor who requested it.
     """
 
     order: Mapping[str, Any]
     seconds: float
     background: bool = False
-    heard: Callable[[Mapping[str, Any]], None] = lambda event: None
+    on_event: Callable[[Mapping[str, Any]], None] = lambda event: None
     budget: Budget = field(default_factory=Budget)
     answer: asyncio.Future[bytes] = field(init=False)
     deaths: int = 0
     took: float = 0.0
-    """How long the worker was busy with it at last [s]."""
+    """Time that the worker needed at the last attempt [s]."""
     verdict: Exception | None = None
     """Why it was stopped."""
 
@@ -65,99 +62,85 @@ class Job:
         self.answer = asyncio.get_running_loop().create_future()
 
     def settle(self, outcome: bytes | Exception) -> None:
-        """Answer, unless that was done."""
+        """Set the answer, unless there is one."""
         if self.answer.done():
             return
         if isinstance(outcome, bytes):
             self.answer.set_result(outcome)
         else:
             self.answer.set_exception(outcome)
-            self.answer.exception()  # whoever asked may have gone
+            self.answer.exception()  # whoever requested it may have gone
 
 
-class Worker:
-    """A process that does one job at a time, begun again whenever it dies."""
+class PoolWorker(WorkerProcess):
+    """A worker process that makes frames and files of cases.
+
+    Parameters
+    ----------
+    limits
+        What it may take.
+    """
 
     def __init__(self, limits: Limits) -> None:
-        self.limits = limits
         self.job: Job | None = None
-        self._sending = threading.Lock()
-        self._start()
+        # A reply begins with a letter.
+        super().__init__(
+            Service(partial(reply, limits), memory=limits.memory, largest_reply=limits.result + 1)
+        )
 
-    def _start(self) -> None:
-        self.connection, end = multiprocessing.Pipe()
-        with end:
-            self.process = fork_server.process(serve, end, self.limits)
-
-    def end(self) -> None:
-        """Kill the process."""
-        self.process.kill()
-        self.process.join()
-        self.connection.close()
-
-    def begin_again(self) -> None:
-        """Put a new process in the place of one that died."""
-        self.end()
-        self._start()
-
-    def order(self, job: Job) -> bytes | None:
-        """Do a job and return the answer with its letter; None if the process died."""
-        try:
-            self._send(json.dumps(job.order).encode())
-            while (answer := self._received())[:1] == EVENT:
-                job.answer.get_loop().call_soon_threadsafe(job.heard, json.loads(answer[1:]))
-        except (EOFError, OSError):
-            return None
+    def do(self, job: Job) -> bytes | None:
+        """Return the reply to a job, which begins with a letter; None if the process died."""
+        self.send(json.dumps(job.order).encode())
+        while (answer := self.receive()) is not None and answer[:1] == EVENT:
+            job.answer.get_loop().call_soon_threadsafe(job.on_event, json.loads(answer[1:]))
         return answer
 
-    def _received(self) -> bytes:
-        return self.connection.recv_bytes(self.limits.result + 1)
-
     def stop(self) -> None:
-        """Tell the process to give up."""
-        with suppress(OSError):
-            self._send(STOP)
-
-    def _send(self, message: bytes) -> None:
-        with self._sending:
-            self.connection.send_bytes(message)
+        """Ask the process to stop the job that is under way."""
+        self.send(STOP)
 
 
-class Crew:
-    """A fixed number of workers and what waits for them.
+class WorkerPool:
+    """A fixed number of workers and the jobs that wait for them.
 
-    Of what is waited for, that of whoever took least of the workers lately is done first; then what came
-    first.
+    Among jobs that a person waits for, that of the visitor who used the least worker time recently is done
+    first; then the oldest.
 
     Parameters
     ----------
     size
-        How many processes.
+        Number of processes.
     limits
         What each may take.
     each
-        How many of the processes one who asks may have at a time; all by default.
+        How many of the processes one visitor may use at a time; all by default.
     """
 
     def __init__(self, size: int, limits: Limits, each: int | None = None) -> None:
         self.size, self.limits, self.each = size, limits, each or size
         self.waiting: deque[Job] = deque()
         self.later: deque[Job] = deque()
-        self.workers: list[Worker] = []
+        self.workers: list[PoolWorker] = []
         self._tasks: list[asyncio.Task[None]] = []
         self._woken = asyncio.Condition()
-        self._threads = ThreadPoolExecutor(size, thread_name_prefix="crew")
+        self._threads = ThreadPoolExecutor(size, thread_name_prefix="pool")
 
     async def start(self) -> None:
-        """Start the processes."""
+        """Start the processes.
+
+        Raises
+        ------
+        TribodynError
+            A process cannot be started.
+        """
         loop = asyncio.get_running_loop()
         for _ in range(self.size):
-            worker = await loop.run_in_executor(self._threads, Worker, self.limits)
+            worker = await loop.run_in_executor(self._threads, PoolWorker, self.limits)
             self.workers.append(worker)
             self._tasks.append(asyncio.create_task(self._work(worker)))
 
     async def end(self) -> None:
-        """Kill the processes; what is under way or waits is given up."""
+        """Kill the processes; all jobs are given up."""
         for task in self._tasks:
             task.cancel()
         for worker in self.workers:
@@ -171,12 +154,12 @@ class Crew:
                 job.settle(GivenUp())
 
     async def do(self, job: Job) -> bytes:
-        """Return what a job comes to.
+        """Return the result of a job.
 
         Raises
         ------
         Failed
-            It came to nothing.
+            It has none.
         GivenUp
             It was stopped.
         """
@@ -187,13 +170,13 @@ class Crew:
         return await job.answer
 
     def _make_room(self) -> None:
-        """Postpone what nobody waits for where it keeps all workers from what somebody does."""
+        """Postpone a background job if no worker is free for a job that a person waits for."""
         postponable = [worker for worker in self.workers if worker.job is None or worker.job.background]
         if self.waiting and postponable and all(worker.job is not None for worker in postponable):
             postponable[0].stop()
 
     def stop(self, job: Job, verdict: Exception | None = None) -> None:
-        """Give a job up; a worker that does not listen is killed."""
+        """Give up a job; a worker that does not stop in time is killed."""
         job.verdict = verdict or GivenUp()
         for queue in (self.waiting, self.later):
             if job in queue:
@@ -204,23 +187,23 @@ class Crew:
                 worker.stop()
                 asyncio.get_running_loop().call_later(_PATIENCE, self._kill, worker, job)
 
-    def _kill(self, worker: Worker, job: Job) -> None:
+    def _kill(self, worker: PoolWorker, job: Job) -> None:
         if worker.job is job:
             worker.process.kill()
 
     @property
     def idle(self) -> bool:
-        """Whether nobody waits for anything."""
+        """Whether nobody waits for a job."""
         return not self.waiting and all(
             worker.job is None or worker.job.background for worker in self.workers
         )
 
     def _next(self) -> Job | None:
-        """Return what is to be done next; one worker is kept free of what nobody waits for."""
+        """Return the next job; one worker is kept free of background jobs."""
         busy = [worker.job for worker in self.workers if worker.job is not None]
         budgets = [id(job.budget) for job in busy]
         if able := [job for job in self.waiting if budgets.count(id(job.budget)) < self.each]:
-            # Looked at once for each: what was taken counts less with every moment.
+            # Evaluated once for each: the time used counts less with every moment.
             taken = {id(budget): budget.taken for budget in (job.budget for job in able)}
             chosen = min(able, key=lambda job: taken[id(job.budget)])
             self.waiting.remove(chosen)
@@ -229,31 +212,31 @@ class Crew:
             return self.later.popleft()
         return None
 
-    async def _work(self, worker: Worker) -> None:
+    async def _work(self, worker: PoolWorker) -> None:
         while True:
             async with self._woken:
                 while (job := self._next()) is None:
                     await self._woken.wait()
                 worker.job = job
-            await self._watched(worker, job)
+            await self._attempt(worker, job)
             async with self._woken:
                 worker.job = None
                 self._woken.notify_all()
 
-    async def _watched(self, worker: Worker, job: Job) -> None:
-        """Have a job done within its time, again if the worker dies over it."""
+    async def _attempt(self, worker: PoolWorker, job: Job) -> None:
+        """Have a job done within its time, and repeat it if the worker dies."""
         loop = asyncio.get_running_loop()
         reason = Failed(f"stopped after {job.seconds:g} s, the most that a run may take here")
         late = loop.call_later(job.seconds, self.stop, job, reason)
         try:
             while not job.answer.done():
                 began = loop.time()
-                answer = await loop.run_in_executor(self._threads, worker.order, job)
+                answer = await loop.run_in_executor(self._threads, worker.do, job)
                 job.took = loop.time() - began
                 job.budget.charge(job.took)
                 if answer is None:
                     job.deaths += 1
-                    await self._replaced(worker, job)
+                    await self._restart(worker, job)
                 elif answer == GIVEN_UP and job.verdict is None:
                     self.later.appendleft(job)
                     return
@@ -261,20 +244,20 @@ class Crew:
         finally:
             late.cancel()
 
-    async def _replaced(self, worker: Worker, job: Job) -> None:
-        """Put a new process in the place of one that died over a job."""
+    async def _restart(self, worker: PoolWorker, job: Job) -> None:
+        """Replace the process of a worker that died during a job."""
         try:
-            await asyncio.get_running_loop().run_in_executor(self._threads, worker.begin_again)
-        except (EOFError, OSError):
-            job.settle(Failed("no worker process can be started; the memory may be short"))
+            await asyncio.get_running_loop().run_in_executor(self._threads, worker.restart)
+        except TribodynError as error:
+            job.settle(Failed(str(error)))
 
     def _judge(self, job: Job, answer: bytes | None) -> None:
-        """Settle a job by what its worker says; by nothing, if it is to be done once more."""
+        """Settle a job by the reply of its worker; leave it open if it is repeated."""
         if job.verdict is not None:
             job.settle(job.verdict)
         elif answer is None:
             if job.deaths > DEATHS:
-                job.settle(Failed("the worker process died at every attempt"))
+                job.settle(Failed(DIED))
         elif answer[:1] == RESULT:
             job.settle(answer[1:])
         elif answer[:1] == FAILURE:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from tests.unit.workbench.host import Pretending, hosting, in_loop
 
-from tribodyn.workbench.crew import Failed, Job
+from tribodyn.workbench.worker_pool import Failed, Job
 
 
 class Noting(Pretending):
-    """A crew that remembers what was asked for."""
+    """A pool that remembers what was asked for."""
 
     def __init__(self, **options: bool) -> None:
         super().__init__(**options)
@@ -21,27 +21,27 @@ class Noting(Pretending):
 
 
 class Slow(Pretending):
-    """A crew whose runs are stopped after ten seconds, a twentieth of the way."""
+    """A pool whose runs are stopped after ten seconds, a twentieth of the way."""
 
     async def do(self, job: Job) -> bytes:
         if job.order["work"] != "picture":
             return await super().do(job)
-        job.heard({"reached": 0.05 * 4.0 * 3.141592653589793})
+        job.on_event({"reached": 0.05 * 4.0 * 3.141592653589793})
         job.took, job.verdict = 10.0, Failed("stopped")
         raise job.verdict
 
 
 @in_loop
 async def test_equations_are_compiled_before_a_run_is_made() -> None:
-    crew = Noting(compiled=False)
-    async with hosting(crew) as host:
+    pool = Noting(compiled=False)
+    async with hosting(pool) as host:
         page = await host.open()
         told = await page.until("state")
         while told["state"] != "ready":
             assert told["state"] in ("loading", "compiling")
             told = await page.until("state")
-    assert crew.asked[:2] == ["load", "prepare"]
-    assert crew.asked[-1] == "picture"
+    assert pool.asked[:2] == ["load", "prepare"]
+    assert pool.asked[-1] == "picture"
 
 
 @in_loop
@@ -56,7 +56,7 @@ async def test_what_a_long_case_takes_is_known_without_running_it_to_its_end() -
 async def test_a_case_that_fails_says_so_and_the_page_stays() -> None:
     class Failing(Pretending):
         async def do(self, job: Job) -> bytes:
-            if job.order["work"] == "picture" and not job.order["told"]["values"]:
+            if job.order["work"] == "picture" and not job.order["header"]["values"]:
                 raise Failed("the start cannot be found")
             return await super().do(job)
 

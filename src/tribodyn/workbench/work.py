@@ -1,4 +1,8 @@
-"""What a worker makes of a case: the body of a frame, or a file to download."""
+"""Work of a worker process of the workbench: from a case to the body of a frame, or to a file to download.
+
+An order is JSON. A reply begins with a letter: an event, the result, a failure in words, or that the work was
+stopped. Nothing is unpickled on either side.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +10,12 @@ import json
 import tempfile
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from tribodyn.core.errors import Stopped, TribodynError
 from tribodyn.workbench import frame
 
 if TYPE_CHECKING:
@@ -18,6 +25,29 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float], None]
 Stop = Callable[[], bool]
+
+EVENT, RESULT, FAILURE, GIVEN_UP = b"e", b"r", b"f", b"s"
+STOP: Final = b"{}"
+"""Message that stops the work under way; a worker that has finished ignores it."""
+_EVENTS_APART: Final = 0.5
+"""Least time between two events [s]."""
+_GB: Final = 1e9
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a worker may take.
+
+    Attributes
+    ----------
+    memory
+        Address space beyond what it has when it starts [bytes]; kept on Linux.
+    result
+        Size of a result [bytes].
+    """
+
+    memory: int = 4_000_000_000
+    result: int = 100_000_000
 
 
 class Interrupted(Exception):
@@ -32,7 +62,7 @@ def picture(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop
     case
         What is run.
     order
-        With ``told``, which goes into the header as it is.
+        With ``header``, which is copied into the header of the frame.
     progress, stop
         As for :func:`tribodyn.simulate`.
 
@@ -43,11 +73,11 @@ def picture(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop
     """
     began = time.perf_counter()
     found = shown(_simulated(case, progress, stop))
-    return frame.body({**order["told"], **found, "seconds": time.perf_counter() - began})
+    return frame.body({**order["header"], **found, "seconds": time.perf_counter() - began})
 
 
 def shown(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return what the page shows of a result; sections hold exactly what they hold in a report."""
+    """Return what the page shows of a result; sections are the same as in a report."""
     from tribodyn.mechanisms.results import known, mechanism_of, summarise
     from tribodyn.views.playback import clock
 
@@ -94,7 +124,7 @@ def report(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop)
 
 
 def load(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
-    """Load the equations of a case and tell in JSON whether they are compiled."""
+    """Load the equations of a case and return in JSON whether they are compiled."""
     from tribodyn.simulation import load_equations
 
     return json.dumps(load_equations(case)).encode()
@@ -124,4 +154,52 @@ WORK: Final = {
     "load": load,
     "prepare": prepared,
 }
-"""Everything that a worker does, by name."""
+"""All kinds of work, by name."""
+
+
+def reply(limits: Limits, message: bytes, connection: Connection) -> bytes | None:
+    """Return the reply to an order; no exception leaves this function but those that end processes.
+
+    Parameters
+    ----------
+    limits
+        What this process may take.
+    message
+        The order, or :data:`STOP`, to which there is no reply.
+    connection
+        Takes events, and has a message waiting when the work is to stop.
+    """
+    if message == STOP:
+        return None
+    try:
+        content = _done(json.loads(message), connection)
+    except (Interrupted, Stopped):
+        return GIVEN_UP
+    except TribodynError as error:
+        return _failure(str(error))
+    except MemoryError:
+        return _failure(f"this takes more memory than a worker may have, {limits.memory / _GB:g} GB")
+    except Exception as error:
+        return _failure(f"internal error: {type(error).__name__}: {error}")
+    if len(content) > limits.result:
+        return _failure(f"the result is larger than {limits.result / 1e6:g} MB")
+    return RESULT + content
+
+
+def _failure(reason: str) -> bytes:
+    return FAILURE + reason.encode("utf-8", "replace")
+
+
+def _done(order: Mapping[str, Any], connection: Connection) -> bytes:
+    from tribodyn.mechanisms.catalogue import parse_case
+
+    case = parse_case(order["case"], "workbench")
+    last = time.monotonic()
+
+    def progress(reached: float) -> None:
+        nonlocal last
+        if time.monotonic() - last > _EVENTS_APART:
+            last = time.monotonic()
+            connection.send_bytes(EVENT + json.dumps({"reached": reached}).encode())
+
+    return WORK[order["work"]](case, order, progress, connection.poll)

@@ -1,4 +1,4 @@
-"""What a page is sent for what it wishes, by a crew that only pretends to compute."""
+"""Answers to the requests of a page, by a pool that only pretends to compute."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import asyncio
 
 from tests.unit.workbench.host import Answer, Pretending, hosting, in_loop
 
-from tribodyn.workbench.bench import Rules
-from tribodyn.workbench.desk import _UNHURRIED as UNHURRIED
 from tribodyn.workbench.frame import KEPT
+from tribodyn.workbench.page_session import _UNHURRIED as UNHURRIED
+from tribodyn.workbench.server_state import Rules
 
 CLEARANCE = "joint.clearance"
 
@@ -35,43 +35,43 @@ async def test_the_answer_names_its_values_and_the_command_that_makes_it() -> No
 
 
 @in_loop
-async def test_while_a_slider_is_dragged_runs_end_and_the_newest_wish_is_next() -> None:
-    crew = Pretending(seconds=0.2)
-    async with hosting(crew) as host:
+async def test_while_a_slider_is_dragged_runs_end_and_the_newest_request_is_next() -> None:
+    pool = Pretending(seconds=0.2)
+    async with hosting(pool) as host:
         page = await host.greeted()
-        crew.made.clear()
+        pool.made.clear()
         for number in range(10):
             await page.run(number, wide(20 + number))
             await asyncio.sleep(0.01)
         answers = [await page.picture(), await page.picture()]
         assert [answer.number for answer in answers] == [0, 9]
         assert [answer.header["values"] for answer in answers] == [wide(20), wide(29)]
-        assert len(crew.made) == 2
-        assert crew.given_up == []
+        assert len(pool.made) == 2
+        assert pool.given_up == []
 
 
 @in_loop
 async def test_a_hand_at_rest_ends_what_is_under_way_for_other_values() -> None:
-    crew = Pretending(seconds=0.5)
-    async with hosting(crew) as host:
+    pool = Pretending(seconds=0.5)
+    async with hosting(pool) as host:
         page = await host.greeted()
         await page.run(1, wide(30))
         await asyncio.sleep(0.1)
         await page.run(2, wide(31), rest=True)
         assert (await page.picture()).number == 2
-        assert [order["told"]["values"] for order in crew.given_up] == [wide(30)]
+        assert [order["header"]["values"] for order in pool.given_up] == [wide(30)]
 
 
 @in_loop
 async def test_equal_cases_are_run_once_however_they_are_spelled() -> None:
-    crew = Pretending()
-    async with hosting(crew) as host:
+    pool = Pretending()
+    async with hosting(pool) as host:
         page = await host.greeted()
         found = []
         for number, text in enumerate(("25 um", "0.025 mm", "2.5e-5 m")):
             await page.run(number, {CLEARANCE: text}, rest=True)
             found.append(await page.picture())
-        runs = [order for order in crew.made if order["told"]["values"] == wide(25)]
+        runs = [order for order in pool.made if order["header"]["values"] == wide(25)]
         assert len(runs) == 1
         assert [answer.flags for answer in found] == [0, KEPT, KEPT]
         assert len({answer.header["run"] for answer in found}) == 1
@@ -113,15 +113,15 @@ async def test_keys_that_name_files_are_refused_and_no_control_has_one() -> None
             (fault,) = (await page.until("refused"))["faults"]
             assert fault["key"] == key
             assert "may not name files" in fault["message"]
-        assert not set(files) & {control["key"] for control in host.bench.hello["controls"]}
+        assert not set(files) & {control["key"] for control in host.state.hello["controls"]}
 
 
 @in_loop
 async def test_what_would_take_long_is_asked_before_and_too_long_is_refused() -> None:
-    crew = Pretending(seconds=0.05)
-    async with hosting(crew, rules=Rules(dragged=1.0, unasked=5.0, longest=60.0)) as host:
+    pool = Pretending(seconds=0.05)
+    async with hosting(pool, rules=Rules(dragged=1.0, unasked=5.0, longest=60.0)) as host:
         page = await host.greeted()
-        made = len(crew.made)
+        made = len(pool.made)
         # Two cycles on 96 by 16 nodes take 0.05 s: on 4096 nodes around 2 s, on 256 across too 34 s.
         many = {"solver.grid.theta": 4096, "solver.grid.z": 256}
         await page.run(1, many, rest=True)
@@ -131,7 +131,7 @@ async def test_what_would_take_long_is_asked_before_and_too_long_is_refused() ->
         assert "the most that a run may take here is 60 s" in (await page.until("refused"))["message"]
         await page.run(3, {"solver.grid.theta": 4096})
         assert (await page.until("state"))["state"] == "waiting"
-        assert len(crew.made) == made
+        assert len(pool.made) == made
         # Each request is read anew: a slider that is dragged on must not keep the server busy. Requests are
         # read four times a second at most, however long this loop takes on a machine that has other work.
         began = asyncio.get_running_loop().time()
@@ -151,12 +151,12 @@ async def test_what_would_take_long_is_asked_before_and_too_long_is_refused() ->
 
 @in_loop
 async def test_a_wear_campaign_and_equations_to_compile_are_asked_about() -> None:
-    crew = Pretending()
-    async with hosting(crew) as host:
+    pool = Pretending()
+    async with hosting(pool) as host:
         page = await host.greeted()
         await page.run(1, {"wear.cycles": "100000"}, rest=True)
         assert "wear campaign" in (await page.until("ask"))["message"]
-        crew.compiled = False
+        pool.compiled = False
         await page.run(2, {"mechanism.formulation": "paper"}, rest=True)
         assert "not compiled" in (await page.until("ask"))["message"]
         await page.run(3, {"mechanism.formulation": "paper"}, rest=True, agreed=True)
@@ -166,8 +166,8 @@ async def test_a_wear_campaign_and_equations_to_compile_are_asked_about() -> Non
 
 @in_loop
 async def test_when_the_hand_rests_the_next_steps_of_its_slider_are_computed_ahead() -> None:
-    crew = Pretending()
-    async with hosting(crew) as host:
+    pool = Pretending()
+    async with hosting(pool) as host:
         page = await host.greeted()
         await page.run(1, {}, rest=True)
         await page.picture()
@@ -202,8 +202,8 @@ async def test_a_sweep_tells_each_point_and_its_runs_are_there_at_once() -> None
 
 @in_loop
 async def test_a_sweep_over_names_takes_them_all_and_can_be_cancelled() -> None:
-    crew = Pretending(seconds=0.1)
-    async with hosting(crew) as host:
+    pool = Pretending(seconds=0.1)
+    async with hosting(pool) as host:
         page = await host.greeted()
         await page.say("sweep", number=5, key="contact.law", values={})
         first = await page.until("sweep")
@@ -211,22 +211,22 @@ async def test_a_sweep_over_names_takes_them_all_and_can_be_cancelled() -> None:
         await page.say("cancel", number=5)
         await page.run(6, wide(30), rest=True)
         await page.picture()
-        made = len(crew.made)
+        made = len(pool.made)
         await asyncio.sleep(0.5)
         # The neighbours of the new value are the only runs since.
-        assert len(crew.made) <= made + 2
+        assert len(pool.made) <= made + 2
 
 
 @in_loop
 async def test_a_slope_is_that_of_five_runs_around_the_value() -> None:
-    crew = Pretending()
-    async with hosting(crew) as host:
+    pool = Pretending()
+    async with hosting(pool) as host:
         page = await host.greeted()
         await page.say("slope", number=3, key=CLEARANCE, values=wide(40))
         while not (told := await page.until("slope"))["finished"]:
             pass
         assert told["of"] == 5
-        runs = {order["told"]["values"].get(CLEARANCE) for order in crew.made}
+        runs = {order["header"]["values"].get(CLEARANCE) for order in pool.made}
         assert {"36 um", "38 um", "40 um", "42 um", "44 um"} <= runs
         # The pretended number is always the same.
         assert told["headlines"]["a"] == {"slope": 0.0, "scatter": 0.0}
@@ -252,17 +252,17 @@ async def test_pins_are_limited_and_their_runs_stay() -> None:
 
 @in_loop
 async def test_a_socket_that_ends_takes_its_runs_along() -> None:
-    crew = Pretending(seconds=5.0)
-    async with hosting(crew) as host:
+    pool = Pretending(seconds=5.0)
+    async with hosting(pool) as host:
         page = await host.open()
         await page.until("hello")
-        host.bench.ready.set()
+        host.state.ready.set()
         await page.run(1, wide(30), rest=True)
         await asyncio.sleep(0.2)
         await page.leave()
         await asyncio.sleep(0.2)
-        assert [order["told"]["values"] for order in crew.given_up] == [wide(30)]
-        assert host.house.sockets == 0
+        assert [order["header"]["values"] for order in pool.given_up] == [wide(30)]
+        assert host.context.sockets == 0
 
 
 @in_loop
@@ -271,7 +271,7 @@ async def test_every_message_of_the_greeting_is_what_the_page_needs() -> None:
         page = await host.open()
         hello = await page.until("hello")
         first = [control for control in hello["controls"] if control["first"]]
-        assert [control["key"] for control in first] == list(host.bench.mechanism.controls)
+        assert [control["key"] for control in first] == list(host.state.mechanism.controls)
         clearance = first[0]
         assert (clearance["text"], clearance["number"], clearance["unit"]) == ("20 um", 20.0, "um")
         assert (clearance["least"], clearance["greatest"], clearance["step"]) == (1.0, 50.0, 1.0)

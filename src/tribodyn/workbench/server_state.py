@@ -1,4 +1,4 @@
-"""What all visitors of a server share: the case it was started with, the workers, and what runs cost."""
+"""State that all visitors of a server share: the case, the workers, and the cost of runs."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ from tribodyn.mechanisms.results import headlines_of_case
 from tribodyn.results import Headline
 from tribodyn.workbench.controls import controls
 from tribodyn.workbench.cost import Costs
-from tribodyn.workbench.crew import Crew, Failed, Job
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.visitor import Budget
+from tribodyn.workbench.worker_pool import Failed, Job, WorkerPool
 
 COMPILING: Final = 60.0
 """Time that compiling usually takes [s]."""
 _LEAST_SHARE: Final = 0.01
-"""Share of a long run that counts as reached when nothing was told of it."""
+"""Share of a long run that counts as completed when no progress was reported."""
 DOWNLOADS: Final = ("case.toml", "result.nc", "report.html")
-Heard = Callable[[Mapping[str, Any]], None]
+OnEvent = Callable[[Mapping[str, Any]], None]
 
 
 @dataclass(frozen=True)
 class Rules:
-    """How much a visitor may ask for.
+    """What a visitor may request.
 
     Attributes
     ----------
     dragged
         Expected time of a run up to which it is made while a slider is dragged [s].
     unasked
-        Expected time up to which it is made without asking back [s].
+        Expected time up to which the user need not agree [s].
     longest
         Time that a run may take [s].
     pins, sockets, each
@@ -60,62 +60,62 @@ class Rules:
 
 
 @dataclass
-class Bench:
-    """The shared part of a workbench.
+class ServerState:
+    """State that all pages of a server share.
 
     Attributes
     ----------
     origin, mechanism
-        The case it was started with, and what is known of its kind.
-    crew
+        The case it was started with, and the descriptor of its mechanism.
+    pool
         The workers.
     rules
-        What visitors may ask for.
-    state
-        The last state of the whole bench that was told: ``state``, ``message`` and ``seconds``.
-    told
+        What visitors may request.
+    status
+        The last status reported to all pages: ``state``, ``message`` and ``seconds``.
+    listeners
         Called with every new one.
     """
 
     origin: Origin
     mechanism: Mechanism
-    crew: Crew
+    pool: WorkerPool
     rules: Rules = field(default_factory=Rules)
     costs: Costs = field(default_factory=Costs)
     compiled: set[Choices] = field(default_factory=set)
-    state: dict[str, Any] = field(default_factory=dict)
-    told: list[Callable[[Mapping[str, Any]], None]] = field(default_factory=list)
+    status: dict[str, Any] = field(default_factory=dict)
+    listeners: list[Callable[[Mapping[str, Any]], None]] = field(default_factory=list)
     ready: asyncio.Event = field(default_factory=asyncio.Event)
 
     async def warm(self) -> None:
         """Start the workers, have the equations of the case ready, and make its run in each of them."""
-        self._tell("loading", "loading the equations of this case", 3.0)
+        self._report("loading", "loading the equations of this case", 3.0)
         try:
-            await self.crew.start()
+            await self.pool.start()
             variant = self.origin.varied({})
             if not await self.are_compiled(variant):
                 words = "compiling the equations for this machine; later starts take seconds"
-                self._tell("compiling", words, COMPILING)
+                self._report("compiling", words, COMPILING)
                 await self.prepare(variant, self.preparation(variant))
             # Each worker loads them for itself.
-            await asyncio.gather(*(self.crew.do(self.preparation(variant)) for _ in self.crew.workers))
-            await asyncio.gather(*(self._try(variant) for _ in self.crew.workers))
-            self._tell("ready", "", None)
+            await asyncio.gather(*(self.pool.do(self.preparation(variant)) for _ in self.pool.workers))
+            await asyncio.gather(*(self._try(variant) for _ in self.pool.workers))
+            self._report("ready", "", None)
         except (Failed, TribodynError, OSError) as error:
-            self._tell("failed", str(error), None)
+            self._report("failed", str(error), None)
         self.ready.set()
 
     async def _try(self, variant: Variant) -> None:
-        """Make a run, or begin one that is long, to know what runs cost."""
+        """Make a run, or begin one that is long, to measure what runs cost."""
         if variant.case.campaign_cycles:
             variant = variant.origin.varied({**variant.values, "wear.cycles": "0"})
         reached, duration = 0.0, variant.case.duration
 
-        def heard(event: Mapping[str, Any]) -> None:
+        def on_event(event: Mapping[str, Any]) -> None:
             nonlocal reached
             reached = event["reached"]
 
-        job = self.order(variant, self.rules.unasked, heard)
+        job = self.order(variant, self.rules.unasked, on_event)
         try:
             await self.made(variant, job)
         except Failed:
@@ -123,16 +123,16 @@ class Bench:
                 raise
             self.costs.note(variant.case, job.took * duration / max(reached, _LEAST_SHARE * duration))
 
-    def _tell(self, state: str, message: str, seconds: float | None) -> None:
-        self.state = {"type": "state", "state": state, "message": message, "seconds": seconds}
-        for told in self.told:
-            told(self.state)
+    def _report(self, state: str, message: str, seconds: float | None) -> None:
+        self.status = {"type": "state", "state": state, "message": message, "seconds": seconds}
+        for listener in self.listeners:
+            listener(self.status)
 
     async def are_compiled(self, variant: Variant) -> bool:
-        """Tell whether the equations of a case are compiled; a worker that finds them loads them."""
+        """Return whether the equations of a case are compiled; a worker that finds them loads them."""
         if choices_of(variant.case) in self.compiled:
             return True
-        answer = await self.crew.do(Job({"work": "load", "case": variant.toml}, self.rules.longest))
+        answer = await self.pool.do(Job({"work": "load", "case": variant.toml}, self.rules.longest))
         if answer == b"true":
             self.compiled.add(choices_of(variant.case))
         return answer == b"true"
@@ -144,25 +144,25 @@ class Bench:
 
     async def prepare(self, variant: Variant, job: Job) -> None:
         """Have the equations of a case compiled."""
-        await self.crew.do(job)
+        await self.pool.do(job)
         self.compiled.add(choices_of(variant.case))
 
     def order(
         self,
         variant: Variant,
         seconds: float,
-        heard: Heard,
+        on_event: OnEvent,
         *,
         background: bool = False,
         budget: Budget | None = None,
     ) -> Job:
-        """Return the job that makes the frame of a case, for whoever has this budget."""
-        order = {"work": "picture", "case": variant.toml, "told": variant.told}
-        return Job(order, seconds, background, heard, budget or Budget())
+        """Return the job that makes the frame of a case, charged to a budget."""
+        order = {"work": "picture", "case": variant.toml, "header": variant.header}
+        return Job(order, seconds, background, on_event, budget or Budget())
 
     async def made(self, variant: Variant, job: Job) -> bytes:
         """Return the body of the frame that a job makes, and remember what it took."""
-        content = await self.crew.do(job)
+        content = await self.pool.do(job)
         if not variant.case.campaign_cycles:
             self.costs.note(variant.case, job.took)
         self.compiled.add(choices_of(variant.case))
@@ -170,7 +170,7 @@ class Bench:
 
     @cached_property
     def hello(self) -> dict[str, Any]:
-        """What a page is told first."""
+        """First message to a page: the case and its controls, key results and charts."""
         case = self.origin.case
         sections = [
             {
@@ -206,7 +206,7 @@ class Bench:
         }
 
     def _headlines(self) -> list[dict[str, Any]]:
-        """Return the headline numbers, those that hold first: impacts depend on what was before."""
+        """Return the key results, robust ones first: those of impacts depend on the history."""
         key = self.mechanism.key_numbers
         known = headlines_of_case(self.origin.case)
         found = [_headline(name, about, name in key) for name, about in known.items()]
@@ -214,7 +214,7 @@ class Bench:
 
 
 def _headline(name: str, about: Headline, key: bool) -> dict[str, Any]:
-    """Return a headline number as the page reads it."""
+    """Return a key result as the page reads it."""
     return {
         "name": name,
         "label": about.label,
@@ -228,12 +228,12 @@ def _headline(name: str, about: Headline, key: bool) -> dict[str, Any]:
 
 
 def refusal(number: int, error: Exception) -> dict[str, Any]:
-    """Return what the page is told of a wish that cannot be."""
+    """Return the message that refuses a request."""
     faults = error.faults if isinstance(error, InputError) else ()
-    told = [{"key": fault.key, "message": fault.reason} for fault in faults]
+    found = [{"key": fault.key, "message": fault.reason} for fault in faults]
     return {
         "type": "refused",
         "number": number,
         "message": str(error),
-        "faults": told or [{"key": None, "message": str(error)}],
+        "faults": found or [{"key": None, "message": str(error)}],
     }

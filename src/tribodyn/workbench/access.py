@@ -1,9 +1,9 @@
-"""Who may come in: the one gate before all routes, for plain requests and for sockets.
+"""Access control before all routes, for plain requests and for sockets.
 
 A page of another site that is open in the same browser can make the browser send requests here, but neither
 with our name as the host it asks, nor with our cookie, nor, to a socket, without saying where it comes from.
-Another user of the machine can send what he likes but knows neither token nor cookie. Should a browser send
-him the cookie, it opens nothing without the secret that the page holds.
+Another user of the machine can send anything but has neither token nor cookie. If a browser sends the cookie
+there, it gives no access without the secret of the page.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ from tornado.web import Application
 from tribodyn.workbench.visitor import Visitor
 
 TOKEN, SECRET = "token", "secret"
-"""Names in addresses: of what the browser is opened with, and of what only the page holds."""
+"""Names in addresses: of the token that the browser is opened with, and of the secret of the page."""
 _SHOWN: Final = ("/", "/assets/")
-"""How addresses begin of what holds no secret: the page and what it is made of."""
+"""Beginnings of addresses without secrets: the page and its assets."""
 _BYTES: Final = 32
 _REFUSED: Final = b"403: this is not for you\n"
 
 
-class Keyring(Protocol):
-    """Who has which key."""
+class SessionStore(Protocol):
+    """Visitors by cookie."""
 
     @property
-    def welcoming(self) -> bool:
-        """Whether somebody without any key may ask for the page: another one has looked at who it is."""
+    def authenticated_elsewhere(self) -> bool:
+        """Whether a browser without cookie may request the page, because a proxy has authenticated it."""
         ...
 
     def visitor(self, cookie: str) -> Visitor | None:
@@ -42,55 +42,55 @@ class Keyring(Protocol):
         ...
 
     def admits(self, token: str | None) -> bool:
-        """Tell whether somebody without a cookie may have one."""
+        """Return whether a browser without a cookie may have one."""
         ...
 
     def admit(self) -> str:
-        """Return the cookie of who was admitted."""
+        """Return the cookie of a new session."""
         ...
 
 
 @dataclass
-class OnePerson:
-    """One person: a token that is traded once for a cookie.
+class SingleSession:
+    """Session of one user: a token that can be exchanged once for a cookie.
 
     Attributes
     ----------
-    who
-        The person.
+    user
+        The user.
     token
         What the browser is opened with.
     """
 
-    who: Visitor
+    user: Visitor
     token: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
     _cookie: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
-    _traded: bool = False
-    welcoming: bool = False
+    _used: bool = False
+    authenticated_elsewhere: bool = False
 
     def visitor(self, cookie: str) -> Visitor | None:
-        """Return the person, if it is their cookie."""
-        return self.who if same(cookie, self._cookie) else None
+        """Return the user, if it is their cookie."""
+        return self.user if same(cookie, self._cookie) else None
 
     def admits(self, token: str | None) -> bool:
-        """Tell whether this is the token, for the first time."""
-        return token is not None and same(token, self.token) and not self._traded
+        """Return whether this is the token, at its first use."""
+        return token is not None and same(token, self.token) and not self._used
 
     def admit(self) -> str:
-        """Return the cookie; the token is worth nothing from now on."""
-        self._traded = True
+        """Return the cookie; the token is invalid from now on."""
+        self._used = True
         return self._cookie
 
 
 def same(given: str, wanted: str) -> bool:
-    """Tell whether two secrets are the same, in a time that does not tell how far they are."""
+    """Return whether two secrets are equal, in a time that does not depend on where they differ."""
     first, second = (hashlib.sha256(text.encode("utf-8", "replace")).digest() for text in (given, wanted))
     return compare_digest(first, second)
 
 
 @dataclass(frozen=True)
-class Door:
-    """Where the server is reached.
+class Endpoint:
+    """Address of the server.
 
     Attributes
     ----------
@@ -107,9 +107,9 @@ class Door:
     cookie: str
 
     def headers(self, host: str = "") -> dict[str, str]:
-        """Return the headers of an answer to who asked for a host by its right name, or of a refusal.
+        """Return the headers of an answer to a request with a valid host, or of a refusal.
 
-        They name no other host: whoever knows under which name the cookie is kept could have it sent to them.
+        They name no other host: whoever has the name under which the cookie is kept could receive it.
         """
         socket = "wss" if self.scheme == "https" else "ws"
         connect = f"'self' {socket}://{host}" if host else "'none'"
@@ -135,46 +135,46 @@ class Door:
         return "" if found is None else str(found.value)
 
 
-class Gate(Router):
-    """Lets through to the application only requests from our own page.
+class AccessControl(Router):
+    """Passes to the application only requests from the page of this server.
 
     Parameters
     ----------
-    door
-        Where the server is reached.
-    keys
-        Who may come in.
+    endpoint
+        Address of the server.
+    sessions
+        Visitors who have access.
     application
-        What is behind.
+        Answers requests that pass.
     """
 
-    def __init__(self, door: Door, keys: Keyring, application: Application) -> None:
-        self.door, self.keys, self.application = door, keys, application
+    def __init__(self, endpoint: Endpoint, sessions: SessionStore, application: Application) -> None:
+        self.endpoint, self.sessions, self.application = endpoint, sessions, application
 
     def find_handler(self, request: HTTPServerRequest, **options: object) -> HTTPMessageDelegate | None:
-        """Return what answers a request."""
+        """Return the handler of a request."""
         if not self._may_pass(request):
             assert request.connection is not None
-            return _Refusal(request, self.door)
+            return _Refusal(request, self.endpoint)
         return self.application.find_handler(request, **options)
 
     def _may_pass(self, request: HTTPServerRequest) -> bool:
         headers = request.headers
         host = headers.get("Host", "")
-        if request.method != "GET" or host not in self.door.hosts:
+        if request.method != "GET" or host not in self.endpoint.hosts:
             return False
-        # A browser says with every upgrade where it comes from, and with what scripts of other sites send.
+        # A browser states the origin with every upgrade, and with requests by scripts of other sites.
         origin = headers.get("Origin") or headers.get("Sec-WebSocket-Origin")
         if origin is None and "Upgrade" in headers:
             return False
-        if origin is not None and origin != f"{self.door.scheme}://{host}":
+        if origin is not None and origin != f"{self.endpoint.scheme}://{host}":
             return False
-        visitor = self.keys.visitor(self.door.cookie_of(request))
+        visitor = self.sessions.visitor(self.endpoint.cookie_of(request))
         if visitor is not None:
             return _is_shown(request.path) or same(argument_of(request, SECRET) or "", visitor.secret)
         if request.path != "/" or "Upgrade" in headers:
             return False
-        return self.keys.welcoming or self.keys.admits(argument_of(request, TOKEN))
+        return self.sessions.authenticated_elsewhere or self.sessions.admits(argument_of(request, TOKEN))
 
 
 def _is_shown(path: str) -> bool:
@@ -183,22 +183,22 @@ def _is_shown(path: str) -> bool:
 
 
 def argument_of(request: HTTPServerRequest, name: str) -> str | None:
-    """Return what the address of a request says under a name, once."""
+    """Return the value of an argument in the address of a request, if it occurs once."""
     values = request.query_arguments.get(name, [])
     return values[0].decode("utf-8", "replace") if len(values) == 1 else None
 
 
 class _Refusal(HTTPMessageDelegate):
-    """The answer to who may not come in."""
+    """The answer to a request without access."""
 
-    def __init__(self, request: HTTPServerRequest, door: Door) -> None:
+    def __init__(self, request: HTTPServerRequest, endpoint: Endpoint) -> None:
         assert request.connection is not None
-        self.connection, self.door = request.connection, door
+        self.connection, self.endpoint = request.connection, endpoint
         self.content = None if request.method == "HEAD" else _REFUSED
 
     def finish(self) -> None:
         """Send it when the request is whole."""
-        headers = HTTPHeaders(self.door.headers())
+        headers = HTTPHeaders(self.endpoint.headers())
         headers["Content-Type"] = "text/plain; charset=utf-8"
         headers["Content-Length"] = str(len(_REFUSED))
         headers["Connection"] = "close"

@@ -1,8 +1,8 @@
-"""One socket: what its page wishes, what is done about it, and what it is sent.
+"""Session of one page: its requests, the runs that answer them, and what is sent over its socket.
 
-While a slider is dragged, a run that is under way comes to its end, and the newest wish is begun next: giving
-runs up at every movement would show nothing as long as the hand moves. A wish of a hand at rest ends what is
-under way for another. Of results the newest waits until the page has drawn the one before.
+While a slider is dragged, the run under way is completed, and the newest request is served next: with a run
+stopped at every movement nothing would be shown before the drag ends. A request at the end of a gesture stops
+the run of another request. The newest result waits until the page has drawn the one before.
 """
 
 from __future__ import annotations
@@ -17,64 +17,66 @@ from typing import Any, Final
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.workbench import frame
-from tribodyn.workbench.bench import COMPILING, Bench, refusal
 from tribodyn.workbench.cost import in_words, refuse_rows
-from tribodyn.workbench.crew import Failed, GivenUp, Job
 from tribodyn.workbench.messages import (
     Cancel,
     Drawn,
+    InvalidMessage,
     Message,
-    Misunderstood,
     Pin,
+    RunRequest,
     Slope,
     Sweep,
     Values,
-    Wish,
-    understood,
+    parsed,
 )
 from tribodyn.workbench.neighbours import neighbours
 from tribodyn.workbench.series import Plan, Series, slope_of, sweep_of
+from tribodyn.workbench.server_state import COMPILING, ServerState, refusal
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.visitor import Visitor
+from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
 _UNDRAWN: Final = 5.0
 """Time after which a page that says nothing is taken to have drawn [s]."""
 _CALM: Final = 0.3
-"""Time without a wish after which neighbours are computed [s]."""
+"""Time without a request after which neighbours are computed [s]."""
 _UNHURRIED: Final = 0.25
-"""Time between two looks at wishes that are not granted while a slider is dragged [s]."""
-_TOLD: Final = 1.0
-"""Expected time from which a page is told what it waits for [s]."""
+"""Pause after a request that is not served while a slider is dragged [s]."""
+_REPORTED: Final = 1.0
+"""Expected time from which the progress of a run is reported [s]."""
 
 Send = Callable[[str | bytes], None]
 
 
 def _read(origin: Origin, values: Values) -> Variant:
-    """Return a case with other values, with the texts that are made of it."""
+    """Return a case with other values, and the texts derived from it."""
     variant = origin.varied(values)
     refuse_rows(variant.case)
     return variant.filled()
 
 
-class Desk:
-    """What one page is served by.
+class PageSession:
+    """Serves one page.
 
     Parameters
     ----------
-    bench
-        What all pages share.
+    state
+        Shared by all pages.
     visitor
         Whose page it is.
     send
         Sends text or bytes to the page, without waiting.
-    complain
-        Told of errors of our own.
+    log_error
+        Called with internal errors.
     """
 
-    def __init__(self, bench: Bench, visitor: Visitor, send: Send, complain: Callable[[str], None]) -> None:
-        self.bench, self.visitor, self.send, self.complain = bench, visitor, send, complain
-        self.newest: Wish | None = None
-        self.served: Wish | None = None
+    def __init__(
+        self, state: ServerState, visitor: Visitor, send: Send, log_error: Callable[[str], None]
+    ) -> None:
+        self.state, self.visitor, self.send, self.log_error = state, visitor, send, log_error
+        self.newest: RunRequest | None = None
+        self.served: RunRequest | None = None
         self.before: Values = {}
         self.job: Job | None = None
         self.pins: set[str] = set()
@@ -88,16 +90,16 @@ class Desk:
         self._ahead: asyncio.Task[None] | None = None
 
     def open(self) -> None:
-        """Greet the page, and begin to serve it."""
-        self.tell(self.bench.hello)
-        if self.bench.state:
-            self.tell(self.bench.state)
-        self.bench.told.append(self.tell)
+        """Describe the case to the page, and begin to serve it."""
+        self.report(self.state.hello)
+        if self.state.status:
+            self.report(self.state.status)
+        self.state.listeners.append(self.report)
         self._begin(self._serve())
 
     def close(self) -> None:
-        """Give up everything that this page asked for."""
-        self.bench.told.remove(self.tell)
+        """Stop all work for this page."""
+        self.state.listeners.remove(self.report)
         for task in self._tasks:
             task.cancel()
         self._stop()
@@ -108,21 +110,21 @@ class Desk:
         if self._patience is not None:
             self._patience.cancel()
 
-    def tell(self, message: Mapping[str, Any]) -> None:
+    def report(self, message: Mapping[str, Any]) -> None:
         """Send a message."""
         self.send(json.dumps(message))
 
-    def hear(self, text: str | bytes) -> None:
+    def receive(self, text: str | bytes) -> None:
         """Take a message of the page."""
         try:
-            self._follow(understood(text))
-        except Misunderstood as error:
-            self.tell({"type": "error", "message": str(error)})
+            self._dispatch(parsed(text))
+        except InvalidMessage as error:
+            self.report({"type": "error", "message": str(error)})
 
-    def _follow(self, said: Message) -> None:
+    def _dispatch(self, said: Message) -> None:
         match said:
-            case Wish():
-                self._wish(said)
+            case RunRequest():
+                self._request_run(said)
             case Drawn(number):
                 self._drawn(number)
             case Cancel(number):
@@ -141,128 +143,128 @@ class Desk:
     def _done(self, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
-            self.complain("".join(traceback.format_exception(error)))
-            self.tell({"type": "error", "message": "internal error; load the page again"})
+            self.log_error("".join(traceback.format_exception(error)))
+            self.report({"type": "error", "message": "internal error; load the page again"})
 
-    # Wishes
+    # Requests
 
-    def _wish(self, wish: Wish) -> None:
-        running, self.newest = self.served, wish
+    def _request_run(self, request: RunRequest) -> None:
+        running, self.newest = self.served, request
         if self._ahead is not None:
             self._ahead.cancel()
-        if running is not None and running.values != wish.values and (wish.rest or running.agreed):
+        if running is not None and running.values != request.values and (request.rest or running.agreed):
             self._stop()
         self._woken.set()
 
     def _stop(self) -> None:
-        """Give up the run that is under way, if there is one."""
+        """Stop the run that is under way, if there is one."""
         if self.job is not None:
-            self.bench.crew.stop(self.job)
+            self.state.pool.stop(self.job)
 
     async def _serve(self) -> None:
-        """Grant one wish after the other, always the newest."""
-        await self.bench.ready.wait()
+        """Serve one request after the other, always the newest."""
+        await self.state.ready.wait()
         while True:
             await self._woken.wait()
             self._woken.clear()
             if self.newest is None:
                 continue
-            wish, self.newest = self.newest, None
-            if self.served is not None and self.served.values != wish.values:
+            request, self.newest = self.newest, None
+            if self.served is not None and self.served.values != request.values:
                 self.before = self.served.values
-            self.served = wish
+            self.served = request
             try:
-                variant = await self.visitor.read(partial(_read, self.bench.origin, wish.values))
-                granted = await self._granted(wish, variant)
+                variant = await self.visitor.read(partial(_read, self.state.origin, request.values))
+                answered = await self._answer(request, variant)
             except GivenUp:
                 continue
             except (TribodynError, Failed) as error:
-                self.tell(refusal(wish.number, error))
+                self.report(refusal(request.number, error))
                 continue
-            if granted and wish.rest and self.newest is None:
-                self._ahead = self._begin(self._compute_neighbours(wish))
+            if answered and request.rest and self.newest is None:
+                self._ahead = self._begin(self._compute_neighbours(request))
 
-    async def _granted(self, wish: Wish, variant: Variant) -> bool:
-        """Send the answer to a wish; False if the page was told why there is none."""
+    async def _answer(self, request: RunRequest, variant: Variant) -> bool:
+        """Send the answer to a request; False if the page got the reason why there is none."""
         kept = self.visitor.frame(variant.run)
         if kept is not None:
-            self._deliver(kept, wish.number, frame.KEPT)
+            self._deliver(kept, request.number, frame.KEPT)
             return True
-        if not await self._is_compiled(wish, variant):
+        if not await self._is_compiled(request, variant):
             return False
-        expected = self.bench.costs.expected(variant.case) or 0.0
+        expected = self.state.costs.expected(variant.case) or 0.0
         reason = self._why_ask(variant, expected)
-        if reason and (not wish.agreed or expected > self.bench.rules.longest):
-            self._ask(wish, reason, expected)
+        if reason and (not request.agreed or expected > self.state.rules.longest):
+            self._ask(request, reason, expected)
             return False
-        if not reason and expected > self.bench.rules.dragged and not wish.rest:
+        if not reason and expected > self.state.rules.dragged and not request.rest:
             words = f"a run takes about {in_words(expected)}: it begins when you let go"
-            self._state("waiting", words, expected, wish.number)
+            self._report_state("waiting", words, expected, request.number)
             await asyncio.sleep(_UNHURRIED)
             return False
-        if expected > _TOLD:
-            self._state("running", "", expected, wish.number)
-        content = await self._made(wish, variant)
+        if expected > _REPORTED:
+            self._report_state("running", "", expected, request.number)
+        content = await self._made(request, variant)
         self.visitor.keep(variant.run, variant.toml, content)
-        self._deliver(content, wish.number, 0)
+        self._deliver(content, request.number, 0)
         return True
 
-    async def _is_compiled(self, wish: Wish, variant: Variant) -> bool:
-        """Have the equations compiled, if somebody agreed; False if the page was asked whether to."""
-        if await self.bench.are_compiled(variant):
+    async def _is_compiled(self, request: RunRequest, variant: Variant) -> bool:
+        """Have the equations compiled once the user has agreed; False if the page was asked."""
+        if await self.state.are_compiled(variant):
             return True
-        if not wish.agreed:
+        if not request.agreed:
             words = "the equations of this case are not compiled yet: that takes about a minute, once"
-            self._ask(wish, words, COMPILING)
+            self._ask(request, words, COMPILING)
             return False
-        self._state("compiling", "compiling the equations of this case", COMPILING, wish.number)
-        self.job = self.bench.preparation(variant, self.visitor.budget)
+        self._report_state("compiling", "compiling the equations of this case", COMPILING, request.number)
+        self.job = self.state.preparation(variant, self.visitor.budget)
         try:
-            await self.bench.prepare(variant, self.job)
+            await self.state.prepare(variant, self.job)
         finally:
             self.job = None
         return True
 
     def _why_ask(self, variant: Variant, expected: float) -> str:
-        """Return why a run is not to be made unasked, empty if it may be."""
+        """Return why the user must agree to a run, empty if that is not necessary."""
         if variant.case.campaign_cycles:
             return (
                 f"a wear campaign is not live: it takes up to {in_words(expected)} for each cycle that it "
                 f"simulates, and jumps over most of its {variant.case.campaign_cycles}"
             )
-        if expected > self.bench.rules.unasked:
+        if expected > self.state.rules.unasked:
             return f"by the cost of the last run this takes about {in_words(expected)}"
         return ""
 
-    def _ask(self, wish: Wish, reason: str, expected: float) -> None:
-        """Ask back before a long run, or say that it is too long for this place."""
-        longest = self.bench.rules.longest
+    def _ask(self, request: RunRequest, reason: str, expected: float) -> None:
+        """Ask the user before a long run, or refuse one that is too long for this server."""
+        longest = self.state.rules.longest
         if expected > longest:
             words = f"{reason}; the most that a run may take here is {in_words(longest)}: use `tribodyn run`"
-            self.tell(refusal(wish.number, TribodynError(words)))
+            self.report(refusal(request.number, TribodynError(words)))
             return
-        self.tell({"type": "ask", "number": wish.number, "seconds": expected, "message": reason})
+        self.report({"type": "ask", "number": request.number, "seconds": expected, "message": reason})
 
-    async def _made(self, wish: Wish, variant: Variant) -> bytes:
-        """Have a run made."""
-        rules, total = self.bench.rules, variant.case.duration
+    async def _made(self, request: RunRequest, variant: Variant) -> bytes:
+        """Return the body of the frame of a run."""
+        rules, total = self.state.rules, variant.case.duration
 
-        def heard(event: Mapping[str, Any]) -> None:
+        def on_event(event: Mapping[str, Any]) -> None:
             share = min(event["reached"] / (variant.case.campaign_cycles or total), 1.0)
-            self._state("running", "", None, wish.number, share)
+            self._report_state("running", "", None, request.number, share)
 
-        limit = rules.longest if wish.agreed else 3.0 * rules.unasked
-        self.job = self.bench.order(variant, limit, heard, budget=self.visitor.budget)
+        limit = rules.longest if request.agreed else 3.0 * rules.unasked
+        self.job = self.state.order(variant, limit, on_event, budget=self.visitor.budget)
         try:
-            return await self.bench.made(variant, self.job)
+            return await self.state.made(variant, self.job)
         finally:
             self.job = None
 
-    def _state(
+    def _report_state(
         self, state: str, message: str, seconds: float | None, number: int, share: float | None = None
     ) -> None:
         about = {"state": state, "message": message, "seconds": seconds, "number": number, "share": share}
-        self.tell({"type": "state", **about})
+        self.report({"type": "state", **about})
 
     def _cancel(self, number: int) -> None:
         if self.newest is not None and self.newest.number == number:
@@ -277,7 +279,7 @@ class Desk:
     # Answers
 
     def _deliver(self, content: bytes, number: int, flags: int) -> None:
-        """Send an answer, or have it wait until the page has drawn the last one."""
+        """Send an answer, or keep it until the page has drawn the last one."""
         if self._undrawn is not None:
             self._unsent = content, number, flags
             return
@@ -296,27 +298,27 @@ class Desk:
             unsent, self._unsent = self._unsent, None
             self._deliver(*unsent)
 
-    # What nobody waits for
+    # Background work
 
-    async def _compute_neighbours(self, wish: Wish) -> None:
-        """Compute what the next step of the slider that moved last would ask for."""
+    async def _compute_neighbours(self, request: RunRequest) -> None:
+        """Compute the runs one step to either side of the slider that moved last."""
         await asyncio.sleep(_CALM)
-        around = partial(neighbours, self.bench.origin, wish.values, self.before)
+        around = partial(neighbours, self.state.origin, request.values, self.before)
         for values in await self.visitor.read(lambda: [*around()]):
             with suppress(TribodynError, Failed, GivenUp):
-                await self._kept_ahead(await self.visitor.read(partial(_read, self.bench.origin, values)))
+                await self._kept_ahead(await self.visitor.read(partial(_read, self.state.origin, values)))
 
     async def _kept_ahead(self, variant: Variant) -> None:
-        bench, rules = self.bench, self.bench.rules
-        expected = bench.costs.expected(variant.case)
+        state, rules = self.state, self.state.rules
+        expected = state.costs.expected(variant.case)
         if variant.run in self.visitor.frames or expected is None or expected > rules.dragged:
             return
         budget = self.visitor.budget
-        job = bench.order(variant, rules.unasked, lambda event: None, background=True, budget=budget)
+        job = state.order(variant, rules.unasked, lambda event: None, background=True, budget=budget)
         try:
-            self.visitor.keep(variant.run, variant.toml, await bench.made(variant, job))
+            self.visitor.keep(variant.run, variant.toml, await state.made(variant, job))
         except asyncio.CancelledError:
-            bench.crew.stop(job)
+            state.pool.stop(job)
             raise
 
     async def _begin_series(self, said: Sweep | Slope) -> None:
@@ -325,18 +327,18 @@ class Desk:
             old.cancel()
         made: Callable[[], Plan]
         made = (
-            partial(sweep_of, self.bench, said)
+            partial(sweep_of, self.state, said)
             if isinstance(said, Sweep)
-            else partial(slope_of, self.bench, said)
+            else partial(slope_of, self.state, said)
         )
         try:
             plan = await self.visitor.read(made)
         except TribodynError as error:
-            self.tell(refusal(said.number, error))
+            self.report(refusal(said.number, error))
             return
-        # Unless it was given up, or another one was asked for, while it was planned.
+        # Unless it was cancelled or replaced while it was planned.
         if self.asked.get(type(said)) == said.number:
-            self.series[type(said)] = Series(self.bench, self.visitor, plan, self.tell)
+            self.series[type(said)] = Series(self.state, self.visitor, plan, self.report)
 
     # Pins
 
@@ -346,8 +348,8 @@ class Desk:
                 self.pins.remove(run)
                 self.visitor.unpin(run)
         elif run not in self.pins:
-            if len(self.pins) >= self.bench.rules.pins:
-                raise Misunderstood(f"at most {self.bench.rules.pins} runs can be pinned")
+            if len(self.pins) >= self.state.rules.pins:
+                raise InvalidMessage(f"at most {self.state.rules.pins} runs can be pinned")
             if not self.visitor.pin(run):
-                raise Misunderstood("this run is not kept any more")
+                raise InvalidMessage("this run is not kept any more")
             self.pins.add(run)

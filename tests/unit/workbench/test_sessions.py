@@ -9,8 +9,8 @@ from tests.unit.workbench.host import PUBLIC, Host, Page, hosting, in_loop
 from tests.unit.workbench.test_server import UPGRADE
 from tornado.web import HTTPError
 
-from tribodyn.workbench.bench import Rules
-from tribodyn.workbench.guests import NEW, Guests
+from tribodyn.workbench.server_state import Rules
+from tribodyn.workbench.sessions import NEW, Sessions
 
 HTTPS = f"https://{PUBLIC}"
 
@@ -44,7 +44,7 @@ async def opened(host: Host, cookie: str, secret: str) -> Page:
 
 @in_loop
 async def test_visitors_have_nothing_in_common() -> None:
-    async with hosting(guests=Guests(10**6)) as host:
+    async with hosting(sessions=Sessions(10**6)) as host:
         first, second = await admitted(host), await admitted(host)
         assert not {*first} & {*second}
         page = await opened(host, *first)
@@ -60,7 +60,7 @@ async def test_visitors_have_nothing_in_common() -> None:
 
 @in_loop
 async def test_only_the_public_name_and_https_are_let_in() -> None:
-    async with hosting(guests=Guests(10**6)) as host:
+    async with hosting(sessions=Sessions(10**6)) as host:
         cookie, secret = await admitted(host)
         ours = {"Host": PUBLIC, "Cookie": cookie, "Origin": HTTPS}
         assert (await host.get("/", ours)).code == 200
@@ -83,7 +83,7 @@ async def test_only_the_public_name_and_https_are_let_in() -> None:
 
 @in_loop
 async def test_a_visitor_has_so_many_pages_and_no_more() -> None:
-    async with hosting(guests=Guests(10**6), rules=Rules(each=2)) as host:
+    async with hosting(sessions=Sessions(10**6), rules=Rules(each=2)) as host:
         cookie, secret = await admitted(host)
         for _ in range(2):
             await opened(host, cookie, secret)
@@ -94,20 +94,20 @@ async def test_a_visitor_has_so_many_pages_and_no_more() -> None:
 
 def test_who_is_gone_is_forgotten_and_who_has_a_page_open_is_not():
     now = [0.0]
-    guests = Guests(1, most=2, stay=60.0, clock=lambda: now[0])
-    first, second = guests.admit(), guests.admit()
-    present = guests.visitor(first)
+    sessions = Sessions(1, most=2, stay=60.0, clock=lambda: now[0])
+    first, second = sessions.admit(), sessions.admit()
+    present = sessions.visitor(first)
     assert present is not None
     present.sockets = 1
-    third = guests.admit()
-    assert guests.visitor(first) is present
-    assert guests.visitor(second) is None, "without room who was seen longest ago has to go"
-    gone = guests.visitor(third)
+    third = sessions.admit()
+    assert sessions.visitor(first) is present
+    assert sessions.visitor(second) is None, "without room who was seen longest ago has to go"
+    gone = sessions.visitor(third)
     assert gone is not None
     gone.sockets = 1
     with pytest.raises(HTTPError, match="503"):
-        guests.admit()
+        sessions.admit()
     gone.sockets, now[0] = 0, 61.0
-    guests.admit()
-    assert guests.visitor(third) is None
-    assert guests.visitor("") is None
+    sessions.admit()
+    assert sessions.visitor(third) is None
+    assert sessions.visitor("") is None

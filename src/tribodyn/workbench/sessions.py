@@ -1,4 +1,4 @@
-"""Many visitors, of whom a proxy has made sure who they are: each has a cookie, and what is kept for it."""
+"""Sessions of many visitors whom a proxy has authenticated: each has a cookie and its own stored runs."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from tornado.web import HTTPError
 from tribodyn.workbench.visitor import Visitor
 
 NEW: Final = "new"
-"""What a browser asks with that has shown to have no cookie."""
+"""Token of a browser that has shown to have no cookie."""
 _BYTES: Final = 32
 
 
 @dataclass
-class _Guest:
-    """A visitor, and when it was last seen."""
+class _Session:
+    """A visitor, and when it was last active."""
 
     visitor: Visitor
     seen: float
 
 
 @dataclass
-class Guests:
+class Sessions:
     """Visitors by their cookies.
 
     Attributes
@@ -47,19 +47,19 @@ class Guests:
     most: int = 100
     stay: float = 3600.0
     clock: Callable[[], float] = time.monotonic
-    welcoming: bool = True
-    _guests: OrderedDict[bytes, _Guest] = field(default_factory=OrderedDict)
+    authenticated_elsewhere: bool = True
+    _sessions: OrderedDict[bytes, _Session] = field(default_factory=OrderedDict)
 
     def visitor(self, cookie: str) -> Visitor | None:
         """Return whose cookie it is."""
-        found = self._guests.get(_digest(cookie))
+        found = self._sessions.get(_digest(cookie))
         if found is None:
             return None
         found.seen = self.clock()
         return found.visitor
 
     def admits(self, token: str | None) -> bool:
-        """Tell whether somebody without a cookie may have one."""
+        """Return whether a browser without a cookie may have one."""
         return token == NEW
 
     def admit(self) -> str:
@@ -71,22 +71,22 @@ class Guests:
             503: there is no room for another.
         """
         self._forget()
-        if len(self._guests) >= self.most:
+        if len(self._sessions) >= self.most:
             raise HTTPError(503)
         cookie = secrets.token_urlsafe(_BYTES)
-        self._guests[_digest(cookie)] = _Guest(Visitor(self.room), self.clock())
+        self._sessions[_digest(cookie)] = _Session(Visitor(self.room), self.clock())
         return cookie
 
     def _forget(self) -> None:
-        """Forget visitors who are gone; where there is no more room, who was seen longest ago first."""
-        gone = [name for name, guest in self._guests.items() if not guest.visitor.sockets]
-        gone.sort(key=lambda name: self._guests[name].seen)
+        """Remove sessions without an open page: expired ones, and the oldest if there is no room."""
+        gone = [name for name, session in self._sessions.items() if not session.visitor.sockets]
+        gone.sort(key=lambda name: self._sessions[name].seen)
         for name in gone:
-            old = self.clock() - self._guests[name].seen > self.stay
-            if old or len(self._guests) >= self.most:
-                del self._guests[name]
+            old = self.clock() - self._sessions[name].seen > self.stay
+            if old or len(self._sessions) >= self.most:
+                del self._sessions[name]
 
 
 def _digest(cookie: str) -> bytes:
-    """Return what a cookie is looked up by, so that the time of a look-up tells nothing about others."""
+    """Return the key of a cookie: the time of a look-up reveals nothing about other cookies."""
     return hashlib.sha256(cookie.encode("utf-8", "replace")).digest()

@@ -1,12 +1,12 @@
-// What a person wishes, what is shown, and how one came from one to the other.
+// State of the page: the requested values, the run that is shown, and the history of both.
 
 /** Runs that show through, the newest last. */
 const TRAIL = 4;
 
-const bench = {
+const pageState = {
   hello: null,
   controls: new Map(),
-  /** What differs from the case, as it is wished: text by key. */
+  /** Requested values that differ from the case: text by key. */
   values: {},
   /** The run that is drawn. Everything the page says of a run is read from here. */
   shown: null,
@@ -14,70 +14,70 @@ const bench = {
   pins: [],
   past: [],
   future: [],
-  listeners: { shown: [], wished: [] },
+  listeners: { shown: [], requested: [] },
 
-  /** Have something done after a run was drawn, or after the wish has changed. */
+  /** Call a function after a run was drawn, or after the requested values have changed. */
   on(event, action) {
-    bench.listeners[event].push(action);
+    pageState.listeners[event].push(action);
   },
 
   tell(event) {
-    bench.listeners[event].forEach((action) => action());
+    pageState.listeners[event].forEach((action) => action());
   },
 
-  /** Return the wished value of a key as text. */
+  /** Return the requested value of a key as text. */
   text(key) {
-    return bench.values[key] ?? bench.controls.get(key).text;
+    return pageState.values[key] ?? pageState.controls.get(key).text;
   },
 
-  /** Return wished values with one of them changed; one that is as in the case is left out. */
+  /** Return requested values with one of them changed; one that is as in the case is left out. */
   changed(key, text) {
-    const values = { ...bench.values, [key]: text };
-    if (plain(text) === plain(bench.controls.get(key).text)) delete values[key];
+    const values = { ...pageState.values, [key]: text };
+    if (plain(text) === plain(pageState.controls.get(key).text)) delete values[key];
     return values;
   },
 
-  /** Take values as the wish, while a gesture goes on or at its end. */
-  wish(values, rest) {
-    bench.values = values;
-    bench.tell("wished");
-    wishes.send(rest);
+  /** Request values, during a gesture or at its end. */
+  request(values, rest) {
+    pageState.values = values;
+    pageState.tell("requested");
+    requests.send(rest);
   },
 
-  /** End a gesture: what was wished before it can be had back. */
+  /** End a gesture: the values before it can be restored. */
   remember(before) {
-    if (sameValues(before, bench.values)) return;
-    bench.past.push(before);
-    bench.future = [];
+    if (sameValues(before, pageState.values)) return;
+    pageState.past.push(before);
+    pageState.future = [];
     writeAddress();
-    bench.tell("wished");
+    pageState.tell("requested");
   },
 
-  /** Wish something at once, as a gesture of its own. */
+  /** Request values as a gesture of its own. */
   gesture(values) {
-    const before = bench.values;
-    bench.wish(values, true);
-    bench.remember(before);
+    const before = pageState.values;
+    pageState.request(values, true);
+    pageState.remember(before);
   },
 
   /** Go back or on by one gesture. */
   travel(from, to) {
     if (!from.length) return;
-    to.push(bench.values);
-    bench.wish(from.pop(), true);
+    to.push(pageState.values);
+    pageState.request(from.pop(), true);
     writeAddress();
   },
 
-  undo: () => bench.travel(bench.past, bench.future),
-  redo: () => bench.travel(bench.future, bench.past),
+  undo: () => pageState.travel(pageState.past, pageState.future),
+  redo: () => pageState.travel(pageState.future, pageState.past),
 
   /** Draw a run from now on. */
   show(run) {
-    if (bench.shown && bench.shown.run !== run.run) {
-      bench.trail = [...bench.trail.filter((one) => one.run !== run.run), bench.shown].slice(-TRAIL);
+    if (pageState.shown && pageState.shown.run !== run.run) {
+      pageState.trail = [...pageState.trail.filter((one) => one.run !== run.run), pageState.shown].slice(-TRAIL);
     }
-    bench.shown = run;
-    bench.tell("shown");
+    pageState.shown = run;
+    pageState.tell("shown");
   },
 };
 
@@ -102,7 +102,7 @@ function valuesInWords(values) {
 function writeAddress() {
   // A space goes before a letter only: "0.038 1/um^2" is no "0.0381/um^2".
   const short = (text) => String(text).replace(/^(\S*\d) (?=[a-zA-Zµ])/, "$1");
-  const parts = Object.entries(bench.values).map(([key, text]) => `${key}=${encodeURIComponent(short(text))}`);
+  const parts = Object.entries(pageState.values).map(([key, text]) => `${key}=${encodeURIComponent(short(text))}`);
   history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname);
 }
 
