@@ -20,7 +20,7 @@ from tribodyn.report.page import render
 from tribodyn.results.summary import DOUBTFUL
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge
-from tribodyn.workbench.picture import shown
+from tribodyn.workbench.work import shown
 
 REASON = "the energy balance misses 6 %"
 
