@@ -139,15 +139,12 @@ def as_json(rows: Iterable[Row]) -> list[dict[str, Any]]:
 
 
 _HEAD: Final = (
-    "where",
-    "the paper says",
-    "domain",
-    "quantity",
+    "verdict",
+    "the paper says (where)",
+    "measured; domain",
     "formulation `paper`",
     "`exact`",
-    "bound (whose, when)",
-    "verdict",
-    "why",
+    "bound (whose, when); why",
 )
 
 
@@ -157,14 +154,11 @@ def as_markdown(rows: Iterable[Row]) -> str:
     for row in rows:
         claim = row.claim
         cells = (
-            claim.where,
-            claim.says,
-            claim.domain,
-            claim.quantity,
-            *row.found,
-            str(claim.bound),
             row.verdict,
-            row.reason,
+            f"{claim.says} ({claim.where})",
+            "; ".join(filter(None, (claim.quantity, claim.domain))),
+            *row.found,
+            "; ".join(filter(None, (str(claim.bound), row.reason))),
         )
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"

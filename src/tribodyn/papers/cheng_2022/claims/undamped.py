@@ -26,7 +26,7 @@ def _runs(trial: Trial, friction: str, start: Mapping[str, object] | None = None
 
 
 def diverges(trial: Trial, friction: str, start: Mapping[str, object] | None = None) -> Finding:
-    """Count the tolerances at which the run leaves the range of the contact law."""
+    """Measure the number of tolerances at which the run leaves the range of the contact law."""
     runs = _runs(trial, friction, start)
     ended = [bool(run.attrs["failure"]) for run in runs]
     text = "; ".join(_ending(run, over) for run, over in zip(runs, ended, strict=True))
