@@ -96,6 +96,8 @@ class _Contact:
         Gaps as drawn, and σ [m], shape (n,).
     slides
         1 where the shaft slides past the node, shape (n,).
+    deepest
+        Gap at which the contact law ends [m], shape (n,).
     lean
         Radius ρ of the second-order term of the tilt [m], shape (n,).
     slip
@@ -108,6 +110,7 @@ class _Contact:
     drawn: FloatArray
     roughness: FloatArray
     slides: FloatArray
+    deepest: FloatArray
     lean: FloatArray
     slip: float
 
@@ -268,6 +271,11 @@ class _Loads:
         collect(bodies, self.state)
 
     @property
+    def beyond_law(self) -> bool:
+        """Whether surfaces overlap further than their contact law reaches."""
+        return any(np.any(contact.gaps(self._place(contact)) < contact.deepest) for contact in self.contacts)
+
+    @property
     def lost(self) -> bool:
         """Whether a shaft has left its socket without meeting anything."""
         gaps = [(contact.gaps(self._place(contact)), contact.drawn) for contact in self.contacts]
@@ -291,6 +299,7 @@ def _contacts(joints: SurfaceData, couplings: IntArray) -> list[_Contact]:
                 drawn=nodes[:, GAP],
                 roughness=np.repeat(surfaces["roughness"], counts),
                 slides=np.repeat(surfaces["slides"], counts),
+                deepest=np.repeat(surfaces["h_first"] * surfaces["roughness"], counts),
                 lean=np.repeat(surfaces["lean"], counts),
                 slip=float(max(surfaces["slip_velocity"].max(), _TINY)),
             )
@@ -311,7 +320,7 @@ def _settled(loads: _Loads) -> FloatArray | None:
         loads.look()
         steps, soft = _newton(loads, soft) if loads.motions.size else (0, soft)
         if steps == 0:
-            return loads.state
+            return None if loads.beyond_law else loads.state
         if loads.lost:
             return None
     return None

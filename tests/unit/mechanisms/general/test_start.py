@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.faults.impossible_mechanisms import twins
 from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
 
 import tribodyn as td
@@ -100,6 +101,14 @@ def test_who_asks_for_the_middle_gets_it() -> None:
     system = MechanismSystem(parsed(DRIVEN + WRIST + 'start = "centred"\n'))
     assert system.start() is None
     np.testing.assert_array_equal(system.problem(1e-3).y0, system.assembly.state)
+
+
+def test_loads_that_balance_beyond_the_contact_law_are_no_equilibrium() -> None:
+    # A star in whose faces, 0.35 mm deep in each other, 134 MN balance. Its loads are a few newtons.
+    _, _, star = twins(1618, 4e-3)
+    result = td.simulate(star.case())
+    assert not result.attrs["failure"]
+    assert float(abs(result["reaction_force"]).max()) < 1e3
 
 
 def test_the_search_can_be_stopped_and_takes_up_no_memory_of_it() -> None:
