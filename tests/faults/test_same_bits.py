@@ -35,8 +35,9 @@ from numba.core.registry import cpu_target
 
 def hash_of(name):
     case = load_case(name)
-    short = {"vsv": "20 ms", "journal": "0.5 ms"}.get(case.case)
-    result = simulate(case.replace({"run.duration": short} if short else {"run.cycles": 0.01}))
+    cycles = case.case == "mechanism" and case.run.cycles is not None
+    brief = "0.5 ms" if case.case == "journal" else "20 ms"
+    result = simulate(case.replace({"run.cycles": 0.01} if cycles else {"run.duration": brief}))
     digest = sha256()
     for column in sorted(result.data_vars):
         digest.update(result[column].values.tobytes())
@@ -54,7 +55,9 @@ PROCESSORS = {"generic": (), "haswell": AVX2, "skylake-avx512": AVX512}
 def numbers(script: str, *arguments: str, **environment: str) -> dict[str, object]:
     """Return all numbers of a run in a process of its own; as text they read back exactly."""
     command = [sys.executable, "-c", script, *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ | environment)
+    done = subprocess.run(
+        command, stdout=subprocess.PIPE, text=True, check=True, env=os.environ | environment
+    )
     found: dict[str, object] = json.loads(done.stdout)
     return found
 
