@@ -20,8 +20,8 @@ from pathlib import Path
 
 import pytest
 from tests.unit.workbench.host import PUBLIC, SOON, TRIBODYN, Page, in_loop
-from tests.unit.workbench.test_guests import secret_in
 from tests.unit.workbench.test_server import EVIL, ROUTES, UPGRADE
+from tests.unit.workbench.test_sessions import secret_in
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.websocket import websocket_connect
 
