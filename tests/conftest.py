@@ -19,12 +19,12 @@ from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction
 from tribodyn.kernels.mebdf import state
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.general.description import Clearance
-from tribodyn.mechanisms.vsv.parameters import AirLoads, Drive, Inertias, Lengths, Vsv
+from tribodyn.mechanisms.vsv.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
 from tribodyn.mechanisms.vsv.problem import vsv_problem
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, math.radians(20.0), math.radians(55.0))
 INERTIAS = Inertias(0.82, 0.1232, 0.6744, 0.253, 6.22e-4, 8.33e-4, 7.20e-2, 2.16e-3, 2.16e-3)
-DRIVE = Drive(math.radians(-16.0), math.radians(20.0), 1.0)
+DRIVE = CrankMotion(math.radians(-16.0), math.radians(20.0), 1.0)
 TABLE_3 = AirLoads(0.4, 1.2, 0.84, math.radians(90.0), 0.01)
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
 """Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s], a twentieth of the default ones."""

@@ -11,7 +11,7 @@ from scipy.special import erfc, gamma, pbdv
 
 from tribodyn.contact import LAWS, RSDC, KogutEtsion, SurfacePair, law
 from tribodyn.contact.greenwood_tripp import GreenwoodTripp
-from tribodyn.contact.linear import Linear
+from tribodyn.contact.linear import LinearContact
 from tribodyn.core.arrays import FloatArray
 
 H_STAR = np.linspace(-4.0, 8.0, 25)
@@ -49,7 +49,7 @@ def test_hard_surfaces_are_elastic(elastic: SurfacePair) -> None:
     )
 
 
-ONE_ROUGH_SURFACE = [name for name in LAWS if name not in (GreenwoodTripp.name, Linear.name)]
+ONE_ROUGH_SURFACE = [name for name in LAWS if name not in (GreenwoodTripp.name, LinearContact.name)]
 """Laws of Hertzian asperities against a plane; the others count pairs of asperities, or none."""
 
 

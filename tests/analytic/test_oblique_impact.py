@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.contact.oblique_impact import Sphere, TangentialLaw, _Compliant, rebound
+from tribodyn.contact.oblique_impact import ImpactingSphere, TangentialLaw, _Compliant, rebound
 
-SPHERE = Sphere(2.5e-3, 4000.0, (380e9, 70e9), (0.23, 0.25), friction=0.092, restitution=0.98)
+SPHERE = ImpactingSphere(2.5e-3, 4000.0, (380e9, 70e9), (0.23, 0.25), friction=0.092, restitution=0.98)
 LAWS: tuple[TangentialLaw, ...] = ("regularised", "compliant")
 
 
@@ -39,7 +39,7 @@ def test_spin_balances_the_tangential_impulse_and_energy_falls(law: TangentialLa
 
 
 def test_no_friction_leaves_the_tangential_velocity() -> None:
-    smooth = Sphere(2.5e-3, 4000.0, (380e9, 70e9), (0.23, 0.25), friction=0.0, restitution=1.0)
+    smooth = ImpactingSphere(2.5e-3, 4000.0, (380e9, 70e9), (0.23, 0.25), friction=0.0, restitution=1.0)
     assert rebound(smooth, 1.0, 0.5, "compliant").tangential == 1.0
 
 

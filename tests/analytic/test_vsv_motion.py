@@ -13,7 +13,7 @@ import pytest
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
-from tribodyn.mechanisms.vsv.parameters import Drive
+from tribodyn.mechanisms.vsv.parameters import CrankMotion
 from tribodyn.mechanisms.vsv.problem import vsv_data
 
 SCALE = np.array([1e-3, 1e-3, 0.05, 0.05])
@@ -117,7 +117,7 @@ def test_paper_shifts_the_rods_but_does_not_turn_them(make_vsv):
 def test_where_the_loop_cannot_close_there_is_no_number(make_vsv):
     # At −23.57° the assemblies are about to merge; 40 µm towards the crank opens the loop.
     vsv = make_vsv("exact")
-    vsv = replace(vsv, drive=Drive(np.radians(-23.57), np.radians(5.0), 1.0))
+    vsv = replace(vsv, drive=CrankMotion(np.radians(-23.57), np.radians(5.0), 1.0))
     inside = motion_table(vsv, 0.0, np.array([40e-6, 0.0, 0.0, 0.0]), np.zeros(4))
     beyond = motion_table(vsv, 0.0, np.array([-40e-6, 0.0, 0.0, 0.0]), np.zeros(4))
     assert np.degrees(inside[layout.THETA_V, layout.VALUE]) == pytest.approx(30.8, abs=0.1)

@@ -15,7 +15,7 @@ from axe_playwright_python.sync_playwright import Axe
 import tribodyn as td
 from tribodyn.figures.trajectory import centre
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.report import Run, write, write_comparison
+from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge
 from tribodyn.views.playback import playback_times
@@ -314,7 +314,7 @@ def test_worn_shapes_have_a_slider_of_their_own(opened: Opened, result: xr.Datas
 def test_a_comparison_shows_directory_names_as_text(
     opened: Opened, result: xr.Dataset, tmp_path: Path
 ) -> None:
-    runs = [Run("one", result), Run(HOSTILE, result.assign_attrs(case='case = "vsv"'))]
+    runs = [ComparedRun("one", result), ComparedRun(HOSTILE, result.assign_attrs(case='case = "vsv"'))]
     reader = opened(write_comparison(runs, tmp_path / "comparison.html"))
     reader.draw_everything()
     assert reader.page.locator("[data-widget]").count() == 6

@@ -12,7 +12,7 @@ import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.report import Run, write, write_comparison
+from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
@@ -133,7 +133,7 @@ def test_a_result_that_lacks_a_variable_is_refused_by_its_name_or_does_without(
 def test_no_text_of_two_results_becomes_part_of_their_comparison(
     each: dict[str, xr.Dataset], tmp_path: Path
 ) -> None:
-    good = [Run("one", each["vsv"]), Run("two", each["vsv"])]
-    bad = [Run("one", spoiled(each["vsv"])), Run(MARKUP, each["vsv"])]
+    good = [ComparedRun("one", each["vsv"]), ComparedRun("two", each["vsv"])]
+    bad = [ComparedRun("one", spoiled(each["vsv"])), ComparedRun(MARKUP, each["vsv"])]
     innocent = write_comparison(good, tmp_path / "good.html")
     assert_harmless(write_comparison(bad, tmp_path / "bad.html"), innocent)

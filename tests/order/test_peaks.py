@@ -9,7 +9,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.integrate import integrate
-from tribodyn.mechanisms.base import Run
+from tribodyn.mechanisms.base import FinishedRun
 from tribodyn.mechanisms.vsv.descriptor import MECHANISM
 
 PEAKED = {
@@ -32,7 +32,7 @@ def rows_around(case, times):
     wanted = np.unique(np.round(np.add.outer(times, grid), 9))
     rtol = case.solver.rtol
     solution = integrate(problem, solver="mebdf", rtol=rtol, output_times=wanted[wanted < case.duration])
-    return system.gather(Run(problem, solution, vars(solution.statistics))).columns
+    return system.gather(FinishedRun(problem, solution, vars(solution.statistics))).columns
 
 
 @pytest.fixture(scope="module")

@@ -66,6 +66,17 @@ def test_charts_are_described_without_matplotlib() -> None:
     assert not [view for view in sorted(views) if graph.chain_exists(importer=view, imported="matplotlib")]
 
 
+def test_no_two_classes_have_the_same_name() -> None:
+    """A name in a traceback, a signature or a search then means one class."""
+    places: dict[str, list[str]] = {}
+    for path in SOURCES:
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef):
+                places.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
+    shared = {name: files for name, files in places.items() if len(files) > 1}
+    assert not shared
+
+
 def _is_long(path: Path) -> bool:
     return len(path.read_text(encoding="utf-8").splitlines()) > LONG_FILE
 

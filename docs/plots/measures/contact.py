@@ -17,7 +17,7 @@ from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.quadrature import asperity_integral
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.papers.cheng_2022 import Runs
-from tribodyn.simulation.bounce import Row, bounces
+from tribodyn.simulation.bounce import BounceRow, bounces
 
 RESTITUTION: Final = 0.7
 BOUNCES: Final = (
@@ -119,7 +119,7 @@ def jump(runs: Runs, number: int) -> str:
 
 
 @cache
-def rows(restitution: float) -> dict[tuple[str, str], Row]:
+def rows(restitution: float) -> dict[tuple[str, str], BounceRow]:
     """Return the bounce test of the built-in case."""
     case = td.load_case("vsv").replace({"contact.restitution": restitution})
     (bearing,) = MECHANISMS["vsv"].bearings_of(case).values()

@@ -36,7 +36,7 @@ def lasts_a_cycle(times: Sequence[float], cycle: float | None) -> bool:
 
 
 @dataclass(frozen=True)
-class Followed:
+class FollowedTable:
     """A table that a load, a drive or a temperature of a case follows.
 
     Attributes
@@ -112,7 +112,7 @@ def followed(
     *,
     cycle: float | None = None,
     follows: Mapping[str, str] | None = None,
-) -> Iterator[Followed]:
+) -> Iterator[FollowedTable]:
     """Yield the tables that parts of a case follow, two for a map.
 
     Parameters
@@ -135,7 +135,7 @@ def followed(
         ends = _ends(keys[f"{path}.{VALUES}"], table.values) if len(axes) == 1 else ()
         for over, knots in axes.items():
             along = "" if over == "times" else names.get(path, "")
-            yield Followed(path, over, knots, ends, along, _period(over, knots, cycle), duration)
+            yield FollowedTable(path, over, knots, ends, along, _period(over, knots, cycle), duration)
 
 
 def _period(over: str, knots: tuple[float, ...], cycle: float | None) -> float:
@@ -150,7 +150,7 @@ def _ends(key: Key, values: tuple[float, ...]) -> tuple[str, str]:
     return first, last
 
 
-def of_tables(tables: Iterable[Followed]) -> Remarks:
+def of_tables(tables: Iterable[FollowedTable]) -> Remarks:
     """Return which tables repeat, and which of those over time a run leaves."""
     tables = tuple(tables)
     left = tuple(text for table in tables for text in table.left_over_time())

@@ -11,7 +11,7 @@ from tribodyn.cases.keys import ASSUMED
 SECTION_4 = "paper, section 4.2"
 
 
-class FilmGrid(Group):
+class FilmGridKeys(Group):
     """Cells of the film."""
 
     theta: int = count(96, "cells around the bushing", ASSUMED, ge=8, le=4096)
@@ -22,7 +22,7 @@ class FilmGrid(Group):
         demand(self.z % 2 == 0, "film.grid.z", "the film needs an even number of cells along the bushing")
 
 
-class Film(Group):
+class FilmKeys(Group):
     """The oil film: average Reynolds equation."""
 
     lubricated: bool = switch(False, "whether there is oil in the clearance", SECTION_4)
@@ -42,4 +42,4 @@ class Film(Group):
     rough_flow: bool = switch(
         True, "whether flow, shear and contact factors of rough surfaces act", "paper, Eq. 52"
     )
-    grid: FilmGrid = FilmGrid()
+    grid: FilmGridKeys = FilmGridKeys()

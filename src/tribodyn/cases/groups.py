@@ -93,7 +93,7 @@ class Surfaces(Group):
             "one of the two surfaces must be rough: a roughness above 0 is needed here or for the trunnion",
         )
 
-    def pair(self, asperities: Asperities) -> SurfacePair:
+    def pair(self, asperities: AsperityKeys) -> SurfacePair:
         """Return the two surfaces in contact, as contact laws take them."""
         from tribodyn.contact import SurfacePair
 
@@ -107,7 +107,7 @@ class Surfaces(Group):
         )
 
 
-class Asperities(Group):
+class AsperityKeys(Group):
     """The asperities of the equivalent rough surface."""
 
     density: float = quantity("0.038 1/um^2", "asperities per area xi", TABLE_1, gt=0)
@@ -307,7 +307,7 @@ class Tolerances(Group):
         return self.position, self.tilt, self.velocity, self.tilt_rate
 
 
-class Grid(Group):
+class GridKeys(Group):
     """Quadrature points over the bushing."""
 
     theta: int = count(96, "points around the bushing", ASSUMED, ge=12, le=4096)
@@ -320,7 +320,7 @@ class Solver(Group):
     name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
     rtol: float = number(1e-3, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
     atol: Tolerances = Tolerances()
-    grid: Grid = Grid()
+    grid: GridKeys = GridKeys()
 
 
 def check_output_interval(interval: float, duration: float) -> None:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from tribodyn.cases import materials
-from tribodyn.cases.beyond import Followed, of_tables
+from tribodyn.cases.beyond import FollowedTable, of_tables
 from tribodyn.cases.case import Case, demand
-from tribodyn.cases.groups import Asperities, Contact, Surfaces
+from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import Value, keys_of
 from tribodyn.cases.messages import Remarks
@@ -23,7 +23,7 @@ class RoughCase(Case):
     """A case with one pair of rough surfaces."""
 
     surfaces: Surfaces = Surfaces()
-    asperities: Asperities = Asperities()
+    asperities: AsperityKeys = AsperityKeys()
     contact: Contact = Contact()
 
     @classmethod
@@ -31,7 +31,7 @@ class RoughCase(Case):
         """Return the defaults that follow from the materials and from the contact law."""
         return materials.resolve(given, keys_of(cls)) | Contact.resolve(given)
 
-    def followed(self) -> Iterable[Followed]:
+    def followed(self) -> Iterable[FollowedTable]:
         """Return the tables that loads, drives and temperatures follow; by default there are none."""
         return ()
 

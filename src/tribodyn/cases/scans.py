@@ -20,7 +20,7 @@ from tribodyn.cases.units import from_si, to_si
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
-    from tribodyn.surfaces import Roughness, Treatment
+    from tribodyn.surfaces import MeasuredSurface, Treatment
 
 COMBINED: Final = "asperities.surface"
 EACH: Final = ("surfaces.trunnion.surface", "surfaces.bushing.surface")
@@ -76,7 +76,7 @@ class Equivalent:
         return "\n".join("\n".join([f"[{table}]", *lines, ""]) for table, lines in tables.items())
 
 
-def equivalent(*surfaces: Roughness) -> Equivalent:
+def equivalent(*surfaces: MeasuredSurface) -> Equivalent:
     """Return the equivalent rough surface of one that is rough against a smooth trunnion, or of two."""
     from tribodyn.surfaces import asperities
 
@@ -169,7 +169,7 @@ def entries_kept(
     return kept | dict(scans) if again else kept
 
 
-def _measured(path: str, key: Key, entry: Entry, treatment: Treatment) -> Roughness:
+def _measured(path: str, key: Key, entry: Entry, treatment: Treatment) -> MeasuredSurface:
     """Return the surface in the file that a key names, relative to the case file."""
     from tribodyn.surfaces import analyse, read_scan
 

@@ -81,7 +81,7 @@ class _Force(Group):
     values: Numbers | None = _values("0, 10, 30 N")
 
 
-class _Rows(NamedGroup):
+class _TableRows(NamedGroup):
     """What all tables have beside their values and what these stand over."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(itertools.product((TABLE,), (VALUES, *KNOTS)))
@@ -150,7 +150,7 @@ class _Rows(NamedGroup):
         return tuple(row[0] for row in doubled), tuple(row[1] for row in doubled)
 
 
-class _Timed(_Rows):
+class _Timed(_TableRows):
     """A table over time."""
 
     times: Numbers | None = series("of values", "", unit="s", example='"0, 0.5, 1 s"')
@@ -180,7 +180,7 @@ class TemperatureTable(_Timed):
     values: Numbers | None = _values("20, 200, 300 degC")
 
 
-class ProfileTable(_Rows):
+class ProfileTable(_TableRows):
     """A deviation of a radius over a position."""
 
     positions: Numbers | None = series("of values", "", unit="mm", example='"-10, 0, 10 mm"')
@@ -211,7 +211,7 @@ class BoreMap(NamedGroup):
         demand(len(angles) > 3 and angles[-1] - angles[0] < _TURN, "angles", words)
 
 
-class LineLoadTable(_Rows):
+class LineLoadTable(_TableRows):
     """A load per length over a position."""
 
     positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')

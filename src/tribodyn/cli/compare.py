@@ -17,7 +17,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, on_one_line
 
 if TYPE_CHECKING:
-    from tribodyn.report import Differences, Run
+    from tribodyn.report import ComparedRun, RunDifferences
 
 HELP = "several runs in one report: what differs, and their curves over each other"
 
@@ -63,7 +63,7 @@ def execute(args: Namespace) -> int:
     return 0
 
 
-def _in_words(names: Sequence[str], found: Differences) -> Iterator[str]:
+def _in_words(names: Sequence[str], found: RunDifferences) -> Iterator[str]:
     """Give a table of what differs in the cases, and of what came of it; grey where numbers are doubtful."""
     from tribodyn.results.summary import caution
 
@@ -92,10 +92,10 @@ def _row(row: Mapping[str, Any]) -> list[str]:
     return [f"{row['label']} {row['unit']}".rstrip(), *cells]
 
 
-def _runs(directories: Sequence[str], target: Path) -> list[Run]:
+def _runs(directories: Sequence[str], target: Path) -> list[ComparedRun]:
     """Return the runs, named by their directories."""
     from tribodyn.mechanisms.results import read
-    from tribodyn.report import Run
+    from tribodyn.report import ComparedRun
 
     for directory in directories:
         if not os.path.isdir(directory):
@@ -104,7 +104,7 @@ def _runs(directories: Sequence[str], target: Path) -> list[Run]:
                 key="DIR",
             )
     return [
-        Run(name, read(directory), _link(Path(directory), target))
+        ComparedRun(name, read(directory), _link(Path(directory), target))
         for name, directory in zip(_names(directories), directories, strict=True)
     ]
 

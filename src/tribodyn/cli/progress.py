@@ -48,7 +48,7 @@ class Progress(AbstractContextManager["Progress"], Protocol):
         """Print a line about the work."""
 
 
-class Lines:
+class ProgressLines:
     """Progress as plain lines, for logs and pipes."""
 
     def __init__(self, total: float, console: Console, measure: Measure) -> None:
@@ -58,7 +58,7 @@ class Lines:
         self._shown = 0
         self._began = time.monotonic()
 
-    def __enter__(self) -> Lines:
+    def __enter__(self) -> ProgressLines:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -131,5 +131,5 @@ def progress(total: float, console: Console, measure: Measure = SIMULATED) -> Pr
         What is counted.
     """
     if console.quiet or not is_terminal(sys.stderr):
-        return Lines(total, console, measure)
+        return ProgressLines(total, console, measure)
     return Bar(total, console, measure)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from tribodyn.surfaces import Roughness, Scan, Treatment
+    from tribodyn.surfaces import MeasuredSurface, Scan, Treatment
 
 HELP = "roughness, asperities and their dependence on the cut-offs from a measured profile or map"
 _DOCUMENT, _BLOCK, _FIGURE = "surface.json", "asperities.toml", "surface.png"
@@ -121,7 +121,7 @@ def _quantity(text: str, unit: str, key: str) -> float:
     return value
 
 
-def _drawn(surface: Roughness, others: list[Roughness]) -> Figure:
+def _drawn(surface: MeasuredSurface, others: list[MeasuredSurface]) -> Figure:
     from tribodyn.figures.surface import draw
 
     return draw(surface, others)

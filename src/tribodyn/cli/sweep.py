@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from tribodyn.cases import Case
-    from tribodyn.studies import Arrival, Means, Plan, Tls
+    from tribodyn.studies import Arrival, Means, SweepPlan, Tls
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
 _STOPPING: Final = "stopping; finished points are kept; interrupt again to leave at once"
@@ -197,7 +197,7 @@ def _variations(texts: list[str]) -> dict[str, str]:
     return variations
 
 
-def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
+def _computed(plan: SweepPlan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
     # What draws in the end is imported here, while the fork server still gets ready.
     from tribodyn import report  # noqa: F401
     from tribodyn.studies import Watcher, run
@@ -210,7 +210,7 @@ def _computed(plan: Plan, path: Path, means: Means, console: Console, stop: Inte
 class _Shown:
     """Shows the arrival of points; the bar opens when it is known how many there are to compute."""
 
-    def __init__(self, plan: Plan, console: Console, stack: ExitStack, means: Means) -> None:
+    def __init__(self, plan: SweepPlan, console: Console, stack: ExitStack, means: Means) -> None:
         self._plan, self._means = plan, means
         self._n_points = len(plan.points)
         self._console = console

@@ -27,7 +27,7 @@ _MEMBERS = (
     "greenwood_tripp:GreenwoodTripp",
     "chang_etsion_bogy:ChangEtsionBogy",
     "jackson_green:JacksonGreen",
-    "linear:Linear",
+    "linear:LinearContact",
 )
 """Every law, one line each: its file and its class."""
 

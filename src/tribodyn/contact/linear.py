@@ -24,7 +24,7 @@ CORNER: Final = 0.1
 
 
 @dataclass(frozen=True)
-class Linear(ContactLaw):
+class LinearContact(ContactLaw):
     """A bed of equal springs.
 
     Parameters

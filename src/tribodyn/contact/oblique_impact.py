@@ -37,7 +37,7 @@ _DEEPER: Final = 1.05
 
 
 @dataclass(frozen=True)
-class Sphere:
+class ImpactingSphere:
     """A sphere, the plate that it hits and the contact between them.
 
     Attributes
@@ -105,7 +105,7 @@ class Rebound:
 
 
 def rebound(
-    sphere: Sphere, speed: float, incidence: float, law: TangentialLaw, *, steps: int = STEPS
+    sphere: ImpactingSphere, speed: float, incidence: float, law: TangentialLaw, *, steps: int = STEPS
 ) -> Rebound:
     """Return how a sphere without spin leaves a plate.
 
@@ -137,10 +137,10 @@ def rebound(
     return Rebound(-sinking / approach, 1.0 + impulse / (sphere.mass * slide), spin)
 
 
-class _Contact(Protocol):
+class _ContactForce(Protocol):
     """A tangential law in steps of time."""
 
-    def __init__(self, sphere: Sphere, deepest: float, step: float) -> None: ...
+    def __init__(self, sphere: ImpactingSphere, deepest: float, step: float) -> None: ...
 
     def impulse(self, depth: float, damped: float, slip: float) -> float:
         """Return the tangential impulse of a step [N s] at a penetration [m] and slip velocity [m/s]."""
@@ -149,7 +149,7 @@ class _Contact(Protocol):
 class _Regularised:
     """Regularised Coulomb friction, solved implicitly because it is stiff."""
 
-    def __init__(self, sphere: Sphere, deepest: float, step: float) -> None:
+    def __init__(self, sphere: ImpactingSphere, deepest: float, step: float) -> None:
         self.sphere, self.step = sphere, step
 
     def impulse(self, depth: float, damped: float, slip: float) -> float:
@@ -170,7 +170,7 @@ class _Regularised:
 class _Compliant:
     """Springs along a parabola, each with Coulomb friction."""
 
-    def __init__(self, sphere: Sphere, deepest: float, step: float) -> None:
+    def __init__(self, sphere: ImpactingSphere, deepest: float, step: float) -> None:
         self.sphere, self.step = sphere, step
         radius = math.sqrt(sphere.radius * deepest * _DEEPER)
         self.gap = (radius * (np.arange(_SPRINGS) + 0.5) / _SPRINGS) ** 2 / sphere.radius
@@ -185,4 +185,7 @@ class _Compliant:
         return -self.step * modulus * self.width * float(self.stretch.sum())
 
 
-_CONTACTS: Final[dict[TangentialLaw, type[_Contact]]] = {"regularised": _Regularised, "compliant": _Compliant}
+_CONTACTS: Final[dict[TangentialLaw, type[_ContactForce]]] = {
+    "regularised": _Regularised,
+    "compliant": _Compliant,
+}

@@ -52,7 +52,7 @@ class CompiledFunctions:
         ``rhs(t, y, data, memory, f)`` fills ``f`` (n,) with dy/dt.
     jac
         ``jac(t, y, data, memory, f, jacobian)`` fills ``f`` and ``jacobian`` (n, n), or (n_entries,)
-        where the problem has an :class:`Algebra`.
+        where the problem has an :class:`LinearSolver`.
     enter
         ``enter(t, y, data, memory)`` begins a segment at ``t``.
     advance
@@ -77,7 +77,7 @@ class CompiledFunctions:
 
 
 @dataclass(frozen=True)
-class Algebra:
+class LinearSolver:
     """How a problem of many states solves with its Newton matrix M − γJ itself, in less than n² numbers.
 
     M is the mass matrix of the problem, 1 where it has none.
@@ -189,7 +189,7 @@ class Problem:
     n_observed: int
     field_shape: tuple[int, ...]
     relative: FloatArray | None = None
-    algebra: Algebra | None = None
+    algebra: LinearSolver | None = None
     mass: Any = None
     index: tuple[int, ...] = ()
     following: Following | None = None

@@ -15,7 +15,7 @@ from tribodyn.figures import style
 from tribodyn.figures.base import Family
 from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Marks, Panel
+from tribodyn.views.curves import ChartCurve, ChartMarks, Panel
 from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import series
@@ -89,7 +89,7 @@ def _draw_panel(axes: Axes, panel: Panel, time: FloatArray) -> None:
     style.finish(axes, y_label=panel.label)
 
 
-def _draw_marks(axes: Axes, marks: Marks, scale: float) -> None:
+def _draw_marks(axes: Axes, marks: ChartMarks, scale: float) -> None:
     middle = float(np.mean(axes.get_ylim()))
     axes.plot(scale * marks.times, marks.values, "o", ms=4.5, mfc="white", mec=style.BLUE, mew=1.2, zorder=4)
     for time, value, label in zip(scale * marks.times, marks.values, marks.labels, strict=False):
@@ -99,5 +99,5 @@ def _draw_marks(axes: Axes, marks: Marks, scale: float) -> None:
         )
 
 
-def _looks(curve: Curve) -> tuple[FloatArray, str, str, style.LineStyle]:
+def _looks(curve: ChartCurve) -> tuple[FloatArray, str, str, style.LineStyle]:
     return curve.values, curve.name, COLOURS[curve.colour], DASHES[curve.dash]

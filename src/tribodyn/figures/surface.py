@@ -30,7 +30,7 @@ from tribodyn.figures.style import (
     note,
     sheet,
 )
-from tribodyn.surfaces import Roughness
+from tribodyn.surfaces import MeasuredSurface
 from tribodyn.surfaces.spectrum import in_bands, spectra
 
 TITLE: Final = "Measured surface"
@@ -41,7 +41,7 @@ _WIDEST: Final = 6.0
 """Heights shown [σ]; what stands beyond is in the kurtosis."""
 
 
-def draw(surface: Roughness, others: Sequence[Roughness]) -> Figure:
+def draw(surface: MeasuredSurface, others: Sequence[MeasuredSurface]) -> Figure:
     """Draw a surface.
 
     Parameters
@@ -74,7 +74,7 @@ def draw(surface: Roughness, others: Sequence[Roughness]) -> Figure:
     return figure
 
 
-def _heights(axes: Axes, surface: Roughness) -> None:
+def _heights(axes: Axes, surface: MeasuredSurface) -> None:
     """Draw the profile, or the map with a bar of its heights."""
     scan = surface.surface
     if not scan.is_map:
@@ -104,7 +104,7 @@ def _heights(axes: Axes, surface: Roughness) -> None:
     bar.outline.set_visible(False)
 
 
-def _distribution(axes: Axes, surface: Roughness) -> None:
+def _distribution(axes: Axes, surface: MeasuredSurface) -> None:
     """Draw the density of the heights beside that of a Gaussian."""
     heights = surface.surface.heights[~np.isnan(surface.surface.heights)] / surface.sigma
     density, edges = np.histogram(heights, bins=_BINS, range=(-_WIDEST, _WIDEST), density=True)
@@ -119,7 +119,7 @@ def _distribution(axes: Axes, surface: Roughness) -> None:
     axes.legend(loc="lower center", frameon=False, fontsize=SMALL)
 
 
-def _spectrum(axes: Axes, surface: Roughness) -> None:
+def _spectrum(axes: Axes, surface: MeasuredSurface) -> None:
     """Draw the densities of profiles along the axes over the wavelength, long waves at the left."""
     dashes = {"x": (BLUE, SOLID), "y": (VERMILION, DASHED)}
     top = 0.0
@@ -140,7 +140,7 @@ def _spectrum(axes: Axes, surface: Roughness) -> None:
     axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
 
 
-def _cutoffs(axes: Axes, cases: Sequence[tuple[float | None, Roughness]], label: str) -> None:
+def _cutoffs(axes: Axes, cases: Sequence[tuple[float | None, MeasuredSurface]], label: str) -> None:
     """Draw σ, β and the distance of asperities over a cut-off."""
     finish(axes, label, "length [µm]")
     if not cases:

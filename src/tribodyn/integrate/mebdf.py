@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
-from tribodyn.core.problem import Algebra, Problem, Solution
+from tribodyn.core.problem import LinearSolver, Problem, Solution
 from tribodyn.integrate.binding import argument_types, is_compiled
 from tribodyn.integrate.driver import Walk
 from tribodyn.integrate.schedule import Schedule
@@ -194,7 +194,7 @@ class _CompiledWalk(Walk):
         jacobian: FloatArray = state.matrices[JACOBIAN] if self._own is None else self._own.jacobian
         return jacobian
 
-    def _new_matrix(self, algebra: Algebra) -> OwnMatrix:
+    def _new_matrix(self, algebra: LinearSolver) -> OwnMatrix:
         from tribodyn.kernels.mebdf.own import OwnMatrix
 
         entry, last, previous = np.zeros((3, algebra.n_entries or algebra.places.shape[1]))

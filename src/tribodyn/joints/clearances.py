@@ -28,7 +28,7 @@ SPHERE: Final = "point-lankarani-nikravesh"
 """The point contact that a ball in a race can have."""
 
 
-class Clearance(Protocol):
+class JointClearance(Protocol):
     """What makes an ideal joint a real one; meanings as in ``mechanisms/general/description.py``."""
 
     @property
@@ -107,7 +107,7 @@ class Place:
     nodes: slice
 
 
-def shape_of(clearance: Clearance) -> Shape:
+def shape_of(clearance: JointClearance) -> Shape:
     """Return the shape of a clearance."""
     if clearance.shape not in SHAPES:
         raise InputError(f"given {clearance.shape!r}; allowed: {', '.join(SHAPES)}", key="shape")
@@ -133,7 +133,7 @@ def table_of(
     return point_table(contact, law, points, len(points.heights))
 
 
-def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
+def places(clearances: Sequence[JointClearance]) -> tuple[Place, ...]:
     """Return where the surfaces of clearance joints lie, joint by joint.
 
     Raises
@@ -150,7 +150,7 @@ def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
     return tuple(found)
 
 
-def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) -> SurfaceData:
+def assemble(clearances: Sequence[JointClearance], wear: FloatArray | None = None) -> SurfaceData:
     """Return what the kernels of ``kernels/joints/surface`` read.
 
     Parameters
@@ -220,7 +220,7 @@ def _intervals(table: ContactTable) -> int:
     return int(table.nodes.shape[0]) + 1
 
 
-def _fill_law(record: Record, clearance: Clearance) -> None:
+def _fill_law(record: Record, clearance: JointClearance) -> None:
     """Tell a surface how it touches."""
     for name in ("roughness", "friction_coefficient", "slip_velocity", "onset"):
         record[name] = getattr(clearance, name)
@@ -233,7 +233,7 @@ def _fill_law(record: Record, clearance: Clearance) -> None:
         record["heights"][: len(points.heights)] = points.heights
 
 
-def _reach(clearance: Clearance, nodes: FloatArray) -> tuple[float, float]:
+def _reach(clearance: JointClearance, nodes: FloatArray) -> tuple[float, float]:
     """Return how far a shaft may be displaced across and along its axis within a surface of these nodes [m].
 
     Across it has left its bore when the wall is thinner than the shaft and behind it. Along, where it is not

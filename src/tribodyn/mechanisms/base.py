@@ -67,7 +67,7 @@ class Worn:
 
 
 @dataclass(frozen=True)
-class Nodes:
+class WearNodes:
     """The nodes of all that wears.
 
     Attributes
@@ -86,7 +86,7 @@ class Nodes:
 
 
 @dataclass(frozen=True)
-class Run:
+class FinishedRun:
     """A finished or interrupted integration on its way to a result.
 
     Attributes
@@ -115,7 +115,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Part:
+class ResultPart:
     """A part of a result: coordinates, columns, fields, attributes and warnings, by their names in it.
 
     Attributes
@@ -194,7 +194,7 @@ class WearingCase(SystemCase, Protocol):
         ...
 
 
-class System(Protocol):
+class SimulatedSystem(Protocol):
     """What one case describes, ready to be integrated."""
 
     def check(self) -> Sequence[str]:
@@ -225,16 +225,16 @@ class System(Protocol):
         """Return the times of the fields [s], increasing; none where no field is kept."""
         ...
 
-    def gather(self, run: Run) -> Part:
+    def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run; rows of no length give columns of no length."""
         ...
 
 
-class WearingSystem(System, Protocol):
+class WearingSystem(SimulatedSystem, Protocol):
     """A system whose joints wear, in cycles of its drive."""
 
     @property
-    def nodes(self) -> Nodes:
+    def nodes(self) -> WearNodes:
         """Where they wear; no nodes where all joints are ideal."""
         ...
 
@@ -256,11 +256,11 @@ class WearingSystem(System, Protocol):
         """Return wear depths [m], the nodes being the last dimensions, as results hold ``wear_depth``."""
         ...
 
-    def carried(self, run: Run) -> Carried:
+    def carried(self, run: FinishedRun) -> Carried:
         """Return what the next cycle goes on from."""
         ...
 
-    def of_cycle(self, run: Run) -> dict[str, float]:
+    def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return what a campaign writes down about the motion of a complete cycle, by name."""
         ...
 
@@ -279,7 +279,7 @@ def plain(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class MechanismDescriptor:
     """All that is known of one kind of case.
 
     What compiles or draws stands in modules of the mechanism's folder that are imported when they are asked
@@ -340,9 +340,9 @@ class Mechanism:
         """Its name under ``case =`` in a file."""
         return self.case.kind()
 
-    def system(self, case: SystemCase) -> System:
+    def system(self, case: SystemCase) -> SimulatedSystem:
         """Return the system of a case: ``SYSTEM`` of ``system.py``, called with it."""
-        return cast(System, self._module("system").SYSTEM(case))
+        return cast(SimulatedSystem, self._module("system").SYSTEM(case))
 
     def workload(self, case: SystemCase) -> Workload:
         """Return how much a run of a case computes and keeps: ``WORKLOAD`` of ``workload.py``."""

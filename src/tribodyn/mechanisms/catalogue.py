@@ -15,7 +15,7 @@ from tribodyn.cases.entry import Entry
 from tribodyn.cases.load import BuiltIn
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import brief
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 
 FOLDERS: Final = (
     "vsv",
@@ -25,11 +25,13 @@ FOLDERS: Final = (
 """Every mechanism by its folder beside this file, whose ``descriptor.py`` holds its ``MECHANISM``."""
 
 
-def _described(folder: str) -> Mechanism:
-    return cast(Mechanism, importlib.import_module(f"tribodyn.mechanisms.{folder}.descriptor").MECHANISM)
+def _described(folder: str) -> MechanismDescriptor:
+    return cast(
+        MechanismDescriptor, importlib.import_module(f"tribodyn.mechanisms.{folder}.descriptor").MECHANISM
+    )
 
 
-MECHANISMS: Final[dict[str, Mechanism]] = {
+MECHANISMS: Final[dict[str, MechanismDescriptor]] = {
     mechanism.kind: mechanism for mechanism in map(_described, FOLDERS)
 }
 """Every mechanism, by the kind of its cases."""

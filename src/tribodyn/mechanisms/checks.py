@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.cases.beyond import Followed
+from tribodyn.cases.beyond import FollowedTable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.touch import Touch
@@ -170,7 +170,7 @@ def _of_liner(touch: Touch, separation: float) -> list[str]:
 
 
 def of_tables(
-    tables: Iterable[Followed], times: FloatArray, coordinate: Callable[[Followed], FloatArray]
+    tables: Iterable[FollowedTable], times: FloatArray, coordinate: Callable[[FollowedTable], FloatArray]
 ) -> list[str]:
     """Return which tables over angles or positions a run leaves.
 

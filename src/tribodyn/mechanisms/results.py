@@ -11,7 +11,7 @@ import xarray as xr
 
 from tribodyn.cases.case import Case
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import store, summary
 from tribodyn.results.headline import Headline
@@ -44,7 +44,7 @@ def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] 
     return store.write_run(dataset, directory, summarise(dataset), stale)
 
 
-def mechanism_of(dataset: xr.Dataset) -> Mechanism:
+def mechanism_of(dataset: xr.Dataset) -> MechanismDescriptor:
     """Return the mechanism that a result is of.
 
     Raises

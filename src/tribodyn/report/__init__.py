@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from tribodyn.report.comparison import Differences, Run, differences, write_comparison
+from tribodyn.report.comparison import ComparedRun, RunDifferences, differences, write_comparison
 from tribodyn.report.figures import draw_all, figures_of
 from tribodyn.report.write import write
 
-__all__ = ["Differences", "Run", "differences", "draw_all", "figures_of", "write", "write_comparison"]
+__all__ = [
+    "ComparedRun",
+    "RunDifferences",
+    "differences",
+    "draw_all",
+    "figures_of",
+    "write",
+    "write_comparison",
+]

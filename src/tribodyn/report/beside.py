@@ -9,7 +9,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.mechanisms.results import mechanism_of, read
-from tribodyn.report.parallel import Axis, Point
+from tribodyn.report.parallel import ParallelAxis, ParallelPoint
 from tribodyn.results.store import POINTS, RESULT
 from tribodyn.views.overlay import overlays
 from tribodyn.views.section import Chapter
@@ -20,7 +20,7 @@ LEAD: Final = "Press the name of a run below a plot to hide or show it."
 
 
 def curves_over_each_other(
-    axes: Sequence[Axis], points: Sequence[Point], folder: Path | None
+    axes: Sequence[ParallelAxis], points: Sequence[ParallelPoint], folder: Path | None
 ) -> list[Chapter]:
     """Return the chapter with the curves of all points; none of many, or where results were not kept."""
     if folder is None or not 2 <= len(points) <= MOST:
@@ -41,13 +41,13 @@ def chapter_of(runs: dict[str, xr.Dataset]) -> Chapter:
     return Chapter("curves", "Curves over each other", LEAD, overlays(list(planned.values()), runs))
 
 
-def _kept(folder: Path, point: Point) -> bool:
+def _kept(folder: Path, point: ParallelPoint) -> bool:
     """Tell whether the whole result of a point is there; a name or a link could lead elsewhere."""
     place = folder / POINTS / point.name
     inside = Path(point.name).name == point.name and not place.is_symlink()
     return inside and (place / RESULT).is_file()
 
 
-def _name(axes: Sequence[Axis], number: int) -> str:
+def _name(axes: Sequence[ParallelAxis], number: int) -> str:
     """Return what was varied to get a point."""
     return ", ".join(f"{axis.label}: {axis.texts[number]}" for axis in axes if axis.parameter)

@@ -28,7 +28,7 @@ NOTABLE: Final = 0.01
 
 
 @dataclass(frozen=True)
-class Run:
+class ComparedRun:
     """A run to compare.
 
     Attributes
@@ -47,7 +47,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Differences:
+class RunDifferences:
     """What differs between runs, the first of which the others are compared with.
 
     Attributes
@@ -69,13 +69,13 @@ class Differences:
     summaries: Sequence[Mapping[str, Any]]
 
 
-def differences(results: Sequence[xr.Dataset]) -> Differences:
+def differences(results: Sequence[xr.Dataset]) -> RunDifferences:
     """Return what differs between results, like beside like."""
     summaries, stretch = _compared(results)
-    return Differences(_different_keys(results), _numbers(summaries), stretch, summaries)
+    return RunDifferences(_different_keys(results), _numbers(summaries), stretch, summaries)
 
 
-def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
+def write_comparison(runs: Sequence[ComparedRun], target: str | Path) -> Path:
     """Write the page that compares runs.
 
     Parameters
@@ -98,7 +98,7 @@ def write_comparison(runs: Sequence[Run], target: str | Path) -> Path:
     return path
 
 
-def render(runs: Sequence[Run]) -> str:
+def render(runs: Sequence[ComparedRun]) -> str:
     """Return the page as text."""
     planned = chapter_of({run.name: run.dataset for run in runs})
     shown, payloads = chapters(runs[0].dataset, [planned])
@@ -135,7 +135,7 @@ def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]
     return summaries, stretch
 
 
-def _about(run: Run, summary: Mapping[str, Any]) -> dict[str, Any]:
+def _about(run: ComparedRun, summary: Mapping[str, Any]) -> dict[str, Any]:
     """Return name, title and doubts of a run."""
     failure = f"stopped at t = {in_words(summary.get('simulated_time_s', 0.0))} s: {summary['failure']}"
     caution_of_run = caution(summary["doubtful"])

@@ -22,7 +22,7 @@ _MOST_AT_FIRST: Final = 6
 
 
 @dataclass(frozen=True)
-class Axis:
+class ParallelAxis:
     """One axis.
 
     Attributes
@@ -49,7 +49,7 @@ class Axis:
     parameter: bool
 
 
-def axes_of(dataset: xr.Dataset) -> list[Axis]:
+def axes_of(dataset: xr.Dataset) -> list[ParallelAxis]:
     """Return all axes of a sweep, parameters first."""
     dims = dataset["failure"].dims
     varied = json.loads(str(dataset.attrs.get("varied", "[]")))
@@ -62,32 +62,32 @@ def axes_of(dataset: xr.Dataset) -> list[Axis]:
     return parameters + numbers
 
 
-def _parameter(dataset: xr.Dataset, name: str, dims: tuple[Any, ...]) -> Axis:
+def _parameter(dataset: xr.Dataset, name: str, dims: tuple[Any, ...]) -> ParallelAxis:
     """Return the axis of a parameter, in the unit it was given in."""
     flat = dataset[name].broadcast_like(dataset["failure"]).transpose(*dims).values.ravel()
     unit = as_read(str(dataset[name].attrs.get("shown_unit", "")))
     label = f"{name} [{unit}]" if unit else name
     if flat.dtype.kind in "fiu":
         values = flat / float(dataset[name].attrs.get("shown_scale", 1.0))
-        return Axis(name, label, values, tuple(in_words(float(v)) for v in values), (), True)
+        return ParallelAxis(name, label, values, tuple(in_words(float(v)) for v in values), (), True)
     texts = tuple(str(value) for value in flat.tolist())
     categories = tuple(dict.fromkeys(texts))
     places = np.array([categories.index(text) for text in texts], dtype=np.float64)
-    return Axis(name, label, places, texts, categories, True)
+    return ParallelAxis(name, label, places, texts, categories, True)
 
 
-def _number(dataset: xr.Dataset, name: str) -> Axis:
+def _number(dataset: xr.Dataset, name: str) -> ParallelAxis:
     """Return the axis of a headline number."""
     about = dataset[name].attrs
     unit = str(about.get("units", ""))
     label = str(about.get("long_name", name)) + (f" [{unit}]" if unit not in ("", "1") else "")
     values = np.asarray(dataset[name].values, dtype=np.float64).ravel()
     texts = tuple(in_words(float(value)) if np.isfinite(value) else "—" for value in values)
-    return Axis(name, label, values, texts, (), False)
+    return ParallelAxis(name, label, values, texts, (), False)
 
 
 @dataclass(frozen=True)
-class Point:
+class ParallelPoint:
     """One point of a sweep.
 
     Attributes
@@ -108,7 +108,7 @@ class Point:
     doubtful: str = ""
 
 
-def points_of(dataset: xr.Dataset, folder: Path | None) -> list[Point]:
+def points_of(dataset: xr.Dataset, folder: Path | None) -> list[ParallelPoint]:
     """Return the points of a sweep.
 
     Parameters
@@ -122,7 +122,7 @@ def points_of(dataset: xr.Dataset, folder: Path | None) -> list[Point]:
     failures = [str(failure) for failure in dataset["failure"].values.ravel()]
     given = dataset["doubtful"].values.ravel() if "doubtful" in dataset else [""] * len(names)
     return [
-        Point(name, failure, _link(folder, name), str(doubt))
+        ParallelPoint(name, failure, _link(folder, name), str(doubt))
         for name, failure, doubt in zip(names, failures, given, strict=True)
     ]
 
@@ -134,14 +134,16 @@ def _link(folder: Path | None, name: str) -> str:
     return quote(report.as_posix()) if inside else ""
 
 
-def at_first(axes: list[Axis], key_numbers: Collection[str]) -> list[str]:
+def at_first(axes: list[ParallelAxis], key_numbers: Collection[str]) -> list[str]:
     """Return the names of the axes that are shown first: key numbers, where there are any, or the first."""
     numbers = [axis.name for axis in axes if not axis.parameter and np.isfinite(axis.values).any()]
     wanted = [name for name in key_numbers if name in numbers] or numbers
     return [axis.name for axis in axes if axis.parameter] + wanted[:_MOST_AT_FIRST]
 
 
-def payload(axes: list[Axis], points: list[Point], key_numbers: Collection[str]) -> Payload | None:
+def payload(
+    axes: list[ParallelAxis], points: list[ParallelPoint], key_numbers: Collection[str]
+) -> Payload | None:
     """Return what the script reads; nothing where no point has numbers."""
     if not any(np.isfinite(axis.values).any() for axis in axes if not axis.parameter):
         return None

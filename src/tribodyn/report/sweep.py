@@ -13,7 +13,7 @@ from tribodyn.report.beside import curves_over_each_other
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.report.page import page
-from tribodyn.report.parallel import Axis, Point, at_first, axes_of, payload, points_of
+from tribodyn.report.parallel import ParallelAxis, ParallelPoint, at_first, axes_of, payload, points_of
 from tribodyn.results.summary import caution
 from tribodyn.views.section import Chapter, Section
 
@@ -68,13 +68,13 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
     )
 
 
-def _columns(axes: Sequence[Axis], first: Collection[str]) -> list[Axis]:
+def _columns(axes: Sequence[ParallelAxis], first: Collection[str]) -> list[ParallelAxis]:
     """Return what the table of points shows."""
     names = at_first(list(axes), first)
     return [axis for axis in axes if axis.name in names]
 
 
-def _reasons(lost: Sequence[Point]) -> list[dict[str, Any]]:
+def _reasons(lost: Sequence[ParallelPoint]) -> list[dict[str, Any]]:
     """Return the reasons why points have no numbers, each once, the most frequent first."""
     counts: dict[str, int] = {}
     for point in lost:
@@ -82,7 +82,7 @@ def _reasons(lost: Sequence[Point]) -> list[dict[str, Any]]:
     return [{"text": text, "count": counts[text]} for text in sorted(counts, key=lambda text: -counts[text])]
 
 
-def _range(axis: Axis) -> dict[str, Any]:
+def _range(axis: ParallelAxis) -> dict[str, Any]:
     """Return name, smallest and largest value of an axis, with the points that have them."""
     order = [int(k) for k in axis.values.argsort() if axis.values[k] == axis.values[k]]
     if axis.categories or not order:
@@ -100,7 +100,7 @@ def _range(axis: Axis) -> dict[str, Any]:
     }
 
 
-def _row(number: int, point: Point, columns: Sequence[Axis]) -> dict[str, Any]:
+def _row(number: int, point: ParallelPoint, columns: Sequence[ParallelAxis]) -> dict[str, Any]:
     """Return a point for the table."""
     return {
         "number": number + 1,

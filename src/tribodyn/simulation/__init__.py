@@ -13,7 +13,7 @@ from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.stopping import Stop, asked
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.base import Mechanism, Part, SystemCase
+from tribodyn.mechanisms.base import MechanismDescriptor, ResultPart, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
 from tribodyn.simulation.costs import Estimate, estimated
@@ -99,11 +99,11 @@ def _simulated(
 ) -> xr.Dataset:
     session = _session(case, progress, stop)
     if not session.mechanism.of_cycle:
-        return session.dataset(session.integrated(case.duration), Part())
+        return session.dataset(session.integrated(case.duration), ResultPart())
     return simulate_campaign(session, checkpoint) if case.campaign_cycles else simulate_plain(session)
 
 
-def _mechanism(case: Case) -> Mechanism:
+def _mechanism(case: Case) -> MechanismDescriptor:
     kind: str = getattr(case, "case", "")
     if kind not in MECHANISMS:
         raise InputError(f"given {kind!r}; allowed: {', '.join(MECHANISMS)}", key="case")
@@ -119,7 +119,7 @@ def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Sessio
 def _first_steps(case: Case) -> str:
     """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did."""
     session = _session(case, stop=lambda: True)
-    return str(session.dataset(session.integrated(case.duration), Part()).attrs["failure"])
+    return str(session.dataset(session.integrated(case.duration), ResultPart()).attrs["failure"])
 
 
 def prepare(case: Case, stop: Stop = None) -> None:

@@ -15,7 +15,7 @@ from tribodyn.mechanisms.bushing import Bearing
 
 
 @dataclass(frozen=True)
-class Row:
+class BounceRow:
     """Restitution wanted and realised, of one law with one damping factor.
 
     Attributes
@@ -38,7 +38,7 @@ class Row:
     shaft: float
 
 
-def bounces(bearing: Bearing, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[Row]:
+def bounces(bearing: Bearing, names: Iterable[str] = LAWS, *, mass: float = 0.253) -> Iterator[BounceRow]:
     """Drop a plate and a shaft on laws with every damping factor, on the surfaces of a joint.
 
     Both arrive with the energy that takes them to ``contact.design_pressure`` without damping.
@@ -64,7 +64,7 @@ def _own_restitution(bearing: Bearing) -> float:
     return float(law.meant_restitution(np.array([law.design_separation()]))[0])
 
 
-def _row(bearing: Bearing, name: str, factor: str, wanted: float, mass: float) -> Row:
+def _row(bearing: Bearing, name: str, factor: str, wanted: float, mass: float) -> BounceRow:
     changes = {"law": name, "damping_factor": factor, "restitution": wanted, "loss_coefficient": None}
     contact = bearing.contact.model_copy(update=changes)
     onset, pressure = contact.onset_separation, contact.design_pressure
@@ -81,7 +81,7 @@ def _row(bearing: Bearing, name: str, factor: str, wanted: float, mass: float) -
         table=table,
     )
     speed = design_speed(joint, mass=mass, pressure=pressure)
-    return Row(
+    return BounceRow(
         law=name,
         factor=factor,
         wanted=wanted,

@@ -25,7 +25,7 @@ from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
 
 
 @dataclass(frozen=True)
-class Plan:
+class CampaignPlan:
     """What is asked of a campaign.
 
     Attributes
@@ -145,7 +145,7 @@ class Campaign:
 
 
 def run_campaign(
-    system: Cycles, plan: Plan, resumed: Campaign | None, keep: Callable[[Campaign], None]
+    system: Cycles, plan: CampaignPlan, resumed: Campaign | None, keep: Callable[[Campaign], None]
 ) -> tuple[Campaign, Cycle]:
     """Run a campaign to its end, or to a cycle that fails.
 
@@ -189,7 +189,7 @@ def run_campaign(
     return worn, cycle
 
 
-def _settled(system: Cycles, plan: Plan) -> tuple[Campaign, Cycle | None]:
+def _settled(system: Cycles, plan: CampaignPlan) -> tuple[Campaign, Cycle | None]:
     """Simulate the cycles that let the start die away; return also the last of them, if there is any."""
     nothing = np.zeros(plan.node_area.shape)
     worn = Campaign(
@@ -214,12 +214,12 @@ def _settled(system: Cycles, plan: Plan) -> tuple[Campaign, Cycle | None]:
     return worn, cycle
 
 
-def _gap(worn: Campaign, plan: Plan) -> FloatArray:
+def _gap(worn: Campaign, plan: CampaignPlan) -> FloatArray:
     """Return the wear depth that the contact feels [m]."""
     return worn.depth if plan.feedback else np.zeros(plan.node_area.shape)
 
 
-def _jumped(system: Cycles, worn: Campaign, cycle: Cycle, plan: Plan) -> Campaign:
+def _jumped(system: Cycles, worn: Campaign, cycle: Cycle, plan: CampaignPlan) -> Campaign:
     """Write the stop down and wear the bushing for the cycles of a jump."""
     per_cycle = plan.law.depth(cycle.sliding_load)
     until_limit = _cycles_to(plan.depth_limit, worn.depth, per_cycle)
@@ -244,7 +244,7 @@ def _jumped(system: Cycles, worn: Campaign, cycle: Cycle, plan: Plan) -> Campaig
     return replace(after, history=history, stage_cycles=stage_cycles, stage_depth=stage_depth)
 
 
-def _jump(worn: Campaign, cycle: Cycle, plan: Plan) -> int:
+def _jump(worn: Campaign, cycle: Cycle, plan: CampaignPlan) -> int:
     """Return the cycles of the next jump, the simulated one among them, as its change of load allows."""
     remaining = plan.cycles - worn.cycles
     if not plan.feedback:
@@ -263,7 +263,7 @@ def _cycles_to(limit: float, depth: FloatArray, per_cycle: FloatArray) -> float:
     return float(((limit - depth[wearing]) / per_cycle[wearing]).min())
 
 
-def _moved_until(worn: Campaign, cycle: Cycle, plan: Plan) -> float:
+def _moved_until(worn: Campaign, cycle: Cycle, plan: CampaignPlan) -> float:
     """Return after how many cycles the motion reached a limit, straight between stops."""
     lives = [math.inf]
     for name, limit in plan.limits.items():
@@ -274,7 +274,7 @@ def _moved_until(worn: Campaign, cycle: Cycle, plan: Plan) -> float:
     return min(lives)
 
 
-def _noted(worn: Campaign, cycle: Cycle, plan: Plan, jump: int = 0, lost: float = 0.0) -> Campaign:
+def _noted(worn: Campaign, cycle: Cycle, plan: CampaignPlan, jump: int = 0, lost: float = 0.0) -> Campaign:
     """Return the campaign with a stop written down, from which a jump of ``jump`` cycles follows."""
     entry = {
         **cycle.motion,

@@ -9,7 +9,14 @@ import xarray as xr
 
 from tribodyn.core.stopping import Stop, skipped
 from tribodyn.integrate import INTERRUPTED, integrate
-from tribodyn.mechanisms.base import Mechanism, Part, Run, System, SystemCase, Worn
+from tribodyn.mechanisms.base import (
+    FinishedRun,
+    MechanismDescriptor,
+    ResultPart,
+    SimulatedSystem,
+    SystemCase,
+    Worn,
+)
 from tribodyn.results import build
 from tribodyn.simulation.provenance import provenance
 
@@ -30,12 +37,12 @@ class Session:
     """
 
     case: SystemCase
-    mechanism: Mechanism
-    system: System
+    mechanism: MechanismDescriptor
+    system: SimulatedSystem
     progress: Progress = None
     stop: Stop = None
 
-    def integrated(self, duration: float, worn: Worn | None = None, progress: Progress = None) -> Run:
+    def integrated(self, duration: float, worn: Worn | None = None, progress: Progress = None) -> FinishedRun:
         """Integrate the system over ``duration`` [s] from its start, or from where another run ended."""
         system, solver = self.system, self.case.solver
         problem = system.problem(duration, worn)
@@ -49,9 +56,9 @@ class Session:
             stop=self.stop,
         )
         carried = worn is not None and worn.carried is not None
-        return Run(problem, solution, vars(solution.statistics), carried)
+        return FinishedRun(problem, solution, vars(solution.statistics), carried)
 
-    def dataset(self, run: Run, more: Part) -> xr.Dataset:
+    def dataset(self, run: FinishedRun, more: ResultPart) -> xr.Dataset:
         """Return the result of a run, with what was added to it."""
         part = self.system.gather(run)
         solver, said = self.case.solver, self.case.remarks()

@@ -13,9 +13,9 @@ import xarray as xr
 
 from tribodyn.cases import groups
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.base import Carried, Part, Run, WearingCase, WearingSystem, Worn
+from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearingCase, WearingSystem, Worn
 from tribodyn.simulation import checkpoint as checkpoints
-from tribodyn.simulation.campaign import Campaign, Cycle, Plan, run_campaign
+from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_campaign
 from tribodyn.simulation.session import Session
 from tribodyn.wear import Archard, JumpControl, worn_volume
 
@@ -84,12 +84,12 @@ def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> list
     return [f"Of the worn depth and volume {share:.3g} % are worn off the partner of the bushing."]
 
 
-def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> Part:
+def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> ResultPart:
     """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
     if not depth.size:
-        return Part()
+        return ResultPart()
     volume = worn_volume(depth, system.nodes.area)
-    return Part(
+    return ResultPart(
         fields={"wear_depth": system.as_field(depth)},
         attributes={"worn_volume": volume, **attributes},
         notes=_of_partner(system, depth, volume),
@@ -107,7 +107,7 @@ def _linear_life(wear: groups.Wear, cycles: float, depth: FloatArray) -> dict[st
 class _Cycles:
     """The cycles of a system as a campaign asks for them; keeps what the last one left."""
 
-    last: Run
+    last: FinishedRun
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -115,10 +115,10 @@ class _Cycles:
         self.system = cast(WearingSystem, session.system)
 
     @property
-    def plan(self) -> Plan:
+    def plan(self) -> CampaignPlan:
         """What the case asks for."""
         wear, nodes = self.case.wear, self.system.nodes
-        return Plan(
+        return CampaignPlan(
             cycles=wear.cycles,
             settling=self.case.settling_cycles,
             feedback=wear.feedback,

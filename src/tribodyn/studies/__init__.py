@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tribodyn.studies.cluster import Tls
 from tribodyn.studies.distributions import DISTRIBUTIONS
-from tribodyn.studies.plan import Plan, Sampling, make_plan
+from tribodyn.studies.plan import Sampling, SweepPlan, make_plan
 from tribodyn.studies.samplers import SAMPLERS
 from tribodyn.studies.search import find
 from tribodyn.studies.statistics import sensitivities, shares, statistics
@@ -15,8 +15,8 @@ __all__ = [
     "SAMPLERS",
     "Arrival",
     "Means",
-    "Plan",
     "Sampling",
+    "SweepPlan",
     "Tls",
     "Watcher",
     "find",

@@ -20,7 +20,7 @@ from tribodyn.results.schema import is_summary
 from tribodyn.results.store import CASE, POINTS, RESULT, SUMMARY
 from tribodyn.results.summary import Summary
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import Outcome
+from tribodyn.studies.work import PointOutcome
 
 _LARGEST_SUMMARY: Final = 1_000_000
 
@@ -67,7 +67,7 @@ class Archive:
             with suppress(OSError):
                 self.folder.rmdir()
 
-    def keep(self, point: Point, outcome: Outcome) -> None:
+    def keep(self, point: Point, outcome: PointOutcome) -> None:
         """Write a point, each file whole or not at all."""
         folder = self.folder / point.name
         folder.mkdir(parents=True, exist_ok=True)

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
-from tribodyn.studies.job import LISTEN, Finished, Job, stop_while_preparing
+from tribodyn.studies.job import LISTEN, Finished, SweepJob, stop_while_preparing
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import Outcome, compute, failed, warm_up
+from tribodyn.studies.work import PointOutcome, compute, failed, warm_up
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Security
@@ -47,7 +47,7 @@ class Tls:
     key: str | Path | None = None
 
 
-def cluster(job: Job, address: str, tls: Tls | None = None) -> Finished:
+def cluster(job: SweepJob, address: str, tls: Tls | None = None) -> Finished:
     """Compute points on the workers of a Dask scheduler that runs already.
 
     Parameters
@@ -129,7 +129,7 @@ def _quiet() -> Iterator[None]:
             logger.setLevel(level)
 
 
-def _prepare(client: Client, job: Job) -> None:
+def _prepare(client: Client, job: SweepJob) -> None:
     """Let one worker of each machine fill the cache of compiled code, from which the others there read it.
 
     Meanwhile the others import what they need.
@@ -160,7 +160,7 @@ def _prepare(client: Client, job: Job) -> None:
             _demand_connection(client, time.monotonic())
 
 
-def _computed(client: Client, job: Job) -> Finished:
+def _computed(client: Client, job: SweepJob) -> Finished:
     """Yield points as they finish; what is still to be done when the job stops is called off."""
     _prepare(client, job)
     run, own = uuid.uuid4().hex[:8], version("tribodyn")
@@ -208,7 +208,7 @@ def _demand_connection(client: Client, heard: float) -> float:
     return heard
 
 
-def _outcome(future: Future[Any]) -> Outcome:
+def _outcome(future: Future[Any]) -> PointOutcome:
     """Return what came of a point; what Dask reports says nothing about the point itself and is not final."""
     from distributed import KilledWorker
 
@@ -218,5 +218,5 @@ def _outcome(future: Future[Any]) -> Outcome:
         return failed("its worker process died at every attempt", final=False)
     except Exception as error:
         return failed(f"the worker could not compute it: {type(error).__name__}: {error}", final=False)
-    assert isinstance(outcome, Outcome)
+    assert isinstance(outcome, PointOutcome)
     return outcome

@@ -8,14 +8,14 @@ from typing import Final
 from tribodyn.core.machine import processors
 from tribodyn.simulation import estimate
 from tribodyn.simulation.costs import MOST_MEMORY, MOST_TIME, PROGRAM, in_bytes, in_time
-from tribodyn.studies.plan import Plan
+from tribodyn.studies.plan import SweepPlan
 from tribodyn.studies.variation import SOURCE
 
 _LOOKED_AT: Final = 16
 """Points whose estimates stand for all."""
 
 
-def warnings_of(plan: Plan, to_do: int, workers: int | None) -> list[str]:
+def warnings_of(plan: SweepPlan, to_do: int, workers: int | None) -> list[str]:
     """Return warnings that the points of a sweep take long, or together much memory.
 
     Parameters

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Final, TypeAlias
 
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import Outcome
+from tribodyn.studies.work import PointOutcome
 
-Finished: TypeAlias = Iterator[tuple[Point, Outcome]]
+Finished: TypeAlias = Iterator[tuple[Point, PointOutcome]]
 
 LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
@@ -22,7 +22,7 @@ _PREPARING: Final = (
 
 
 @dataclass(frozen=True)
-class Job:
+class SweepJob:
     """What is to be computed.
 
     Attributes
@@ -46,7 +46,7 @@ class Job:
     note: Callable[[str], None]
 
 
-def stop_while_preparing(job: Job) -> Callable[[], bool]:
+def stop_while_preparing(job: SweepJob) -> Callable[[], bool]:
     """Return what asks whether to stop, and says after a while why there are no points yet."""
     began, news = time.monotonic(), [_PREPARING]
 

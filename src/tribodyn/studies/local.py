@@ -14,7 +14,7 @@ from tribodyn.core import fork_server, machine
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.core.workers import DEATHS, DIED, UNREADY, Service, WorkerProcess
-from tribodyn.studies.job import LISTEN, Finished, Job, stop_while_preparing
+from tribodyn.studies.job import LISTEN, Finished, SweepJob, stop_while_preparing
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import compute, failed, import_what_points_need, warm_up
 
@@ -26,7 +26,7 @@ _OTHER_HANDLES: Final = 16
 """Handles that starting a process and writing files take temporarily."""
 
 
-def local(job: Job, workers: int | None) -> Finished:
+def local(job: SweepJob, workers: int | None) -> Finished:
     """Compute points in processes of this machine, one thread each.
 
     Parameters
@@ -118,7 +118,7 @@ def started(size: int) -> Iterator[list[SweepWorker]]:
         yield workers
 
 
-def _prepare(worker: SweepWorker, job: Job) -> None:
+def _prepare(worker: SweepWorker, job: SweepJob) -> None:
     """Let one worker fill the cache of compiled code, from which the others read it."""
     task = Task(warm_up, (job.points[0].toml,))
     for _, answer in answers([worker], [task], stop_while_preparing(job)):

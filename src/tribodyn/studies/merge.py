@@ -17,12 +17,12 @@ from tribodyn.mechanisms.results import known
 from tribodyn.results.attributes import SWEEP
 from tribodyn.results.summary import Summary
 from tribodyn.results.variables import POINT_TEXTS
-from tribodyn.studies.plan import POINT, Plan
+from tribodyn.studies.plan import POINT, SweepPlan
 
 NOT_COMPUTED: Final = "not computed: the sweep was stopped before"
 
 
-def merge(plan: Plan, summaries: Mapping[str, Summary]) -> xr.Dataset:
+def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:
     """Return the dataset of a sweep.
 
     Parameters
@@ -84,7 +84,7 @@ def _number(value: object) -> float:
     return float(value) if isinstance(value, int | float) else math.nan
 
 
-def _coordinates(plan: Plan) -> dict[str, xr.Variable]:
+def _coordinates(plan: SweepPlan) -> dict[str, xr.Variable]:
     coordinates = {}
     for axis in plan.axes:
         if axis.name == POINT:
@@ -105,7 +105,7 @@ def _about(key: Key) -> dict[str, Any]:
     return about
 
 
-def _attributes(plan: Plan, rows: Sequence[Summary]) -> dict[str, Any]:
+def _attributes(plan: SweepPlan, rows: Sequence[Summary]) -> dict[str, Any]:
     sampling: dict[str, Any] = {}
     if plan.sampled:
         s = plan.sampling

@@ -94,7 +94,7 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SweepPlan:
     """All points of a sweep.
 
     Attributes
@@ -120,7 +120,7 @@ class Plan:
         return self.axes[-1].name == POINT
 
 
-def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampling()) -> Plan:
+def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampling()) -> SweepPlan:
     """Return the plan of a sweep; the cases of all its points are valid.
 
     Parameters
@@ -149,7 +149,7 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
         axes.append(_drawn(scatters, sampling))
     n_points = math.prod(axis.size for axis in axes)
     _check_number(n_points)
-    return Plan(case, tuple(axes), _points(case, axes, n_points), sampling)
+    return SweepPlan(case, tuple(axes), _points(case, axes, n_points), sampling)
 
 
 def varied_key(case: Case, path: str) -> Key:

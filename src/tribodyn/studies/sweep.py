@@ -21,10 +21,10 @@ from tribodyn.results.store import prepare_directory
 from tribodyn.results.summary import Summary
 from tribodyn.studies.archive import Archive
 from tribodyn.studies.cluster import Tls, cluster
-from tribodyn.studies.job import Finished, Job
+from tribodyn.studies.job import Finished, SweepJob
 from tribodyn.studies.local import local
 from tribodyn.studies.merge import NOT_COMPUTED, merge
-from tribodyn.studies.plan import Plan, Point, Sampling, make_plan
+from tribodyn.studies.plan import Point, Sampling, SweepPlan, make_plan
 from tribodyn.studies.statistics import statistics
 from tribodyn.studies.variation import Asked, written
 from tribodyn.studies.work import compute
@@ -170,7 +170,7 @@ def sweep(
 
 
 def run(
-    plan: Plan, directory: Path | None, means: Means = Means(), watcher: Watcher = Watcher()
+    plan: SweepPlan, directory: Path | None, means: Means = Means(), watcher: Watcher = Watcher()
 ) -> xr.Dataset:
     """Compute what is missing of a plan and merge all of it; returns and raises as :func:`sweep`."""
     if means.workers is not None and means.workers < 0:
@@ -189,7 +189,7 @@ def run(
     return _merged(plan, summaries, directory)
 
 
-def _kept(plan: Plan, archive: Archive | None, means: Means) -> dict[str, Summary]:
+def _kept(plan: SweepPlan, archive: Archive | None, means: Means) -> dict[str, Summary]:
     """Return the summaries of the points that need not be computed again."""
     if archive is None or means.fresh:
         return {}
@@ -202,7 +202,7 @@ def _kept(plan: Plan, archive: Archive | None, means: Means) -> dict[str, Summar
 
 
 def _compute(
-    plan: Plan,
+    plan: SweepPlan,
     archive: Archive | None,
     means: Means,
     summaries: dict[str, Summary],
@@ -216,7 +216,7 @@ def _compute(
         return
     staging = "" if archive is None else str(archive.staging)
     keep_results = means.keep_results and archive is not None
-    job = Job(missing, keep_results, staging, watcher.stop, watcher.note)
+    job = SweepJob(missing, keep_results, staging, watcher.stop, watcher.note)
     with nullcontext() if archive is None else archive.open():
         for done, (point, outcome) in enumerate(_finished(job, means), 1):
             if archive is not None and outcome.final:
@@ -225,13 +225,13 @@ def _compute(
             watcher.arrived(Arrival(done, len(missing), point, outcome.failure))
 
 
-def _finished(job: Job, means: Means) -> Finished:
+def _finished(job: SweepJob, means: Means) -> Finished:
     if means.scheduler is not None:
         return cluster(job, means.scheduler, means.tls)
     return _here(job) if means.workers == 0 else local(job, means.workers)
 
 
-def _here(job: Job) -> Finished:
+def _here(job: SweepJob) -> Finished:
     """Compute points one after the other in this process."""
     for point in job.points:
         if job.stop():
@@ -242,7 +242,7 @@ def _here(job: Job) -> Finished:
         yield point, outcome
 
 
-def _merged(plan: Plan, summaries: dict[str, Summary], directory: Path | None) -> xr.Dataset:
+def _merged(plan: SweepPlan, summaries: dict[str, Summary], directory: Path | None) -> xr.Dataset:
     dataset = merge(plan, summaries)
     if directory is not None:
         write_bytes(directory / DATASET, netcdf_content(dataset))
@@ -251,7 +251,7 @@ def _merged(plan: Plan, summaries: dict[str, Summary], directory: Path | None) -
     return dataset
 
 
-def _record(plan: Plan, summaries: dict[str, Summary], dataset: xr.Dataset) -> dict[str, Any]:
+def _record(plan: SweepPlan, summaries: dict[str, Summary], dataset: xr.Dataset) -> dict[str, Any]:
     """Return the sweep as JSON holds it: one entry a point, and the statistics of samples."""
     keys = with_components(keys_in(plan.case))
     nothing: Summary = {"status": "missing", "failure": NOT_COMPUTED}

@@ -17,7 +17,7 @@ from tribodyn.results.summary import Summary
 
 
 @dataclass(frozen=True)
-class Outcome:
+class PointOutcome:
     """What came of a point.
 
     Attributes
@@ -43,9 +43,9 @@ class Outcome:
         return str(self.summary.get("failure", ""))
 
 
-def failed(reason: str, *, final: bool) -> Outcome:
+def failed(reason: str, *, final: bool) -> PointOutcome:
     """Return what is known of a point that gave no result."""
-    return Outcome({"title": "", "status": "failed", "failure": reason, "warnings": []}, final=final)
+    return PointOutcome({"title": "", "status": "failed", "failure": reason, "warnings": []}, final=final)
 
 
 def compute(
@@ -54,7 +54,7 @@ def compute(
     keep_result: bool,
     staging: str = "",
     stop: Callable[[], bool] | None = None,
-) -> Outcome:
+) -> PointOutcome:
     """Simulate one case.
 
     Parameters
@@ -89,7 +89,7 @@ def compute(
         return failed(f"internal error: {type(error).__name__}: {error}", final=True)
 
 
-def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> Outcome:
+def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> PointOutcome:
     from tribodyn.mechanisms.catalogue import parse_case
     from tribodyn.mechanisms.results import summarise
     from tribodyn.results import netcdf_content
@@ -100,8 +100,8 @@ def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bo
     summary, content = summarise(dataset), netcdf_content(dataset) if keep_result else b""
     if content and staging:
         with contextlib.suppress(OSError):
-            return Outcome(summary, staged=os.fspath(stage(Path(staging), content)))
-    return Outcome(summary, content)
+            return PointOutcome(summary, staged=os.fspath(stage(Path(staging), content)))
+    return PointOutcome(summary, content)
 
 
 def warm_up(toml: str) -> None:

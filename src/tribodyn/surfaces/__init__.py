@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tribodyn.surfaces.analysis import Roughness, Treatment, analyse, dependence
+from tribodyn.surfaces.analysis import MeasuredSurface, Treatment, analyse, dependence
 from tribodyn.surfaces.asperities import Asperities, asperities
 from tribodyn.surfaces.filters import FILTERS
 from tribodyn.surfaces.generate import SelfAffine, generate
@@ -17,8 +17,8 @@ __all__ = [
     "LEVELS",
     "Asperities",
     "Length",
+    "MeasuredSurface",
     "Moments",
-    "Roughness",
     "Scale",
     "Scan",
     "SelfAffine",

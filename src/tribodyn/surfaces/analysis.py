@@ -53,7 +53,7 @@ class Treatment:
 
 
 @dataclass(frozen=True, eq=False)
-class Roughness:
+class MeasuredSurface:
     """A surface as it was measured.
 
     Attributes
@@ -89,7 +89,7 @@ class Roughness:
 _AS_MEASURED: Final = Treatment()
 
 
-def analyse(scan: Scan, treatment: Treatment = _AS_MEASURED) -> Roughness:
+def analyse(scan: Scan, treatment: Treatment = _AS_MEASURED) -> MeasuredSurface:
     """Return the roughness of a scan.
 
     Raises
@@ -129,7 +129,7 @@ def check_cutoffs(scan: Scan, treatment: Treatment) -> None:
         )
 
 
-def dependence(roughness: Roughness, scan: Scan) -> list[Roughness]:
+def dependence(roughness: MeasuredSurface, scan: Scan) -> list[MeasuredSurface]:
     """Return the roughness of a scan for other shortest and longest wavelengths.
 
     Parameters
@@ -166,7 +166,7 @@ def _between(first: float, last: float) -> list[float]:
     return [float(value) for value in np.geomspace(first, last, _CUTOFFS)]
 
 
-def _measured(level: Scan, treatment: Treatment) -> Roughness:
+def _measured(level: Scan, treatment: Treatment) -> MeasuredSurface:
     """Return the roughness of a levelled scan."""
     short = treatment.short_cutoff
     surface = filtered(level, treatment.filter, short, treatment.long_cutoff)
@@ -178,7 +178,7 @@ def _measured(level: Scan, treatment: Treatment) -> Roughness:
     squares = heights * heights
     skewness = float(np.nanmean(squares * heights)) / found.m0**1.5
     kurtosis = float(np.nanmean(squares * squares)) / found.m0**2
-    return Roughness(surface, treatment, skewness, kurtosis, found, asperities(found))
+    return MeasuredSurface(surface, treatment, skewness, kurtosis, found, asperities(found))
 
 
 def _border(scan: Scan, cutoff: float) -> list[int]:
@@ -194,7 +194,7 @@ def _without_border(scan: Scan, cutoff: float) -> Scan:
     return scan.with_heights(scan.heights[parts])
 
 
-def _remarks(roughness: Roughness) -> Iterator[str]:
+def _remarks(roughness: MeasuredSurface) -> Iterator[str]:
     """Give what makes the numbers doubtful."""
     found, treatment = roughness.moments, roughness.treatment
     if found.resolved < _UNRESOLVED:

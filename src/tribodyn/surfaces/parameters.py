@@ -10,11 +10,11 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.surfaces.amplitudes import arithmetic_mean, mean_total_height
-from tribodyn.surfaces.analysis import Roughness
+from tribodyn.surfaces.analysis import MeasuredSurface
 
 
 @dataclass(frozen=True)
-class Parameter:
+class SurfaceParameter:
     """One number of a surface.
 
     Attributes
@@ -29,57 +29,65 @@ class Parameter:
 
     label: str
     unit: str
-    value: Callable[[Roughness], float]
+    value: Callable[[MeasuredSurface], float]
     of_maps: bool | None = None
 
 
-def _directional(name: str, factor: float = 1.0) -> Callable[[Roughness], float]:
+def _directional(name: str, factor: float = 1.0) -> Callable[[MeasuredSurface], float]:
     return lambda surface: factor * float(getattr(surface.moments.directional, name))
 
 
-def _heights(surface: Roughness) -> FloatArray:
+def _heights(surface: MeasuredSurface) -> FloatArray:
     return surface.surface.heights
 
 
-PARAMETERS: Final[dict[str, Parameter]] = {
-    "sigma_um": Parameter("roughness sigma", "um", lambda s: s.sigma * 1e6),
-    "Ra_um": Parameter("mean height Ra", "um", lambda s: 1e6 * arithmetic_mean(_heights(s)), of_maps=False),
-    "Rq_um": Parameter("root mean square height Rq", "um", lambda s: s.sigma * 1e6, of_maps=False),
-    "Rz_um": Parameter(
+PARAMETERS: Final[dict[str, SurfaceParameter]] = {
+    "sigma_um": SurfaceParameter("roughness sigma", "um", lambda s: s.sigma * 1e6),
+    "Ra_um": SurfaceParameter(
+        "mean height Ra", "um", lambda s: 1e6 * arithmetic_mean(_heights(s)), of_maps=False
+    ),
+    "Rq_um": SurfaceParameter("root mean square height Rq", "um", lambda s: s.sigma * 1e6, of_maps=False),
+    "Rz_um": SurfaceParameter(
         "mean total height Rz", "um", lambda s: 1e6 * mean_total_height(_heights(s)), of_maps=False
     ),
-    "Sa_um": Parameter("mean height Sa", "um", lambda s: 1e6 * arithmetic_mean(_heights(s)), of_maps=True),
-    "Sq_um": Parameter("root mean square height Sq", "um", lambda s: s.sigma * 1e6, of_maps=True),
-    "skewness": Parameter("skewness of the heights", "", lambda s: s.skewness),
-    "kurtosis": Parameter("kurtosis of the heights (Gaussian: 3)", "", lambda s: s.kurtosis),
-    "m0_um2": Parameter("spectral moment m0", "um^2", lambda s: s.moments.m0 * 1e12),
-    "m2": Parameter("spectral moment m2", "", lambda s: s.moments.m2),
-    "m4_per_um2": Parameter("spectral moment m4", "1/um^2", lambda s: s.moments.m4 * 1e-12),
-    "m2_x": Parameter("m2 along x", "", _directional("m2_x"), of_maps=True),
-    "m2_y": Parameter("m2 along y", "", _directional("m2_y"), of_maps=True),
-    "m4_x_per_um2": Parameter("m4 along x", "1/um^2", _directional("m4_x", 1e-12), of_maps=True),
-    "m4_y_per_um2": Parameter("m4 along y", "1/um^2", _directional("m4_y", 1e-12), of_maps=True),
-    "texture": Parameter("slope along over across the lay", "", _directional("texture"), of_maps=True),
-    "lay_deg": Parameter(
+    "Sa_um": SurfaceParameter(
+        "mean height Sa", "um", lambda s: 1e6 * arithmetic_mean(_heights(s)), of_maps=True
+    ),
+    "Sq_um": SurfaceParameter("root mean square height Sq", "um", lambda s: s.sigma * 1e6, of_maps=True),
+    "skewness": SurfaceParameter("skewness of the heights", "", lambda s: s.skewness),
+    "kurtosis": SurfaceParameter("kurtosis of the heights (Gaussian: 3)", "", lambda s: s.kurtosis),
+    "m0_um2": SurfaceParameter("spectral moment m0", "um^2", lambda s: s.moments.m0 * 1e12),
+    "m2": SurfaceParameter("spectral moment m2", "", lambda s: s.moments.m2),
+    "m4_per_um2": SurfaceParameter("spectral moment m4", "1/um^2", lambda s: s.moments.m4 * 1e-12),
+    "m2_x": SurfaceParameter("m2 along x", "", _directional("m2_x"), of_maps=True),
+    "m2_y": SurfaceParameter("m2 along y", "", _directional("m2_y"), of_maps=True),
+    "m4_x_per_um2": SurfaceParameter("m4 along x", "1/um^2", _directional("m4_x", 1e-12), of_maps=True),
+    "m4_y_per_um2": SurfaceParameter("m4 along y", "1/um^2", _directional("m4_y", 1e-12), of_maps=True),
+    "texture": SurfaceParameter("slope along over across the lay", "", _directional("texture"), of_maps=True),
+    "lay_deg": SurfaceParameter(
         "direction of the lay, from x", "deg", _directional("lay", float(np.rad2deg(1.0))), of_maps=True
     ),
-    "bandwidth_alpha": Parameter("bandwidth parameter alpha", "", lambda s: s.asperities.bandwidth),
-    "asperity_density_per_um2": Parameter(
+    "bandwidth_alpha": SurfaceParameter("bandwidth parameter alpha", "", lambda s: s.asperities.bandwidth),
+    "asperity_density_per_um2": SurfaceParameter(
         "asperities per area xi", "1/um^2", lambda s: s.asperities.density * 1e-12
     ),
-    "asperity_radius_um": Parameter("mean asperity radius beta", "um", lambda s: s.asperities.radius * 1e6),
-    "asperity_parameter": Parameter(
+    "asperity_radius_um": SurfaceParameter(
+        "mean asperity radius beta", "um", lambda s: s.asperities.radius * 1e6
+    ),
+    "asperity_parameter": SurfaceParameter(
         "xi beta sigma", "", lambda s: s.asperities.density * s.asperities.radius * s.sigma
     ),
-    "summit_rms_um": Parameter("roughness of the summits", "um", lambda s: s.asperities.summit_rms * 1e6),
-    "summit_offset_um": Parameter(
+    "summit_rms_um": SurfaceParameter(
+        "roughness of the summits", "um", lambda s: s.asperities.summit_rms * 1e6
+    ),
+    "summit_offset_um": SurfaceParameter(
         "mean height of the summits", "um", lambda s: s.asperities.summit_offset * 1e6
     ),
 }
 """All of them, in the order of reading; names carry the unit."""
 
 
-def numbers(surface: Roughness) -> dict[str, float]:
+def numbers(surface: MeasuredSurface) -> dict[str, float]:
     """Return every number that a surface has, by name."""
     is_map = surface.moments.directional is not None
     return {
@@ -89,7 +97,7 @@ def numbers(surface: Roughness) -> dict[str, float]:
     }
 
 
-def document(surface: Roughness, others: list[Roughness]) -> dict[str, Any]:
+def document(surface: MeasuredSurface, others: list[MeasuredSurface]) -> dict[str, Any]:
     """Return what is stored of a surface: numbers, treatment, remarks, and the numbers at other cut-offs.
 
     Parameters
@@ -109,7 +117,7 @@ def document(surface: Roughness, others: list[Roughness]) -> dict[str, Any]:
     }
 
 
-def _treatment(surface: Roughness) -> dict[str, Any]:
+def _treatment(surface: MeasuredSurface) -> dict[str, Any]:
     treatment = surface.treatment
     return {
         "level": treatment.level,

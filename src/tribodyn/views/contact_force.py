@@ -7,7 +7,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.series import series
 
 
@@ -18,10 +18,10 @@ def panels(dataset: xr.Dataset) -> list[Panel]:
 
 def _panel(dataset: xr.Dataset, axis: str) -> Panel:
     curves = (
-        Curve("total contact force", series(dataset, f"F_c{axis}"), "pale", width=4.5),
-        Curve("rigid part", series(dataset, f"F_k{axis}"), "blue"),
-        Curve("damping part", series(dataset, f"F_d{axis}"), "vermilion", "dash"),
-        Curve("friction", series(dataset, f"F_f{axis}"), "green", "dot"),
+        ChartCurve("total contact force", series(dataset, f"F_c{axis}"), "pale", width=4.5),
+        ChartCurve("rigid part", series(dataset, f"F_k{axis}"), "blue"),
+        ChartCurve("damping part", series(dataset, f"F_d{axis}"), "vermilion", "dash"),
+        ChartCurve("friction", series(dataset, f"F_f{axis}"), "green", "dot"),
     )
     return Panel(f"along {axis.upper()} [N]", curves, smooth=True, unit="N")
 

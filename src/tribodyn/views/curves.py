@@ -21,7 +21,7 @@ LOOKS: Final = (
 
 
 @dataclass(frozen=True)
-class Curve:
+class ChartCurve:
     """One curve.
 
     Attributes
@@ -49,7 +49,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Marks:
+class ChartMarks:
     """Points with a letter each.
 
     Attributes
@@ -88,8 +88,8 @@ class Panel:
     """
 
     label: str
-    curves: Sequence[Curve]
+    curves: Sequence[ChartCurve]
     smooth: bool = False
     unit: str = ""
     level: float | None = None
-    marks: Marks | None = None
+    marks: ChartMarks | None = None

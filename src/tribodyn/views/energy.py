@@ -8,7 +8,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import LOOKS, Curve, Panel
+from tribodyn.views.curves import LOOKS, ChartCurve, Panel
 from tribodyn.views.ledger import Ledger
 from tribodyn.views.series import peak, series
 
@@ -29,8 +29,8 @@ def _panels(ledger: Ledger, dataset: xr.Dataset) -> list[Panel]:
     unit, scale = ("J", 1.0) if largest >= 0.1 else ("mJ", 1e3)
     seen = sorted((name for name in terms if sizes[name] >= _SEEN * largest), key=lambda name: -sizes[name])
     curves = [
-        Curve(terms[name], series(dataset, name, scale), colour, dash)
+        ChartCurve(terms[name], series(dataset, name, scale), colour, dash)
         for name, (colour, dash) in zip(seen, LOOKS, strict=False)
     ]
-    curves.append(Curve("residual", series(dataset, ledger.residual, scale), "grey", width=4.0))
+    curves.append(ChartCurve("residual", series(dataset, ledger.residual, scale), "grey", width=4.0))
     return [Panel(f"energy [{unit}]", curves)]

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.encode import packed
 from tribodyn.views.events import impact_time, impact_windows, reversal_times, smooth_limits
 from tribodyn.views.playback import time_unit
@@ -60,7 +60,7 @@ def _panel(panel: Panel, x: FloatArray, turns: FloatArray, settling: float) -> d
     }
 
 
-def _curve(curve: Curve, common: FloatArray) -> dict[str, Any]:
+def _curve(curve: ChartCurve, common: FloatArray) -> dict[str, Any]:
     """Return a curve as the script reads it; its abscissa only where it is not the common one."""
     x = common if curve.x is None else curve.x
     x, y = thinned(x, curve.values) if np.all(np.diff(x) > 0.0) else (x, curve.values)

@@ -10,14 +10,14 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.curves import LOOKS, Curve, Panel
+from tribodyn.views.curves import LOOKS, ChartCurve, Panel
 from tribodyn.views.lines import over
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import series
 
 
 @dataclass(frozen=True)
-class Quantity:
+class OverlayQuantity:
     """One quantity over time.
 
     Attributes
@@ -51,12 +51,12 @@ class Overlay:
 
     name: str
     title: str
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[OverlayQuantity, ...]
 
 
-def scaled(name: str, label: str, scale: float) -> Quantity:
+def scaled(name: str, label: str, scale: float) -> OverlayQuantity:
     """Return a variable times ``scale``."""
-    return Quantity(label, (name,), lambda dataset: series(dataset, name, scale))
+    return OverlayQuantity(label, (name,), lambda dataset: series(dataset, name, scale))
 
 
 BUSHING: Final = (
@@ -102,7 +102,7 @@ def overlays(planned: Sequence[Overlay], runs: Mapping[str, xr.Dataset]) -> tupl
 
 
 def _drawer(
-    quantities: Sequence[Quantity], runs: Mapping[str, xr.Dataset]
+    quantities: Sequence[OverlayQuantity], runs: Mapping[str, xr.Dataset]
 ) -> Callable[[xr.Dataset], Payload | None]:
     """Return what makes the data of one figure; the result it is given is not looked at."""
 
@@ -114,12 +114,12 @@ def _drawer(
     return data
 
 
-def _curves(quantity: Quantity, runs: Mapping[str, xr.Dataset]) -> list[Curve]:
+def _curves(quantity: OverlayQuantity, runs: Mapping[str, xr.Dataset]) -> list[ChartCurve]:
     """Return the curve of each run that holds the quantity."""
     curves = []
     for number, (name, dataset) in enumerate(runs.items()):
         if all(needed in dataset for needed in quantity.needs) and dataset["time"].size > 1:
             colour, dash = LOOKS[number % len(LOOKS)]
             values = quantity.values(dataset)
-            curves.append(Curve(name, values, colour, dash, x=series(dataset, "time")))
+            curves.append(ChartCurve(name, values, colour, dash, x=series(dataset, "time")))
     return curves

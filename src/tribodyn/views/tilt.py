@@ -7,7 +7,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.series import series
 
 
@@ -18,17 +18,17 @@ def panels(dataset: xr.Dataset) -> list[Panel]:
         Panel("offset [µm]", _pair(dataset, "e", 1e6)),
         Panel(
             "peak pressure [MPa]",
-            [Curve("peak pressure", series(dataset, "p_max", 1e-6))],
+            [ChartCurve("peak pressure", series(dataset, "p_max", 1e-6))],
             smooth=True,
             unit="MPa",
         ),
     ]
 
 
-def _pair(dataset: xr.Dataset, symbol: str, scale: float) -> list[Curve]:
+def _pair(dataset: xr.Dataset, symbol: str, scale: float) -> list[ChartCurve]:
     return [
-        Curve("X: φx, ex", series(dataset, f"{symbol}_x", scale), "blue"),
-        Curve("Y: φy, ey", series(dataset, f"{symbol}_y", scale), "vermilion", "dash"),
+        ChartCurve("X: φx, ex", series(dataset, f"{symbol}_x", scale), "blue"),
+        ChartCurve("Y: φy, ey", series(dataset, f"{symbol}_y", scale), "vermilion", "dash"),
     ]
 
 

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.depth import fitting_unit, no_feedback
 from tribodyn.views.lines import over
 from tribodyn.views.section import Payload, Section
@@ -40,13 +40,13 @@ def data(dataset: xr.Dataset) -> Payload | None:
     depth = series(dataset, "wear_depth_max")
     unit, size = fitting_unit(peak(depth))
     worn = [
-        Curve("if the first rate went on", no_feedback(dataset) / size, "grey", "dash"),
-        Curve("deepest point", depth / size, "blue"),
+        ChartCurve("if the first rate went on", no_feedback(dataset) / size, "grey", "dash"),
+        ChartCurve("deepest point", depth / size, "blue"),
     ]
     drawn = [Panel(f"wear depth [{unit}]", worn)]
     for label, size, names in PANELS:
         there = [name for name in names if name in dataset]
-        curves = [Curve(names[name], series(dataset, name) / size) for name in there]
+        curves = [ChartCurve(names[name], series(dataset, name) / size) for name in there]
         drawn += [Panel(label, curves)] if curves else []
     return over(cycles, "drive cycles", drawn)
 

@@ -31,7 +31,7 @@ from tribodyn.workbench.messages import (
     parsed,
 )
 from tribodyn.workbench.neighbours import neighbours
-from tribodyn.workbench.series import Plan, Series, slope_of, sweep_of
+from tribodyn.workbench.series import Series, SeriesPlan, slope_of, sweep_of
 from tribodyn.workbench.server_state import COMPILING, ServerState, refusal
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.visitor import Visitor
@@ -325,7 +325,7 @@ class PageSession:
         self.asked[type(said)] = said.number
         if (old := self.series.pop(type(said), None)) is not None:
             old.cancel()
-        made: Callable[[], Plan]
+        made: Callable[[], SeriesPlan]
         made = (
             partial(sweep_of, self.state, said)
             if isinstance(said, Sweep)

@@ -34,7 +34,7 @@ Said = Callable[[Sequence[Point], bool], dict[str, Any]]
 
 
 @dataclass(frozen=True)
-class Plan:
+class SeriesPlan:
     """Runs along a key.
 
     Attributes
@@ -68,7 +68,7 @@ class Series:
         Sends a message to the page.
     """
 
-    def __init__(self, state: ServerState, visitor: Visitor, plan: Plan, report: Report) -> None:
+    def __init__(self, state: ServerState, visitor: Visitor, plan: SeriesPlan, report: Report) -> None:
         self.state, self.visitor, self.plan, self.report = state, visitor, plan, report
         self._task = asyncio.create_task(self._compute())
 
@@ -152,7 +152,7 @@ def _along(state: ServerState, path: str, values: Values) -> _Along:
     return _Along(state, keys[path], {name: value for name, value in values.items() if name != path})
 
 
-def sweep_of(state: ServerState, asked: Sweep) -> Plan:
+def sweep_of(state: ServerState, asked: Sweep) -> SeriesPlan:
     """Plan a sweep.
 
     Raises
@@ -167,7 +167,7 @@ def sweep_of(state: ServerState, asked: Sweep) -> Plan:
         about = {"number": asked.number, "key": asked.key, "points": points}
         return {"type": "sweep", **about, "of": len(variants), "finished": finished}
 
-    return Plan(asked.number, variants, along.key, say)
+    return SeriesPlan(asked.number, variants, along.key, say)
 
 
 def _levels(key: Key, asked: Sweep) -> Iterator[str]:
@@ -201,7 +201,7 @@ def _written(key: Key, number: float) -> str:
     return f"{float(f'{number:.{_DIGITS}g}')!r} {key.unit}".strip()
 
 
-def slope_of(state: ServerState, asked: Slope) -> Plan:
+def slope_of(state: ServerState, asked: Slope) -> SeriesPlan:
     """Plan to find the slope at the present value of a key.
 
     Raises
@@ -224,7 +224,7 @@ def slope_of(state: ServerState, asked: Slope) -> Plan:
             "headlines": slopes(points) if finished else {},
         }
 
-    return Plan(asked.number, variants, along.key, say)
+    return SeriesPlan(asked.number, variants, along.key, say)
 
 
 def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:

@@ -11,7 +11,7 @@ from typing import Any, Final
 from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.results import headlines_of_case
 from tribodyn.results import Headline
 from tribodyn.workbench.controls import controls
@@ -78,7 +78,7 @@ class ServerState:
     """
 
     origin: Origin
-    mechanism: Mechanism
+    mechanism: MechanismDescriptor
     pool: WorkerPool
     rules: Rules = field(default_factory=Rules)
     costs: Costs = field(default_factory=Costs)

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from tribodyn.cli.console import Console
-from tribodyn.cli.progress import Bar, Lines, progress
+from tribodyn.cli.progress import Bar, ProgressLines, progress
 
 
 def test_lines_come_at_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:
     with progress(12.0, Console()) as shown:
-        assert isinstance(shown, Lines)
+        assert isinstance(shown, ProgressLines)
         for reached in np.linspace(0.0, 12.0, 1000):
             shown(float(reached))
     captured = capsys.readouterr()

@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, law, tabulate
 from tribodyn.contact.bounce import bounce, calibrating_scale, undamped_depth
-from tribodyn.contact.linear import Linear
+from tribodyn.contact.linear import LinearContact
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import stored_energy
 
@@ -53,7 +53,7 @@ def test_a_deep_impact_is_that_of_a_point(table_1_pair: SurfacePair, factor: str
 
 def test_kelvin_and_voigt_on_the_linear_law(table_1_pair: SurfacePair) -> None:
     for wanted in ASKED:
-        found = Linear(table_1_pair, "kelvin-voigt", restitution=wanted, design_pressure=250e6)
+        found = LinearContact(table_1_pair, "kelvin-voigt", restitution=wanted, design_pressure=250e6)
         made = bounce(tabulate(found), design_pressure=250e6, clip=False)
         # Published for a contact that ends at δ = 0. The corner of the law is a tenth of σ, the depth 3 σ.
         assert made.restitution == pytest.approx(wanted, abs=6e-3)

@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, law
 from tribodyn.contact.greenwood_williamson import GreenwoodWilliamson
-from tribodyn.contact.linear import Linear
+from tribodyn.contact.linear import LinearContact
 from tribodyn.core.errors import InputError
 
 H_STAR = np.linspace(-4.0, 8.0, 121)
@@ -32,7 +32,7 @@ def test_area_and_count_fall_with_separation_where_the_theory_has_them(
             assert np.all(values > 0.0)
             assert np.all(np.diff(values) < 0.0)
         else:
-            assert name == Linear.name
+            assert name == LinearContact.name
 
 
 @pytest.mark.parametrize("kind", LAWS.values())

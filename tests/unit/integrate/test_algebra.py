@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.core.problem import Algebra, CompiledFunctions, Problem
+from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.integrate import SOLVERS, integrate
 
 RATE = 400.0
@@ -97,7 +97,7 @@ def chain(n, own, compiled=True, breakpoints=(0.5,)):
         state_names=tuple(f"y{i}" for i in k),
         n_observed=1,
         field_shape=(),
-        algebra=Algebra(places, made(factorise), made(solve), 3 * n - 2) if own else None,
+        algebra=LinearSolver(places, made(factorise), made(solve), 3 * n - 2) if own else None,
     )
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from tribodyn.cli.main import main
 from tribodyn.mechanisms.results import write_run
-from tribodyn.report import Run, write_comparison
+from tribodyn.report import ComparedRun, write_comparison
 
 WIDE = 'case = "vsv"\n[joint]\nclearance = "40 um"\n'
 NARROW = 'case = "vsv"\n[joint]\nclearance = "20 um"\n'
@@ -15,7 +15,7 @@ def runs(make_result):
     one = make_result(0.5, case=NARROW, title="one")
     other = make_result(0.5, case=WIDE, title="<b>other</b>", failure="too <i>small</i>")
     other["F_cx"] = 2.0 * other["F_cx"]
-    return [Run("narrow", one), Run("<wide>", other, "wide/report.html")]
+    return [ComparedRun("narrow", one), ComparedRun("<wide>", other, "wide/report.html")]
 
 
 def test_differences_come_first(runs, tmp_path):

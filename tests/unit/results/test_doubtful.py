@@ -14,7 +14,7 @@ from tribodyn.cli.main import main
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise, write_run
-from tribodyn.report import Run, write, write_comparison
+from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.report.accessor import Accessor
 from tribodyn.report.page import render
 from tribodyn.results.summary import DOUBTFUL
@@ -76,7 +76,9 @@ def test_a_comparison_marks_the_run_whose_numbers_are_doubtful(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     results = {name: make_result(energy_residual=missed) for name, missed in (("good", 0.0), ("bad", 0.06))}
-    page = write_comparison([Run(*one) for one in results.items()], tmp_path / "page.html").read_text()
+    page = write_comparison(
+        [ComparedRun(*one) for one in results.items()], tmp_path / "page.html"
+    ).read_text()
     assert page.count(f"<div>Do not use these numbers: {REASON}.</div>") == 1
     rows = [row for row in page.split("<tr>") if "Tilt, largest" in row]
     assert rows[0].count("<td") == 2

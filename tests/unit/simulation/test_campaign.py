@@ -11,7 +11,7 @@ import pytest
 from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
 from tribodyn.mechanisms.base import Carried
-from tribodyn.simulation.campaign import Cycle, Plan, run_campaign
+from tribodyn.simulation.campaign import CampaignPlan, Cycle, run_campaign
 from tribodyn.simulation.history import MOST_STAGES
 from tribodyn.wear import Archard, JumpControl
 
@@ -54,7 +54,7 @@ class Punch:
 def plan(
     cycles=10_000, *, limit=0.05, depth=0.25, feedback=True, depth_limit=math.inf, rate=RATE, settling=1
 ):
-    return Plan(
+    return CampaignPlan(
         cycles=cycles,
         settling=settling,
         feedback=feedback,

@@ -9,7 +9,7 @@ from tribodyn.results.atomic import stage
 from tribodyn.studies import make_plan
 from tribodyn.studies.archive import Archive
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import Outcome
+from tribodyn.studies.work import PointOutcome
 
 SUMMARY = {"status": "complete", "failure": ""}
 
@@ -23,7 +23,7 @@ def test_a_staged_result_takes_its_place(point: Point, tmp_path: Path) -> None:
     archive = Archive(tmp_path)
     with archive.open():
         part = stage(archive.staging, b"result")
-        archive.keep(point, Outcome(dict(SUMMARY), staged=str(part)))
+        archive.keep(point, PointOutcome(dict(SUMMARY), staged=str(part)))
     kept = archive.folder / point.name
     assert (kept / "result.nc").read_bytes() == b"result"
     assert sorted(path.name for path in kept.iterdir()) == ["case.toml", "result.nc", "summary.json"]

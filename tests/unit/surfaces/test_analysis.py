@@ -7,7 +7,16 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.surfaces import FILTERS, Roughness, Scan, SelfAffine, Treatment, analyse, dependence, generate
+from tribodyn.surfaces import (
+    FILTERS,
+    MeasuredSurface,
+    Scan,
+    SelfAffine,
+    Treatment,
+    analyse,
+    dependence,
+    generate,
+)
 from tribodyn.surfaces.parameters import PARAMETERS, document, numbers
 from tribodyn.surfaces.spectrum import in_bands, spectra
 
@@ -15,7 +24,7 @@ TREATMENT = Treatment(short_cutoff=6e-6, long_cutoff=60e-6)
 
 
 @pytest.fixture(scope="module")
-def surface(rough: Callable[..., Scan]) -> Roughness:
+def surface(rough: Callable[..., Scan]) -> MeasuredSurface:
     return analyse(rough(), TREATMENT)
 
 
@@ -40,7 +49,7 @@ def test_swapped_axes_swap_directions_and_nothing_else(name: str, rough: Callabl
 
 
 def test_a_mirrored_or_turned_over_map_keeps_its_numbers(
-    surface: Roughness, rough: Callable[..., Scan]
+    surface: MeasuredSurface, rough: Callable[..., Scan]
 ) -> None:
     expected = numbers(surface)
     for heights in (rough().heights[::-1], rough().heights[:, ::-1]):
@@ -52,7 +61,7 @@ def test_a_mirrored_or_turned_over_map_keeps_its_numbers(
     assert over == pytest.approx({k: v for k, v in expected.items() if k != "skewness"}, rel=1e-9)
 
 
-def test_heights_and_lengths_scale(surface: Roughness, rough: Callable[..., Scan]) -> None:
+def test_heights_and_lengths_scale(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
     scan = rough()
     double = analyse(replace(scan, heights=2.0 * scan.heights), TREATMENT)
     assert double.sigma == pytest.approx(2.0 * surface.sigma, rel=1e-12)
@@ -60,7 +69,7 @@ def test_heights_and_lengths_scale(surface: Roughness, rough: Callable[..., Scan
     assert double.asperities.radius == pytest.approx(0.5 * surface.asperities.radius, rel=1e-9)
 
 
-def test_a_few_holes_change_little(surface: Roughness, rough: Callable[..., Scan]) -> None:
+def test_a_few_holes_change_little(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
     heights = rough().heights.copy()
     heights[np.random.default_rng(3).random(heights.shape) < 0.002] = np.nan
     found = analyse(rough().with_heights(heights), TREATMENT)
@@ -70,7 +79,7 @@ def test_a_few_holes_change_little(surface: Roughness, rough: Callable[..., Scan
     assert any("missing" in warning for warning in found.warnings)
 
 
-def test_borders_without_heights_are_cut_off(surface: Roughness, rough: Callable[..., Scan]) -> None:
+def test_borders_without_heights_are_cut_off(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
     heights = np.full((110, 140), np.nan)
     heights[5:101, 7:135] = rough().heights
     assert numbers(analyse(rough().with_heights(heights), TREATMENT)) == numbers(surface)
@@ -100,7 +109,7 @@ def test_far_from_gaussian_heights_are_told(rough: Callable[..., Scan]) -> None:
     assert any("Gaussian" in warning for warning in found.warnings)
 
 
-def test_other_cut_offs(surface: Roughness, rough: Callable[..., Scan]) -> None:
+def test_other_cut_offs(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
     others = dependence(surface, rough())
     short = [o for o in others if o.treatment.long_cutoff == TREATMENT.long_cutoff]
     long = [o for o in others if o.treatment.short_cutoff == TREATMENT.short_cutoff]
@@ -134,7 +143,9 @@ def test_impossible_treatments_are_refused(
     assert caught.value.key == key
 
 
-def test_every_number_has_a_label_and_a_finite_value(surface: Roughness, rough: Callable[..., Scan]) -> None:
+def test_every_number_has_a_label_and_a_finite_value(
+    surface: MeasuredSurface, rough: Callable[..., Scan]
+) -> None:
     profile = numbers(analyse(rough(400)))
     for found, is_map in ((numbers(surface), True), (profile, False)):
         assert set(found) == {name for name, p in PARAMETERS.items() if p.of_maps in (None, is_map)}
@@ -145,7 +156,7 @@ def test_every_number_has_a_label_and_a_finite_value(surface: Roughness, rough: 
         assert np.isfinite(value), name
 
 
-def test_plasticity_index_is_that_of_greenwood_and_williamson(surface: Roughness) -> None:
+def test_plasticity_index_is_that_of_greenwood_and_williamson(surface: MeasuredSurface) -> None:
     found = surface.asperities
     expected = 7.818e9 / 492e6 * (found.summit_rms / found.radius) ** 0.5
     assert found.plasticity_index(7.818e9, 492e6) == pytest.approx(expected, rel=1e-12)

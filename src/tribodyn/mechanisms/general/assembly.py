@@ -16,7 +16,7 @@ from tribodyn.mechanisms.general.closing import CLOSED, DEPENDENT, System
 from tribodyn.mechanisms.general.counterpart import as_drawn, counterpart, has_loops
 from tribodyn.mechanisms.general.description import Description
 from tribodyn.mechanisms.general.equations import new_memory
-from tribodyn.mechanisms.general.inspection import Finding, inspect
+from tribodyn.mechanisms.general.inspection import ModelError, inspect
 from tribodyn.mechanisms.general.misfit import Misfit
 from tribodyn.mechanisms.general.speeds import start
 
@@ -69,7 +69,7 @@ class Assembly:
     """
 
     description: Description
-    findings: tuple[Finding, ...]
+    findings: tuple[ModelError, ...]
     freedoms: int
     redundancy: Redundancy | None
     inexact: tuple[str, ...]
@@ -77,7 +77,7 @@ class Assembly:
     state: FloatArray
     data: MechanismData
     ideal_rank: int
-    doubts: tuple[Finding, ...] = ()
+    doubts: tuple[ModelError, ...] = ()
     strain: str = ""
 
     @property
@@ -170,7 +170,7 @@ def _is_real(description: Description) -> bool:
     return any(joint.clearance is not None for joint in description.joints)
 
 
-def _closed(description: Description) -> tuple[System, list[Finding], list[Finding]]:
+def _closed(description: Description) -> tuple[System, list[ModelError], list[ModelError]]:
     """Close the joints as if they were ideal.
 
     Returns
@@ -198,7 +198,7 @@ def _taking_part(system: System, dependent: FloatArray) -> list[tuple[int, int]]
     return [row for row, part in zip(system.rows, taking_part, strict=True) if part]
 
 
-def _contradictions(system: System, dependent: FloatArray) -> list[Finding]:
+def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:
     """Return the finding that drives act where nothing is left to drive, if they do."""
     if not dependent.size:
         return []
@@ -210,7 +210,7 @@ def _contradictions(system: System, dependent: FloatArray) -> list[Finding]:
         text = f"drive {drives[0]} has nothing to drive: as drawn, the joints leave its coordinate no freedom"
     else:
         text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
-    return [Finding(f"drives.{drives[-1]}", text)]
+    return [ModelError(f"drives.{drives[-1]}", text)]
 
 
 def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
 
 from tribodyn.cases import materials
-from tribodyn.cases.beyond import Followed, followed, of_tables
+from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
-from tribodyn.cases.groups import Asperities, Contact, Surfaces, Wear, check_output_interval
+from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
@@ -52,7 +52,7 @@ class PairKeys(NamedGroup):
     """Surfaces, contact law, friction and wear of joints that name them."""
 
     surfaces: Surfaces = Surfaces()
-    asperities: Asperities = Asperities()
+    asperities: AsperityKeys = AsperityKeys()
     contact: Contact = Contact()
     friction_coefficient: float = _friction("the joints of this pair")
     wear: PairWear = PairWear()
@@ -67,7 +67,7 @@ class PairKeys(NamedGroup):
         self.contact.check(self.surface_pair)
 
 
-class Run(Group):
+class RunKeys(Group):
     """How long, and what is kept."""
 
     cycles: float | None = number(
@@ -98,7 +98,7 @@ class Run(Group):
     )
 
 
-class Nodes(Group):
+class NodeKeys(Group):
     """Quadrature points over each surface of a joint with clearance, unless the joint says otherwise."""
 
     theta: int = count(96, "points around", ASSUMED, ge=12, le=4096)
@@ -110,7 +110,7 @@ class Integration(Group):
 
     name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
     rtol: float = number(1e-5, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
-    grid: Nodes = Nodes()
+    grid: NodeKeys = NodeKeys()
 
 
 class MechanismCase(RoughCase):
@@ -136,7 +136,7 @@ class MechanismCase(RoughCase):
     pairs: Mapping[str, PairKeys] = tables("surfaces of joints that name them")
     wear: Wear = Wear()
     solver: Integration = Integration()
-    run: Run = Run()
+    run: RunKeys = RunKeys()
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -170,14 +170,14 @@ class MechanismCase(RoughCase):
 
     def with_plain_grids(self) -> Self:
         """Return the case with no surface finer than by default."""
-        plain, grid = Nodes(), self.solver.grid
+        plain, grid = NodeKeys(), self.solver.grid
         joints = {
             name: joint
             if joint.clearance is None
             else joint.model_copy(update={"clearance": joint.clearance.with_nodes(plain.theta, plain.z)})
             for name, joint in self.joints.items()
         }
-        at_most = Nodes(theta=min(grid.theta, plain.theta), z=min(grid.z, plain.z))
+        at_most = NodeKeys(theta=min(grid.theta, plain.theta), z=min(grid.z, plain.z))
         solver = self.solver.model_copy(update={"grid": at_most})
         return self.model_copy(update={"joints": joints, "solver": solver})
 
@@ -202,7 +202,7 @@ class MechanismCase(RoughCase):
         ]
         return {_FRICTION: own}
 
-    def followed(self) -> Iterable[Followed]:
+    def followed(self) -> Iterable[FollowedTable]:
         """Return the tables that drives and loads follow."""
         drives = {f"drives.{name}.{drive.gives}": drive.signal for name, drive in self.drives.items()}
         loads = {

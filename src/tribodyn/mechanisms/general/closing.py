@@ -15,7 +15,7 @@ from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import HARD, ROUNDS, close, kinematics, set_compliance
 from tribodyn.mechanisms.general.description import GROUND, Description, name_of
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
-from tribodyn.mechanisms.general.inspection import Finding, sound_drives
+from tribodyn.mechanisms.general.inspection import ModelError, sound_drives
 
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
@@ -205,7 +205,7 @@ class System:
         self.refresh()
         return least
 
-    def approach(self) -> list[Finding]:
+    def approach(self) -> list[ModelError]:
         """Close all joints, drives led from the drawing to where they start; return what fails."""
         pieces = self.data.signals.pieces
         numbers = {int(self.parts.couplings[k].row_signal[m]) for k, m, _ in self.drive_rows()}
@@ -238,7 +238,7 @@ class System:
         joints = self.description.joints
         return np.array([np.linalg.norm(joint.points[1] - joint.points[0]) for joint in joints])
 
-    def _drawn_open(self, gaps: FloatArray) -> Finding:
+    def _drawn_open(self, gaps: FloatArray) -> ModelError:
         """Return which joint is open in the drawing; closing spreads its gap over others."""
         joint = self.description.joints[int(np.argmax(gaps))]
         first, second = (name_of(self.description, b) for b in joint.bodies)
@@ -246,7 +246,7 @@ class System:
             f"joint {joint.name} between {first} and {second} does not close: its points stand "
             f"{np.max(gaps) * 1e3:.4g} mm apart in the drawing, and no motion of bodies brings them together"
         )
-        return Finding(f"joints.{joint.name}", text)
+        return ModelError(f"joints.{joint.name}", text)
 
     def _value(self, number: int) -> float:
         """Return a signal at the start."""
@@ -255,7 +255,7 @@ class System:
                 return float(self.now.couplings[k].prescribed[m, 0])
         return 0.0
 
-    def open_joint(self) -> Finding:
+    def open_joint(self) -> ModelError:
         """Return which joint closes least, with its gap and its bodies."""
         worst, size = 0, -1.0
         for k in range(len(self.description.joints)):
@@ -275,7 +275,7 @@ class System:
                 else f"closing, its directions stay {math.degrees(math.asin(min(size, 1.0))):.3g}° apart"
             )
         )
-        return Finding(f"joints.{joint.name}", text)
+        return ModelError(f"joints.{joint.name}", text)
 
     def independence(self) -> tuple[int, FloatArray]:
         """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
@@ -307,7 +307,7 @@ class System:
         rank = rank_of(values)
         return rank, u[:, rank:].T
 
-    def unequal(self, rank: int) -> tuple[list[Finding], list[str]]:
+    def unequal(self, rank: int) -> tuple[list[ModelError], list[str]]:
         """Return a finding, or a warning, where bodies that ideal joints connect differ too much in mass.
 
         Kernels give every row a compliance ε and iterate it away. With the least singular value σ of the rows
@@ -333,7 +333,7 @@ class System:
         change = "give it more mass, or make a joint of it a spring-damper"
         body = f"{first.name} with {first.mass:.3g} kg"
         if lost >= _WRONG:
-            return [Finding(f"bodies.{first.name}.mass", f"{body} is too {pair}: {change}")], []
+            return [ModelError(f"bodies.{first.name}.mass", f"{body} is too {pair}: {change}")], []
         return [], [f"{body} is {pair}, whose reactions may be wrong by up to {100.0 * lost:.1g} %: {change}"]
 
 

@@ -19,7 +19,7 @@ from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.counterpart import counterpart, has_loops
-from tribodyn.mechanisms.general.inspection import Finding
+from tribodyn.mechanisms.general.inspection import ModelError
 from tribodyn.mechanisms.general.misfit import Misfit, described
 
 _TURN: Final = 0.1
@@ -55,7 +55,7 @@ class Passage:
         Which clearances must take a misfit of the ideal joints; empty for none.
     """
 
-    finding: Finding | None = None
+    finding: ModelError | None = None
     time: float = 0.0
     warning: str = ""
 
@@ -73,7 +73,7 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
     if not has_loops(assembly.description):
         return Passage()
     ideal = counterpart(assembly.description)
-    stuck: tuple[float, Finding] | None = (0.0, assembly.doubts[0]) if assembly.doubts else None
+    stuck: tuple[float, ModelError] | None = (0.0, assembly.doubts[0]) if assembly.doubts else None
     if stuck is None:
         stuck = _stuck(_placed(System(ideal), assembly), assembly.ideal_rank, duration)
     if stuck is None:
@@ -94,7 +94,7 @@ def _placed(system: System, assembly: Assembly) -> System:
     return system
 
 
-def _stuck(system: System, rank: int, duration: float) -> tuple[float, Finding] | None:
+def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelError] | None:
     """Return when joints no longer close on any way that is tried, with the finding, or None."""
     if not system.drive_rows():
         return None
@@ -162,12 +162,12 @@ def _reached(system: System, begin: float, end: float, close: Close) -> bool:
     return closed
 
 
-def _finding(system: System, time: float) -> Finding:
+def _finding(system: System, time: float) -> ModelError:
     """Return which joint does not close at a time, and where the drives are then."""
     system.close()
     finding = system.open_joint()
     where = " and ".join(_where(system, *row) for row in system.drive_rows())
-    return Finding(finding.key, f"at t = {time:.4g} s, with {where}, {finding.text}")
+    return ModelError(finding.key, f"at t = {time:.4g} s, with {where}, {finding.text}")
 
 
 def _where(system: System, coupling: int, row: int, name: str) -> str:

@@ -8,7 +8,7 @@ from typing import Final
 
 from tribodyn.cases.load import BuiltIn, flat
 from tribodyn.core import toml
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.headlines import BY_JOINT, HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.general.variables import OF_CYCLE, VARIABLES
@@ -22,7 +22,7 @@ def _built_in() -> Iterator[tuple[str, BuiltIn]]:
         yield file.name.removesuffix(".toml"), BuiltIn(MechanismCase, str(given["title"]), given)
 
 
-MECHANISM: Final = Mechanism(
+MECHANISM: Final = MechanismDescriptor(
     folder="tribodyn.mechanisms.general",
     case=MechanismCase,
     built_in=dict(_built_in()),

@@ -12,7 +12,7 @@ from tribodyn.mechanisms.general.kinds import KINDS
 
 
 @dataclass(frozen=True)
-class Finding:
+class ModelError:
     """Something that forbids a run.
 
     Attributes
@@ -27,7 +27,7 @@ class Finding:
     text: str
 
 
-def inspect(description: Description) -> Iterator[Finding]:
+def inspect(description: Description) -> Iterator[ModelError]:
     """Yield what is wrong with a drawing whatever its positions."""
     for body in description.bodies:
         yield from _inertia(body)
@@ -36,7 +36,7 @@ def inspect(description: Description) -> Iterator[Finding]:
     for number, body in enumerate(description.bodies):
         if number not in held:
             text = f"nothing holds body {body.name}: no joint and no spring names it"
-            yield Finding(f"bodies.{body.name}", text)
+            yield ModelError(f"bodies.{body.name}", text)
     yield from _drives(description)
 
 
@@ -53,21 +53,21 @@ def sound_drives(description: Description) -> list[Drive]:
     return sound
 
 
-def _inertia(body: Body) -> Iterator[Finding]:
+def _inertia(body: Body) -> Iterator[ModelError]:
     """Yield a finding if the principal moments of inertia cannot be those of any body."""
     moments = np.linalg.eigvalsh(body.inertia)
     if moments[0] <= 0.0:
         text = f"body {body.name} has a moment of inertia of {moments[0]:.4g} kg m^2; it must be above zero"
-        yield Finding(f"bodies.{body.name}.inertia", text)
+        yield ModelError(f"bodies.{body.name}.inertia", text)
     elif moments[2] > (moments[0] + moments[1]) * (1.0 + 1.0e-9):
         text = (
             f"no body has the principal moments of inertia of {body.name}: the largest, {moments[2]:.4g} "
             f"kg m^2, exceeds the sum of the others, {moments[0] + moments[1]:.4g} kg m^2"
         )
-        yield Finding(f"bodies.{body.name}.inertia", text)
+        yield ModelError(f"bodies.{body.name}.inertia", text)
 
 
-def _drives(description: Description) -> Iterator[Finding]:
+def _drives(description: Description) -> Iterator[ModelError]:
     """Yield findings of drives that have no coordinate, and of coordinates that have two drives."""
     taken: dict[tuple[int, str], str] = {}
     for drive in description.drives:
@@ -83,11 +83,11 @@ def _drives(description: Description) -> Iterator[Finding]:
                 f"drive {drive.name} has nothing to drive: joint {joint.name} is {joint.kind} and has no "
                 f"{drive.coordinate}; {able}"
             )
-            yield Finding(f"drives.{drive.name}", text)
+            yield ModelError(f"drives.{drive.name}", text)
         elif (
             drive.level < 2
             and (before := taken.setdefault((drive.joint, drive.coordinate), drive.name)) != drive.name
         ):
             freedom = f"the {drive.coordinate} of joint {joint.name}"
             text = f"drives {before} and {drive.name} drive one freedom, {freedom}"
-            yield Finding(f"drives.{drive.name}", text)
+            yield ModelError(f"drives.{drive.name}", text)

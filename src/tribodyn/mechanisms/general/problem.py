@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.problem import Algebra, CompiledFunctions, Problem
+from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
@@ -92,14 +92,14 @@ def mechanism_problem(
     )
 
 
-def _algebra(data: MechanismData) -> Algebra:
+def _algebra(data: MechanismData) -> LinearSolver:
     """Return how the problem solves with its iteration matrix."""
     n, n_couplings = data.parts.bodies.size, data.parts.couplings.size
     state = N_STATES * np.arange(n)[:, None]
     rows = np.array([VELOCITY, VELOCITY + 1, VELOCITY + 2, TURNING, TURNING + 1, TURNING + 2])
     private = newton.N_BODY * n + newton.N_COUPLING * n_couplings
     n_numbers = n_blocks(data.newton) + int(data.parts.constants.n_work)
-    return Algebra(
+    return LinearSolver(
         places=np.ascontiguousarray(
             [(state + np.repeat(rows, 3)).ravel(), (state + np.tile(np.arange(ORIENTATION), 6)).ravel()]
         ),

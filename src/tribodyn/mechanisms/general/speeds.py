@@ -15,7 +15,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.closing import DEPENDENT, System
-from tribodyn.mechanisms.general.inspection import Finding
+from tribodyn.mechanisms.general.inspection import ModelError
 from tribodyn.mechanisms.general.misfit import Misfit
 
 _TINY: Final = 1.0e-300
@@ -44,7 +44,9 @@ class _Rows:
         return float(np.max(np.abs(self.matrix @ velocity - self.target), initial=0.0))
 
 
-def start(system: System, speeds: Speeds, ideal: Misfit | None = None, *, fits: bool = True) -> list[Finding]:
+def start(
+    system: System, speeds: Speeds, ideal: Misfit | None = None, *, fits: bool = True
+) -> list[ModelError]:
     """Fill the velocities at the start; return what makes given speeds impossible.
 
     Parameters
@@ -105,9 +107,9 @@ def _guided(exact: _Rows, held: _Rows, velocity: FloatArray, root: FloatArray, i
     return change
 
 
-def _contrary(system: System, speeds: Speeds) -> Finding:
+def _contrary(system: System, speeds: Speeds) -> ModelError:
     """Return that drives and given speeds contradict each other."""
     asked = [system.description.joints[k].name for k, _, _ in speeds]
     text = "no motion has the speeds at the start that drives and joints ask for"
     key = f"joints.{asked[0]}" if asked else "drives"
-    return Finding(key, f"{text}; given are those of {', '.join(asked)}" if asked else text)
+    return ModelError(key, f"{text}; given are those of {', '.join(asked)}" if asked else text)

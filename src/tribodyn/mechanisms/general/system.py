@@ -10,14 +10,14 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribodyn.cases.beyond import Followed
+from tribodyn.cases.beyond import FollowedTable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import places
 from tribodyn.kernels.mechanism.quantities import OF_SECOND
-from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, WearRates, Worn
+from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
 from tribodyn.mechanisms.bushing import of_expansion
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.general import broken, checks
@@ -89,10 +89,10 @@ class MechanismSystem:
         return self.case.period or self.case.duration
 
     @property
-    def nodes(self) -> Nodes:
+    def nodes(self) -> WearNodes:
         """The nodes of all joints with clearance, shape (n_nodes,)."""
         roughness = min((clearance.roughness for _, clearance in self.real), default=1.0)
-        return Nodes(self.maps.area, roughness, _STATES * len(self.description.bodies))
+        return WearNodes(self.maps.area, roughness, _STATES * len(self.description.bodies))
 
     @property
     def wear_rates(self) -> WearRates:
@@ -173,7 +173,7 @@ class MechanismSystem:
         """Return wear depths [m] as maps of surfaces."""
         return np.asarray(self.maps(depth), dtype=np.float64)
 
-    def carried(self, run: Run) -> Carried:
+    def carried(self, run: FinishedRun) -> Carried:
         """Return what the next cycle goes on from."""
         return Carried(run.solution.y_end, run.problem.memory.contact.entry_velocity)
 
@@ -181,7 +181,7 @@ class MechanismSystem:
         """Return the energy stored in the contact [J]."""
         return stored_energy(self.problem(self.period, worn))
 
-    def of_cycle(self, run: Run) -> dict[str, float]:
+    def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""
         force = np.linalg.norm(self._observed(run).couplings["reaction_force"], axis=-1)
         means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self._real_numbers]]
@@ -190,7 +190,7 @@ class MechanismSystem:
             "wear_force_mean": max(means),
         }
 
-    def gather(self, run: Run) -> Part:
+    def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run."""
         found = self._observed(run)
         ledger = ledger_columns(found.whole)
@@ -198,7 +198,7 @@ class MechanismSystem:
         peaks = self._peaks(run)
         contacts = self._contacts
         of_contacts = contacts.numbers_of(run.problem.data.contact, found.couplings, peaks) if peaks else {}
-        return Part(
+        return ResultPart(
             coordinates=self._coordinates(run),
             columns={
                 **found.bodies,
@@ -239,14 +239,14 @@ class MechanismSystem:
             for text in named(name, [of_expansion(cold.radial, hot.sizes["radial"])])
         ]
 
-    def _followed(self, found: Observed, table: Followed) -> FloatArray:
+    def _followed(self, found: Observed, table: FollowedTable) -> FloatArray:
         """Return the coordinate of a joint that a load follows, shape (n_t,)."""
         number = list(self.case.joints).index(table.follows)
         couplings, sign = found.couplings, self.description.joints[number].sign
         along = couplings["joint_angle"] if table.over == "angles" else couplings["displacement"][..., 2]
         return np.asarray(sign * along[:, number])
 
-    def _failure(self, run: Run) -> str:
+    def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""
         reason, reached = run.solution.failure or "", float(run.solution.t_end)
         if reason in ("", INTERRUPTED):
@@ -263,7 +263,7 @@ class MechanismSystem:
             float(np.max(np.abs(forces), initial=0.0)) * self.case.solver.rtol * length_scale(self.assembly)
         )
 
-    def _began(self, run: Run) -> dict[str, str]:
+    def _began(self, run: FinishedRun) -> dict[str, str]:
         """Return how a run with clearances began."""
         if not self.real:
             return {}
@@ -271,7 +271,7 @@ class MechanismSystem:
             return {"start": CARRIED}
         return {"start": "equilibrium" if self.start() is not None else "centred"}
 
-    def _observed(self, run: Run) -> Observed:
+    def _observed(self, run: FinishedRun) -> Observed:
         return observed(run.solution.rows, len(self.description.bodies))
 
     def _of_joints(self, found: Observed) -> dict[str, FloatArray]:
@@ -300,14 +300,14 @@ class MechanismSystem:
             ]
         )
 
-    def _peaks(self, run: Run) -> dict[str, FloatArray]:
+    def _peaks(self, run: FinishedRun) -> dict[str, FloatArray]:
         """Return what was largest or least of each surface at any step; NaN where it never touched."""
         if not self.real:
             return {}
         peaks: Any = run.problem.memory.contact.peaks
         return {name: np.where(np.isfinite(peaks[name]), peaks[name], np.nan) for name in peaks.dtype.names}
 
-    def _coordinates(self, run: Run) -> dict[str, ArrayLike]:
+    def _coordinates(self, run: FinishedRun) -> dict[str, ArrayLike]:
         parts = {
             "body": [body.name for body in self.description.bodies],
             "joint": [joint.name for joint in self.description.joints],
@@ -325,10 +325,10 @@ class MechanismSystem:
             **self.maps.coordinates(),
         }
 
-    def _playback(self, run: Run) -> slice:
+    def _playback(self, run: FinishedRun) -> slice:
         return shown(run.solution.picture_times, run.duration, self.period)
 
-    def _pressure(self, run: Run) -> dict[str, Any]:
+    def _pressure(self, run: FinishedRun) -> dict[str, Any]:
         if not self.real:
             return {}
         pictures = run.solution.pictures[self._playback(run)].astype(np.float32)

@@ -6,10 +6,10 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import ClassVar, Final, Literal
 
-from tribodyn.cases.beyond import Followed, followed
+from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import choice, number, quantity, switch, tables, text
-from tribodyn.cases.film import Film
+from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
     Solver,
@@ -56,13 +56,13 @@ class Shaft(Group):
     )
 
 
-class Drive(Group):
+class JournalDriveKeys(Group):
     """What turns the journal."""
 
     speed: SpeedTable | None = None
 
 
-class Loads(Group):
+class JournalLoadKeys(Group):
     """Loads on the centre of the journal."""
 
     force_x: float = quantity("200 N", "load W_x", SECTION_4)
@@ -115,7 +115,7 @@ class Tight(Solver):
     atol: TightTolerances = TightTolerances()
 
 
-class Run(Group):
+class JournalRunKeys(Group):
     """How long, from where, and what is kept."""
 
     duration: float = quantity("10 ms", "simulated time", "depends on film.lubricated", gt=0)
@@ -138,11 +138,11 @@ class JournalCase(BushingCase):
     title: str = text("Journal bearing, dry rough contact", "heading of figures and report")
     joint: JournalJoint = JournalJoint()
     journal: Shaft = Shaft()
-    drive: Drive = Drive()
-    loads: Loads = Loads()
-    film: Film = Film()
+    drive: JournalDriveKeys = JournalDriveKeys()
+    loads: JournalLoadKeys = JournalLoadKeys()
+    film: FilmKeys = FilmKeys()
     solver: Tight = Tight()
-    run: Run = Run()
+    run: JournalRunKeys = JournalRunKeys()
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -158,7 +158,7 @@ class JournalCase(BushingCase):
         """Simulated time of the whole run [s]."""
         return self.run.duration
 
-    def followed(self) -> Iterable[Followed]:
+    def followed(self) -> Iterable[FollowedTable]:
         """Return the tables that the speed and loads follow."""
         loads = {
             f"loads.more.{name}.{key}": signal

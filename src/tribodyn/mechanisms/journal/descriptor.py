@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.headlines import HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.journal.variables import VARIABLES
 
-MECHANISM: Final = Mechanism(
+MECHANISM: Final = MechanismDescriptor(
     folder="tribodyn.mechanisms.journal",
     case=JournalCase,
     built_in={

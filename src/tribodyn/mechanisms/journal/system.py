@@ -17,7 +17,7 @@ from tribodyn.core.signals import constant
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.kernels.journal.quantities import FILM, OBSERVED, WATCHED
 from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
-from tribodyn.mechanisms.base import Part, Run, Worn
+from tribodyn.mechanisms.base import FinishedRun, ResultPart, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -78,7 +78,7 @@ def _film(case: JournalCase) -> Film | None:
 
 @dataclass(frozen=True)
 class JournalSystem:
-    """The journal of a case; see :class:`~tribodyn.mechanisms.base.System`."""
+    """The journal of a case; see :class:`~tribodyn.mechanisms.base.SimulatedSystem`."""
 
     case: JournalCase
 
@@ -120,7 +120,7 @@ class JournalSystem:
         """Return no times: no field is kept."""
         return np.empty(0)
 
-    def gather(self, run: Run) -> Part:
+    def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run."""
         rows = run.rows(OBSERVED)
         # Whoever wants to stop does not wait for what takes many evaluations of a fine film.
@@ -132,7 +132,7 @@ class JournalSystem:
         pressure = of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"]
         law = self.case.contact.law_of(self.case.surface_pair)
         load = loading(law, self.journal.joint.touch, pressure, float(found.separation_least))
-        return Part(
+        return ResultPart(
             columns=columns,
             fields=self._numbers(run, rows, balance),
             attributes={
@@ -183,7 +183,7 @@ class JournalSystem:
         return facts
 
     def _numbers(
-        self, run: Run, rows: dict[str, FloatArray], balance: Equilibrium | None
+        self, run: FinishedRun, rows: dict[str, FloatArray], balance: Equilibrium | None
     ) -> dict[str, FloatArray]:
         """Return what a run has one of, arrays of shape ()."""
         found = {
@@ -200,7 +200,9 @@ class JournalSystem:
             found["friction_coefficient_end"] = self._friction_coefficient(rows)
         return {name: np.array(value) for name, value in found.items()}
 
-    def _settling_time(self, run: Run, rows: dict[str, FloatArray], balance: Equilibrium | None) -> float:
+    def _settling_time(
+        self, run: FinishedRun, rows: dict[str, FloatArray], balance: Equilibrium | None
+    ) -> float:
         """Return the time after which the centre stays near the static equilibrium; NaN if it never does."""
         if balance is None or not run.solution.complete:
             return np.nan
@@ -219,7 +221,7 @@ class JournalSystem:
         moment = abs(float(rows["M_jf"][-1] + rows["M_of"][-1]))
         return moment / (self.journal.joint.geometry.radius * force)
 
-    def _failure(self, run: Run) -> str:
+    def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""
         if run.solution.failure in (None, INTERRUPTED):
             return run.solution.failure or ""
@@ -231,7 +233,7 @@ class JournalSystem:
         return reason
 
 
-def _contact_start(run: Run, rows: dict[str, FloatArray]) -> float:
+def _contact_start(run: FinishedRun, rows: dict[str, FloatArray]) -> float:
     """Return the first output time at which any point is in contact [s]; NaN if there is none."""
     touching = np.flatnonzero(rows["contact_fraction"] > 0.0)
     return float(run.solution.t[touching[0]]) if touching.size else np.nan

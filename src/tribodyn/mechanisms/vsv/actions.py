@@ -27,7 +27,7 @@ def _keys_of_tables(*names: str) -> list[str]:
     return [f"{name}.{key}" for name in names for key in AngleTable.model_fields]
 
 
-class Drive(Group):
+class CrankKeys(Group):
     """Motion of the crank: start + amplitude/frequency (1 - cos(frequency t)), or a table over time."""
 
     start_angle: float = quantity("-16 deg", "crank angle at the start", DRIVE, ge="-180 deg", le="180 deg")

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
-from tribodyn.cases.beyond import Followed, followed
+from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, switch, tables, text
 from tribodyn.cases.functions import Doors
@@ -20,7 +20,7 @@ from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature
 from tribodyn.core.errors import Faults
-from tribodyn.mechanisms.vsv.actions import COMPONENTS, DRIVE_TABLES, Drive, Surge, VaneLoad, VanePassing
+from tribodyn.mechanisms.vsv.actions import COMPONENTS, DRIVE_TABLES, CrankKeys, Surge, VaneLoad, VanePassing
 
 if TYPE_CHECKING:
     from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths
@@ -91,7 +91,7 @@ def _rod_inertias(given: Mapping[str, Value]) -> dict[str, Value]:
     return found
 
 
-class Loads(Group):
+class VsvLoadKeys(Group):
     """Aerodynamic loads on the vane."""
 
     air_force_x: float = quantity("0.4 N", "size of F_airx, whose sign follows the vane angle", TABLE_3)
@@ -134,7 +134,7 @@ class VaneWear(Wear):
         return {} if self.angle_error_limit is None else {"wear_angle_error_max": self.angle_error_limit}
 
 
-class Run(Group):
+class VsvRunKeys(Group):
     """How long, from where, and what is kept."""
 
     cycles: float | None = number(
@@ -167,11 +167,11 @@ class VsvCase(BushingCase):
     joint: VaneJoint = VaneJoint()
     temperature: ChangingTemperature = ChangingTemperature()
     mechanism: MechanismKeys = MechanismKeys()
-    drive: Drive = Drive()
-    loads: Loads = Loads()
+    drive: CrankKeys = CrankKeys()
+    loads: VsvLoadKeys = VsvLoadKeys()
     wear: VaneWear = VaneWear()
     solver: Solver = Solver()
-    run: Run = Run(cycles=2.0)
+    run: VsvRunKeys = VsvRunKeys(cycles=2.0)
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -234,7 +234,7 @@ class VsvCase(BushingCase):
 
         return drive_of(self.drive, self.duration, again=self.wear.cycles > 0)
 
-    def followed(self) -> Iterable[Followed]:
+    def followed(self) -> Iterable[FollowedTable]:
         """Return the tables that loads and temperatures follow; that of the drive holds the whole run."""
         loads = {
             f"loads.more.{name}.{key}": signal

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.engine import ENGINE
 from tribodyn.mechanisms.vsv.headlines import HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.vsv.variables import OF_CYCLE, VARIABLES
 
-MECHANISM: Final = Mechanism(
+MECHANISM: Final = MechanismDescriptor(
     folder="tribodyn.mechanisms.vsv",
     case=VsvCase,
     built_in={

@@ -12,19 +12,18 @@ import numpy as np
 from tribodyn.cases.case import demand
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, polyline, repeated, scaled, spline
-from tribodyn.mechanisms.vsv.parameters import AnyDrive, TableDrive
-from tribodyn.mechanisms.vsv.parameters import Drive as Sinusoid
+from tribodyn.mechanisms.vsv.parameters import AnyDrive, CrankMotion, TableDrive
 
 if TYPE_CHECKING:
     from tribodyn.cases.signals import AngleTable, PositionTable, SpeedTable
-    from tribodyn.mechanisms.vsv.actions import Drive
+    from tribodyn.mechanisms.vsv.actions import CrankKeys
 
 _CLOSED: Final = 1.0e-6
 """Of a table's largest angle or speed: what end and beginning may differ by where it is repeated."""
 _MOST_PIECES: Final = 1_000_000
 
 
-def drive_of(keys: Drive, duration: float, *, again: bool) -> AnyDrive:
+def drive_of(keys: CrankKeys, duration: float, *, again: bool) -> AnyDrive:
     """Return the motion of the crank.
 
     Parameters
@@ -42,7 +41,7 @@ def drive_of(keys: Drive, duration: float, *, again: bool) -> AnyDrive:
         A table does not hold as much as the run needs, or jumps.
     """
     if keys.table is None:
-        return Sinusoid(keys.start_angle, keys.speed_amplitude, keys.angular_frequency)
+        return CrankMotion(keys.start_angle, keys.speed_amplitude, keys.angular_frequency)
     name, table = keys.table
     demand(table.knots[0] == 0.0, f"drive.{name}", f"the table begins at {table.knots[0]:g} s, a run at 0 s")
     once = _angle(keys, name, table)
@@ -55,7 +54,7 @@ def drive_of(keys: Drive, duration: float, *, again: bool) -> AnyDrive:
     return TableDrive(repeated(once, n), period)
 
 
-def _angle(keys: Drive, name: str, table: AngleTable | SpeedTable | PositionTable) -> Signal:
+def _angle(keys: CrankKeys, name: str, table: AngleTable | SpeedTable | PositionTable) -> Signal:
     """Return the crank angle over one length of the table [rad, s]."""
     if name == "speed":
         return _integrated(table.curve(closed=True), keys.start_angle)

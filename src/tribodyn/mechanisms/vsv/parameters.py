@@ -58,7 +58,7 @@ class Inertias:
 
 
 @dataclass(frozen=True)
-class Drive:
+class CrankMotion:
     """Crank motion θ_a = θ_a0 + Ω/ν (1 − cos ν t): angles [rad], Ω and ν [rad/s].
 
     With Ω < 0 the crank sets out towards smaller angles.
@@ -171,7 +171,7 @@ class TableDrive:
         return crossings(self.angle, ends, angles)
 
 
-AnyDrive: TypeAlias = Drive | TableDrive
+AnyDrive: TypeAlias = CrankMotion | TableDrive
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.signals import SignalList, pieces_of
 from tribodyn.mechanisms.vsv.course import course
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
-from tribodyn.mechanisms.vsv.parameters import Drive, Vsv
+from tribodyn.mechanisms.vsv.parameters import CrankMotion, Vsv
 from tribodyn.mechanisms.vsv.reach import ideal_table
 
 STARTS: Final = ("equilibrium", "centred")
@@ -86,9 +86,9 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         inertia=_row_inertia(vsv),
         weight=_row_weight(vsv),
         vane_weight=inertias.m_v * vsv.gravity,
-        start_angle=drive.start_angle if isinstance(drive, Drive) else 0.0,
-        speed_amplitude=drive.speed_amplitude if isinstance(drive, Drive) else 0.0,
-        angular_frequency=drive.angular_frequency if isinstance(drive, Drive) else 1.0,
+        start_angle=drive.start_angle if isinstance(drive, CrankMotion) else 0.0,
+        speed_amplitude=drive.speed_amplitude if isinstance(drive, CrankMotion) else 0.0,
+        angular_frequency=drive.angular_frequency if isinstance(drive, CrankMotion) else 1.0,
         tabulated=0.0 if drive.signal is None else 1.0,
         opening=NONE,
         air_force_x=vsv.air.force_x,

@@ -19,7 +19,7 @@ from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import BEYOND
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
-from tribodyn.mechanisms.base import Carried, Nodes, Part, Run, WearRates, Worn
+from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -95,10 +95,10 @@ class VsvSystem:
         return self.vsv.joint
 
     @property
-    def nodes(self) -> Nodes:
+    def nodes(self) -> WearNodes:
         """The nodes of the bushing, shape (n_z + 2, n_theta)."""
         smoothest = self.case.run_in(math.inf) if self.case.wear.running_in else self.case
-        return Nodes(self._area, smoothest.surface_pair.roughness_rms, len(STATES))
+        return WearNodes(self._area, smoothest.surface_pair.roughness_rms, len(STATES))
 
     @property
     def _area(self) -> FloatArray:
@@ -157,7 +157,7 @@ class VsvSystem:
         """Return wear depths [m] with the angle before the height."""
         return np.swapaxes(depth, -1, -2)
 
-    def carried(self, run: Run) -> Carried:
+    def carried(self, run: FinishedRun) -> Carried:
         """Return what the next cycle goes on from."""
         return Carried(run.solution.y_end, run.problem.memory.joint.entry_velocity)
 
@@ -167,7 +167,7 @@ class VsvSystem:
         data = self.worn_bushing(worn.depth).data(worn.depth)
         return contact_energy(data, worn.carried.state, worn.carried.entry_velocity)
 
-    def of_cycle(self, run: Run) -> dict[str, float]:
+    def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""
         t, rows = run.solution.t, run.rows(OBSERVED)
         error = rows["theta_v"] - rows["theta_v_ideal"]
@@ -180,7 +180,7 @@ class VsvSystem:
             "wear_angle_error_rms": _mean(t, error**2) ** 0.5,
         }
 
-    def gather(self, run: Run) -> Part:
+    def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run."""
         rows = run.rows(OBSERVED)
         ledger = ledger_columns(rows)
@@ -199,7 +199,7 @@ class VsvSystem:
         flash = flash_of(self.case, bushing, rows, speed)
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         turns, t_end = self._turns(run), float(run.solution.t_end)
-        return Part(
+        return ResultPart(
             coordinates=self._coordinates(run),
             columns=force_parts(rows) | ledger | moving,
             fields=self._fields(run) | of_reversals(memory.peaks, WATCHED),
@@ -226,7 +226,7 @@ class VsvSystem:
             failure=self._failure(run),
         )
 
-    def _coordinates(self, run: Run) -> dict[str, FloatArray]:
+    def _coordinates(self, run: FinishedRun) -> dict[str, FloatArray]:
         pictures = run.solution.picture_times
         times = pictures[self._is_snapshot(run)]
         frames = pictures[self._playback(run)]
@@ -244,25 +244,25 @@ class VsvSystem:
             "z": self.bushing.z,
         }
 
-    def _clearance(self, run: Run) -> FloatArray | None:
+    def _clearance(self, run: FinishedRun) -> FloatArray | None:
         """Return the radial clearance at the rows [m], shape (n_t,), where it does not keep still."""
         opening = self.vsv.opening
         return None if opening is None else self.bushing.geometry.clearance + opening(run.solution.t)
 
-    def _turns(self, run: Run) -> FloatArray:
+    def _turns(self, run: FinishedRun) -> FloatArray:
         """Return the times of the start and of the reversals that were reached [s]."""
         reached = int(run.problem.memory.peaks.course.stretch) + 1
         return np.concatenate([[0.0], course(self.vsv, run.duration).turns])[:reached]
 
-    def _is_snapshot(self, run: Run) -> NDArray[np.bool_]:
+    def _is_snapshot(self, run: FinishedRun) -> NDArray[np.bool_]:
         """Tell of each picture whether it is a snapshot, shape (n_pictures,)."""
         return np.isin(run.solution.picture_times, snapshots(self.vsv, run.duration))
 
-    def _playback(self, run: Run) -> slice:
+    def _playback(self, run: FinishedRun) -> slice:
         """Return which pictures are the frames of the playback."""
         return shown(run.solution.picture_times, run.duration, self.period)
 
-    def _fields(self, run: Run) -> dict[str, NDArray[np.floating]]:
+    def _fields(self, run: FinishedRun) -> dict[str, NDArray[np.floating]]:
         pressure = run.solution.pictures[:, 0].transpose(0, 2, 1)
         return {
             "pressure": pressure[self._is_snapshot(run)],
@@ -270,7 +270,7 @@ class VsvSystem:
             "pressure_cycle": pressure[self._playback(run)].astype(np.float32),
         }
 
-    def _failure(self, run: Run) -> str:
+    def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
         if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] > 0.0:

@@ -15,7 +15,7 @@ from tribodyn.mechanisms.actions import crossings
 from tribodyn.mechanisms.playback import distinct
 from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.vsv.course import course, ideal_motion
-from tribodyn.mechanisms.vsv.parameters import Drive, Lengths, TableDrive, Vsv
+from tribodyn.mechanisms.vsv.parameters import CrankMotion, Lengths, TableDrive, Vsv
 from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
 
 _WATCHED: Final = tuple(
@@ -92,7 +92,7 @@ def _wanted(low: float, high: float, switch: float) -> FloatArray:
 
 # Asked several times by a run, and by every case of a sweep, most of which share lengths and drive.
 @lru_cache(maxsize=64)
-def _forward(lengths: Lengths, drive: Drive, switch: float) -> tuple[float, ...]:
+def _forward(lengths: Lengths, drive: CrankMotion, switch: float) -> tuple[float, ...]:
     """Return the times of the pictures in the forward half of a cycle [s]; ``switch`` is in rad."""
     crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
     vane = np.unwrap(ideal_vane_angle(lengths, crank))

@@ -13,7 +13,7 @@ from tribodyn.figures.pressure import draw as draw_pictures
 from tribodyn.joints.bushing import new_memory, pose_at
 from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field
 from tribodyn.mechanisms.vsv.equilibrium import equilibrium
-from tribodyn.mechanisms.vsv.parameters import Drive, Vsv
+from tribodyn.mechanisms.vsv.parameters import CrankMotion, Vsv
 from tribodyn.mechanisms.vsv.places import case_of
 from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
 from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
@@ -29,7 +29,7 @@ ANGLES: Final = (60.0, 90.0, 120.0)
 def instants(vsv: Vsv) -> tuple[FloatArray, FloatArray]:
     """Return times [s] and vane angles [rad] of the six pictures, without clearance: there and back."""
     drive = vsv.drive
-    assert isinstance(drive, Drive)
+    assert isinstance(drive, CrankMotion)
     crank = np.linspace(drive.start_angle, drive.start_angle + drive.swing, 2001)
     vane = ideal_vane_angle(vsv.lengths, crank)
     angles = np.clip(np.radians(ANGLES), vane[0], vane[-1])

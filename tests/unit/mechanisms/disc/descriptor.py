@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms.base import Mechanism
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.disc.case import DiscCase
 from tribodyn.mechanisms.disc.variables import VARIABLES
 from tribodyn.results.headline import Headline
 from tribodyn.results.reading import column, peak
 
-MECHANISM = Mechanism(
+MECHANISM = MechanismDescriptor(
     folder="tribodyn.mechanisms.disc",
     case=DiscCase,
     built_in={"disc": BuiltIn(DiscCase, "a disc that falls on an elastic floor")},

@@ -10,7 +10,7 @@ import numpy as np
 
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.kernels.jit import entry
-from tribodyn.mechanisms.base import Part, Run
+from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.disc.case import DiscCase
 
 GRAVITY = 9.81
@@ -101,8 +101,8 @@ class DiscSystem:
     def picture_times(self, duration: float) -> np.ndarray:
         return np.empty(0)
 
-    def gather(self, run: Run) -> Part:
-        return Part(columns=run.rows(NAMES), failure=run.solution.failure or "")
+    def gather(self, run: FinishedRun) -> ResultPart:
+        return ResultPart(columns=run.rows(NAMES), failure=run.solution.failure or "")
 
 
 SYSTEM = DiscSystem

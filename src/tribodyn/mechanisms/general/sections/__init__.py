@@ -11,7 +11,7 @@ from tribodyn.mechanisms.general.sections import mechanism
 from tribodyn.mechanisms.general.sections.charts import CLEARANCES, ENERGY, JOINT_FORCES, MOTION
 from tribodyn.mechanisms.general.sections.joints import ORBITS, PRESSURE, REACTIONS, WEAR
 from tribodyn.views import wear_history
-from tribodyn.views.overlay import Overlay, Quantity
+from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 
 CHAPTERS: Final = (
@@ -37,7 +37,7 @@ OVERLAYS: Final = (
         "force",
         "Forces in the joints",
         (
-            Quantity(
+            OverlayQuantity(
                 "largest of all joints [N]",
                 ("reaction_force",),
                 lambda d: sizes(d, "reaction_force").max(axis=1),
@@ -48,7 +48,7 @@ OVERLAYS: Final = (
         "offset",
         "Offset in the joints",
         (
-            Quantity(
+            OverlayQuantity(
                 "largest of all joints [µm]",
                 ("displacement", "clearance"),
                 lambda d: 1e6 * np.nan_to_num(offset(d)).max(axis=1),
@@ -59,8 +59,10 @@ OVERLAYS: Final = (
         "drive",
         "Drive",
         (
-            Quantity("moment [N m]", ("drive_moment",), lambda d: d["drive_moment"].values.sum(axis=1)),
-            Quantity("force [N]", ("drive_force",), lambda d: d["drive_force"].values.sum(axis=1)),
+            OverlayQuantity(
+                "moment [N m]", ("drive_moment",), lambda d: d["drive_moment"].values.sum(axis=1)
+            ),
+            OverlayQuantity("force [N]", ("drive_force",), lambda d: d["drive_force"].values.sum(axis=1)),
         ),
     ),
 )

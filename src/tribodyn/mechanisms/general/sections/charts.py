@@ -11,25 +11,25 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.ledger import WHOLE
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import LOOKS, Curve, Panel
+from tribodyn.views.curves import LOOKS, ChartCurve, Panel
 from tribodyn.views.energy import ledger_chart
 
 DEG: Final = 180.0 / np.pi
 
 
-def curves(names: list[str], values: FloatArray) -> list[Curve]:
+def curves(names: list[str], values: FloatArray) -> list[ChartCurve]:
     """Return the largest of some curves, as many as have a look of their own; values of shape (n_t, n)."""
     reach = np.nan_to_num(np.abs(values)).max(axis=0, initial=0.0)
     chosen = sorted(np.argsort(-reach, kind="stable")[: len(LOOKS)].tolist())
     looks = zip(chosen, LOOKS, strict=False)
-    return [Curve(names[k], values[:, k], colour, dash) for k, (colour, dash) in looks if reach[k] > 0.0]
+    return [ChartCurve(names[k], values[:, k], colour, dash) for k, (colour, dash) in looks if reach[k] > 0.0]
 
 
 def _names(dataset: xr.Dataset, part: str) -> list[str]:
     return [str(name) for name in dataset[part].values]
 
 
-def _panels(*panels: tuple[str, list[Curve]]) -> list[Panel]:
+def _panels(*panels: tuple[str, list[ChartCurve]]) -> list[Panel]:
     drawn = [panel for panel in panels if panel[1]] or panels[:1]
     # A legend comes with the second curve.
     return [Panel(f"{label}\n{found[0].name}" if len(found) == 1 else label, found) for label, found in drawn]

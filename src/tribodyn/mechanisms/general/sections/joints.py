@@ -11,7 +11,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.bushing import Unrolled
 from tribodyn.views.choice import choice
-from tribodyn.views.curves import LOOKS, Curve, Panel
+from tribodyn.views.curves import LOOKS, ChartCurve, Panel
 from tribodyn.views.depth import fitting_unit
 from tribodyn.views.encode import packed, quantised
 from tribodyn.views.lines import over_time
@@ -52,7 +52,7 @@ def reactions(dataset: xr.Dataset) -> Payload | None:
 
 def _vector(label: str, values: FloatArray) -> Panel:
     curves = [
-        Curve(axis, values[:, i], colour, dash)
+        ChartCurve(axis, values[:, i], colour, dash)
         for i, (axis, (colour, dash)) in enumerate(zip(_AXES, LOOKS, strict=False))
     ]
     return Panel(label, curves)

@@ -9,7 +9,7 @@ import xarray as xr
 
 from tribodyn.mechanisms.journal.ledger import LEDGER
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.energy import ledger_chart
 from tribodyn.views.series import series
 
@@ -21,7 +21,7 @@ def _deviation(dataset: xr.Dataset) -> list[Panel]:
     return [
         Panel(
             f"along {axis.upper()} [µm]",
-            [Curve("centre", series(dataset, f"e_{axis}", 1e6), "blue")],
+            [ChartCurve("centre", series(dataset, f"e_{axis}", 1e6), "blue")],
             level=_balance(dataset, f"e_{axis}_balance"),
         )
         for axis in "xy"
@@ -39,14 +39,14 @@ def _forces(dataset: xr.Dataset) -> list[Panel]:
         Panel(
             f"{what} [N]",
             [
-                Curve("along X", series(dataset, f"{symbol}x"), "blue"),
-                Curve("along Y", series(dataset, f"{symbol}y"), "vermilion", "dash"),
+                ChartCurve("along X", series(dataset, f"{symbol}x"), "blue"),
+                ChartCurve("along Y", series(dataset, f"{symbol}y"), "vermilion", "dash"),
             ],
         )
         for symbol, what in _FORCES
         if f"{symbol}x" in dataset
     ]
-    pressure = [Curve("peak contact pressure", series(dataset, "p_max", 1e-6))]
+    pressure = [ChartCurve("peak contact pressure", series(dataset, "p_max", 1e-6))]
     return [*panels, Panel("peak contact\npressure [MPa]", pressure)]
 
 

@@ -11,7 +11,7 @@ from tribodyn.mechanisms.vsv.sections.motion import MOTION
 from tribodyn.views import orbit, overlay, pressure, wear, wear_history, wear_stages
 from tribodyn.views.contact_force import CONTACT_FORCE
 from tribodyn.views.energy import ledger_chart
-from tribodyn.views.overlay import Overlay, Quantity, scaled
+from tribodyn.views.overlay import Overlay, OverlayQuantity, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.tilt import TILT
 
@@ -70,7 +70,7 @@ OVERLAYS: Final = (
     Overlay(
         "error",
         "Vane-angle error",
-        (Quantity("angle error [°]", ("theta_v", "theta_v_ideal"), vane_error.error),),
+        (OverlayQuantity("angle error [°]", ("theta_v", "theta_v_ideal"), vane_error.error),),
     ),
     *overlay.BUSHING,
     Overlay("drive", "Drive moment", (scaled("M_d", "drive moment [N m]", 1.0),)),

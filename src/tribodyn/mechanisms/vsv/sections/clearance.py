@@ -7,13 +7,15 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.series import series
 
 
 def panels(dataset: xr.Dataset) -> list[Panel]:
     """Return the radial clearance [µm]."""
-    return [Panel("clearance [µm]", [Curve("radial clearance", series(dataset, "radial_clearance", 1e6))])]
+    return [
+        Panel("clearance [µm]", [ChartCurve("radial clearance", series(dataset, "radial_clearance", 1e6))])
+    ]
 
 
 WARMING: Final = Chart(

@@ -12,7 +12,7 @@ import xarray as xr
 from tribodyn.cases.units import UnitProblem, to_si
 from tribodyn.mechanisms.vsv.sections.vane_error import DEG
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Marks, Panel
+from tribodyn.views.curves import ChartCurve, ChartMarks, Panel
 from tribodyn.views.series import series
 
 
@@ -21,18 +21,18 @@ def panels(dataset: xr.Dataset) -> list[Panel]:
     return [
         Panel("angle [°]", [*_pair(dataset, "theta"), *_switch(dataset)], marks=_snapshots(dataset)),
         Panel("speed [°/s]", _pair(dataset, "omega")),
-        Panel("drive moment\non the crank [N m]", [Curve("drive moment", series(dataset, "M_d"))]),
+        Panel("drive moment\non the crank [N m]", [ChartCurve("drive moment", series(dataset, "M_d"))]),
     ]
 
 
-def _pair(dataset: xr.Dataset, symbol: str) -> list[Curve]:
+def _pair(dataset: xr.Dataset, symbol: str) -> list[ChartCurve]:
     return [
-        Curve("vane", series(dataset, f"{symbol}_v", DEG), "blue"),
-        Curve("crank", series(dataset, f"{symbol}_a", DEG), "vermilion", "dash"),
+        ChartCurve("vane", series(dataset, f"{symbol}_v", DEG), "blue"),
+        ChartCurve("crank", series(dataset, f"{symbol}_a", DEG), "vermilion", "dash"),
     ]
 
 
-def _switch(dataset: xr.Dataset) -> list[Curve]:
+def _switch(dataset: xr.Dataset) -> list[ChartCurve]:
     """Return the vane angle at which the air force changes its sign, where the motion passes it."""
     vane = series(dataset, "theta_v")
     try:
@@ -43,15 +43,15 @@ def _switch(dataset: xr.Dataset) -> list[Curve]:
         return []
     if not (acts and np.nanmin(vane) < angle < np.nanmax(vane)):
         return []
-    return [Curve("air force changes sign", np.full(vane.shape, angle * DEG), "grey", "dot", 1.0)]
+    return [ChartCurve("air force changes sign", np.full(vane.shape, angle * DEG), "grey", "dot", 1.0)]
 
 
-def _snapshots(dataset: xr.Dataset) -> Marks | None:
+def _snapshots(dataset: xr.Dataset) -> ChartMarks | None:
     """Return where the pressure snapshots were taken, with the letters of that figure."""
     if "snapshot_time" not in dataset:
         return None
     times, angles = series(dataset, "snapshot_time"), series(dataset, "snapshot_theta_v", DEG)
-    return Marks(times, angles, tuple(ascii_lowercase[: times.size]))
+    return ChartMarks(times, angles, tuple(ascii_lowercase[: times.size]))
 
 
 MOTION: Final = Chart(

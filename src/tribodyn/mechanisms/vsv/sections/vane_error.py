@@ -9,7 +9,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.events import direction
 from tribodyn.views.lines import over
 from tribodyn.views.section import Payload, Section
@@ -27,17 +27,17 @@ def panels(dataset: xr.Dataset) -> list[Panel]:
     """Return the errors of angle [°] and speed [°/s]."""
     speed = series(dataset, "omega_v", DEG) - series(dataset, "omega_v_ideal", DEG)
     return [
-        Panel("angle error [°]", [Curve("angle error", error(dataset))]),
-        Panel("speed error [°/s]", [Curve("speed error", speed)], smooth=True, unit="°/s"),
+        Panel("angle error [°]", [ChartCurve("angle error", error(dataset))]),
+        Panel("speed error [°/s]", [ChartCurve("speed error", speed)], smooth=True, unit="°/s"),
     ]
 
 
-def branches(dataset: xr.Dataset) -> list[Curve]:
+def branches(dataset: xr.Dataset) -> list[ChartCurve]:
     """Return the angle error [°] over the ideal vane angle, the two directions apart."""
     off, sense = error(dataset), direction(dataset)
     return [
-        Curve("forward, angle growing", np.where(sense > 0.0, off, np.nan), "blue"),
-        Curve("reverse, angle falling", np.where(sense < 0.0, off, np.nan), "vermilion", "dash"),
+        ChartCurve("forward, angle growing", np.where(sense > 0.0, off, np.nan), "blue"),
+        ChartCurve("reverse, angle falling", np.where(sense < 0.0, off, np.nan), "vermilion", "dash"),
     ]
 
 

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.contact.oblique_impact import Rebound, Sphere, TangentialLaw, rebound
+from tribodyn.contact.oblique_impact import ImpactingSphere, Rebound, TangentialLaw, rebound
 from tribodyn.core.arrays import FloatArray
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
@@ -56,7 +56,7 @@ def compare(one: ValidationSet) -> Outcome:
 
 def impact(given: Mapping[str, float], angle: float, law: TangentialLaw) -> Rebound:
     """Return the rebound at an angle of incidence [deg]."""
-    sphere = Sphere(
+    sphere = ImpactingSphere(
         radius=0.5 * given["diameter"],
         density=given["density"],
         young_modulus=(given["young_sphere"], given["young_plate"]),

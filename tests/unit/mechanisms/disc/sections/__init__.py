@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.views.chart import Chart
-from tribodyn.views.curves import Curve, Panel
+from tribodyn.views.curves import ChartCurve, Panel
 from tribodyn.views.overlay import Overlay, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.series import series
@@ -13,7 +13,7 @@ HEIGHT = Chart(
     title="Height of the disc",
     caption="How it falls and bounces.",
     needs=("height",),
-    panels=lambda dataset: [Panel("height [µm]", [Curve("height", series(dataset, "height", 1e6))])],
+    panels=lambda dataset: [Panel("height [µm]", [ChartCurve("height", series(dataset, "height", 1e6))])],
 )
 CHAPTERS = (Chapter("time", "Over time", OVER_TIME, (HEIGHT.section,)),)
 OVERLAYS = (Overlay("height", "Height", (scaled("height", "height [µm]", 1e6),)),)
