@@ -58,6 +58,8 @@ class LeastSquares:
         Derivatives of the residuals, shape (m, n).
     cost
         Half the sum of the losses.
+    loss
+        The loss.
     """
 
     parameters: tuple[Parameter, ...]
@@ -65,6 +67,7 @@ class LeastSquares:
     residuals: FloatArray
     jacobian: FloatArray
     cost: float
+    loss: Loss = "linear"
 
     @property
     def named(self) -> dict[str, float]:
@@ -77,6 +80,12 @@ class LeastSquares:
         """Number of data less that of parameters, at least 1."""
         return max(self.residuals.size - self.values.size, 1)
 
+    @property
+    def scatter(self) -> float:
+        """Mean square of the residuals per degree of freedom; of a robust fit, of those within three."""
+        inside = np.clip(self.residuals, -3.0, 3.0) if self.loss != "linear" else self.residuals
+        return float(inside @ inside) / self.freedoms
+
     def covariance(self, *, known_noise: bool = False) -> FloatArray:
         """Return the covariance of the parameters, shape (n, n).
 
@@ -86,8 +95,7 @@ class LeastSquares:
             Whether residuals are over the true uncertainty of the data; otherwise their scatter gives it.
         """
         inverse = np.linalg.pinv(self.jacobian.T @ self.jacobian)
-        scatter = 1.0 if known_noise else float(self.residuals @ self.residuals) / self.freedoms
-        return np.asarray(scatter * inverse)
+        return np.asarray((1.0 if known_noise else self.scatter) * inverse)
 
     def half_width(self, name: str, *, known_noise: bool = False) -> float:
         """Return the half width of the 95 % interval of a parameter, from the covariance."""
@@ -110,6 +118,8 @@ def fit(
     starts: int = STARTS,
     loss: Loss = "linear",
     start: Mapping[str, float] | None = None,
+    step: float | None = None,
+    tolerance: float = 1e-8,
 ) -> LeastSquares:
     """Fit parameters by least squares, from the best of several starts.
 
@@ -125,6 +135,10 @@ def fit(
         ``linear`` for least squares, ``soft_l1`` for a fit that single outliers hardly move.
     start
         Values to begin with, instead of the starts.
+    step
+        Step of the differences that give derivatives, relative to the parameters; tiny by default.
+    tolerance
+        Relative change of cost and parameters at which a fit ends.
     """
     names = [parameter.name for parameter in parameters]
     bounds = np.array([[parameter.low, parameter.high] for parameter in parameters]).T
@@ -141,12 +155,21 @@ def fit(
             bounds=(bounds[0], bounds[1]),
             loss=loss,
             x_scale="jac",
+            diff_step=None if step is None else [step] * len(names),
+            ftol=tolerance,
+            xtol=tolerance,
         )
         if best is None or found.cost < best.cost:
             best = found
     return LeastSquares(
-        tuple(parameters), np.array(best.x), np.array(best.fun), np.array(best.jac), float(best.cost)
+        tuple(parameters), np.array(best.x), np.array(best.fun), np.array(best.jac), float(best.cost), loss
     )
+
+
+def cost_of(residuals: FloatArray, loss: Loss) -> float:
+    """Return half the sum of the losses of residuals, shape (m,)."""
+    squares = residuals**2
+    return 0.5 * float(np.sum(squares if loss == "linear" else 2.0 * (np.sqrt(1.0 + squares) - 1.0)))
 
 
 def starting_points(parameters: Sequence[Parameter], starts: int) -> list[list[float]]:

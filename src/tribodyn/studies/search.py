@@ -233,7 +233,18 @@ def question(case: Case, vary: str, values: str, until: Limit) -> Question:
     InputError
         There is no such key, it cannot vary over a range, or the range is none.
     """
-    key = varied_key(case, vary)
+    return Question(case, *key_range(case, vary, values), until)
+
+
+def key_range(case: Case, path: str, values: str) -> tuple[Key, float, float]:
+    """Return a key of a case and both ends of a range of it, such as ``10..60 um`` [SI].
+
+    Raises
+    ------
+    InputError
+        There is no such key, it cannot vary over a range, or the range is none.
+    """
+    key = varied_key(case, path)
     ends = values.split("..")
     if key.kind not in ("quantity", "number") or len(ends) != 2:
         raise InputError(
@@ -244,7 +255,7 @@ def question(case: Case, vary: str, values: str, until: Limit) -> Question:
     low, high = (_read(key, text) for text in with_shared_unit([end.strip() for end in ends]))
     if not low < high:
         raise InputError(f"{as_given(values)}; the range must go upwards", key=key.path, source=SOURCE)
-    return Question(case, key, low, high, until)
+    return key, low, high
 
 
 def _read(key: Key, text: str) -> float:

@@ -1,0 +1,277 @@
+"""Calibration: keys of a case fitted to measured data by robust least squares.
+
+The fit runs over shares of the ranges of the keys, from several starts, and scales the noise to the scatter
+of the residuals. Every evaluation is kept in a file, so that an interrupted fit takes the same path again
+without computing anything twice.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from scipy import stats
+
+from tribodyn.cases.case import Case
+from tribodyn.cases.keys import Key
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.quoting import as_given
+from tribodyn.simulation import simulate
+from tribodyn.studies.least_squares import (
+    CONFIDENCE,
+    LeastSquares,
+    Loss,
+    Parameter,
+    cost_of,
+    fit,
+    starting_points,
+)
+from tribodyn.studies.measured import Measured
+from tribodyn.studies.search import key_range
+from tribodyn.studies.variation import written
+
+EVALUATIONS: Final = "evaluations.jsonl"
+STEP: Final = 1e-2
+"""Step of the differences, as a share of the range: large against the error of a run."""
+COARSE: Final = 1e-3
+FINE: Final = 1e-6
+"""Relative change of the cost at which the starts and the last fit end."""
+_FEW: Final = 8
+"""Degrees of freedom below which residuals are too few for their scatter and for a robust loss."""
+_GAUSSIAN: Final = 1.4826
+"""Standard deviation over the median of magnitudes, for normal residuals."""
+_NEAR: Final = 0.1
+_TRIALS: Final = 5
+"""How near the end of a profile interval is found, as a share of its width, and steps to it at most."""
+_SCREENED: Final = 4
+"""Points whose cost is compared, over the number of starts that are made from the best of them."""
+_FAILED: Final = 1e3
+"""Residual of a run that fails."""
+
+
+@dataclass(frozen=True)
+class VariedKey:
+    """A key that is fitted, and its range [SI]."""
+
+    key: Key
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, case: Case, text: str) -> VariedKey:
+        """Return what ``PATH=LOW..HIGH`` asks of a case."""
+        path, equals, values = (part.strip() for part in text.partition("="))
+        if not equals:
+            raise InputError(
+                f"{as_given(text)}; allowed: PATH=LOW..HIGH, such as joint.clearance=10..60um", key="--vary"
+            )
+        return cls(*key_range(case, path, values.strip("\"'")))
+
+    def value(self, share: float) -> float:
+        """Return the value at a share of the range [SI]."""
+        return self.low + share * (self.high - self.low)
+
+    def text(self, value: float) -> str:
+        """Return a value as in a case file."""
+        return written(self.key, value)
+
+
+@dataclass
+class Calibration:
+    """A fit under way.
+
+    Attributes
+    ----------
+    case, keys, data
+        What is simulated, what is fitted, and to what.
+    noise
+        Standard uncertainty of each value, shape (n,).
+    directory
+        Where evaluations are kept; None keeps them in memory only.
+    note
+        Receives a line for each evaluation.
+    """
+
+    case: Case
+    keys: Sequence[VariedKey]
+    data: Measured
+    noise: FloatArray
+    directory: Path | None = None
+    note: Callable[[str], None] = lambda text: None
+    known: dict[str, list[float]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Read the evaluations of an earlier fit."""
+        if self.directory is not None and (self.directory / EVALUATIONS).exists():
+            self._read(self.directory / EVALUATIONS)
+
+    @property
+    def fingerprint(self) -> str:
+        """Hash of the case without the fitted keys, the names of these, and the data."""
+        middle = self.case.replace({one.key.path: one.text(one.value(0.5)) for one in self.keys})
+        names = ",".join(one.key.path for one in self.keys)
+        return hashlib.sha256(f"{middle.to_toml()}\n{names}\n{self.data.digest}".encode()).hexdigest()
+
+    def run(self, values: Sequence[float]) -> xr.Dataset:
+        """Simulate the case with values of the keys [SI]."""
+        return simulate(self.changed(values))
+
+    def changed(self, values: Sequence[float]) -> Case:
+        """Return the case with values of the keys [SI]."""
+        return self.case.replace(
+            {one.key.path: one.text(value) for one, value in zip(self.keys, values, strict=True)}
+        )
+
+    def computed(self, shares: Sequence[float]) -> FloatArray:
+        """Return the computed values of the data at shares of the ranges, shape (n,)."""
+        values = [one.value(share) for one, share in zip(self.keys, shares, strict=True)]
+        name = json.dumps(values)
+        if name not in self.known:
+            self.known[name] = self._evaluated(values)
+            self._keep(name)
+        return np.array(self.known[name])
+
+    def residuals(self, given: Mapping[str, float]) -> FloatArray:
+        """Return differences over the noise at shares of the ranges, plus one, by path, shape (n,)."""
+        computed = self.computed([given[one.key.path] - 1.0 for one in self.keys])
+        missed = (computed - self.data.values) / self.noise
+        return np.where(np.isfinite(missed), missed, _FAILED)
+
+    def parameters(self) -> list[Parameter]:
+        """Return the parameters of the fit: shares of the ranges, plus one, so that steps are shares, too."""
+        return [Parameter(one.key.path, 1.0, 2.0) for one in self.keys]
+
+    def fitted(self, starts: int) -> LeastSquares:
+        """Return the fit, from the best of several starts, with the noise scaled to the scatter."""
+        parameters = self.parameters()
+        robust = self.data.values.size - len(parameters) >= _FEW
+        loss: Loss = "soft_l1" if robust else "linear"
+        best = min((self._from(start, loss) for start in self._screened(starts, loss)), key=_cost)
+        if robust:
+            self.noise = self.noise * max(_GAUSSIAN * float(np.median(np.abs(best.residuals))), 1e-12)
+        return fit(self.residuals, parameters, start=best.named, loss=loss, step=STEP, tolerance=FINE)
+
+    def _screened(self, starts: int, loss: Loss) -> list[dict[str, float]]:
+        """Return the points with the least cost among several times as many."""
+        names = [one.key.path for one in self.keys]
+        points = [
+            dict(zip(names, point, strict=True))
+            for point in starting_points(self.parameters(), _SCREENED * starts)
+        ]
+        return sorted(points, key=lambda point: cost_of(self.residuals(point), loss))[:starts]
+
+    def _from(self, start: Mapping[str, float], loss: Loss) -> LeastSquares:
+        return fit(self.residuals, self.parameters(), start=start, loss=loss, step=STEP, tolerance=COARSE)
+
+    def profile(self, found: LeastSquares, which: int) -> tuple[float, float]:
+        """Return the profile interval of a key [SI], from the cost with all other keys fitted.
+
+        At both ends it has risen by the 95 % quantile; an end beyond the range is that of the range.
+        """
+        parameters = self.parameters()
+        name, others = parameters[which].name, [one for k, one in enumerate(parameters) if k != which]
+        allowed = 0.5 * float(stats.f.ppf(CONFIDENCE, 1, found.freedoms)) * found.scatter
+        best, guess = found.named[name], max(found.half_width(name), STEP)
+
+        def rise(place: float) -> float:
+            fixed = {name: place}
+            if not others:
+                return cost_of(self.residuals(fixed), found.loss) - found.cost
+            start = _along(found, which, place)
+            inner = fit(
+                lambda given: self.residuals({**given, **fixed}),
+                others,
+                start=start,
+                loss=found.loss,
+                step=STEP,
+                tolerance=COARSE,
+            )
+            return inner.cost - found.cost
+
+        ends = [_crossing(rise, allowed, best, sign * guess, end) for sign, end in ((-1.0, 1.0), (1.0, 2.0))]
+        low, high = (self.keys[which].value(end - 1.0) for end in ends)
+        return low, high
+
+    def _evaluated(self, values: list[float]) -> list[float]:
+        words = ", ".join(
+            f"{one.key.path} = {one.text(value)}" for one, value in zip(self.keys, values, strict=True)
+        )
+        self.note(f"run {len(self.known) + 1}: {words}")
+        try:
+            run = self.run(values)
+        except InputError:
+            raise
+        except TribodynError:
+            return [math.nan] * self.data.values.size
+        if run.attrs.get("failure"):
+            return [math.nan] * self.data.values.size
+        return [float(value) for value in self.data.computed(run)]
+
+    def _keep(self, name: str) -> None:
+        if self.directory is None:
+            return
+        path = self.directory / EVALUATIONS
+        new = not path.exists()
+        with path.open("a", encoding="utf-8") as file:
+            if new:
+                file.write(json.dumps({"fingerprint": self.fingerprint}) + "\n")
+            file.write(json.dumps({"values": json.loads(name), "computed": self.known[name]}) + "\n")
+
+    def _read(self, path: Path) -> None:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        try:
+            if json.loads(lines[0])["fingerprint"] != self.fingerprint:
+                raise InputError(
+                    f"{path} belongs to another fit; choose another folder or remove the file", key="--output"
+                )
+            entries = [json.loads(line) for line in lines[1:]]
+        except (ValueError, KeyError, IndexError):
+            # The last line may be half written; an evaluation is computed again then.
+            entries = [_entry(line) for line in lines[1:]]
+        self.known |= {json.dumps(entry["values"]): entry["computed"] for entry in entries if entry}
+
+
+def _cost(found: LeastSquares) -> float:
+    return found.cost
+
+
+def _along(found: LeastSquares, which: int, place: float) -> dict[str, float]:
+    """Return where the other parameters are likely to be when one is moved, by the covariance."""
+    covariance = found.covariance()
+    slope = covariance[:, which] / max(covariance[which, which], 1e-300)
+    moved = np.clip(found.values + slope * (place - found.values[which]), 1.0, 2.0)
+    return {one.name: float(moved[k]) for k, one in enumerate(found.parameters) if k != which}
+
+
+def _crossing(rise: Callable[[float], float], allowed: float, best: float, step: float, end: float) -> float:
+    """Return where the rise of the cost reaches what is allowed, or the end of the range.
+
+    The rise is nearly a parabola, so that its root is found by a few steps in proportion.
+    """
+    place = best + step
+    for _ in range(_TRIALS):
+        place = max(place, end) if step < 0.0 else min(place, end)
+        found = rise(place)
+        if place == end and found < allowed:
+            return end
+        factor = math.sqrt(allowed / found) if found > 0.0 else 4.0
+        place = best + (place - best) * min(max(factor, 0.25), 4.0)
+        if abs(factor - 1.0) < _NEAR:
+            break
+    return max(place, end) if step < 0.0 else min(place, end)
+
+
+def _entry(line: str) -> dict[str, list[float]]:
+    try:
+        found = json.loads(line)
+    except ValueError:
+        return {}
+    return found if isinstance(found, dict) and {"values", "computed"} <= found.keys() else {}

@@ -1,0 +1,202 @@
+"""Files of a fit: the case with fitted values, a page, residuals and all numbers as JSON."""
+
+from __future__ import annotations
+
+import datetime
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.results.atomic import write_text
+from tribodyn.studies.calibration import Calibration
+from tribodyn.studies.least_squares import LeastSquares
+from tribodyn.studies.measured import Curve
+
+CASE: Final = "fitted.toml"
+PAGE: Final = "fit.md"
+NUMBERS: Final = "fit.json"
+RESIDUALS: Final = "residuals.csv"
+
+
+@dataclass(frozen=True)
+class FittedKey:
+    """A fitted key.
+
+    Attributes
+    ----------
+    path, text
+        Its path, and the fitted value as in a case file.
+    value, deviation
+        Fitted value and standard deviation [SI].
+    interval, profile
+        95 % intervals by the covariance and by the profile of the cost [SI].
+    scatter
+        The distribution as a sweep takes it.
+    """
+
+    path: str
+    text: str
+    value: float
+    deviation: float
+    interval: tuple[float, float]
+    profile: tuple[float, float] | None
+    scatter: str
+
+    @property
+    def words(self) -> str:
+        """The key as a line."""
+        return f"{self.path} = {self.text}"
+
+
+def fitted_keys(
+    calibration: Calibration, found: LeastSquares, profiles: Sequence[tuple[float, float]] | None
+) -> list[FittedKey]:
+    """Return the fitted keys; an interval by the covariance ends at the range."""
+    keys = []
+    covariance = found.covariance()
+    for k, (one, parameter) in enumerate(zip(calibration.keys, found.parameters, strict=True)):
+        value = one.value(found.named[parameter.name] - 1.0)
+        half = found.half_width(parameter.name) * (one.high - one.low)
+        deviation = float(np.sqrt(covariance[k, k])) * (one.high - one.low)
+        ends = one.text(float(f"{value:.6g}")), one.text(float(f"{deviation:.3g}"))
+        keys.append(
+            FittedKey(
+                path=parameter.name,
+                text=one.text(float(f"{value:.6g}")),
+                value=value,
+                deviation=deviation,
+                interval=(max(value - half, one.low), min(value + half, one.high)),
+                profile=None if profiles is None else profiles[k],
+                scatter=f"normal({ends[0]}, {ends[1]})",
+            )
+        )
+    return keys
+
+
+def interval_text(calibration: Calibration, which: int, ends: tuple[float, float]) -> str:
+    """Return an interval of a key as text."""
+    one = calibration.keys[which]
+    return " to ".join(one.text(float(f"{end:.4g}")) for end in ends)
+
+
+def save(
+    calibration: Calibration,
+    found: LeastSquares,
+    keys: Sequence[FittedKey],
+    words: Sequence[str],
+    source: str,
+    folder: Path,
+) -> None:
+    """Write all files of a fit.
+
+    Parameters
+    ----------
+    calibration, found, keys
+        The fit.
+    words
+        What the data determine.
+    source
+        Name of the file of the data.
+    folder
+        Where files go.
+    """
+    write_text(folder / CASE, fitted_case(calibration, keys, source))
+    write_text(folder / PAGE, page(calibration, found, keys, words, source))
+    document = json.dumps(as_json(calibration, found, keys, words, source), indent=2, ensure_ascii=False)
+    write_text(folder / NUMBERS, document + "\n")
+    write_text(folder / RESIDUALS, residuals_table(calibration, found))
+
+
+def fitted_case(calibration: Calibration, keys: Sequence[FittedKey], source: str) -> str:
+    """Return the case with fitted values; comments hold source and spread, as sweeps take it."""
+    digest, today = calibration.data.digest[:16], datetime.date.today().isoformat()
+    lines = [
+        f"# Fitted to {source} (SHA-256 {digest}), {today}.",
+        "# tribodyn sweep THIS_FILE --samples 100 "
+        + " ".join(f'--vary {key.path}="{key.scatter}"' for key in keys),
+    ]
+    case = calibration.changed([key.value for key in keys])
+    return "\n".join(lines) + "\n" + case.to_toml()
+
+
+def page(
+    calibration: Calibration,
+    found: LeastSquares,
+    keys: Sequence[FittedKey],
+    words: Sequence[str],
+    source: str,
+) -> str:
+    """Return the page of a fit."""
+    lines = [
+        f"# Fit to {source}",
+        "",
+        f"{calibration.data.values.size} values, {len(calibration.known)} runs, "
+        f"{'robust' if found.loss != 'linear' else 'plain'} least squares.",
+        "",
+        "| key | fitted | 95 % by covariance | 95 % by profile | for sweeps |",
+        "|---|---|---|---|---|",
+    ]
+    for k, key in enumerate(keys):
+        profile = "" if key.profile is None else interval_text(calibration, k, key.profile)
+        covariance = interval_text(calibration, k, key.interval)
+        lines.append(f"| `{key.path}` | {key.text} | {covariance} | {profile} | `{key.scatter}` |")
+    lines += ["", "## What the data determine", "", *(f"- {sentence}" for sentence in words)]
+    lines += ["", "## Residuals", "", "| quantity | values | root mean square, over the noise | largest |"]
+    lines.append("|---|---|---|---|")
+    for part, of_part in calibration.data.of_parts(found.residuals):
+        rms, largest = np.sqrt(np.mean(of_part**2)), np.abs(of_part).max()
+        lines.append(f"| {part.name} | {of_part.size} | {rms:.3g} | {largest:.3g} |")
+    return "\n".join(lines) + "\n"
+
+
+def as_json(
+    calibration: Calibration,
+    found: LeastSquares,
+    keys: Sequence[FittedKey],
+    words: Sequence[str],
+    source: str,
+) -> dict[str, Any]:
+    """Return the fit as JSON values, SI units."""
+    deviations = np.sqrt(np.diag(found.covariance()))
+    outer = np.outer(deviations, deviations)
+    correlation = np.divide(found.covariance(), outer, out=np.eye(len(keys)), where=outer > 0.0)
+    return {
+        "data": source,
+        "sha256": calibration.data.digest,
+        "runs": len(calibration.known),
+        "keys": [
+            {
+                "path": key.path,
+                "fitted": key.text,
+                "value": key.value,
+                "deviation": key.deviation,
+                "interval": list(key.interval),
+                "profile": None if key.profile is None else list(key.profile),
+                "distribution": key.scatter,
+            }
+            for key in keys
+        ],
+        "correlation": correlation.tolist(),
+        "scatter": found.scatter,
+        "statements": list(words),
+    }
+
+
+def residuals_table(calibration: Calibration, found: LeastSquares) -> str:
+    """Return measured values, computed values and residuals, as CSV."""
+    lines = ["quantity,time [s],measured,computed,residual over noise"]
+    computed = found.residuals * calibration.noise + calibration.data.values
+    for (part, of_part), (_, values) in zip(
+        calibration.data.of_parts(found.residuals), calibration.data.of_parts(computed), strict=True
+    ):
+        curve = isinstance(part, Curve)
+        times = part.times if isinstance(part, Curve) else [float("nan")]
+        measured = part.values if isinstance(part, Curve) else [part.value]
+        for time, one, value, missed in zip(times, measured, values, of_part, strict=True):
+            place = f"{time:.9g}" if curve else ""
+            lines.append(f"{part.name},{place},{one:.9g},{value:.9g},{missed:.4g}")
+    return "\n".join(lines) + "\n"

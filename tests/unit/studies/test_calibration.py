@@ -1,0 +1,170 @@
+"""Calibration on a model whose runs take no time: a decaying oscillation that stands for a run of a case."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import tribodyn as td
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.studies import Sampling, calibration, fit_report
+from tribodyn.studies.calibration import EVALUATIONS, Calibration, VariedKey
+from tribodyn.studies.identifiability import statements
+from tribodyn.studies.measured import Measured, read
+
+TIMES: FloatArray = np.linspace(0.0, 2.0, 40)
+TRUTH = {"joint.clearance": 33e-6, "joint.friction_coefficient": 0.17}
+RANGES = ("joint.clearance=10..60um", "joint.friction_coefficient=0.05..0.3")
+FITS = 100
+
+
+def _model(case: td.studies.sweep.__class__) -> xr.Dataset:
+    """Return a run whose amplitude follows the clearance and whose decay follows the friction."""
+    time = np.linspace(0.0, 2.0, 400)
+    amplitude, decay = 1e5 * case.joint.clearance, 8.0 * case.joint.friction_coefficient
+    both = amplitude * decay
+    return xr.Dataset(
+        {
+            "swing": ("time", amplitude * np.exp(-decay * time) * np.cos(7.0 * time), {"units": "m"}),
+            "product": ("time", both * (1.0 + time), {"units": "N"}),
+            "level": ("time", amplitude * (2.0 + time), {"units": "N m"}),
+        },
+        {"time": time},
+        {"kind": "journal", "failure": ""},
+    )
+
+
+@pytest.fixture(autouse=True)
+def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(calibration, "simulate", _model)
+
+
+def _case():
+    return td.load_case("journal-dry")
+
+
+def _file(folder: Path, name: str, seed: int = 0, noise: float = 0.01) -> Path:
+    run = _model(_case().replace({key: _text(key) for key in TRUTH}))
+    values = np.interp(TIMES, run["time"].values, run[name].values)
+    values = values + np.random.default_rng(seed).normal(0.0, noise * np.ptp(values), values.size)
+    unit = run[name].attrs["units"]
+    rows = "\n".join(f"{1e3 * t!r}, {v!r}" for t, v in zip(TIMES.tolist(), values.tolist(), strict=True))
+    path = folder / f"{name}-{seed}.csv"
+    path.write_text(f"time [ms], {name} [{unit}]\n{rows}\n", encoding="utf-8")
+    return path
+
+
+def _text(key: str) -> str | float:
+    return f"{TRUTH[key]} m" if key == "joint.clearance" else TRUTH[key]
+
+
+def _fit(data: Measured, folder: Path | None = None, **options) -> Calibration:
+    keys = [VariedKey.of(_case(), text) for text in RANGES]
+    return Calibration(_case(), keys, data, data.noise(0.01), folder, **options)
+
+
+def _read(path: Path) -> Measured:
+    return read(path, _model(_case()))
+
+
+def test_intervals_hold_the_truth_in_90_to_99_of_100_fits(tmp_path: Path) -> None:
+    held = dict.fromkeys(TRUTH, 0)
+    for seed in range(FITS):
+        fit = _fit(_read(_file(tmp_path, "swing", seed)))
+        keys = fit_report.fitted_keys(fit, fit.fitted(1), None)
+        for key in keys:
+            held[key.path] += key.interval[0] <= TRUTH[key.path] <= key.interval[1]
+    assert all(90 <= count <= 99 for count in held.values()), held
+
+
+def test_profile_and_covariance_agree_where_the_model_is_nearly_linear(tmp_path: Path) -> None:
+    fit = _fit(_read(_file(tmp_path, "swing")))
+    found = fit.fitted(2)
+    (clearance, _) = fit_report.fitted_keys(fit, found, [fit.profile(found, k) for k in range(2)])
+    assert clearance.profile is not None
+    np.testing.assert_allclose(clearance.profile, clearance.interval, rtol=0.01)
+
+
+def test_an_outlier_hardly_moves_a_robust_fit(tmp_path: Path) -> None:
+    path = _file(tmp_path, "swing")
+    lines = path.read_text(encoding="utf-8").splitlines()
+    lines[5] = lines[5].split(",")[0] + ", 40"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    fit = _fit(_read(path))
+    assert fit_report.fitted_keys(fit, fit.fitted(2), None)[0].value == pytest.approx(33e-6, rel=0.02)
+
+
+def test_what_only_a_product_determines_is_named_with_what_would_help(tmp_path: Path) -> None:
+    fit = _fit(_read(_file(tmp_path, "product")))
+    words = " ".join(statements(fit, fit.fitted(2)))
+    assert "joint.clearance and joint.friction_coefficient trade off" in words
+    assert "Measuring level as well" in words or "Measuring swing as well" in words
+
+
+def test_determined_keys_are_said_to_be_so(tmp_path: Path) -> None:
+    fit = _fit(_read(_file(tmp_path, "swing")))
+    assert statements(fit, fit.fitted(2)) == ["The data determine every key."]
+
+
+def test_an_interrupted_fit_goes_on_to_the_same_result(tmp_path: Path) -> None:
+    data = _read(_file(tmp_path, "swing"))
+    whole = _fit(data).fitted(2)
+    left = [20]
+
+    def interrupt(text: str) -> None:
+        left[0] -= 1
+        if left[0] == 0:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        _fit(data, tmp_path, note=interrupt).fitted(2)
+    with (tmp_path / EVALUATIONS).open("a", encoding="utf-8") as file:
+        file.write('{"values": [1e-5, 0.')  # as a killed process leaves it
+    noted: list[str] = []
+    resumed = _fit(data, tmp_path, note=noted.append).fitted(2)
+    assert resumed.values.tolist() == whole.values.tolist()
+    assert noted[0].startswith("run 20:")
+
+
+def test_evaluations_of_another_fit_are_refused(tmp_path: Path) -> None:
+    _fit(_read(_file(tmp_path, "swing", 1)), tmp_path).fitted(1)
+    with pytest.raises(InputError, match="another fit"):
+        _fit(_read(_file(tmp_path, "swing", 2)), tmp_path)
+
+
+def test_the_fitted_case_is_a_case_with_its_spread(tmp_path: Path) -> None:
+    fit = _fit(_read(_file(tmp_path, "swing")))
+    found = fit.fitted(2)
+    fit_report.save(fit, found, fit_report.fitted_keys(fit, found, None), ["words"], "run.csv", tmp_path)
+    text = (tmp_path / fit_report.CASE).read_text(encoding="utf-8")
+    assert '--vary joint.clearance="normal(' in text
+    case = td.load_case(tmp_path / fit_report.CASE)
+    assert case.joint.clearance == pytest.approx(33e-6, rel=0.02)
+    spread = text.split('joint.clearance="')[1].split('"')[0]
+    assert td.studies.make_plan(case, {"joint.clearance": spread}, Sampling(samples=3)).points
+    assert "words" in (tmp_path / fit_report.PAGE).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("time [s], swing [N]\n0, 1\n1, 2\n", "is not a unit of"),
+        ("time [s], swig [m]\n0, 1\n1, 2\n", "swing"),
+        ("time [s], swing\n0, 1\n1, 2\n", "unit in brackets"),
+        ("time [s], swing [m]\n1, 1\n0, 2\n", "must rise"),
+        ("time [s], swing [m]\n0, 1\n9, 2\n", "data reach to 9 s"),
+        ("time [s], swing [m]\n0, one\n1, 2\n", "no number"),
+        ("angle [rad], swing [m]\n0, 1\n1, 2\n", "first column"),
+        ("quantity, value\nsteps, many\n", "no number"),
+        ("quantity, mean\nsteps, 3\n", "columns quantity, value"),
+    ],
+)
+def test_data_that_fit_no_run_are_refused(content: str, message: str, tmp_path: Path) -> None:
+    path = tmp_path / "bad.csv"
+    path.write_text(content, encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        _read(path)
