@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.results.atomic import write_text
 from tribodyn.studies.calibration import Calibration
 from tribodyn.studies.least_squares import LeastSquares
-from tribodyn.studies.measured import Curve
+from tribodyn.studies.measured import MeasuredCurve
 
 CASE: Final = "fitted.toml"
 PAGE: Final = "fit.md"
@@ -193,9 +193,9 @@ def residuals_table(calibration: Calibration, found: LeastSquares) -> str:
     for (part, of_part), (_, values) in zip(
         calibration.data.of_parts(found.residuals), calibration.data.of_parts(computed), strict=True
     ):
-        curve = isinstance(part, Curve)
-        times = part.times if isinstance(part, Curve) else [float("nan")]
-        measured = part.values if isinstance(part, Curve) else [part.value]
+        curve = isinstance(part, MeasuredCurve)
+        times = part.times if isinstance(part, MeasuredCurve) else [float("nan")]
+        measured = part.values if isinstance(part, MeasuredCurve) else [part.value]
         for time, one, value, missed in zip(times, measured, values, of_part, strict=True):
             place = f"{time:.9g}" if curve else ""
             lines.append(f"{part.name},{place},{one:.9g},{value:.9g},{missed:.4g}")

@@ -42,7 +42,7 @@ _POWER: Final = re.compile(r"([A-Za-z]+)-([0-9])")
 
 
 @dataclass(frozen=True)
-class Curve:
+class MeasuredCurve:
     """A measured curve over time.
 
     Attributes
@@ -74,7 +74,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Number:
+class MeasuredNumber:
     """A measured number: name and unit of a key result, value, half width (NaN if unknown)."""
 
     name: str
@@ -107,7 +107,7 @@ class Measured:
         SHA-256 of the file.
     """
 
-    parts: tuple[Curve | Number, ...]
+    parts: tuple[MeasuredCurve | MeasuredNumber, ...]
     digest: str
 
     @property
@@ -129,7 +129,7 @@ class Measured:
         """
         return np.concatenate([_noise(part, share) for part in self.parts])
 
-    def of_parts(self, values: FloatArray) -> list[tuple[Curve | Number, FloatArray]]:
+    def of_parts(self, values: FloatArray) -> list[tuple[MeasuredCurve | MeasuredNumber, FloatArray]]:
         """Return values in the order of all data, by part."""
         ends = np.cumsum([_values(part).size for part in self.parts])[:-1]
         return list(zip(self.parts, np.split(values, ends), strict=True))
@@ -193,7 +193,7 @@ def read(path: str | Path, run: xr.Dataset) -> Measured:
     return Measured(tuple(parts), hashlib.sha256(content).hexdigest())
 
 
-def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Dataset) -> list[Curve]:
+def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Dataset) -> list[MeasuredCurve]:
     columns = [_described(cell) for cell in header]
     if columns[0][0] != "time" or len(columns) < 2:
         raise InputError(
@@ -206,7 +206,7 @@ def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Datase
     curves = []
     for k, (name, unit) in enumerate(columns[1:], 1):
         variable(run, name)
-        curves.append(Curve(name, unit, times, _column(rows, k, unit, _unit_of(run, name))))
+        curves.append(MeasuredCurve(name, unit, times, _column(rows, k, unit, _unit_of(run, name))))
     return curves
 
 
@@ -218,12 +218,13 @@ def _described(cell: str) -> tuple[str, str]:
     return column[0], column[1]
 
 
-def _numbers(header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Number]:
+def _numbers(header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[MeasuredNumber]:
     if "value" not in header:
         raise InputError(f"a table of numbers needs the columns {QUANTITY}, value", key=OPTION)
     tables = [dict(zip(header, (cell.strip() for cell in row), strict=False)) for row in rows]
     return [
-        Number(row[QUANTITY], _float(row["value"]), _float(row.get("half_width") or "nan")) for row in tables
+        MeasuredNumber(row[QUANTITY], _float(row["value"]), _float(row.get("half_width") or "nan"))
+        for row in tables
     ]
 
 
@@ -254,19 +255,19 @@ def _unit_of(run: xr.Dataset, name: str) -> str:
     return "" if units == "1" else _POWER.sub(r"/\1^\2", units).replace("^1", "").replace(" /", "/")
 
 
-def _values(part: Curve | Number) -> FloatArray:
-    return part.values if isinstance(part, Curve) else np.array([part.value])
+def _values(part: MeasuredCurve | MeasuredNumber) -> FloatArray:
+    return part.values if isinstance(part, MeasuredCurve) else np.array([part.value])
 
 
-def _noise(part: Curve | Number, share: float) -> FloatArray:
-    if isinstance(part, Curve):
+def _noise(part: MeasuredCurve | MeasuredNumber, share: float) -> FloatArray:
+    if isinstance(part, MeasuredCurve):
         return np.full(part.values.size, share * float(np.ptp(part.values)) or 1.0)
     known = math.isfinite(part.half_width) and part.half_width > 0.0
     return np.array([0.5 * part.half_width if known else share * abs(part.value) or 1.0])
 
 
-def _outside(part: Curve | Number, windows: FloatArray) -> Curve | Number:
-    if isinstance(part, Number):
+def _outside(part: MeasuredCurve | MeasuredNumber, windows: FloatArray) -> MeasuredCurve | MeasuredNumber:
+    if isinstance(part, MeasuredNumber):
         return part
     kept = np.ones(part.times.size, dtype=bool)
     for begin, end in windows:
