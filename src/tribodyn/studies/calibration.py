@@ -66,12 +66,12 @@ class VariedKey:
     high: float
 
     @classmethod
-    def of(cls, case: Case, text: str) -> VariedKey:
+    def of(cls, case: Case, text: str, option: str = "--vary") -> VariedKey:
         """Return what ``PATH=LOW..HIGH`` asks of a case."""
         path, equals, values = (part.strip() for part in text.partition("="))
         if not equals:
             raise InputError(
-                f"{as_given(text)}; allowed: PATH=LOW..HIGH, such as joint.clearance=10..60um", key="--vary"
+                f"{as_given(text)}; allowed: PATH=LOW..HIGH, such as joint.clearance=10..60um", key=option
             )
         return cls(*key_range(case, path, values.strip("\"'")))
 

@@ -192,7 +192,7 @@ def _table(rows: Iterable[Comparison]) -> Iterator[str]:
 
 
 def _bands(bands: Iterable[Band]) -> Iterator[str]:
-    yield "| band | line of the data folder |"
+    yield "| band | given by |"
     yield "|---|---|"
     for band in bands:
         yield f"| {band.name.replace('_', ' ')} | {band.source.replace('|', '/')} |"

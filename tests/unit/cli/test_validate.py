@@ -1,0 +1,95 @@
+"""``tribodyn validate``: sets of the package, and a user's own numbers by the same rules."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import tribodyn as td
+from tribodyn.cli.main import main
+from tribodyn.mechanisms.results import summarise
+
+CHANGES = ["--set", "run.duration=2 ms"]
+HEADER = "quantity,measured,half_width,accepted,null,source,explanation\n"
+
+
+@pytest.fixture(scope="module")
+def computed():
+    run = td.simulate(td.load_case("journal-dry").replace({"run.duration": "2 ms"}))
+    return {name: value for name, value in summarise(run).items() if isinstance(value, float) and value > 0.0}
+
+
+def _judged(tmp_path, capsys, lines, *more):
+    path = tmp_path / "mine.csv"
+    path.write_text(HEADER + "".join(lines), encoding="utf-8")
+    status = main(["validate", str(path), "--against", "journal-dry", *CHANGES, "--json", "--quiet", *more])
+    return status, capsys.readouterr()
+
+
+def test_a_set_prints_every_number_and_writes_its_page(tmp_path, capsys):
+    assert main(["validate", "rack_pinion_friction", "-o", str(tmp_path)]) == 0
+    told = capsys.readouterr().out
+    assert "within the band" in told
+    assert "reported only" in told
+    names = {"rack_pinion_friction.md", "rack_pinion_friction.png", "validation.json"}
+    assert {path.name for path in tmp_path.iterdir()} == names
+
+
+def test_an_unknown_set_is_refused(tmp_path, capsys):
+    assert main(["validate", "rack_pinon_friction", "-o", str(tmp_path / "out")]) == 2
+    assert "rack_pinion_friction" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_bands_of_every_kind_are_judged(tmp_path, capsys, computed):
+    name, value = next(iter(computed.items()))
+    bands = ("10 %", f"{0.1 * value}", f"{0.9 * value}..{1.1 * value}", "")
+    for band in bands:
+        for factor, verdict in ((1.05, "within the band"), (1.3, "outside")):
+            if ".." in band and verdict == "outside":
+                continue
+            measured = factor * value
+            _, told = _judged(tmp_path, capsys, [f"{name},{measured},1,{band},,bench,because\n"])
+            (row,) = json.loads(told.out)[0]["numbers"]
+            assert row["verdict"] == (verdict if band else "reported only")
+            assert row["computed"] == pytest.approx(value)
+            assert row["explanation"] == ("because" if row["verdict"] == "outside" else "")
+
+
+def test_assumed_inputs_widen_the_interval(tmp_path, capsys, computed):
+    name, value = next(iter(computed.items()))
+    line = [f"{name},{value},1,10 %,,bench,\n"]
+    _, alone = _judged(tmp_path, capsys, line)
+    _, assumed = _judged(tmp_path, capsys, line, "--assume", "loads.force_x=100..400 N")
+    narrow, wide = (json.loads(told.out)[0]["numbers"][0]["u_computed"] for told in (alone, assumed))
+    assert wide > narrow
+
+
+def test_the_template_is_a_set(tmp_path, capsys):
+    folder = tmp_path / "new"
+    assert main(["validate", "--template", str(folder)]) == 0
+    assert main(["validate", "--template", str(folder)]) == 2
+    assert "already has README.md" in capsys.readouterr().err
+    assert (folder / "numbers.csv").read_text(encoding="utf-8").startswith(HEADER)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("steps,many,1,10 %,,,\n", "no number"),
+        ("steps,3,1,tenfold,,,\n", "10 %, 0.5, 10..20"),
+        ("stepz,3,1,10 %,,,\n", "steps"),
+    ],
+)
+def test_rows_that_cannot_be_judged_are_refused(line, message, tmp_path, capsys):
+    status, told = _judged(tmp_path, capsys, [line])
+    assert status == 2
+    assert message in told.err
+
+
+def test_a_file_needs_its_case(tmp_path, capsys):
+    path = tmp_path / "mine.csv"
+    path.write_text(HEADER, encoding="utf-8")
+    assert main(["validate", str(path)]) == 2
+    assert "--against" in capsys.readouterr().err
