@@ -132,9 +132,10 @@ def test_a_turned_load_turns_the_equilibrium(make_journal: MakeJournal, options:
     assert after == pytest.approx(turn @ before, abs=1e-12)
 
 
-# By a right angle the integrator does the same work: rounding, grown in impacts, remains. By another angle
-# its error weighs X and Y otherwise, steps differ, and with them the instants of entry.
-@pytest.mark.parametrize(("nodes", "apart"), [(24, 1e-11), (7, 2e-7)])
+# By a right angle the integrator does the same work: rounding, grown in impacts, remains; 1.1e-11 is the most
+# of ten neighbouring tolerances. By another angle its error weighs X and Y otherwise, steps differ, and with
+# them the instants of entry.
+@pytest.mark.parametrize(("nodes", "apart"), [(24, 1e-10), (7, 2e-7)])
 def test_a_turned_load_turns_the_motion(make_journal: MakeJournal, nodes: int, apart: float) -> None:
     angle = 2.0 * math.pi * nodes / 96
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
