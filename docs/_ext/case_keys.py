@@ -14,6 +14,7 @@ from docutils.statemachine import StringList
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import ANY_NAME, groups_of
 from tribodyn.mechanisms.catalogue import kinds, load_case
+from tribodyn.mechanisms.general.elements import ELEMENTS
 
 
 class Tables(Directive):
@@ -69,6 +70,24 @@ class JointSizes(Tables):
             yield f"| {name} | {joint['type']} | {', '.join(sizes)} |"
 
 
+class Elements(Directive):
+    """What gears, racks and screws need and transmit, from the list of all kinds."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        lines = [
+            "| element | table | method | keys | `element_force` | `element_moment` |",
+            "|---|---|---|---|---|---|",
+        ]
+        for kind in ELEMENTS:
+            keys = ", ".join(f"`{key}`" for key in kind.model_fields)
+            names = f"`[{kind.TABLE}.NAME]` | `{kind.METHOD}`"
+            lines.append(f"| {kind.__name__} | {names} | {keys} | {kind.FORCE} | {kind.MOMENT} |")
+        container = nodes.container()
+        self.state.nested_parse(StringList(lines, source=self.name), self.content_offset, container)
+        return container.children
+
+
 BAR: Final = "\\|"
 SIZES: Final = (
     "radius",
@@ -114,4 +133,5 @@ def setup(app: Any) -> dict[str, bool]:
     app.add_directive("case-keys", CaseKeys)
     app.add_directive("assumed-keys", AssumedKeys)
     app.add_directive("joint-sizes", JointSizes)
+    app.add_directive("elements", Elements)
     return {"parallel_read_safe": True}

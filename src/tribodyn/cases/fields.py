@@ -66,10 +66,13 @@ def number(
     lt: float | None = None,
     le: float | None = None,
     example: str = "",
+    required: bool = False,
 ) -> Any:
     """Declare a dimensionless key; its values are bare numbers."""
     bounds: dict[str, Bound] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    return _field(default, description, source, bounds, bounds, kind="number", example=example)
+    return _field(
+        default, description, source, bounds, bounds, kind="number", required=required, example=example
+    )
 
 
 def count(default: int | None, description: str, source: str, *, ge: int, le: int, example: str = "") -> Any:
@@ -128,7 +131,7 @@ def series(description: str, source: str, *, unit: str = "", example: str) -> An
 
 
 def names(description: str, source: str, *, length: int, example: str) -> Any:
-    """Declare a key that takes that many names and must be given."""
+    """Declare a key that takes that many names, 0 for any number, and must be given."""
     return _field(
         None, description, source, {}, {}, kind="names", required=True, example=example, length=length
     )

@@ -119,7 +119,7 @@ class Key:
         words = {
             "vector": f"three numbers, such as {self.example}",
             "series": f"a list of numbers, such as {self.example}",
-            "names": f"a list of {self.length} names, such as {self.example}",
+            "names": f"a list of {self.length or 'some'} names, such as {self.example}",
             "name": f'a name, such as "{self.example}"',
             "number": "a number",
             "count": "a whole number",

@@ -1,9 +1,12 @@
 """What the kernels of a mechanism read and change: bodies and couplings, one record each.
 
-A *coupling* is whatever acts between two bodies: a joint, a spring, a load (between the ground and a body).
-It has a socket on its first body and a shaft on its second, and up to six constraint rows; the ground is
-the body after the last. The *nodes* of the linear systems are the bodies and the couplings that have rows,
-six unknowns each.
+A *coupling* is whatever acts between two bodies: a joint, a spring, a load (between the ground and a body),
+a leg of an element. It has a socket on its first body and a shaft on its second, and up to six constraint
+rows; the ground is the body after the last. The *nodes* of the linear systems are the bodies and the
+couplings that have rows, six unknowns each.
+
+The constraint equation of an *element*, such as a gear pair, is a sum over its legs. Each leg is a coupling
+whose only row is one term of the sum. The first leg counts the equation, and all legs share its node.
 """
 
 from __future__ import annotations
@@ -28,6 +31,7 @@ POINT: Final = 0
 DIRECTION: Final = 1
 ANGLE: Final = 2
 POSITION: Final = 3
+COORDINATE: Final = 4
 """Kinds of constraint rows, see ``kernels/mechanism/constraints.py``."""
 
 NOTHING: Final = 0
@@ -86,6 +90,11 @@ Coupling: Final = record_type(
     ("shaft_axes", "f8", (3, 3)),
     ("node", "i8"),
     ("n_rows", "i8"),
+    ("n_terms", "i8"),
+    ("first_leg", "i8"),
+    ("next_leg", "i8"),
+    ("along", "f8", (3,)),
+    ("about", "f8"),
     ("first_row", "i8"),
     ("row_kind", "i8", (6,)),
     ("row_axis", "i8", (6,)),
@@ -117,6 +126,13 @@ shaft_axes
     Axes of the shaft as columns, in the axes of its body.
 node, first_row
     Of its constraint rows, ``NONE`` without rows; number of the first among all.
+n_rows, n_terms
+    Constraint equations that are counted here, and those that its motion takes part in: the same but for the
+    second and later legs of an element, which count none and take part in one.
+first_leg, next_leg
+    Of a leg of an element: the coupling that is its first leg, ``NONE`` for that one itself; the next leg.
+along, about
+    Of a leg: coefficients of the displacement [1] and of the angle [m/rad] in the equation of its element.
 row_kind, row_axis, row_other, row_signal
     Of each row: its kind, axis of the socket, axis of the shaft, number of the signal it follows.
 force
@@ -165,6 +181,7 @@ CouplingNow: Final = record_type(
     ("Vq", "f8", (6, 12)),
     ("Aq", "f8", (6, 12)),
     ("Av", "f8", (6, 12)),
+    ("offset", "f8"),
     ("residual", "f8", (6,)),
     ("rate", "f8", (6,)),
     ("gamma", "f8", (6,)),
@@ -208,6 +225,8 @@ Vq, Aq, Av
     about the axes of the body.
 residual, rate, gamma
     Of each row: what is not closed, its rate, and the acceleration that keeps it closed.
+offset
+    Of the first leg of an element: constant of its equation [m].
 N, G
     Rows over the twist and over V.
 prescribed

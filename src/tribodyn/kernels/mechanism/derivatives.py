@@ -29,7 +29,7 @@ def fill_derivatives(data: Parts, memory: Now) -> None:
     for k in range(data.couplings.size):
         coupling, now = data.couplings[k], memory.couplings[k]
         twist_gradient(coupling, now, memory.bodies)
-        if coupling.n_rows > 0:
+        if coupling.n_terms > 0:
             rate_gradient(coupling, now, memory.bodies)
             _fill_rows(coupling, now, memory)
         _fill_forces(coupling, now)

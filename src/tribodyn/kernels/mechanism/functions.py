@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.arrays import copy
@@ -27,7 +27,7 @@ from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
 from tribodyn.kernels.mechanism.newton import fill_entries
 from tribodyn.kernels.mechanism.observe import fill_row
 from tribodyn.kernels.mechanism.redundancy import choose_rows
-from tribodyn.kernels.mechanism.solution import accelerations, settle
+from tribodyn.kernels.mechanism.solution import accelerations, mark_angles, settle
 from tribodyn.kernels.mechanism.watch import watch
 
 BEFORE_KINK: Final = 1.0e-9
@@ -94,17 +94,10 @@ def enter(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory)
         if kinks[i] > t:
             course.until = kinks[i] - BEFORE_KINK * (kinks[i] - t)
     settle(data, memory, t, y)
-    _mark_angles(memory.now.couplings)
+    mark_angles(memory.now.couplings)
     _look_after_rows(data.parts, memory.now, memory.independence)
     copy(memory.settled, y)
     ledger.begin(data.parts, memory.now, memory.books, t)
-
-
-@kernel
-def _mark_angles(couplings: Any) -> None:
-    """Count whole turns from here."""
-    for k in range(couplings.size):
-        couplings[k].angle_mark = couplings[k].angle
 
 
 @kernel
@@ -148,7 +141,7 @@ def observe(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemor
 def accept(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
     """Put the state on the constraints, count turns, let contact begin and end, watch the joints."""
     copy(memory.settled, y)
-    _mark_angles(memory.now.couplings)
+    mark_angles(memory.now.couplings)
     watch(data, memory)
     touch(data, memory, 0.0)
     _look_after_rows(data.parts, memory.now, memory.independence)

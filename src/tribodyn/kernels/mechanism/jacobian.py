@@ -103,7 +103,7 @@ def _load_column(data: Parts, memory: Now, body: int, column: int) -> None:
             if coupling.shaft < data.bodies.size:
                 x[coupling.shaft, i] -= forces[6 + i, j]
         if coupling.node != NONE:
-            for m in range(coupling.n_rows):
+            for m in range(coupling.n_terms):
                 x[coupling.node, m] -= rows[m, j]
 
 

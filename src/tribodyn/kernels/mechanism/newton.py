@@ -210,13 +210,13 @@ def _coupling_blocks(
         if coupling.node == NONE:
             continue
         below, beside = blocks[coupling.rows_block[side, 0]], blocks[coupling.rows_block[side, 1]]
-        for m in range(coupling.n_rows):
+        for m in range(coupling.n_terms):
             for j in range(6):
                 value = entries[G + 12 * m + 6 * side + j]
                 below[m, j] += value
                 beside[j, m] -= value
-        _add(entries, GQ + 6 * side, GV + 6 * side, gamma, turn, below, coupling.n_rows)
-    if coupling.node != NONE:
+        _add(entries, GQ + 6 * side, GV + 6 * side, gamma, turn, below, coupling.n_terms)
+    if coupling.n_rows > 0:
         diagonal = blocks[coupling.node]
         for m in range(6):
             diagonal[m, m] += entries[COMPLIANCE + m] if m < coupling.n_rows else 1.0
@@ -332,7 +332,7 @@ def _load_coupling(
             nodes[other, row % 6] -= gamma * total
         if coupling.node == NONE:
             continue
-        for m in range(coupling.n_rows):
+        for m in range(coupling.n_terms):
             at = 12 * m + 6 * side
             total = 0.0
             for j in range(6):

@@ -8,7 +8,7 @@ from typing import Final
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mechanism.data import Now, Parts
+from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.solution import set_compliance
 
 PREFERRED: Final = 10.0
@@ -25,7 +25,20 @@ def row_scale(parts: Parts, now: Now) -> None:
 
 @kernel
 def _product(parts: Parts, now: Now, k: int, m: int, other: int, n: int) -> float:
-    """Return the entry of G M⁻¹ Gᵀ that belongs to two rows."""
+    """Return the entry of G M⁻¹ Gᵀ that belongs to two rows; rows of elements are sums over their legs."""
+    total, one = 0.0, k
+    while one != NONE:
+        another = other
+        while another != NONE:
+            total += _of_couplings(parts, now, one, m, another, n)
+            another = parts.couplings[another].next_leg
+        one = parts.couplings[one].next_leg
+    return total
+
+
+@kernel
+def _of_couplings(parts: Parts, now: Now, k: int, m: int, other: int, n: int) -> float:
+    """Return what a row of one coupling and a row of another have to do with each other."""
     total = 0.0
     a, b = parts.couplings[k], parts.couplings[other]
     for side in range(2):

@@ -18,7 +18,7 @@ free.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
@@ -27,6 +27,7 @@ from tribodyn.kernels.mechanism.blocks import factorise, solve
 from tribodyn.kernels.mechanism.bodies import collect, move, own_force, place
 from tribodyn.kernels.mechanism.constraints import fill_rows, prescribe
 from tribodyn.kernels.mechanism.data import (
+    COORDINATE,
     NONE,
     REPORTS,
     WORK,
@@ -56,9 +57,19 @@ def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
     for k in range(parts.couplings.size):
         coupling, state = parts.couplings[k], now.couplings[k]
         relative_motion(coupling, state, now.bodies)
-        if coupling.n_rows > 0:
+        if coupling.n_terms > 0:
             prescribe(coupling, state, signals, t, within)
             fill_rows(coupling, state)
+        if coupling.first_leg != NONE:
+            _add_term(state, now.couplings[coupling.first_leg])
+
+
+@kernel
+def _add_term(leg: Record, first: Record) -> None:
+    """Add the term of a leg to the equation that the first leg of the element counts."""
+    first.residual[0] += leg.residual[0]
+    first.rate[0] += leg.rate[0]
+    first.gamma[0] += leg.gamma[0]
 
 
 @kernel
@@ -106,7 +117,10 @@ def assemble(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> No
 
 @kernel
 def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
-    """Fill the blocks of the rows of a coupling."""
+    """Fill the blocks of the rows of a coupling, or add those of a later leg of an element."""
+    if coupling.n_rows == 0:
+        _add_leg(coupling, state, blocks)
+        return
     for m in range(6):
         blocks[coupling.node, m, m] = state.compliance[m] if m < coupling.n_rows else 1.0
     for side in range(2):
@@ -117,6 +131,18 @@ def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
             for j in range(6):
                 blocks[block, m, j] = state.G[m, 6 * side + j]
                 blocks[transposed, j, m] = -state.G[m, 6 * side + j]
+
+
+@kernel
+def _add_leg(coupling: Record, state: Record, blocks: FloatArray) -> None:
+    """Add the only row of a leg to the blocks that it shares with the first leg of its element."""
+    for side in range(2):
+        block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
+        if block == NONE:
+            continue
+        for j in range(6):
+            blocks[block, 0, j] += state.G[0, 6 * side + j]
+            blocks[transposed, j, 0] -= state.G[0, 6 * side + j]
 
 
 @kernel
@@ -158,7 +184,7 @@ def _take_multipliers(coupling: Record, state: Record, x: FloatArray) -> None:
     """Fill multipliers and the wrench Nᵀ λ of a coupling."""
     for i in range(6):
         total = 0.0
-        for m in range(coupling.n_rows):
+        for m in range(coupling.n_terms):
             state.multiplier[m] = x[coupling.node, m]
             total += state.N[m, i] * state.multiplier[m]
         state.constraint[i] = total
@@ -191,6 +217,13 @@ def _gap(parts: Parts, now: Now) -> float:
 
 
 @kernel
+def mark_angles(couplings: Any) -> None:
+    """Count whole turns from here."""
+    for k in range(couplings.size):
+        couplings[k].angle_mark = couplings[k].angle
+
+
+@kernel
 def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float) -> None:
     """Move the bodies onto the constraints, the shortest way by mass, and fill the kinematics there.
 
@@ -205,6 +238,7 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
         for b in range(parts.bodies.size):
             move(now.bodies[b], now.x[b], now.rest[b, :4])
         kinematics(parts, now, signals, t)
+        mark_angles(now.couplings)
         before = gap
         gap = _gap(parts, now)
         if not gap < 0.5 * before:
@@ -262,6 +296,15 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
         state = now.couplings[k]
         for i in range(6):
             state.powers[WORK] += state.constraint[i] * state.twist[i]
+
+
+@kernel
+def set_offsets(parts: Parts, now: Now) -> None:
+    """Let the equations of all elements hold where the kinematics were filled: angles count from there."""
+    for k in range(parts.couplings.size):
+        coupling, state = parts.couplings[k], now.couplings[k]
+        if coupling.n_rows > 0 and coupling.row_kind[0] == COORDINATE:
+            state.offset += state.residual[0]
 
 
 @kernel

@@ -12,6 +12,7 @@ from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
+    COORDINATE,
     INTACT,
     LEFT,
     OPENED,
@@ -35,7 +36,7 @@ def watch(data: MechanismData, memory: MechanismMemory) -> None:
             return
         coupling, now = data.parts.couplings[k], memory.now.couplings[k]
         for m in range(coupling.n_rows):
-            is_length = coupling.row_kind[m] in (POINT, POSITION)
+            is_length = coupling.row_kind[m] in (POINT, POSITION, COORDINATE)
             if not abs(now.residual[m]) <= OPEN * (size if is_length else 1.0):
                 course.broken, course.broken_at = OPENED, k
         if coupling.force == CONTACT:

@@ -11,7 +11,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
-from tribodyn.kernels.mechanism.solution import kinematics, set_compliance
+from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
 from tribodyn.mechanisms.general.closing import CLOSED, DEPENDENT, System
 from tribodyn.mechanisms.general.counterpart import as_drawn, counterpart, has_loops
 from tribodyn.mechanisms.general.description import Description
@@ -132,7 +132,8 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
     rank, dependent = system.independence()
     redundancy = None
     if dependent.size:
-        names = dict.fromkeys(description.joints[k].name for k, _ in _taking_part(system, dependent))
+        taking_part = _taking_part(system, dependent)
+        names = dict.fromkeys(description.constraint(k)[0].removeprefix("joint ") for k, _ in taking_part)
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
     contradictions = _contradictions(system, dependent)
     findings += contradictions
@@ -219,6 +220,7 @@ def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:
     parts, now = data.parts, memory.now
     place(state, now.bodies)
     kinematics(parts, now, data.signals, 0.0)
+    set_offsets(parts, now)
     row_scale(parts, now)
     set_compliance(parts, now)
     if parts.constants.rank < parts.constants.n_rows:

@@ -40,12 +40,12 @@ def failure(problem: Problem, description: Description, surfaces: Sequence[str],
 
 
 def _opened(now: Now, description: Description, number: int) -> str:
-    """Return that an ideal joint came apart."""
-    joint = description.joints[number]
-    first, second = (name_of(description, body) for body in joint.bodies)
+    """Return that an ideal joint, or an element, came apart."""
+    name, bodies = description.constraint(number)
+    between = " and ".join(name_of(description, body) for body in bodies)
     gap = float(np.max(np.abs(now.couplings[number].residual)))
     return (
-        f"joint {joint.name} between {first} and {second}, which is ideal, came apart by {gap:.2g} m or rad: "
+        f"{name} between {between}, which is ideal, came apart by {gap:.2g} m or rad: "
         "the bodies cannot go on as they move, so look for a position in which the mechanism locks"
     )
 

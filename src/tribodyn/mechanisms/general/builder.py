@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Final, TypeAlias
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from tribodyn.cases.entry import Entry
 from tribodyn.cases.load import flat
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.elements import ELEMENTS
+from tribodyn.mechanisms.general.elements.base import ElementKeys
 
 SOURCE: Final = "Mechanism"
 Direction: TypeAlias = Sequence[float] | np.ndarray[Any, Any]
@@ -137,6 +139,11 @@ class Mechanism:
         ends = {"between": [first, second], "first_point": first_point, "second_point": second_point}
         return self._add("springs", name, {**ends, **keys})
 
+    if TYPE_CHECKING:
+
+        def __getattr__(self, method: str) -> Callable[..., Mechanism]:
+            """Return a method that adds an element, such as ``gear``."""
+
     def pair(self, name: str, **keys: object) -> Mechanism:
         """Name surfaces and a contact law for clearances: ``surfaces``, ``asperities``, ``contact``."""
         return self._add("pairs", name, keys)
@@ -158,6 +165,23 @@ class Mechanism:
             raise InputError("this name is given twice", key=f"{table}.{name}", source=SOURCE)
         tables[name] = _plain(keys)
         return self
+
+
+def _adding(kind: type[ElementKeys]) -> Callable[..., Mechanism]:
+    """Return the method that adds an element of a kind."""
+
+    def add(self: Mechanism, name: str, *, joints: Sequence[str], **keys: object) -> Mechanism:
+        return self._add(kind.TABLE, name, {"joints": joints, **keys})
+
+    add.__name__, add.__qualname__ = kind.METHOD, f"{Mechanism.__name__}.{kind.METHOD}"
+    others = ", ".join(f"``{key}``" for key in kind.model_fields if key != "joints")
+    first = str(kind.__doc__).splitlines()[0]
+    add.__doc__ = f"Add {first[0].lower()}{first[1:].rstrip('.')}: ``joints``, {others}."
+    return add
+
+
+for _kind in ELEMENTS:
+    setattr(Mechanism, _kind.METHOD, _adding(_kind))
 
 
 def _plain(value: Any) -> Any:

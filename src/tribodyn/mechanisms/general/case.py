@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
+
+from pydantic import create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
@@ -15,8 +17,11 @@ from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
+from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general.elements import ELEMENTS
+from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys
 
@@ -113,10 +118,8 @@ class Integration(Group):
     grid: NodeKeys = NodeKeys()
 
 
-class MechanismCase(RoughCase):
-    """Bodies, joints and what moves them, in one drawing."""
-
-    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
+class _Parts(RoughCase):
+    """The parts of a mechanism that are no elements."""
 
     case: Literal["mechanism"] = choice("mechanism", "the kind of system", "")
     title: str = text("Mechanism", "heading of figures and report")
@@ -134,6 +137,24 @@ class MechanismCase(RoughCase):
     loads: Mapping[str, LoadKeys] = tables("what acts on them")
     springs: Mapping[str, SpringKeys] = tables("springs between them")
     pairs: Mapping[str, PairKeys] = tables("surfaces of joints that name them")
+
+
+if TYPE_CHECKING:
+    _WithElements = _Parts
+else:
+    _WithElements = create_model(
+        "_WithElements",
+        __base__=_Parts,
+        __module__=__name__,
+        **{kind.TABLE: (Mapping[str, kind], tables(kind.__doc__)) for kind in ELEMENTS},
+    )
+
+
+class MechanismCase(_WithElements):
+    """Bodies, joints and what moves them, in one drawing."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
+
     wear: Wear = Wear()
     solver: Integration = Integration()
     run: RunKeys = RunKeys()
@@ -258,6 +279,7 @@ class MechanismCase(RoughCase):
         self._check_names()
         self._check_drives()
         self._check_loads()
+        self._check_elements()
         self._check_run()
         self._check_campaign()
 
@@ -298,6 +320,26 @@ class MechanismCase(RoughCase):
             for signal in load.given.values():
                 coordinate = signal.over.removesuffix("s")
                 demand(coordinate in free, key, f"this joint has no {coordinate} that a table could follow")
+
+    def elements(self) -> Iterator[tuple[str, str, ElementKeys]]:
+        """Yield table, name and keys of all elements."""
+        for kind in ELEMENTS:
+            for name, keys in getattr(self, kind.TABLE).items():
+                yield kind.TABLE, name, keys
+
+    def _check_elements(self) -> None:
+        tables_of: dict[str, str] = {}
+        for table, name, keys in self.elements():
+            path = f"{table}.{name}"
+            other = tables_of.setdefault(name, table)
+            words = f"{other}.{name} has this name already; results name elements, so give each its own"
+            demand(other == table, path, words)
+            for joint in keys.joints:
+                _known(joint, self.joints, f"{path}.joints", "joint")
+            try:
+                keys.legs(self.joints)
+            except InputError as error:
+                raise InputError(error.reason, key=f"{path}.{error.key}") from None
 
     def _check_run(self) -> None:
         run = self.run

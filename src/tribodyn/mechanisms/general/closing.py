@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.mechanism.bodies import move
-from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, POSITION, Parts
+from tribodyn.kernels.mechanism.bodies import move, place
+from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, Parts
 from tribodyn.kernels.mechanism.functions import SMALL
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
-from tribodyn.kernels.mechanism.solution import HARD, ROUNDS, close, kinematics, set_compliance
+from tribodyn.kernels.mechanism.solution import (
+    HARD,
+    ROUNDS,
+    close,
+    kinematics,
+    mark_angles,
+    set_compliance,
+    set_offsets,
+)
 from tribodyn.mechanisms.general.description import GROUND, Description, name_of
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.inspection import ModelError, sound_drives
@@ -42,6 +50,9 @@ _TAKES_PART: Final = 0.1
 _NEAR: Final = 0.03
 """Distance of positions near by, in the same units."""
 
+Position: TypeAlias = tuple[Any, Any]
+"""Records of the bodies, and marks of the angles of all couplings."""
+
 
 class System:
     """A mechanism while it is put together, its rows as full matrices."""
@@ -55,6 +66,11 @@ class System:
         self.n = len(description.bodies)
         self.size = float(self.parts.constants.size)
         self._wait = 0
+        self._later_legs = [
+            (self.rows.index((int(c.first_leg), 0)), k)
+            for k, c in enumerate(self.parts.couplings)
+            if c.first_leg != NONE
+        ]
         self._places = tuple(np.array(self.rows, dtype=np.int64).reshape(-1, 2).T)
         self.row_units = np.array([1.0 if row_is_turn(self.parts, *row) else self.size for row in self.rows])
         self.t = 0.0
@@ -66,13 +82,31 @@ class System:
         self.refresh()
 
     def refresh(self) -> None:
-        """Fill kinematics where the bodies are."""
+        """Fill kinematics where the bodies are, and count whole turns from there."""
         kinematics(self.parts, self.now, self.data.signals, self.t)
+        mark_angles(self.now.couplings)
+
+    def position(self) -> Position:
+        """Return where the bodies are, with their whole turns, for :meth:`restore`."""
+        return self.now.bodies.copy(), self.now.couplings.angle_mark.copy()
+
+    def restore(self, position: Position) -> None:
+        """Put the bodies back where they were."""
+        self.now.bodies[:], self.now.couplings.angle_mark[:] = position
+        self.refresh()
+
+    def adopt(self, state: FloatArray) -> None:
+        """Put the bodies where a state on the constraints has them, and count angles from there."""
+        place(state, self.now.bodies)
+        self.refresh()
+        set_offsets(self.parts, self.now)
+        self.refresh()
 
     def take_positions(self, other: System) -> None:
         """Take over where the bodies of another system are."""
         for name in ("r", "p", "A"):
             self.now.bodies[name][:] = other.now.bodies[name]
+        self.now.couplings.angle_mark[:] = other.now.couplings.angle_mark
         self.refresh()
         row_scale(self.parts, self.now)
 
@@ -95,6 +129,9 @@ class System:
         for side, bodies in enumerate((self.parts.couplings.socket, self.parts.couplings.shaft)):
             columns = 6 * bodies[couplings][:, None] + np.arange(6)
             g[np.arange(len(self.rows))[:, None], columns] += entries[:, 6 * side : 6 * side + 6]
+            for row, leg in self._later_legs:
+                column = 6 * bodies[leg]
+                g[row, column : column + 6] += self.now.couplings.G[leg, 0, 6 * side : 6 * side + 6]
         return g[:, : 6 * self.n]
 
     def entries(self, name: str) -> FloatArray:
@@ -192,7 +229,7 @@ class System:
     def close(self, most: int = _MOST_STEPS) -> float:
         """Move the bodies onto the constraints by Gauss and Newton, least by mass; return the gap left."""
         least = self.gap()
-        nearest = self.now.bodies.copy()
+        nearest = self.position()
         for _ in range(most):
             if least < CLOSED:
                 break
@@ -200,9 +237,8 @@ class System:
             change = self.inverse(g, self.matrix()) @ (-self.entries("residual") / length)
             self.step(root @ change)
             if (gap := self.gap()) < least:
-                least, nearest = gap, self.now.bodies.copy()
-        self.now.bodies[:] = nearest
-        self.refresh()
+                least, nearest = gap, self.position()
+        self.restore(nearest)
         return least
 
     def approach(self) -> list[ModelError]:
@@ -263,6 +299,9 @@ class System:
             gap = float(np.max(np.abs(self.now.couplings[k].residual[:n_rows]), initial=0.0))
             if gap > size:
                 worst, size = k, gap
+        element = self._open_element(size)
+        if element is not None:
+            return element
         joint = self.description.joints[worst]
         now = self.now.couplings[worst]
         way = float(np.linalg.norm(now.pose.d[_HELD.get(joint.kind, slice(3))]))
@@ -277,6 +316,21 @@ class System:
         )
         return ModelError(f"joints.{joint.name}", text)
 
+    def _open_element(self, least: float) -> ModelError | None:
+        """Return which element misses its equation most, if any does by more than that [m]."""
+        first = self.description.first_leg
+        gaps = np.where(
+            self.parts.couplings.n_rows[first:] > 0, abs(self.now.couplings.residual[first:, 0]), 0.0
+        )
+        if np.max(gaps, initial=0.0) <= least:
+            return None
+        element = self.description.element_of(first + int(np.argmax(gaps)))
+        text = (
+            f"{element.kind.METHOD} {element.name} does not hold: when all joints are nearest to closing, "
+            f"it misses by {np.max(gaps) * 1e3:.4g} mm"
+        )
+        return ModelError(f"{element.kind.TABLE}.{element.name}", text)
+
     def independence(self) -> tuple[int, FloatArray]:
         """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
 
@@ -290,15 +344,14 @@ class System:
         rank, vanishing = self._rank()
         if rank == len(self.rows):
             return rank, vanishing
-        kept = self.now.bodies.copy()
+        kept = self.position()
         rng = np.random.default_rng(1)
         for _ in range(2):
             if self.wander(rng):
                 other, others = self._rank()
                 if other > rank:
                     rank, vanishing = other, others
-            self.now.bodies[:] = kept
-            self.refresh()
+            self.restore(kept)
         return rank, vanishing
 
     def _rank(self) -> tuple[int, FloatArray]:
@@ -322,7 +375,7 @@ class System:
         if lost < _INEXACT or share > _BY_MASS * of_places:
             return [], []
         rows = np.flatnonzero(np.abs(u[:, rank - 1]) > _TAKES_PART)
-        tied = {b for i in rows for b in self.description.joints[self.rows[i][0]].bodies if b != GROUND}
+        tied = {b for i in rows for b in self.description.constraint(self.rows[i][0])[1] if b != GROUND}
         light, heavy = (pick(tied, key=lambda b: self.description.bodies[b].mass) for pick in (min, max))
         first, second = self.description.bodies[light], self.description.bodies[heavy]
         moments = [np.linalg.eigvalsh(self.description.bodies[b].inertia) for b in tied]

@@ -34,7 +34,9 @@ def ideal(joint: Joint) -> Joint:
 
 
 def has_loops(description: Description) -> bool:
-    """Tell whether joints close a loop, through the ground or not; else they can always close."""
+    """Tell whether joints close a loop, through the ground or not, or elements do; else all can close."""
+    if description.elements:
+        return True
     group = list(range(-1, len(description.bodies)))
 
     def root(body: int) -> int:

@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.kernels.mechanism.bodies import place
 from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
@@ -89,8 +88,7 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
 
 def _placed(system: System, assembly: Assembly) -> System:
     """Put the bodies of a system where they are at the start."""
-    place(assembly.state, system.now.bodies)
-    system.refresh()
+    system.adopt(assembly.state)
     return system
 
 
@@ -99,10 +97,10 @@ def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelErro
     if not system.drive_rows():
         return None
     system.set_rank(rank)
-    start, found = system.now.bodies.copy(), None
+    start, found = system.position(), None
     chance = np.random.default_rng(1)
     for way in range(_WAYS if 6 * system.n > rank else 1):
-        system.now.bodies[:] = start
+        system.restore(start)
 
         def close(wander: bool = way > 0) -> bool:
             return _closes(system) and (not wander or _wanders(system, chance))
@@ -116,20 +114,18 @@ def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelErro
 
 def _closes(system: System) -> bool:
     """Close all joints, by the compiled solution or else thoroughly."""
-    kept = system.now.bodies.copy()
+    kept = system.position()
     if system.close_fast() <= _CLOSED:
         return True
-    system.now.bodies[:] = kept
-    system.refresh()
+    system.restore(kept)
     return system.close(_CORRECTIONS) <= _CLOSED
 
 
 def _wanders(system: System, chance: np.random.Generator) -> bool:
     """Go elsewhere in the freedoms that are left, as far as joints close there."""
-    kept = system.now.bodies.copy()
+    kept = system.position()
     if not system.wander(chance) or system.gap() > _CLOSED:
-        system.now.bodies[:] = kept
-        system.refresh()
+        system.restore(kept)
     return True
 
 
@@ -150,11 +146,11 @@ def _led(system: System, duration: float, close: Close) -> float | None:
 
 def _reached(system: System, begin: float, end: float, close: Close) -> bool:
     """Lead the bodies from one time to another, at once or else in parts."""
-    kept = system.now.bodies.copy()
+    kept = system.position()
     system.at(end)
     if close():
         return True
-    system.now.bodies[:] = kept
+    system.restore(kept)
     closed = False
     for part in range(1, _PARTS + 1):
         system.at(begin + (end - begin) * part / _PARTS)

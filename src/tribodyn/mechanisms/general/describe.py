@@ -25,6 +25,7 @@ from tribodyn.mechanisms.general.description import (
     Clearance,
     Description,
     Drive,
+    Element,
     Joint,
     Load,
     Spring,
@@ -77,6 +78,9 @@ def describe(case: MechanismCase) -> Description:
         springs=tuple(_spring(name, spring, bodies) for name, spring in case.springs.items()),
         gravity=np.array(case.gravity),
         speeds=tuple(_speeds(case)),
+        elements=tuple(
+            Element(name, type(keys), keys.legs(case.joints)) for _, name, keys in case.elements()
+        ),
     )
 
 

@@ -15,6 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.form import Form
+from tribodyn.mechanisms.general.elements.base import ElementKeys, Leg
 
 GROUND: Final = -1
 """Number of the body that never moves."""
@@ -225,12 +226,31 @@ class Spring:
 
 
 @dataclass(frozen=True)
+class Element:
+    """A gear pair or another element whose constraint equation couples coordinates of joints.
+
+    Attributes
+    ----------
+    name
+        Its name, unique among all elements.
+    kind
+        A member of ``elements.ELEMENTS``.
+    legs
+        Terms of its equation.
+    """
+
+    name: str
+    kind: type[ElementKeys]
+    legs: tuple[Leg, ...]
+
+
+@dataclass(frozen=True)
 class Description:
     """A mechanism as drawn, with how fast it moves at the start.
 
     Attributes
     ----------
-    bodies, joints, drives, loads, springs
+    bodies, joints, drives, loads, springs, elements
         Its parts.
     gravity
         [m/s²], shape (3,).
@@ -246,6 +266,31 @@ class Description:
     springs: tuple[Spring, ...]
     gravity: FloatArray
     speeds: tuple[tuple[int, str, float], ...]
+    elements: tuple[Element, ...] = ()
+
+    @property
+    def first_leg(self) -> int:
+        """Number of the coupling that is the first leg of the first element: all legs come last."""
+        return len(self.joints) + len(self.springs) + len(self.loads)
+
+    def element_of(self, coupling: int) -> Element:
+        """Return the element whose leg a coupling is."""
+        return [element for element in self.elements for _ in element.legs][coupling - self.first_leg]
+
+    def constraint(self, coupling: int) -> tuple[str, tuple[int, ...]]:
+        """Return what a constraint equation of a coupling belongs to, ``joint NAME``, and its bodies."""
+        if coupling < len(self.joints):
+            joint = self.joints[coupling]
+            return f"joint {joint.name}", joint.bodies
+        element = self.element_of(coupling)
+        names = dict.fromkeys(name for leg in element.legs for name in leg.bodies)
+        return f"{element.kind.METHOD} {element.name}", tuple(number_of(self, name) for name in names)
+
+
+def number_of(description: Description, name: str) -> int:
+    """Return the number of a body by its name."""
+    numbers = {body.name: number for number, body in enumerate(description.bodies)}
+    return numbers.get(name, GROUND)
 
 
 def name_of(description: Description, body: int) -> str:

@@ -19,7 +19,8 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
 )
-from tribodyn.mechanisms.general.description import Description, Drive, Joint, Load, Spring
+from tribodyn.mechanisms.general.description import Description, Drive, Joint, Load, Spring, number_of
+from tribodyn.mechanisms.general.elements.base import Leg
 from tribodyn.mechanisms.general.inspection import sound_drives
 from tribodyn.mechanisms.general.joints import ROWS, frame
 from tribodyn.mechanisms.general.kinds import KINDS
@@ -52,7 +53,7 @@ def mechanism_data(description: Description, worn: FloatArray | None = None) -> 
     constants = new_record(kinds.Constants)
     constants.gravity[:] = description.gravity
     constants.n_rows = constants.rank = int(np.sum(couplings.n_rows))
-    constants.n_nodes = len(description.bodies) + int(np.sum(couplings.node != NONE))
+    constants.n_nodes = len(description.bodies) + int(np.sum(couplings.n_rows > 0))
     constants.n_work = -(-(constants.n_nodes + len(description.bodies)) // 6)
     constants.size = _size(description)
     clearances = [joint.clearance for joint in description.joints if joint.clearance is not None]
@@ -110,9 +111,10 @@ def _bodies(description: Description) -> Any:
 
 
 def _couplings(description: Description, signals: SignalList) -> Any:
-    """Return the records of joints, springs and loads, in this order."""
+    """Return the records of joints, springs, loads and legs of elements, in this order."""
     joints, springs, loads = description.joints, description.springs, description.loads
-    records = np.recarray(len(joints) + len(springs) + len(loads), dtype=kinds.Coupling)
+    n_legs = sum(len(element.legs) for element in description.elements)
+    records = np.recarray(description.first_leg + n_legs, dtype=kinds.Coupling)
     records.view(np.uint8)[:] = 0
     for name in (
         "node",
@@ -123,6 +125,8 @@ def _couplings(description: Description, signals: SignalList) -> Any:
         "contact",
         "rows_block",
         "bodies_block",
+        "first_leg",
+        "next_leg",
     ):
         records[name][:] = NONE
     real = 0
@@ -135,13 +139,16 @@ def _couplings(description: Description, signals: SignalList) -> Any:
         _add_drive(records[drive.joint], description.joints[drive.joint], drive, signals)
     for record, spring in zip(records[len(joints) :], springs, strict=False):
         _fill_spring(record, description, spring)
-    for record, load in zip(records[len(joints) + len(springs) :], loads, strict=True):
+    for record, load in zip(records[len(joints) + len(springs) :], loads, strict=False):
         _fill_load(record, description, load, signals)
+    _fill_elements(records, description)
     nodes, rows = len(description.bodies), 0
     for record in records:
         if record.n_rows > 0:
             record.node, record.first_row = nodes, rows
             nodes, rows = nodes + 1, rows + record.n_rows
+        elif record.first_leg != NONE:
+            record.node = records[record.first_leg].node
     return records
 
 
@@ -189,7 +196,7 @@ def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) 
         other,
         signal,
     )
-    record.n_rows = m + 1
+    record.n_rows = record.n_terms = m + 1
 
 
 def _add_drive(record: Any, joint: Joint, drive: Drive, signals: SignalList) -> None:
@@ -231,11 +238,32 @@ def _fill_load(record: Any, description: Description, load: Load, signals: Signa
         record.signals[i] = signals.add(pieces_of(signal), signal.kinks if load.joint < 0 else np.zeros(0))
 
 
+def _fill_elements(records: Any, description: Description) -> None:
+    """Fill the legs of all elements; only the first of each counts the equation."""
+    number = description.first_leg
+    for element in description.elements:
+        first = number
+        for leg in element.legs:
+            record = records[number]
+            _fill_leg(record, description, leg)
+            if number > first:
+                record.n_rows, record.first_leg, records[number - 1].next_leg = 0, first, number
+            number += 1
+
+
+def _fill_leg(record: Any, description: Description, leg: Leg) -> None:
+    """Fill one term of the equation of an element."""
+    bodies = [number_of(description, name) for name in leg.bodies]
+    _place(record, description, bodies, leg.points, (leg.axes, leg.axes))
+    record.along[:], record.about = leg.along, leg.about
+    _add_row(record, kinds.COORDINATE, 2, 0)
+
+
 def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Pattern]:
     """Return the patterns of the equations of motion and of the iteration matrix; number the blocks."""
-    n_nodes = n_bodies + int(np.sum(couplings.node != NONE))
+    n_nodes = n_bodies + int(np.sum(couplings.n_rows > 0))
     block_of = {(k, k): k for k in range(n_nodes)}
-    rows: list[Rows] = []
+    of_node: dict[int, list[int]] = {}
 
     def block(row: int, column: int) -> int:
         return block_of.setdefault((row, column), len(block_of))
@@ -243,11 +271,14 @@ def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Patte
     for record in couplings:
         bodies = [int(b) if b < n_bodies else NONE for b in (record.socket, record.shaft)]
         if record.node != NONE:
-            real = tuple(b for b in bodies if b != NONE)
-            rows.append(Rows(int(record.node), real, NONE in bodies))
+            of_node.setdefault(int(record.node), []).extend(bodies)
             for side, body in enumerate(bodies):
                 if body != NONE:
                     record.rows_block[side] = block(record.node, body), block(body, record.node)
+    rows = [
+        Rows(node, tuple(b for b in dict.fromkeys(bodies) if b != NONE), NONE in bodies)
+        for node, bodies in of_node.items()
+    ]
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
     mass = make_pattern(order, dict(block_of))
     for record in couplings:

@@ -1,11 +1,11 @@
 """In which order the blocks of a mechanism's matrices are eliminated.
 
-Minimum degree, with one condition that makes pivoting between blocks needless. The rows of a joint are
-eliminated only after one of its bodies, and only while the bodies eliminated with it, held together by joints
-eliminated before, touch no more than one other body (or the ground). Then their relative motion is free but
-for constraints among themselves, and the pivot is what the rows of the joint see of it: regular unless the
-rows are truly dependent. For a tree that is elimination from the leaves to the root; a loop is closed before
-the body it hangs on.
+Minimum degree, with one condition that makes pivoting between blocks needless. The rows of a joint, or the
+equation of an element over up to four bodies, are eliminated only after one of its bodies, and only while
+the bodies eliminated with it, held together by joints eliminated before, touch no more than one other body
+(or the ground). Then their relative motion is free but for constraints among themselves, and the pivot is
+what the rows see of it: regular unless the rows are truly dependent. For a tree that is elimination from the
+leaves to the root; a loop is closed before the body it hangs on.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tribodyn.kernels.mechanism.data import Pattern
 
 @dataclass(frozen=True)
 class Rows:
-    """Constraint rows of a joint as a node.
+    """Constraint rows of a joint, or the equation of an element, as a node.
 
     Attributes
     ----------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -68,12 +69,16 @@ class Skeleton:
         where it has fewer than two.
     marks
         The joints.
+    outlines
+        Lines that show elements: number of the body that carries one, −1 for the ground, and its points in
+        the drawing [m], shape (n, 3).
     """
 
     bodies: tuple[str, ...]
     centres: FloatArray
     points: tuple[FloatArray, ...]
     marks: tuple[Mark, ...]
+    outlines: tuple[tuple[int, FloatArray], ...] = ()
 
     def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
         """Return the ends of the lines of a body [mm], shape (..., n, 3).
@@ -90,7 +95,19 @@ class Skeleton:
     def moved(
         self, points: FloatArray, body: int, position: FloatArray, orientation: FloatArray
     ) -> FloatArray:
-        """Return where points of the drawing [m] are when a body carries them [mm], shape (..., n, 3)."""
+        """Return where points of the drawing [m] are when a body carries them [mm], shape (..., n, 3).
+
+        Parameters
+        ----------
+        points
+            Shape (n, 3).
+        body
+            Its number; −1 for the ground.
+        position, orientation
+            Of this body, shapes (..., 3) and (..., 4); of any for the ground.
+        """
+        if body < 0:
+            return np.broadcast_to(MM * points, (*position.shape[:-1], *points.shape))
         arms = points - self.centres[body]
         return MM * (position[..., None, :] + rotated(orientation[..., None, :], arms))
 
@@ -107,7 +124,15 @@ def skeleton(case: MechanismCase) -> Skeleton:
     points = tuple(
         np.array(own if len(own) > 1 else [*own, centre]) for own, centre in zip(ends, centres, strict=True)
     )
-    return Skeleton(names, centres, points, tuple(_mark(case, name, names) for name in case.joints))
+    marks = tuple(_mark(case, name, names) for name in case.joints)
+    return Skeleton(names, centres, points, marks, tuple(_outlines(case, names)))
+
+
+def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[tuple[int, FloatArray]]:
+    """Yield the lines that show elements."""
+    for _, _, keys in case.elements():
+        for body, points in keys.outlines(case.joints):
+            yield -1 if body == GROUND else bodies.index(body), points
 
 
 def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:

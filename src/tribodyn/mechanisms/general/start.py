@@ -74,8 +74,7 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     if all(joint.clearance is None for joint in description.joints):
         return assembly.state
     ideal = System(counterpart(description))
-    place(assembly.state, ideal.now.bodies)
-    ideal.refresh()
+    ideal.adopt(assembly.state)
     ideal.close()
     return _settled(_Loads(assembly, ideal))
 
@@ -142,6 +141,7 @@ class _Loads:
         parts = newton.N_PLACES + newton.N_BODY
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
         self.ideal, self.real = ideal, System(assembly.description)
+        self.real.adopt(self.state)
         self.speeds, self.largest = assembly.description.speeds, 0.0
         self.ahead: FloatArray | None = None
 

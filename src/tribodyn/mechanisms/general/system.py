@@ -203,6 +203,7 @@ class MechanismSystem:
             columns={
                 **found.bodies,
                 **self._of_joints(found),
+                **self._of_elements(found),
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
@@ -285,6 +286,21 @@ class MechanismSystem:
             columns[name] = columns[name] * signs.reshape(-1, *(1,) * (columns[name].ndim - 2))
         return columns
 
+    def _of_elements(self, found: Observed) -> dict[str, FloatArray]:
+        """Return what elements transmit, each of shape (n_t, n_elements); nothing without elements."""
+        elements, first = self.description.elements, self.description.first_leg
+        if not elements:
+            return {}
+        forces, moments = [], []
+        for element in elements:
+            last, of = first + len(element.legs) - 1, first + element.kind.MOMENT_OF
+            along = element.legs[-1].along
+            force = found.couplings["reaction_force"][:, last] @ along
+            forces.append(force if np.any(along) else np.full_like(force, np.nan))
+            moments.append(found.couplings["reaction_moment"][:, of, 2])
+            first = last + 1
+        return {"element_force": np.stack(forces, axis=-1), "element_moment": np.stack(moments, axis=-1)}
+
     @property
     def _real_numbers(self) -> list[int]:
         return [k for k, joint in enumerate(self.description.joints) if joint.clearance is not None]
@@ -314,6 +330,8 @@ class MechanismSystem:
             "axis": list(AXES),
             "entry": list(ENTRIES),
         }
+        if self.description.elements:
+            parts["element"] = [element.name for element in self.description.elements]
         if not self.real:
             return dict(parts)
         frames = run.solution.picture_times[self._playback(run)]

@@ -17,6 +17,7 @@ from tribodyn.results.variables import FRAME, JUMP, STAGE, Variable, described
 AXES: Final = ("x", "y", "z")
 ENTRIES: Final = ("w", *AXES)
 _VECTOR: Final = ("axis",)
+_ELEMENT: Final = (*TIME, "element")
 _QUATERNION: Final = ("entry",)
 _COMPONENTS: Final = {1: (), 3: _VECTOR, 4: _QUATERNION}
 """Dimensions of a quantity by its number of components."""
@@ -78,6 +79,14 @@ def _variables(table: Table, part: str) -> dict[str, Variable]:
     return {q.name: Variable(q.unit, q.meaning, (*TIME, part, *_COMPONENTS[q.size])) for q in table}
 
 
+OF_ELEMENTS: Final[dict[str, Variable]] = {
+    "element_force": Variable("N", "force that an element transmits: of the teeth, of the thread", _ELEMENT),
+    "element_moment": Variable(
+        "N m", "moment that an element transmits: on the second wheel, pinion or nut", _ELEMENT
+    ),
+}
+"""What an element transmits; see its kind for sign and place."""
+
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
@@ -87,6 +96,8 @@ OF_CYCLE: Final[dict[str, Variable]] = {
 VARIABLES: Final[dict[str, Variable]] = {
     "body": Variable("", "name of the body", ("body",), named=True, names="bodies"),
     "joint": Variable("", "name of the joint", ("joint",), named=True, names="joints"),
+    "element": Variable("", "name of the element", ("element",), named=True, names="elements"),
+    **OF_ELEMENTS,
     "surface": Variable("", "joint and surface of it", ("surface",), named=True),
     "axis": Variable("", "component of a vector", _VECTOR, named=True, names=AXES),
     "entry": Variable("", "entry of a quaternion", _QUATERNION, named=True, names=ENTRIES),

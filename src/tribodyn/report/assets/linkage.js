@@ -1,7 +1,7 @@
 // A mechanism of any bodies and joints in space: rods between joints. Lengths in mm.
 
 /** Sizes of what is drawn, over the size of the mechanism. */
-const THICK = { rod: 0.011, joint: 0.019, pin: 0.08, block: 0.03 };
+const THICK = { rod: 0.011, joint: 0.019, pin: 0.08, block: 0.03, line: 0.003 };
 
 widgets.linkage = (box) => {
   const stage = turnableStage(box);
@@ -49,6 +49,13 @@ function addLinkage(solid, data, frame, strength) {
     }
     for (let k = 1; k < n; k++) {
       solid.rod(from, pointAt(points, n, at, k), THICK.rod * data.size, paint(colour), 12);
+    }
+  }
+  for (const { n, points, colour } of data.outlines) {
+    const at = Math.min(frame, points.length / (3 * n) - 1);
+    for (let k = 1; k < n; k++) {
+      const ends = [k - 1, k].map((number) => pointAt(points, n, at, number));
+      solid.rod(...ends, THICK.line * data.size, paint(colour), 4);
     }
   }
   for (const joint of data.joints) addJoint(solid, data, joint, frame, paint(joint.real ? "vermilion" : "quiet"));

@@ -58,6 +58,9 @@ def _direction(row: FloatArray) -> str:
 def _draw_at(
     axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray, colour: str
 ) -> None:
+    for body, outline in drawn.outlines:
+        x, y = (drawn.moved(outline, body, position[body], orientation[body]) @ plane.T).T
+        axes.plot(x, y, color=GREY if colour == INK else PALE, linewidth=0.7)
     for body in range(len(drawn.bodies)):
         points = drawn.lines(body, position[body], orientation[body]) @ plane.T
         hub = points.mean(axis=0)

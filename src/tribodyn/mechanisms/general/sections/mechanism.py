@@ -50,7 +50,11 @@ def data(dataset: xr.Dataset) -> Payload | None:
     drawn, (position, orientation) = skeleton(case), motion
     bodies = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
     marks = [_mark(drawn, mark, position, orientation) for mark in drawn.marks]
-    everywhere = np.concatenate([part.reshape(-1, 3) for part in (*bodies, *(mark[:, 0] for mark in marks))])
+    outlines = [
+        drawn.moved(points, body, position[:, body], orientation[:, body]) for body, points in drawn.outlines
+    ]
+    shown = (*bodies, *(mark[:, 0] for mark in marks), *outlines)
+    everywhere = np.concatenate([part.reshape(-1, 3) for part in shown])
     low, high = everywhere.min(axis=0), everywhere.max(axis=0)
     size = float(np.linalg.norm(high - low))
     eye, up = view(everywhere)
@@ -68,6 +72,10 @@ def data(dataset: xr.Dataset) -> Payload | None:
             {"name": mark.name, "real": mark.real, "points": packed(points)}
             for mark, points in zip(drawn.marks, marks, strict=True)
         ],
+        "outlines": [
+            {"colour": _colour(body), "n": points.shape[1], "points": packed(points)}
+            for (body, _), points in zip(drawn.outlines, outlines, strict=True)
+        ],
     }
 
 
@@ -77,18 +85,21 @@ def _body(name: str, number: int, points: FloatArray) -> dict[str, Any]:
     spread = points if points.shape[1] == 2 else np.concatenate([hub, points], axis=1)
     return {
         "name": name,
-        "colour": LOOKS[(number + 1) % len(LOOKS)][0],
+        "colour": _colour(number),
         "n": spread.shape[1],
         "points": packed(spread),
     }
+
+
+def _colour(body: int) -> str:
+    """Return the colour of a body; the ground has one too."""
+    return str(LOOKS[(body + 1) % len(LOOKS)][0])
 
 
 def _mark(drawn: Skeleton, mark: Mark, position: FloatArray, orientation: FloatArray) -> FloatArray:
     """Return a joint at the frames and a point one metre along its axis [mm]; twice the same for a ball."""
     tip = mark.point if mark.axis is None else mark.point + mark.axis
     points = np.array([mark.point, tip])
-    if mark.body < 0:
-        return np.broadcast_to(1e3 * points, (position.shape[0], 2, 3))
     return drawn.moved(points, mark.body, position[:, mark.body], orientation[:, mark.body])
 
 
@@ -96,8 +107,8 @@ SECTION: Final = Section(
     name="mechanism",
     title="The mechanism",
     caption=(
-        "Bodies as rods between their joints; joints with clearance stand out. Drag to turn it, or use the "
-        "arrow keys."
+        "Bodies as rods between their joints; joints with clearance stand out; pitch circles of gears show. "
+        "Drag to turn it, or use the arrow keys."
     ),
     needs=("position", "orientation", "body", "joint"),
     widget="linkage",

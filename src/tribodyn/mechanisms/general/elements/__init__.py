@@ -1,0 +1,24 @@
+"""Elements whose constraint equation couples the coordinates of joints: gear pair, rack and pinion, screw.
+
+An element is one file with one class, and its name in the list below. Keys of case files, their table in the
+manual, methods of the builder, messages, constraint equations and results follow from the list.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Final
+
+from tribodyn.mechanisms.general.elements.base import ElementKeys
+
+NAMES: Final = (
+    "gear",
+    "rack",
+    "screw",
+)
+"""Modules of this package; each holds the class of its name."""
+
+ELEMENTS: Final[tuple[type[ElementKeys], ...]] = tuple(
+    getattr(import_module(f"{__name__}.{name}"), name.title()) for name in NAMES
+)
+"""Every kind of element."""

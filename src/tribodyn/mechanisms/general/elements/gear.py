@@ -1,0 +1,141 @@
+"""Gear pair: two wheels that turn in a fixed ratio against the body that carries both.
+
+On parallel axes a distance D apart, pitch circles of the ratio i touch at P, at D i/(i − 1) from the first
+axis towards the second. With the angles θ against the carrier, the direction n in which the teeth move, and
+the displacements d of the wheels in their bearings at O,
+
+    n·(d_2 + θ_2 × (P − O_2)) − n·(d_1 + θ_1 × (P − O_1)) = 0.
+
+The multiplier is the tangential tooth force. Nothing acts on the carrier but the bearings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import ClassVar
+
+import numpy as np
+
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import names, number
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.general.elements.base import (
+    ElementKeys,
+    Joints,
+    Leg,
+    are_parallel,
+    axis_of,
+    carrier,
+    circle,
+    leg,
+    origin,
+    other_body,
+    require_type,
+    size_of,
+)
+
+_OFFSET = 1.0e-9
+"""Distance between parallel axes, over that between all joints, up to which they are one axis."""
+
+
+class Gear(ElementKeys):
+    """A gear pair: two wheels, each in a bearing of the same carrier, turn in a fixed ratio."""
+
+    TABLE: ClassVar[str] = "gears"
+    METHOD: ClassVar[str] = "gear"
+    FORCE: ClassVar[str] = "tangential tooth force on the second wheel; none where axes are not parallel"
+    MOMENT: ClassVar[str] = "torque of the teeth on the second wheel, about its axis"
+    MOMENT_OF: ClassVar[int] = 1
+    EXAMPLE: ClassVar[str] = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+pinion = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-4, 3e-4, 5e-4 kg m^2" }
+wheel = { mass = "4 kg", centre = "90, 0, 0 mm", inertia = "5e-3, 5e-3, 9e-3 kg m^2" }
+[joints]
+input = { type = "revolute", between = ["ground", "pinion"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+output = { type = "revolute", between = ["ground", "wheel"], point = "90, 0, 0 mm", axis = [0, 0, 1] }
+[gears.mesh]
+joints = ["input", "output"]
+ratio = -0.5
+[drives.motor]
+joint = "input"
+torque = "0.2 N m"
+"""
+
+    joints: tuple[str, str] = names(
+        "the bearings of the two wheels in the body that carries both",
+        "",
+        length=2,
+        example='["input", "output"]',
+    )
+    ratio: float = number(
+        None,
+        "turns of the second wheel for one of the first, seen from the carrier; negative for external gears",
+        "",
+        example="-2.5",
+        required=True,
+    )
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return one leg for each wheel."""
+        base = self._carrier(joints)
+        first, second = (joints[name] for name in self.joints)
+        axis, other = axis_of(first), axis_of(second)
+        if are_parallel(axis, other):
+            other = axis
+        points = [origin(joint, base) for joint in (first, second)]
+        wheels = [other_body(joint, base) for joint in (first, second)]
+        pitch = self._pitch(joints)
+        if pitch is None:
+            size = size_of(joints)
+            none = np.zeros(3)
+            return (
+                leg((base, wheels[0]), points[0], axis, none, -self.ratio * size),
+                leg((base, wheels[1]), points[1], other, none, size),
+            )
+        # Both wheels are held where the plane of the teeth, that of the first joint, meets their axes.
+        points[1] = points[1] + axis * ((points[0][0] - points[1][0]) @ axis)
+        arms = [pitch - point[0] for point in points]
+        teeth = np.cross(axis, arms[0]) / np.linalg.norm(arms[0])
+        lever = [float(np.cross(axis, arm) @ teeth) for arm in arms]
+        return (
+            leg((base, wheels[0]), points[0], axis, -teeth, -lever[0]),
+            leg((base, wheels[1]), points[1], axis, teeth, lever[1]),
+        )
+
+    def outlines(self, joints: Joints) -> Iterable[tuple[str, FloatArray]]:
+        """Return the pitch circles, where axes are parallel."""
+        pitch = self._pitch(joints)
+        for one in self.legs(joints) if pitch is not None else ():
+            yield one.bodies[1], circle(one.points[1], one.axes[:, 2], abs(one.about))
+
+    def _carrier(self, joints: Joints) -> str:
+        """Return the body that carries both wheels, after checks of joints and ratio."""
+        demand(
+            self.ratio != 0.0,
+            "ratio",
+            "the ratio is 0; give the turns of the second wheel for one of the first",
+        )
+        for name in self.joints:
+            require_type(name, joints[name], ("revolute", "cylindrical"), "a gear pair")
+        return carrier(self.joints, joints)
+
+    def _pitch(self, joints: Joints) -> FloatArray | None:
+        """Return the pitch point as drawn [m], shape (3,); None for gears that transmit a torque only."""
+        first, second = (joints[name] for name in self.joints)
+        axis = axis_of(first)
+        points = [origin(joint, self._carrier(joints))[0] for joint in (first, second)]
+        apart = points[1] - points[0]
+        apart = apart - axis * (axis @ apart)
+        if are_parallel(axis, axis_of(second)) and np.linalg.norm(apart) > _OFFSET * size_of(joints):
+            words = "wheels of a ratio of 1 on two axes have no pitch point; external gears have one below 0"
+            demand(self.ratio != 1.0, "ratio", words)
+            return np.asarray(points[0] + self.ratio / (self.ratio - 1.0) * apart)
+        for name in self.joints:
+            words = (
+                f"{name} has clearance, and gears whose axes are not parallel, or are one axis, transmit a "
+                "torque only: its bearing would lack the force of the teeth; make it ideal"
+            )
+            demand(joints[name].real is None, "joints", words)
+        return None

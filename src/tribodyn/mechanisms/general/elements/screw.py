@@ -1,0 +1,95 @@
+"""Screw: a nut moves along a thread by the lead for each turn against it.
+
+With displacement and angle of the nut against the screw along and about the axis z,
+
+    z·d − lead/(2π) θ = constant,
+
+whichever way the axis is drawn. The multiplier is the axial force on the nut. There is no friction.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import names, quantity
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.general.elements.base import (
+    ElementKeys,
+    Joints,
+    Leg,
+    are_parallel,
+    axis_of,
+    carrier,
+    leg,
+    origin,
+    other_body,
+    require_type,
+)
+
+
+class Screw(ElementKeys):
+    """A screw: a thread without friction between a screw and its nut."""
+
+    TABLE: ClassVar[str] = "screws"
+    METHOD: ClassVar[str] = "screw"
+    FORCE: ClassVar[str] = "force of the thread on the nut, along the axis of the first joint"
+    MOMENT: ClassVar[str] = "torque of the thread on the nut, about this axis"
+    MOMENT_OF: ClassVar[int] = 0
+    EXAMPLE: ClassVar[str] = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+screw = { mass = "1 kg", centre = "0, 0, 50 mm", inertia = "1e-3, 1e-3, 2e-4 kg m^2" }
+nut = { mass = "2 kg", centre = "0, 0, 30 mm", inertia = "1e-3, 1e-3, 1e-3 kg m^2" }
+[joints]
+bearing = { type = "revolute", between = ["ground", "screw"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+guide = { type = "prismatic", between = ["ground", "nut"], point = "40, 0, 30 mm", axis = [0, 0, 1] }
+[screws.thread]
+joints = ["bearing", "guide"]
+lead = "5 mm"
+[drives.motor]
+joint = "bearing"
+torque = "0.2 N m"
+"""
+
+    joints: tuple[str, ...] = names(
+        "the cylindrical joint of the thread; or the bearing of the screw and the guide of the nut",
+        "",
+        length=0,
+        example='["bearing", "guide"]',
+    )
+    lead: float = quantity(
+        None,
+        "way along the axis for one turn; positive for a right-handed thread",
+        "",
+        unit="mm",
+        example="4 mm",
+        required=True,
+    )
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the leg from the screw to the nut."""
+        demand(self.lead != 0.0, "lead", "the lead is 0; give the way of the nut for one turn")
+        words = "name one cylindrical joint, or a revolute and a prismatic one"
+        demand(len(self.joints) in (1, 2), "joints", words)
+        bearing = joints[self.joints[0]]
+        axis = axis_of(bearing)
+        if len(self.joints) == 1:
+            require_type(self.joints[0], bearing, ("cylindrical",), "a screw of one joint")
+            bodies, points = bearing.between, origin(bearing, bearing.between[0])
+        else:
+            bodies, points = self._of_two(joints)
+        return (leg(bodies, points, axis, axis, -self.lead / (2.0 * math.pi)),)
+
+    def _of_two(self, joints: Joints) -> tuple[tuple[str, str], FloatArray]:
+        """Return screw and nut, and where they are, for a bearing and a guide on one body."""
+        bearing, guide = (joints[name] for name in self.joints)
+        require_type(self.joints[0], bearing, ("revolute",), "the screw, named first,")
+        require_type(self.joints[1], guide, ("prismatic",), "the nut, named second,")
+        base = carrier((self.joints[0], self.joints[1]), joints)
+        words = "the axes of the screw and of the guide of its nut must be parallel"
+        demand(are_parallel(axis_of(bearing), axis_of(guide)), "joints", words)
+        points = origin(bearing, base)[[1, 0]]
+        return (other_body(bearing, base), other_body(guide, base)), points
