@@ -12,7 +12,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.film.data import FilmMemory
 from tribodyn.kernels.film.report import pressure_unit
 from tribodyn.lubrication import Film, FilmGrid, Roughness, film_state
-from tribodyn.lubrication.flow_factors import shear_factor
+from tribodyn.lubrication.factors import shear_factor
 
 OMEGA = 100.0
 TILTED = np.array([6e-6, 8e-6, 3e-4, -2e-4, 1e-4, -2e-4, 0.01, -0.02])

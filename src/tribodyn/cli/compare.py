@@ -11,8 +11,7 @@ from urllib.parse import quote
 
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import REPORT
-from tribodyn.cli.headlines import grey
-from tribodyn.cli.tables import LEFT_OUT
+from tribodyn.cli.tables import LEFT_OUT, grey
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, on_one_line
 

@@ -1,13 +1,60 @@
-"""The end of a sweep in words: one line for each point, or the statistics of samples."""
+"""Key results of a run or a sweep as text for the terminal: lines for a run, tables for a sweep."""
 
 from __future__ import annotations
 
+import os
 import shutil
+import sys
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
-from tribodyn.cli.headlines import grey
+from tribodyn.views.numbers import rounded
+
+_SHOWN_IN_FULL: Final = (1e4, 1e9)
+_GREY: Final = "\x1b[2m"
+_PLAIN: Final = "\x1b[0m"
+
+
+def in_words(summary: Mapping[str, object]) -> Iterator[str]:
+    """Give one line for each headline number, aligned, with its unit; grey where they are doubtful.
+
+    Parameters
+    ----------
+    summary
+        Content of ``summary.json``.
+    """
+    from tribodyn.results.summary import caution
+
+    doubt = summary.get("doubtful")
+    if doubt:
+        yield f"  {caution(doubt)}"
+    yield from (grey(line, doubt) for line in _numbers(summary))
+
+
+def grey(text: str, doubt: object) -> str:
+    """Return a text that a terminal shows in grey where there is a doubt, unless colours are unwanted."""
+    wanted = doubt and sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    return f"{_GREY}{text}{_PLAIN}" if wanted else text
+
+
+def _numbers(summary: Mapping[str, object]) -> Iterator[str]:
+    from tribodyn.mechanisms.results import known
+
+    headlines = known(summary, str(summary.get("kind", "")))
+    labels = {name: headline.label_in(summary) for name, headline in headlines.items()}
+    width = max(map(len, labels.values()), default=0)
+    for name, headline in headlines.items():
+        yield f"  {labels[name]:<{width}}  {_number(summary[name], headline.digits)} {headline.unit}".rstrip()
+
+
+def _number(value: object, digits: int) -> str:
+    """Write a number with the digits that hold, not in powers of ten where it need not be; counts in full."""
+    if not isinstance(value, float):
+        return f"{value!s:>9}"
+    number = rounded(value, digits)
+    return f"{number:>9.0f}" if _SHOWN_IN_FULL[0] <= abs(number) < _SHOWN_IN_FULL[1] else f"{number:>9.4g}"
+
 
 _COLUMN: Final = 13
 _LONGEST: Final = 22
@@ -127,7 +174,7 @@ def _cells(point: Mapping[str, Any], shown: Mapping[str, str]) -> Iterator[str]:
     if point["failure"]:
         yield f"no result: {point['failure']}"[: (_COLUMN + 2) * len(shown)]
         return
-    yield from (_number(point.get(name)) for name in shown)
+    yield from (_cell(point.get(name)) for name in shown)
 
 
 def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) -> Iterator[str]:
@@ -152,9 +199,9 @@ def _one_statistic(record: Mapping[str, Mapping[str, float]], labels: Mapping[st
     width = max((len(label) for label in labels.values()), default=0)
     yield "  ".join([" " * (width + 2), *(f"{name:>{_COLUMN}}" for name in names)])
     for name, label in labels.items():
-        cells = (_number(record[name].get(statistic)) for statistic in names)
+        cells = (_cell(record[name].get(statistic)) for statistic in names)
         yield "  ".join([f"  {label:<{width}}", *cells])
 
 
-def _number(value: object) -> str:
+def _cell(value: object) -> str:
     return f"{value:>{_COLUMN}.4g}" if isinstance(value, (int, float)) else f"{'–':>{_COLUMN}}"

@@ -14,8 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.base import Family
 from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import ChartCurve, ChartMarks, Panel
+from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
 from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import series

@@ -27,9 +27,9 @@ from tribodyn.figures.style import (
     sheet,
 )
 from tribodyn.figures.unrolled import draw_map
-from tribodyn.views.depth import fitting_unit
 from tribodyn.views.series import signed
 from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
+from tribodyn.views.wear import fitting_unit
 
 TITLE: Final = "Wear depth of the bushing"
 

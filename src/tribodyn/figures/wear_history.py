@@ -13,11 +13,10 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import BLUE, DASHED, GREY, INK, SOLID, caption, finish, legend, lines, note, sheet
-from tribodyn.views.depth import fitting_unit, no_feedback
 from tribodyn.views.series import series
-from tribodyn.views.wear_history import PANELS, SECTION
+from tribodyn.views.wear import PANELS, WEAR_HISTORY, fitting_unit, no_feedback
 
-TITLE: Final = SECTION.title
+TITLE: Final = WEAR_HISTORY.title
 _LOOKS: Final = ((INK, DASHED), (BLUE, SOLID))
 FAR_APART: Final = 10.0
 """Ratio of the largest to the least from which an axis counts in powers of ten."""
@@ -86,7 +85,7 @@ def _marker(cycles: FloatArray) -> str:
 FAMILY: Final = Family(
     name="wear_history",
     title=TITLE,
-    caption=SECTION.caption,
-    needs=SECTION.needs,
+    caption=WEAR_HISTORY.caption,
+    needs=WEAR_HISTORY.needs,
     draw=draw,
 )

@@ -8,10 +8,9 @@ finds where it carries a load.
 from __future__ import annotations
 
 from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
+from tribodyn.lubrication.factors import Roughness
 from tribodyn.lubrication.film import BOUNDARIES, CAVITATION, Film, FilmGrid
-from tribodyn.lubrication.roughness import Roughness
-from tribodyn.lubrication.state import FilmState, film_state
-from tribodyn.lubrication.status import explain
+from tribodyn.lubrication.state import FilmState, explain, film_state
 
 __all__ = [
     "BOUNDARIES",

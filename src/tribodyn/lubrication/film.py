@@ -29,8 +29,7 @@ from tribodyn.kernels.film.data import (
     Work,
     ZFace,
 )
-from tribodyn.lubrication.roughness import Roughness
-from tribodyn.lubrication.tables import flow_table
+from tribodyn.lubrication.factors import Roughness, flow_table
 
 CAVITATION: Final = {
     "reynolds": REYNOLDS,

@@ -1,19 +1,43 @@
-"""A film at one state, evaluated from Python."""
+"""A film at one state, evaluated from Python, and why a film has no answer."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
+from tribodyn.kernels.film.data import (
+    CONVERGED,
+    NO_CONVERGENCE,
+    NO_MEAN_GAP,
+    NOT_STEADY,
+    OUT_OF_RANGE,
+    FilmData,
+    FilmMemory,
+)
 from tribodyn.kernels.film.report import film_leakage, film_pressure
 from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
 from tribodyn.lubrication.film import Film
-from tribodyn.lubrication.status import explain
+
+_REASONS: Final = {
+    CONVERGED: "converged",
+    NO_CONVERGENCE: "the cavitated part of the film did not settle",
+    OUT_OF_RANGE: (
+        "the gap closed: somewhere h < −4σ (with smooth surfaces h ≤ 0); the shaft is outside "
+        "the bushing, or the load is too high for film and asperities"
+    ),
+    NOT_STEADY: "jfo is for steady films: the shaft must turn and its centre rest",
+    NO_MEAN_GAP: "jfo needs a positive mean gap everywhere; the surfaces are pressed too far into each other",
+}
+
+
+def explain(status: int) -> str:
+    """Return the meaning of a status of ``kernels.film``."""
+    return _REASONS[status]
 
 
 @dataclass(frozen=True)

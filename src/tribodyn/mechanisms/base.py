@@ -21,7 +21,7 @@ from tribodyn.cases.messages import Remarks
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.mechanisms.workload import Workload
-from tribodyn.results.headline import Headline
+from tribodyn.results.summary import Headline
 from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:

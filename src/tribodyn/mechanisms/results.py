@@ -14,7 +14,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import store, summary
-from tribodyn.results.headline import Headline
+from tribodyn.results.summary import Headline
 from tribodyn.results.variables import VARIABLES
 
 

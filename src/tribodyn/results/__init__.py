@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from tribodyn.results.dataset import build, json_attribute
-from tribodyn.results.headline import Headline
 from tribodyn.results.netcdf import netcdf_content
 from tribodyn.results.store import prepare_directory
+from tribodyn.results.summary import Headline
 from tribodyn.results.variables import COORDINATES, VARIABLES, Variable
 
 __all__ = [

@@ -17,11 +17,11 @@ import numpy as np
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import open_regular
 from tribodyn.core.quoting import LONGEST, brief
+from tribodyn.core.versions import provenance
 from tribodyn.mechanisms.base import Carried
 from tribodyn.results.atomic import replacing
 from tribodyn.simulation.campaign import Campaign
 from tribodyn.simulation.history import columns
-from tribodyn.simulation.provenance import provenance
 
 FORMAT: Final = 2
 LARGEST: Final = 1_000_000_000

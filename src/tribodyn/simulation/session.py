@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import xarray as xr
 
 from tribodyn.core.stopping import Stop, skipped
+from tribodyn.core.versions import provenance
 from tribodyn.integrate import INTERRUPTED, integrate
 from tribodyn.mechanisms.base import (
     FinishedRun,
@@ -18,7 +19,6 @@ from tribodyn.mechanisms.base import (
     Worn,
 )
 from tribodyn.results import build
-from tribodyn.simulation.provenance import provenance
 
 Progress = Callable[[float], None] | None
 """Called with the simulated time [s] after every accepted step."""

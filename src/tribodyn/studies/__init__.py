@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from tribodyn.studies.cluster import Tls
-from tribodyn.studies.distributions import DISTRIBUTIONS
 from tribodyn.studies.plan import Sampling, SweepPlan, make_plan
-from tribodyn.studies.samplers import SAMPLERS
+from tribodyn.studies.sampling import DISTRIBUTIONS, SAMPLERS
 from tribodyn.studies.search import find
 from tribodyn.studies.statistics import sensitivities, shares, statistics
 from tribodyn.studies.sweep import Arrival, Means, Watcher, run, sweep

@@ -15,7 +15,7 @@ from tribodyn.cases.tables import plain_path, with_components
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import LONGEST, as_given, brief
 from tribodyn.core.versions import version
-from tribodyn.studies.samplers import SAMPLERS
+from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
 
 MOST_POINTS: Final = 100_000
@@ -34,7 +34,7 @@ class Sampling:
     samples
         How many; None where nothing is drawn.
     method
-        A key of :data:`~tribodyn.studies.samplers.SAMPLERS`.
+        A key of :data:`~tribodyn.studies.sampling.SAMPLERS`.
     seed
         Equal seeds give equal samples.
     """

@@ -20,7 +20,7 @@ from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import headlines_of_case
-from tribodyn.results.headline import Headline
+from tribodyn.results.summary import Headline
 from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written

@@ -15,7 +15,7 @@ from tribodyn.cases.units import from_si, with_shared_unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
-from tribodyn.studies.distributions import DISTRIBUTIONS, Distribution, DistributionProblem
+from tribodyn.studies.sampling import DISTRIBUTIONS, Distribution, DistributionProblem
 
 SOURCE: Final = "--vary"
 MOST_VALUES: Final = 10_000
@@ -82,7 +82,7 @@ def variation(key: Key, asked: Asked) -> Variation:
         The key that varies.
     asked
         ``"V1,V2,..."``, ``"A:B:STEP"``, ``"normal(MEAN, DEVIATION)"`` or another of
-        :data:`~tribodyn.studies.distributions.DISTRIBUTIONS`; or any values.
+        :data:`~tribodyn.studies.sampling.DISTRIBUTIONS`; or any values.
 
     Raises
     ------

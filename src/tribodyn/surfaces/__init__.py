@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from tribodyn.surfaces.analysis import MeasuredSurface, Treatment, analyse, dependence
 from tribodyn.surfaces.asperities import Asperities, asperities
-from tribodyn.surfaces.filters import FILTERS
 from tribodyn.surfaces.generate import SelfAffine, generate
-from tribodyn.surfaces.level import LEVELS
 from tribodyn.surfaces.moments import Moments, moments
 from tribodyn.surfaces.read import read_scan
 from tribodyn.surfaces.scan import Length, Scan
 from tribodyn.surfaces.text import Scale, write_text
+from tribodyn.surfaces.treatment import FILTERS, LEVELS
 
 __all__ = [
     "FILTERS",

@@ -13,10 +13,9 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 from tribodyn.surfaces.asperities import LEAST_BANDWIDTH, Asperities, asperities
 from tribodyn.surfaces.checks import FEWEST_POINTS, checked
-from tribodyn.surfaces.filters import FILTERS, filtered
-from tribodyn.surfaces.level import LEVELS, levelled
 from tribodyn.surfaces.moments import Moments, moments
 from tribodyn.surfaces.scan import Scan
+from tribodyn.surfaces.treatment import FILTERS, LEVELS, filtered, levelled
 
 _POINTS_OF_A_WAVE: Final = 2.0
 _CUTOFFS: Final = 8

@@ -9,9 +9,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.surfaces.holes import filled
-from tribodyn.surfaces.level import levelled
 from tribodyn.surfaces.scan import Scan
+from tribodyn.surfaces.treatment import filled, levelled
 
 FEWEST_POINTS: Final = 32
 """In each direction: seven are read for one curvature, and a mean needs more than a few."""

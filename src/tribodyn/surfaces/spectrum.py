@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.surfaces.holes import filled
 from tribodyn.surfaces.scan import Scan
+from tribodyn.surfaces.treatment import filled
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.encode import packed
+from tribodyn.views.encode import packed, quantised
+from tribodyn.views.section import Payload
 from tribodyn.views.unrolled import height_marks, rolled, shortened
 
 
@@ -59,6 +62,39 @@ class Unrolled:
             "empty": [float(edge) for edge in self._drawn(np.array([-self.empty, self.empty]))]
             if self.empty
             else [],
+        }
+
+    def payload(
+        self,
+        fields: FloatArray,
+        label: str,
+        unit: str,
+        usual: Callable[[NDArray[np.float32]], float] = np.max,
+        stages: Sequence[str] = (),
+    ) -> Payload:
+        """Return what the script ``field`` draws: fields in 255 steps of their own peaks.
+
+        Parameters
+        ----------
+        fields
+            In their unit, shape (n, n_theta, n_z).
+        label, unit
+            What they are.
+        usual
+            Returns the end of the common scale of colours from the peaks, shape (n,).
+        stages
+            What each field is of; empty where they follow the playback.
+        """
+        steps, peaks = quantised(self.reordered(fields))
+        return {
+            **self.axes(),
+            "unit": unit,
+            "stages": list(stages),
+            "label": f"{label} [{unit}]",
+            "largest": float(peaks.max()),
+            "usual": float(usual(peaks)),
+            "steps": packed(steps, "uint8"),
+            "peaks": packed(peaks),
         }
 
     def _drawn(self, z: FloatArray) -> FloatArray:

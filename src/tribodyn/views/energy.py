@@ -7,8 +7,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import LOOKS, ChartCurve, Panel
+from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.ledger import Ledger
 from tribodyn.views.series import peak, series
 

@@ -1,16 +1,58 @@
-"""Energy ledgers: which columns of a result balance, and what is left over.
+"""Energy balances ("ledgers"): the columns of a result that balance, and their residual.
 
-Energies gained and heats, minus works put in, are zero if nothing is missed.
+Energies gained and heats, minus works put in, are zero up to the error of the integration.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class EnergyTerm:
+    """Origin of an energy column in the observed rows.
+
+    Attributes
+    ----------
+    row
+        Name of the observed quantity.
+    sign
+        -1 for the work of a force that turns into heat, else 1.
+    since_start
+        Whether the column is the change since the start.
+    """
+
+    row: str
+    sign: float = 1.0
+    since_start: bool = False
+
+    def column(self, rows: Mapping[str, FloatArray]) -> FloatArray:
+        """Return the column [J], shape (n_t,)."""
+        values = self.sign * rows[self.row]
+        return _since_start(values) if self.since_start else values
+
+
+def energy_columns(
+    rows: Mapping[str, FloatArray], terms: Mapping[str, EnergyTerm], ledgers: Sequence[Ledger]
+) -> dict[str, FloatArray]:
+    """Return the columns of energy balances and their residuals [J], each of shape (n_t,).
+
+    Parameters
+    ----------
+    rows
+        Observed quantities by name.
+    terms
+        Origin of each column.
+    ledgers
+        The balances of these columns.
+    """
+    columns = {name: term.column(rows) for name, term in terms.items()}
+    return columns | {ledger.residual: ledger.balance(columns) for ledger in ledgers}
 
 
 @dataclass(frozen=True)

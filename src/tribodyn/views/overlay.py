@@ -10,8 +10,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.curves import LOOKS, ChartCurve, Panel
-from tribodyn.views.lines import over
+from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import series
 

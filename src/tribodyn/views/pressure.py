@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.views.bushing import unrolled
-from tribodyn.views.encode import packed, quantised
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.unrolled import best_cut, shares, unloaded_middle
 
@@ -21,17 +20,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
     envelope = fields.max(axis=0)
     cut = best_cut(dataset["theta"].values, shares(fields))
     places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
-    steps, peaks = quantised(places.reordered(fields))
-    return {
-        **places.axes(),
-        "unit": "MPa",
-        "stages": [],
-        "label": "contact pressure [MPa]",
-        "largest": float(peaks.max()),
-        "usual": float(np.median(peaks)) * 1.6,
-        "steps": packed(steps, "uint8"),
-        "peaks": packed(peaks),
-    }
+    return places.payload(fields, "contact pressure", "MPa", lambda peaks: 1.6 * float(np.median(peaks)))
 
 
 SECTION: Final = Section(

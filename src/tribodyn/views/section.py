@@ -78,3 +78,21 @@ OVER_TIME: Final = (
     "Drag across a plot to zoom. By keyboard: go to a plot with Tab, then +, −, arrows, and 0 for the whole."
 )
 """Lead of a chapter of charts."""
+
+
+def choice(widget: str, label: str, parts: Mapping[str, Payload | None]) -> Payload | None:
+    """Return what the script ``choice`` reads; nothing where there is nothing to choose.
+
+    Parameters
+    ----------
+    widget
+        Script that draws each of them.
+    label
+        What is chosen.
+    parts
+        What that script reads, by name.
+    """
+    there = {name: part for name, part in parts.items() if part is not None}
+    if not there:
+        return None
+    return {"widget": widget, "label": label, "names": list(there), "parts": list(there.values())}

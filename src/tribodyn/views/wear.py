@@ -1,43 +1,97 @@
-"""Wear map of the bushing."""
+"""Wear of the bushing: map of the depth, worn shape by stages, and history over the cycles of a campaign."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.views.bushing import unrolled
-from tribodyn.views.depth import fitting_unit
-from tribodyn.views.encode import packed, quantised
+from tribodyn.views.charts import ChartCurve, Panel, over
+from tribodyn.views.numbers import in_words
 from tribodyn.views.section import Payload, Section
+from tribodyn.views.series import peak, series
 from tribodyn.views.unrolled import best_cut, unloaded_middle
 
+UNITS: Final = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}
+"""Units of depth [m], the coarsest first."""
+PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
+    (
+        "peak pressure [MPa]",
+        1e6,
+        {
+            "wear_pressure_max": "largest in the cycle, impacts included",
+            "wear_pressure_mean": "mean over the cycle",
+        },
+    ),
+    (
+        "vane-angle error [°]",
+        np.pi / 180.0,
+        {"wear_angle_error_max": "largest in the cycle", "wear_angle_error_rms": "rms over the cycle"},
+    ),
+)
+"""What is drawn below the depth where a result has it: label, size of its unit, and curves by their names."""
 
-def data(dataset: xr.Dataset) -> Payload | None:
-    """Return the depth on the unrolled bushing as one picture, in a unit that fits."""
-    depth = np.nan_to_num(dataset["wear_depth"].values)
-    largest = float(depth.max(initial=0.0))
+
+def fitting_unit(largest: float) -> tuple[str, float]:
+    """Return name and size [m] of the coarsest unit in which ``largest`` [m] is at least one."""
+    return next(((name, size) for name, size in UNITS.items() if largest >= size), ("pm", UNITS["pm"]))
+
+
+def no_feedback(dataset: xr.Dataset) -> FloatArray:
+    """Return the depth at a constant first rate [m], shape (n_jumps,)."""
+    return series(dataset, "wear_cycles") * series(dataset, "wear_rate")[:1]
+
+
+def _map(dataset: xr.Dataset) -> Payload | None:
+    """Return the depth on the unrolled bushing as one field."""
+    return _depths(dataset, dataset["wear_depth"].values[None], [])
+
+
+def _stages(dataset: xr.Dataset) -> Payload | None:
+    """Return the worn profiles of a campaign on the unrolled bushing, each with its cycles."""
+    depths = dataset["stage_depth"].values
+    words = [f"after {in_words(int(cycles))} cycles" for cycles in dataset["stage_cycles"].values]
+    return _depths(dataset, depths, words) if depths.shape[0] > 1 else None
+
+
+def _depths(dataset: xr.Dataset, depths: FloatArray, stages: list[str]) -> Payload | None:
+    """Return depths, shape (n, n_theta, n_z) [m], in a unit that fits the largest; None if all are zero."""
+    depths = np.nan_to_num(depths)
+    largest = float(depths.max(initial=0.0))
     if not largest > 0.0:
         return None
     unit, size = fitting_unit(largest)
-    depth = depth / size
-    cut = best_cut(dataset["theta"].values, depth.max(axis=1))
-    places = unrolled(dataset, cut, unloaded_middle(dataset, depth))
-    steps, peaks = quantised(places.reordered(depth[None]))
-    return {
-        **places.axes(),
-        "unit": unit,
-        "stages": [],
-        "label": f"wear depth [{unit}]",
-        "largest": float(peaks[0]),
-        "usual": float(peaks[0]),
-        "steps": packed(steps, "uint8"),
-        "peaks": packed(peaks),
-    }
+    depths = depths / size
+    envelope = depths.max(axis=0)
+    cut = best_cut(dataset["theta"].values, envelope.max(axis=1))
+    places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
+    return places.payload(depths, "wear depth", unit, stages=stages)
 
 
-SECTION: Final = Section(
+def _history(dataset: xr.Dataset) -> Payload | None:
+    """Return the depth and the other numbers of the simulated cycles."""
+    cycles = series(dataset, "wear_cycles")
+    if cycles.size < 2:
+        return None
+    depth = series(dataset, "wear_depth_max")
+    unit, size = fitting_unit(peak(depth))
+    worn = [
+        ChartCurve("if the first rate went on", no_feedback(dataset) / size, "grey", "dash"),
+        ChartCurve("deepest point", depth / size, "blue"),
+    ]
+    drawn = [Panel(f"wear depth [{unit}]", worn)]
+    for label, size, names in PANELS:
+        there = [name for name in names if name in dataset]
+        curves = [ChartCurve(names[name], series(dataset, name) / size) for name in there]
+        drawn += [Panel(label, curves)] if curves else []
+    return over(cycles, "drive cycles", drawn)
+
+
+WEAR_MAP: Final = Section(
     name="wear",
     title="Wear depth of the bushing",
     caption=(
@@ -46,6 +100,29 @@ SECTION: Final = Section(
     ),
     needs=("wear_depth", "theta", "z"),
     widget="field",
-    data=data,
+    data=_map,
     still="wear_depth",
+)
+
+WEAR_STAGES: Final = Section(
+    name="wear-stages",
+    title="The worn shape, stage by stage",
+    caption="Depth worn off the bushing after growing numbers of cycles, all in one scale of colours.",
+    needs=("stage_depth", "stage_cycles", "theta", "z"),
+    widget="field",
+    data=_stages,
+)
+
+WEAR_HISTORY: Final = Section(
+    name="wear-history",
+    title="Wear over the cycles",
+    caption=(
+        "The deepest point of the bushing, its peak pressure and the error of the motion over the cycles of "
+        "a wear campaign. As the loaded edge wears in, pressure spreads and wear slows down against the "
+        "straight line."
+    ),
+    needs=("wear_cycles", "wear_depth_max", "wear_rate"),
+    widget="lines",
+    data=_history,
+    still="wear_history",
 )

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from tribodyn.wear.archard import Archard, resampled, worn_volume
 from tribodyn.wear.jump import JumpControl, load_change
-from tribodyn.wear.law import Archard, worn_volume
-from tribodyn.wear.profile import resampled
 from tribodyn.wear.running_in import loaded_depth, worn_roughness
 
 __all__ = [

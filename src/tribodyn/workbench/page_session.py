@@ -30,10 +30,9 @@ from tribodyn.workbench.messages import (
     Values,
     parsed,
 )
-from tribodyn.workbench.neighbours import neighbours
 from tribodyn.workbench.series import Series, SeriesPlan, slope_of, sweep_of
 from tribodyn.workbench.server_state import COMPILING, ServerState, refusal
-from tribodyn.workbench.variant import Origin, Variant
+from tribodyn.workbench.variant import Origin, Variant, neighbours
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 

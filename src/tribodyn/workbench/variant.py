@@ -1,4 +1,4 @@
-"""A case with some values changed by the page, and everything that is said about it."""
+"""Cases that a page requests: a case with changed values, all that is said about it, and its neighbours."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import hashlib
 import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from decimal import Decimal
 from functools import cached_property
 from typing import Final
 
@@ -13,7 +14,9 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key
 from tribodyn.cases.tables import keys_in, plain_path, with_components
 from tribodyn.core.errors import Faults, InputError
-from tribodyn.workbench.controls import FILE, text
+from tribodyn.workbench.controls import FILE, shown_number, text, turnable
+from tribodyn.workbench.messages import Values
+from tribodyn.workbench.ranges import track
 
 _DIGITS: Final = 16
 _FILES: Final = "a page may not name files of this machine; start the workbench with a case that does"
@@ -150,3 +153,38 @@ class Variant:
 
 def _texts(case: Case) -> dict[str, str]:
     return {path: text(key, case.at(path)) for path, key in keys_in(case).items()}
+
+
+_SIDES: Final = (1, -1)
+
+
+def neighbours(origin: Origin, values: Values, before: Values) -> Iterator[dict[str, str]]:
+    """Yield the values one step to either side, for the key that was turned last.
+
+    Parameters
+    ----------
+    origin
+        The case of the workbench.
+    values, before
+        Values of the last request and of the one before.
+    """
+    turned = [path for path in {**before, **values} if values.get(path) != before.get(path)]
+    keys = turnable(origin.case)
+    if len(turned) != 1 or turned[0] not in keys:
+        return
+    path, key = turned[0], keys[turned[0]]
+    at_first = origin.case.at(path)
+    if isinstance(at_first, bool) or not isinstance(at_first, int | float):
+        return
+    found = track(key, at_first)
+    try:
+        now = shown_number(key, origin.varied(values).case.at(path))
+    except InputError:
+        return
+    if found is None or now is None:
+        return
+    step = Decimal(repr(found.step))
+    for side in _SIDES:
+        number = (round(Decimal(repr(now)) / step) + side) * step
+        if found.least <= number <= found.greatest:
+            yield {**values, path: f"{number.normalize():f} {key.unit}".strip()}

@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.mechanisms.vsv.figures import FIGURES
 from tribodyn.report import figures_of
-from tribodyn.views.depth import no_feedback
+from tribodyn.views.wear import no_feedback
 
 
 @pytest.mark.parametrize("n_jumps", [0, 1, 60])

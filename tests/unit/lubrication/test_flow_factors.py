@@ -11,10 +11,17 @@ from scipy.integrate import quad
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.film.factors import cubic, mean_gap, place
 from tribodyn.lubrication import Roughness
-from tribodyn.lubrication.contact_factor import contact_factor, reach
-from tribodyn.lubrication.flow_factors import PEKLENIK, SHEAR, pressure_factor, shear_factor
-from tribodyn.lubrication.shear_stress import couette_factor, pressure_shear_factor
-from tribodyn.lubrication.tables import flow_table
+from tribodyn.lubrication.factors import (
+    PEKLENIK,
+    SHEAR,
+    contact_factor,
+    couette_factor,
+    flow_table,
+    pressure_factor,
+    pressure_shear_factor,
+    reach,
+    shear_factor,
+)
 
 H = np.array([0.5, 0.75, 1.0, 2.0, 3.0, 4.9, 5.0, 6.0, 10.0, 40.0])
 

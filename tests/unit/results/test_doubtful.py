@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from tribodyn.cli.headlines import in_words
 from tribodyn.cli.main import main
-from tribodyn.cli.tables import sweep_in_words
+from tribodyn.cli.tables import in_words, sweep_in_words
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise, write_run
 from tribodyn.report import ComparedRun, write, write_comparison

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.studies import DISTRIBUTIONS, SAMPLERS
-from tribodyn.studies.distributions import DistributionProblem
+from tribodyn.studies.sampling import DistributionProblem
 
 MANY = (np.arange(200_000) + 0.5) / 200_000
 """Probabilities whose quantiles have the moments of the distribution, but for what lies in the last tails."""

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from tribodyn.surfaces import FILTERS, LEVELS, Scan
-from tribodyn.surfaces.filters import filtered
-from tribodyn.surfaces.holes import filled
-from tribodyn.surfaces.level import levelled
+from tribodyn.surfaces.treatment import filled, filtered, levelled
 
 
 @pytest.mark.parametrize(("level", "degree"), LEVELS.items())

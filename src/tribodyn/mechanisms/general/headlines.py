@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByJoint
 from tribodyn.mechanisms.general.ledger import WHOLE
-from tribodyn.results.headline import Headline
 from tribodyn.results.reading import column, peak, time_mean
+from tribodyn.results.summary import Headline
 
 SHORT: Final = 0.01
 """Share of the time that blows may last; what is exceeded no longer counts as lasting."""
@@ -119,7 +119,7 @@ def _pair(
     names
         Of the two.
     label, unit, group, meaning
-        As of a :class:`~tribodyn.results.headline.Headline`; the meaning goes on with "but for ...".
+        As of a :class:`~tribodyn.results.summary.Headline`; the meaning goes on with "but for ...".
     values
         The quantities over time, shape (n_t,) or (n_t, n).
     scale

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.ledger import Ledger
+from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
 
 WHOLE: Final = Ledger(
     title="Whole mechanism",
@@ -24,17 +24,16 @@ WHOLE: Final = Ledger(
     yardstick="largest term",
 )
 LEDGERS: Final = (WHOLE,)
-OBSERVED: Final = {
-    "energy_in": "work_in",
-    "energy_friction": "heat_friction",
-    "energy_damping": "heat_damping",
+TERMS: Final = {
+    "energy_kinetic": EnergyTerm("energy_kinetic"),
+    "energy_gravity": EnergyTerm("energy_gravity", since_start=True),
+    "energy_stored": EnergyTerm("energy_stored"),
+    "energy_in": EnergyTerm("work_in"),
+    "energy_friction": EnergyTerm("heat_friction"),
+    "energy_damping": EnergyTerm("heat_damping"),
 }
-"""What observed quantities are called in a ledger."""
 
 
 def ledger_columns(whole: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from what is observed of the whole."""
-    energies = {name: whole[name] for name in ("energy_kinetic", "energy_gravity", "energy_stored")}
-    energies["energy_gravity"] = energies["energy_gravity"] - energies["energy_gravity"][:1]
-    columns = energies | {name: whole[entry] for name, entry in OBSERVED.items()}
-    return columns | {WHOLE.residual: WHOLE.balance(columns)}
+    return energy_columns(whole, TERMS, LEDGERS)

@@ -7,7 +7,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.results.headline import Headline
+from tribodyn.results.summary import Headline
 
 
 def _one(name: str, scale: float = 1.0) -> Callable[[xr.Dataset], float]:

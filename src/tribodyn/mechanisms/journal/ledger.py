@@ -12,7 +12,7 @@ from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.journal.parameters import Journal
-from tribodyn.views.ledger import Ledger
+from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
 
 LEDGER: Final = Ledger(
     title="Motion in the clearance",
@@ -29,23 +29,22 @@ LEDGER: Final = Ledger(
     attribute="energy_residual",
     yardstick="largest energy of the motion",
 )
+TERMS: Final = {
+    "energy_kinetic": EnergyTerm("energy_kinetic"),
+    "energy_contact": EnergyTerm("energy_contact"),
+    "energy_loads": EnergyTerm("work_loads"),
+    "energy_drive": EnergyTerm("work_drive"),
+    "energy_friction": EnergyTerm("work_friction", -1.0),
+    "energy_damping": EnergyTerm("heat_damping"),
+}
 _LEAST_SCALE: Final = 1.0e-3
 """Share of load times clearance below which no term counts as large."""
 
 
 def ledger_columns(rows: Mapping[str, FloatArray], *, lubricated: bool) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from the observed rows."""
-    columns = {
-        "energy_kinetic": rows["energy_kinetic"],
-        "energy_contact": rows["energy_contact"],
-        "energy_loads": rows["work_loads"],
-        "energy_drive": rows["work_drive"],
-        "energy_friction": -rows["work_friction"],
-        "energy_damping": rows["heat_damping"],
-    }
-    if lubricated:
-        columns["energy_film"] = -rows["work_film"]
-    return columns | {LEDGER.residual: LEDGER.balance(columns)}
+    film = {"energy_film": EnergyTerm("work_film", -1.0)} if lubricated else {}
+    return energy_columns(rows, TERMS | film, (LEDGER,))
 
 
 def residual_fraction(columns: Mapping[str, FloatArray], journal: Journal) -> float:

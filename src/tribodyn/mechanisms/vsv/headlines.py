@@ -11,7 +11,6 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.results.headline import Headline
 from tribodyn.results.reading import (
     column,
     cycles,
@@ -23,6 +22,7 @@ from tribodyn.results.reading import (
     rms,
     time_mean,
 )
+from tribodyn.results.summary import Headline
 
 
 def _angle_error(dataset: xr.Dataset) -> FloatArray:
@@ -53,7 +53,7 @@ class _Peak:
     names
         Of the number outside and of the one with impacts.
     label, unit, group, meaning
-        See :class:`~tribodyn.results.headline.Headline`.
+        See :class:`~tribodyn.results.summary.Headline`.
     quantity
         Name of the quantity among those whose peaks results hold.
     scale

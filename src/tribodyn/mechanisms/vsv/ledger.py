@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.ledger import Ledger
+from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
 
 WHOLE: Final = Ledger(
     title="Whole mechanism",
@@ -55,25 +55,26 @@ CLEARANCE: Final = Ledger(
 LEDGERS: Final = (WHOLE, CLEARANCE)
 
 
+TERMS: Final = {
+    "energy_kinetic": EnergyTerm("energy_kinetic"),
+    "energy_contact": EnergyTerm("energy_contact"),
+    "energy_gravity": EnergyTerm("energy_gravity", since_start=True),
+    "energy_drive": EnergyTerm("work_drive"),
+    "energy_loads": EnergyTerm("work_loads"),
+    "energy_friction": EnergyTerm("work_friction", -1.0),
+    "energy_collar_friction": EnergyTerm("work_collar_friction", -1.0),
+    "energy_collar_tilt": EnergyTerm("work_collar_tilt", -1.0),
+    "energy_damping": EnergyTerm("heat_damping"),
+    "energy_clearance_inertia": EnergyTerm("work_clearance_inertia"),
+    "energy_clearance_loads": EnergyTerm("work_clearance_loads"),
+    "energy_clearance_contact": EnergyTerm("energy_contact", since_start=True),
+    "energy_clearance_friction": EnergyTerm("work_clearance_friction", -1.0),
+    "energy_clearance_collar": EnergyTerm("work_clearance_collar", -1.0),
+    "energy_clearance_damping": EnergyTerm("heat_damping"),
+}
+
+
 def ledger_columns(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from the observed rows."""
-    columns = {
-        "energy_kinetic": rows["energy_kinetic"],
-        "energy_contact": rows["energy_contact"],
-        "energy_gravity": rows["energy_gravity"] - rows["energy_gravity"][:1],
-        "energy_drive": rows["work_drive"],
-        "energy_loads": rows["work_loads"],
-        "energy_friction": -rows["work_friction"],
-        "energy_collar_friction": -rows["work_collar_friction"],
-        "energy_collar_tilt": -rows["work_collar_tilt"],
-        "energy_damping": rows["heat_damping"],
-        "energy_clearance_inertia": rows["work_clearance_inertia"],
-        "energy_clearance_loads": rows["work_clearance_loads"],
-        "energy_clearance_contact": rows["energy_contact"] - rows["energy_contact"][:1],
-        "energy_clearance_friction": -rows["work_clearance_friction"],
-        "energy_clearance_collar": -rows["work_clearance_collar"],
-        "energy_clearance_damping": rows["heat_damping"],
-    }
-    if rows["work_expansion"].any():
-        columns["energy_expansion"] = rows["work_expansion"]
-    return columns | {ledger.residual: ledger.balance(columns) for ledger in LEDGERS}
+    expansion = {"energy_expansion": EnergyTerm("work_expansion")} if rows["work_expansion"].any() else {}
+    return energy_columns(rows, TERMS | expansion, LEDGERS)

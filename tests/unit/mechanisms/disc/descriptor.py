@@ -6,8 +6,8 @@ from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.disc.case import DiscCase
 from tribodyn.mechanisms.disc.variables import VARIABLES
-from tribodyn.results.headline import Headline
 from tribodyn.results.reading import column, peak
+from tribodyn.results.summary import Headline
 
 MECHANISM = MechanismDescriptor(
     folder="tribodyn.mechanisms.disc",

@@ -17,9 +17,9 @@ from tribodyn.figures.base import Family
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, caption, finish, note, sheet
 from tribodyn.figures.unrolled import COLOURS
 from tribodyn.mechanisms.general.sections.joints import LAID_FLAT, WORN, real_joints, surfaces
-from tribodyn.views.depth import fitting_unit
 from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, rolled
+from tribodyn.views.wear import fitting_unit
 
 _ACROSS: Final = 3
 """Panels beside each other."""

@@ -10,9 +10,9 @@ from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.sections import mechanism
 from tribodyn.mechanisms.general.sections.charts import CLEARANCES, ENERGY, JOINT_FORCES, MOTION
 from tribodyn.mechanisms.general.sections.joints import ORBITS, PRESSURE, REACTIONS, WEAR
-from tribodyn.views import wear_history
 from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
+from tribodyn.views.wear import WEAR_HISTORY
 
 CHAPTERS: Final = (
     Chapter(
@@ -28,7 +28,7 @@ CHAPTERS: Final = (
         OVER_TIME,
         (REACTIONS, JOINT_FORCES.section, CLEARANCES.section, MOTION.section, ENERGY.section),
     ),
-    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR, wear_history.SECTION)),
+    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR, WEAR_HISTORY)),
 )
 """Chapters in reading order."""
 

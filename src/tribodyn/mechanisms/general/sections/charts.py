@@ -10,8 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.ledger import WHOLE
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import LOOKS, ChartCurve, Panel
+from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.energy import ledger_chart
 
 DEG: Final = 180.0 / np.pi

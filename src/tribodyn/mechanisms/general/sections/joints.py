@@ -10,15 +10,13 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.bushing import Unrolled
-from tribodyn.views.choice import choice
-from tribodyn.views.curves import LOOKS, ChartCurve, Panel
-from tribodyn.views.depth import fitting_unit
-from tribodyn.views.encode import packed, quantised
-from tribodyn.views.lines import over_time
+from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
+from tribodyn.views.encode import packed
 from tribodyn.views.playback import in_playback, playback_times
-from tribodyn.views.section import Payload, Section
+from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, shares
+from tribodyn.views.wear import fitting_unit
 
 _AXES: Final = "xyz"
 LAID_FLAT: Final = (
@@ -109,17 +107,9 @@ def _maps(
         cut = best_cut(theta, shares(fields))
         middle = 0.5e3 * float(place[0] + place[-1])
         laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
-        steps, peaks = quantised(laid.reordered(fields / size))
-        parts[surface] = {
-            **laid.axes(),
-            "unit": unit,
-            "stages": [],
-            "label": f"{label} [{unit}]",
-            "largest": float(peaks.max()),
-            "usual": float(np.median(peaks[peaks > 0.0])) * room,
-            "steps": packed(steps, "uint8"),
-            "peaks": packed(peaks),
-        }
+        parts[surface] = laid.payload(
+            fields / size, label, unit, lambda peaks: room * float(np.median(peaks[peaks > 0.0]))
+        )
     return choice("field", "surface", parts)
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.skeleton import Mark, Skeleton, case_of, skeleton, view
-from tribodyn.views.curves import LOOKS
+from tribodyn.views.charts import LOOKS
 from tribodyn.views.encode import packed
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section

@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.mechanisms.journal.ledger import LEDGER
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import ChartCurve, Panel
+from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.energy import ledger_chart
 from tribodyn.views.series import series
 

@@ -10,7 +10,7 @@ from tribodyn.mechanisms.vsv.figures import mechanism, vane_error
 from tribodyn.mechanisms.vsv.ledger import LEDGERS
 from tribodyn.mechanisms.vsv.sections.clearance import WARMING
 from tribodyn.mechanisms.vsv.sections.motion import MOTION
-from tribodyn.views.tilt import TILT
+from tribodyn.views.bushing_charts import TILT
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family

@@ -8,12 +8,12 @@ from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE
 from tribodyn.mechanisms.vsv.sections import mechanism, vane_error
 from tribodyn.mechanisms.vsv.sections.clearance import WARMING
 from tribodyn.mechanisms.vsv.sections.motion import MOTION
-from tribodyn.views import orbit, overlay, pressure, wear, wear_history, wear_stages
-from tribodyn.views.contact_force import CONTACT_FORCE
+from tribodyn.views import orbit, overlay, pressure
+from tribodyn.views.bushing_charts import CONTACT_FORCE, TILT
 from tribodyn.views.energy import ledger_chart
 from tribodyn.views.overlay import Overlay, OverlayQuantity, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
-from tribodyn.views.tilt import TILT
+from tribodyn.views.wear import WEAR_HISTORY, WEAR_MAP, WEAR_STAGES
 
 _WHOLE: Final = ledger_chart(
     WHOLE,
@@ -61,7 +61,7 @@ CHAPTERS: Final = (
         "worn",
         "Wear",
         "What is worn off the bushing.",
-        (wear.SECTION, wear_history.SECTION, wear_stages.SECTION),
+        (WEAR_MAP, WEAR_HISTORY, WEAR_STAGES),
     ),
 )
 """Chapters in reading order."""

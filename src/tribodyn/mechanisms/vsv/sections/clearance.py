@@ -6,8 +6,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import ChartCurve, Panel
+from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.series import series
 
 

@@ -11,8 +11,7 @@ import xarray as xr
 
 from tribodyn.cases.units import UnitProblem, to_si
 from tribodyn.mechanisms.vsv.sections.vane_error import DEG
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import ChartCurve, ChartMarks, Panel
+from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
 from tribodyn.views.series import series
 
 

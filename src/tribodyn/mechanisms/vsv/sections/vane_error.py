@@ -8,10 +8,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import ChartCurve, Panel
+from tribodyn.views.charts import Chart, ChartCurve, Panel, over
 from tribodyn.views.events import direction
-from tribodyn.views.lines import over
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import series
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from tribodyn.views.chart import Chart
-from tribodyn.views.curves import ChartCurve, Panel
+from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.overlay import Overlay, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.series import series

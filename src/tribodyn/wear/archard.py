@@ -1,8 +1,8 @@
-"""Archard's law of wear, Eq. 47.
+"""Archard's law of wear, Eq. 47, and worn profiles on another grid.
 
 The depth worn off a point of the bushing is the specific wear rate times the sliding load of that point,
 the time integral of P_c |u|. The paper prints C_w/H_d, which is no specific wear rate if C_w is one
-already; its figures come out when the rate is divided by the bare number 65.
+already; its figures result when the rate is divided by the bare number 65.
 """
 
 from __future__ import annotations
@@ -56,3 +56,30 @@ def worn_volume(depth: FloatArray, node_area: FloatArray) -> float:
         Area that each node stands for [m²], of the same shape; zero on edges.
     """
     return float(np.sum(node_area * depth))
+
+
+def resampled(depth: FloatArray, z: FloatArray, fine_z: FloatArray, n_theta: int) -> FloatArray:
+    """Return a wear depth at the nodes of another grid.
+
+    Parameters
+    ----------
+    depth
+        Depth [m] at rows ``z`` and at uniform angles, shape (n_z + 2, n).
+    z, fine_z
+        Axial positions of the rows [m]; both from edge to edge.
+    n_theta
+        Number of uniform angles wanted.
+
+    Returns
+    -------
+    numpy.ndarray
+        Depth [m], shape (fine_z.size, n_theta).
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    along = PchipInterpolator(z, depth, axis=0)(fine_z)
+    n = depth.shape[1]
+    # Three more angles on either side: the slope at a node is made from its neighbours.
+    around = np.arange(-3, n + 4)
+    wanted = np.arange(n_theta) * (n / n_theta)
+    return np.asarray(PchipInterpolator(around, along[:, around % n], axis=1)(wanted))

@@ -1,9 +1,10 @@
-"""Filters: what separates the wavelengths kept from those taken off.
+"""Treatment of a scan before evaluation: levels, filters, and the filling of missing heights.
 
-``gaussian`` is the linear Gaussian filter of ISO 16610-21 (profiles) and 16610-61 (maps): half of a wave
-as long as the cut-off passes. Missing heights and the world beyond the border weigh nothing.
-``spectral`` is the sharp filter: waves shorter than the cut-off are gone. It works on cosines (DCT),
-whose mirrored surface has no jump at its border.
+A level is the least-squares polynomial that is subtracted from a scan. A filter separates the wavelengths
+kept from those removed. ``gaussian`` is the linear Gaussian filter of ISO 16610-21 (profiles) and 16610-61
+(maps): it passes half of a wave as long as the cut-off; missing heights and points outside the scan have no
+weight. ``spectral`` is the sharp filter, which removes all waves shorter than the cut-off. It works on
+cosines (DCT), whose mirrored surface has no jump at its border.
 """
 
 from __future__ import annotations
@@ -16,8 +17,66 @@ import numpy as np
 import scipy
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.surfaces.holes import filled
 from tribodyn.surfaces.scan import Scan
+
+
+def filled(heights: FloatArray) -> FloatArray:
+    """Return heights whose holes are filled by Gaussian means of what surrounds them.
+
+    The width of the mean doubles until every hole is reached: a hole takes the nearest heights there are.
+
+    Parameters
+    ----------
+    heights
+        [m], shape (n,) or (n_y, n_x), NaN where missing, known somewhere.
+    """
+    from scipy.ndimage import gaussian_filter
+
+    result = heights.copy()
+    width = 1.0
+    while np.any(holes := np.isnan(result)):
+        known = (~np.isnan(heights)).astype(np.float64)
+        share = gaussian_filter(known, width, mode="nearest")
+        mean = gaussian_filter(np.where(known > 0.0, heights, 0.0), width, mode="nearest")
+        reached = holes & (share > 1e-3)
+        result[reached] = mean[reached] / share[reached]
+        width *= 2.0
+    return result
+
+
+LEVELS: Final[dict[str, int]] = {"mean": 0, "plane": 1, "quadratic": 2}
+"""Name of a level and the total degree of its polynomial."""
+
+
+def levelled(scan: Scan, level: str) -> Scan:
+    """Return a scan less its least-squares polynomial; missing heights have no say.
+
+    Parameters
+    ----------
+    scan
+        Any surface with more heights than the polynomial has terms.
+    level
+        One of ``LEVELS``.
+    """
+    known = ~np.isnan(scan.heights)
+    heights = np.where(known, scan.heights, 0.0)
+    heights = np.where(known, heights - heights.sum() / max(known.sum(), 1), 0.0)
+    terms = _terms(scan.heights.shape, LEVELS[level])
+    gram = np.array([[np.sum(known * a * b) for a in terms] for b in terms])
+    right = np.array([np.sum(heights * term) for term in terms])
+    factors = np.linalg.lstsq(gram, right)[0]
+    surface = sum(factor * term for factor, term in zip(factors, terms, strict=True))
+    return scan.with_heights(np.where(known, heights - surface, np.nan))
+
+
+def _terms(shape: tuple[int, ...], degree: int) -> list[FloatArray]:
+    """Return products of Legendre polynomials up to a total degree, each of a shape that broadcasts."""
+    axes = np.meshgrid(*(np.linspace(-1.0, 1.0, n) for n in shape), indexing="ij", sparse=True)
+    powers = [[np.polynomial.legendre.Legendre.basis(k)(axis) for k in range(degree + 1)] for axis in axes]
+    if len(shape) == 1:
+        return powers[0]
+    return [powers[0][i] * powers[1][j] for i in range(degree + 1) for j in range(degree + 1 - i)]
+
 
 _ALPHA: Final = math.sqrt(math.log(2.0) / math.pi)
 """α of ISO 16610-21, for which half of a wave of the length of the cut-off passes."""

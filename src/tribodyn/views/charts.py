@@ -1,0 +1,215 @@
+"""Charts over time, described once: drawn by matplotlib for ``figures/`` and in a browser for the report.
+
+A chart has panels, a panel has curves and marks; :func:`over` makes of them what a script of the report
+draws.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.encode import packed
+from tribodyn.views.events import impact_time, impact_windows, reversal_times, smooth_limits
+from tribodyn.views.playback import time_unit
+from tribodyn.views.section import Payload, Section
+from tribodyn.views.series import peak, series
+from tribodyn.views.thinning import thinned
+
+LOOKS: Final = (
+    ("ink", "solid"),
+    ("blue", "dash"),
+    ("vermilion", "dashdot"),
+    ("green", "dot"),
+    ("orange", "solid"),
+    ("purple", "dash"),
+    ("grey", "longdash"),
+)
+"""Colour and dash of curves that have no look of their own; told apart in grey by the dash."""
+
+
+@dataclass(frozen=True)
+class ChartCurve:
+    """One curve.
+
+    Attributes
+    ----------
+    name
+        For the legend.
+    values
+        What is drawn, in the unit of its panel, shape (n,).
+    colour
+        Name of a colour of the page's style sheet.
+    dash
+        Dash pattern: solid, dash, dashdot, dot or longdash.
+    width
+        Line width [px].
+    x
+        Its own abscissa, shape (n,); by default that of the figure.
+    """
+
+    name: str
+    values: FloatArray
+    colour: str = "ink"
+    dash: str = "solid"
+    width: float = 1.6
+    x: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class ChartMarks:
+    """Points with a letter each.
+
+    Attributes
+    ----------
+    times
+        When [s], shape (n,).
+    values
+        Where, in the unit of the panel, shape (n,).
+    labels
+        Their letters.
+    """
+
+    times: FloatArray
+    values: FloatArray
+    labels: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves with a common ordinate.
+
+    Attributes
+    ----------
+    label
+        Quantity and unit.
+    curves
+        Drawn in this order.
+    smooth
+        Whether the panel opens on the smooth motion, where impacts would flatten it.
+    unit
+        Unit for the note that says so.
+    level
+        A value to compare with, drawn as a fine line; none by default.
+    marks
+        Points to mark in the figure; none by default.
+    """
+
+    label: str
+    curves: Sequence[ChartCurve]
+    smooth: bool = False
+    unit: str = ""
+    level: float | None = None
+    marks: ChartMarks | None = None
+
+
+def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | None:
+    """Return panels above each other over the simulated time; nothing where nothing was computed."""
+    time = series(dataset, "time")
+    if time.size < 2:
+        return None
+    turns = reversal_times(dataset)
+    unit, scale = time_unit(dataset)
+    return {
+        "x_label": f"time [{unit}]",
+        "time": True,
+        "unit": unit,
+        "scale": scale,
+        "turns": [float(turn * scale) for turn in turns],
+        "windows": [[float(end * scale) for end in window] for window in impact_windows(dataset)],
+        "x": packed(time * scale, "float64"),
+        "panels": [_panel(panel, time, turns, impact_time(dataset)) for panel in panels],
+    }
+
+
+def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]:
+    """Return panels over something other than time."""
+    none = np.empty(0)
+    return {
+        "x_label": x_label,
+        "time": False,
+        "turns": [],
+        "windows": [],
+        "x": packed(x, "float64"),
+        "panels": [_panel(panel, x, none, 0.0) for panel in panels],
+    }
+
+
+def _panel(panel: Panel, x: FloatArray, turns: FloatArray, settling: float) -> dict[str, Any]:
+    """Return a panel as the script reads it."""
+    limits, note = _limits(panel, x, turns, settling) if panel.smooth else ([], "")
+    return {
+        "label": panel.label,
+        "limits": limits,
+        "note": note,
+        "curves": [_curve(curve, x) for curve in panel.curves],
+    }
+
+
+def _curve(curve: ChartCurve, common: FloatArray) -> dict[str, Any]:
+    """Return a curve as the script reads it; its abscissa only where it is not the common one."""
+    x = common if curve.x is None else curve.x
+    x, y = thinned(x, curve.values) if np.all(np.diff(x) > 0.0) else (x, curve.values)
+    return {
+        "name": curve.name,
+        "colour": curve.colour,
+        "dash": curve.dash,
+        "width": curve.width,
+        "x": None if x is common else packed(x, "float64"),
+        "y": packed(y),
+    }
+
+
+def _limits(panel: Panel, time: FloatArray, turns: FloatArray, settling: float) -> tuple[list[float], str]:
+    """Return the ordinate of the smooth motion and a note on what lies beyond; nothing where all fits."""
+    values = np.array([curve.values for curve in panel.curves])
+    limits = smooth_limits(time, values, turns, settling)
+    if limits is None:
+        return [], ""
+    return list(limits), f"cut off, impacts reach {peak(values):.3g} {panel.unit}".rstrip()
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Panels above each other over the simulated time.
+
+    Attributes
+    ----------
+    name
+        File name of its figure, and identifier of its section in the report.
+    title
+        What it shows.
+    caption
+        How to read it, in a sentence or two.
+    needs
+        Names of the variables without which it is left out.
+    panels
+        Returns what is drawn.
+    """
+
+    name: str
+    title: str
+    caption: str
+    needs: tuple[str, ...]
+    panels: Callable[[xr.Dataset], Sequence[Panel]]
+
+    @property
+    def section(self) -> Section:
+        """The chart in the report."""
+        return Section(
+            name=self.name.replace("_", "-"),
+            title=self.title,
+            caption=self.caption,
+            needs=self.needs,
+            widget="lines",
+            data=self._payload,
+            still=self.name,
+        )
+
+    def _payload(self, dataset: xr.Dataset) -> Payload | None:
+        return over_time(dataset, self.panels(dataset))
