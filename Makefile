@@ -45,7 +45,7 @@ test: ready
 test-long: ready
 	$(PYTEST)
 	for factor in 1 2 3 4 5 6 7 8 9; do \
-		$(PYTEST) -m "not long and not house" --tolerance-factor=$$factor $(NUMERICAL) || exit 1; \
+		$(PYTEST) -m "not long and not architecture" --tolerance-factor=$$factor $(NUMERICAL) || exit 1; \
 	done
 
 golden: $(VENV)/.dev

@@ -1,7 +1,7 @@
-"""The house itself: layers, size of files, style and types.
+"""Architecture of the source: layers, size of files, style and types.
 
 Each check is one test and runs the tool a developer runs, so that ``make test`` and ``make lint`` agree.
-Leave them out with ``pytest -m "not house"``.
+Leave them out with ``pytest -m "not architecture"``.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 import grimp
 import pytest
 
-pytestmark = pytest.mark.house
+pytestmark = pytest.mark.architecture
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))

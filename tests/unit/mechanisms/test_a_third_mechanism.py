@@ -20,9 +20,9 @@ SOURCE = Path(tribodyn.__file__).parent
 
 
 @pytest.fixture(scope="module")
-def house(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a copy of the package to which the disc was added."""
-    place = tmp_path_factory.mktemp("house")
+    place = tmp_path_factory.mktemp("package")
     copy = place / "tribodyn"
     shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(HERE / "disc", copy / "mechanisms" / "disc")
@@ -48,9 +48,9 @@ ALL = (
 
 
 @pytest.fixture(scope="module")
-def machine_code(house: Path) -> Path:
+def machine_code(package: Path) -> Path:
     """Return a place with a copy of the machine code: types of the disc mean nothing to other processes."""
-    place = house / "cache"
+    place = package / "cache"
     known = folder()
     if known is not None:
         shutil.copytree(known, place / "tribodyn" / known.name)
@@ -61,12 +61,12 @@ def machine_code(house: Path) -> Path:
 
 
 @pytest.fixture(scope="module")
-def said(house: Path, machine_code: Path) -> str:
+def said(package: Path, machine_code: Path) -> str:
     """Return what all commands, given in one process, print."""
     done = subprocess.run(
         [sys.executable, "-c", ALL, json.dumps(COMMANDS)],
-        cwd=house,
-        env=os.environ | {"PYTHONPATH": str(house), "NUMBA_CACHE_DIR": str(machine_code)},
+        cwd=package,
+        env=os.environ | {"PYTHONPATH": str(package), "NUMBA_CACHE_DIR": str(machine_code)},
         capture_output=True,
         text=True,
     )
@@ -84,18 +84,18 @@ def test_its_cases_and_keys_are_known(said: str) -> None:
     assert "stiffness of the floor" in said
 
 
-def test_it_runs_and_has_figures_and_a_report(house: Path, said: str) -> None:
+def test_it_runs_and_has_figures_and_a_report(package: Path, said: str) -> None:
     # Energy at the deepest: m g (h + d) = k d²/2, and the floor bears k d.
     weight, stiffness, height = 0.981, 1e7, 20e-6
     deepest = (weight + math.sqrt(weight**2 + 2.0 * stiffness * weight * height)) / stiffness
-    found = numbers(house / "one")
+    found = numbers(package / "one")
     assert found["kind"] == "disc"
     assert found["floor_force_max_N"] == pytest.approx(stiffness * deepest, rel=0.02)  # rows 50 µs apart
-    assert (house / "one" / "figures" / "height.png").exists()
-    assert "Height of the disc" in (house / "one" / "report.html").read_text(encoding="utf-8")
+    assert (package / "one" / "figures" / "height.png").exists()
+    assert "Height of the disc" in (package / "one" / "report.html").read_text(encoding="utf-8")
 
 
-def test_it_is_compared_and_swept(house: Path, said: str) -> None:
-    assert "Force of the floor, largest" in (house / "both.html").read_text(encoding="utf-8")
-    page = (house / "swept" / "report.html").read_text(encoding="utf-8")
+def test_it_is_compared_and_swept(package: Path, said: str) -> None:
+    assert "Force of the floor, largest" in (package / "both.html").read_text(encoding="utf-8")
+    page = (package / "swept" / "report.html").read_text(encoding="utf-8")
     assert "Curves over each other" in page

@@ -1,4 +1,4 @@
-"""Who may know whom by name."""
+"""Names of mechanisms occur in their own folders only."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ PUBLIC = SOURCE / "__init__.py"
 
 
 @pytest.mark.parametrize("name", FOLDERS)
-def test_no_mechanism_is_known_by_name_outside_its_folders(name: str) -> None:
+def test_no_mechanism_is_named_outside_its_folders(name: str) -> None:
     word = re.compile(rf"[.\"']{name}\b" if name in ORDINARY else rf"\b{name}\b")
-    knowing = [
+    found = [
         str(path.relative_to(SOURCE))
         for path in SOURCE.rglob("*.py")
         if name not in path.relative_to(SOURCE).parts
@@ -30,4 +30,4 @@ def test_no_mechanism_is_known_by_name_outside_its_folders(name: str) -> None:
         and not {"papers", "validation"} & set(path.relative_to(SOURCE).parts)
         and word.search(path.read_text(encoding="utf-8"))
     ]
-    assert knowing == []
+    assert found == []
