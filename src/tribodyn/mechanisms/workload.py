@@ -105,7 +105,7 @@ def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float)
 
 
 _PRESSURE = 5.0e5
-"""Mean contact pressure over a slip of one radius per cycle [Pa], from campaigns of vsv and slider-crank."""
+"""Mean contact pressure over a slip of one radius per cycle [Pa], from wear campaigns of two mechanisms."""
 _SHARE_OF_JUMP = 0.4
 """Mean gain of a jump over ``wear.jump_depth``, from the same."""
 _FIRST_JUMPS = 20.0
