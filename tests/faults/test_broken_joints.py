@@ -72,7 +72,7 @@ def test_an_ideal_joint_that_comes_apart_stops_the_run() -> None:
 
 def overhung(rings: int) -> MechanismCase:
     """Return a shaft at rest whose weight acts beside its only bearing, on so many rings of nodes."""
-    drawn = Mechanism("Overhung", gravity="0, 0, -9.81 m/s^2", run={"duration": "1 ms"})
+    drawn = Mechanism("Overhung", gravity="0, 0, -9.81 m/s^2", run={"duration": "20 ms"})
     drawn.body("shaft", mass="4 kg", centre="0, 60, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
     drawn.revolute("bearing", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 1, 0])
     sizes = SIZES | {"radial": "200 um", "nodes_along": rings, "axial": "1 mm"}
@@ -81,8 +81,12 @@ def overhung(rings: int) -> MechanismCase:
 
 def test_an_edge_without_area_counts_and_a_grid_that_resolves_it_carries_the_load() -> None:
     words = r"the surfaces of joint bearing \(barrel\) came closer .* more nodes along the axis show which"
-    # On four rings the outermost is 1.4 mm from the edge, which is some 28 um deeper than on finer grids.
-    stopped(td.simulate(overhung(4)), words)
+    # On four rings the outermost is 1.4 mm from the edge, which is some 28 um deeper than on finer grids: the
+    # shaft has no place of rest within the law, falls through its clearance and stops.
+    coarse = td.simulate(overhung(4))
+    assert coarse.attrs["start"] == "centred"
+    assert "balance within the range of the contact law" in coarse.attrs["warnings"]
+    assert stopped(coarse, words) > 5e-3
     fine, finer = (td.simulate(overhung(rings)) for rings in (16, 32))
     for result in (fine, finer):
         assert not result.attrs["failure"]

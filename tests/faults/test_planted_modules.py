@@ -26,6 +26,7 @@ DONE_BY = {
     "find": ("find", *FOUND, "--within", "30", "--workers", "2"),
     "materials": ("materials",),
     "completion": ("completion", "bash"),
+    "validate": ("validate", "dry_liners"),
 }
 """Commands that come to their end."""
 REFUSED_BY = {
@@ -39,6 +40,7 @@ REFUSED_BY = {
     "stribeck": ("stribeck", "missing"),
     "reproduce": ("reproduce", "missing"),
     "surface": ("surface", "missing.csv"),
+    "fit": ("fit", "vsv", "--data", "missing.csv", "--vary", "joint.clearance=1..2"),
 }
 """Commands with arguments that they refuse."""
 

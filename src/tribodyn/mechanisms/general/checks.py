@@ -45,9 +45,9 @@ def of_start(asked: str, began: Mapping[str, str]) -> list[str]:
     if began.get("start") != "centred" or asked == "centred":
         return []
     return [
-        "No place was found in which the loads on all shafts balance, so they start in the middle of their "
-        "sockets, and first impacts are those of the start. Is there a shaft that nothing holds along its "
-        "axis?"
+        "No place was found in which the loads on all shafts balance within the range of the contact law, so "
+        "they start in the middle of their sockets, and first impacts are those of the start. Is there a "
+        "shaft that nothing holds along its axis, or a joint too small for its load?"
     ]
 
 
