@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 from tests.unit.workbench.host import Pretending, hosting, in_loop
 
-from tribodyn.workbench.worker_pool import Failed, Job
+from tribodyn.core import fork_server
+from tribodyn.workbench.work import Limits
+from tribodyn.workbench.worker_pool import Failed, Job, WorkerPool
 
 
 class Noting(Pretending):
@@ -66,3 +68,20 @@ async def test_a_case_that_fails_says_so_and_the_page_stays() -> None:
             pass
         await page.run(1, {"joint.clearance": "30 um"}, rest=True)
         assert (await page.picture()).number == 1
+
+
+def test_workers_that_cannot_be_started_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    def dead(*_: object) -> None:
+        raise EOFError
+
+    @in_loop
+    async def test() -> None:
+        async with hosting(WorkerPool(1, Limits())) as host:
+            page = await host.open()
+            while (found := await page.until("state"))["state"] == "loading":
+                pass
+            assert found["state"] == "failed"
+            assert "worker processes die while they get ready" in found["message"]
+
+    monkeypatch.setattr(fork_server, "process", dead)
+    test()
