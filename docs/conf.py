@@ -34,6 +34,7 @@ extensions = [
     "mathml",
     "numbers_of_runs",
     "reference",
+    "solver_tables",
     "validation_pages",
 ]
 exclude_patterns = ["_build"]

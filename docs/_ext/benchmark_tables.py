@@ -1,4 +1,4 @@
-"""Directive ``benchmark``: what ``python -m benchmarks`` and ``benchmarks.work_precision`` found, as tables.
+"""Directive ``benchmark``: what ``python -m benchmarks`` found, as tables.
 
 Argument: the name of a table. The numbers are those stored in ``docs/_static``, so that measuring again
 changes the page.
@@ -17,7 +17,6 @@ from docutils.statemachine import StringList
 
 STATIC: Final = Path(__file__).parents[1] / "_static"
 SOURCE: Final = STATIC / "benchmarks.json"
-WORK: Final = STATIC / "mebdf_work_precision.json"
 KERNEL_GRID: Final = "256 × 32"
 
 AIMS: Final = (
@@ -243,14 +242,6 @@ def machines(found: Found) -> Lines:
         yield row(f"`{name}`", value["on"], f"{value['load']:.1f}")
 
 
-def work(found: Found) -> Lines:
-    """Give the work of MEBDF over that of CVODE at equal digits."""
-    costs = ("with differences for J", "LU", "time")
-    yield from head("problem", "calls, 5 digits", *costs, "calls, 7.5 digits", *costs)
-    for problem, ratios in found["ratios to CVODE"].items():
-        yield row(problem, *(f"{ratio:.2f}" for ratio in ratios))
-
-
 TABLES: Final[dict[str, tuple[Path, Callable[[Found], Lines]]]] = {
     "goals": (SOURCE, goals),
     "kernel": (SOURCE, kernel),
@@ -263,7 +254,6 @@ TABLES: Final[dict[str, tuple[Path, Callable[[Found], Lines]]]] = {
     "command": (SOURCE, command),
     "sweep": (SOURCE, sweep),
     "machines": (SOURCE, machines),
-    "work": (WORK, work),
 }
 """Tables by name: where their numbers stand, and their lines."""
 

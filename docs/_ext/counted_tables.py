@@ -18,7 +18,6 @@ VARIANTS: Final = {
     "no clip, v_min, no collar, wide switches": "no cut-off, $v_{min}$, no collar, wide switches",
 }
 """Variants of the mechanism by their names in the store, as the page calls them."""
-PROBLEMS: Final = {"VDP11": "Van der Pol", "PENDULUM": "Pendulum"}
 
 
 def kinks(found: Found) -> Lines:
@@ -27,19 +26,6 @@ def kinks(found: Found) -> Lines:
     for name, title in VARIANTS.items():
         counts = (found["kinks"][name][what] for what in ("steps", "evaluations", "steps to 50 ms", "later"))
         yield row(title, *(f"{count:.0f}" for count in counts))
-
-
-def cash(found: Found) -> Lines:
-    """Give the work of Cash's own code and of ours at equal digits."""
-    yield from head("", "digits", "steps, Cash", "here", "evaluations, Cash", "here", "LU, Cash", "here")
-    for name, title in PROBLEMS.items():
-        for line in found["cash"][name]:
-            costs = ((f"{line[f'{cost}, Cash']}", _count(line[cost])) for cost in ("steps", "rhs", "lu"))
-            yield row(title, f"{line['digits']:.1f}", *(cell for pair in costs for cell in pair))
-
-
-def _count(value: float) -> str:
-    return f"{value:.0f}" if value >= 100.0 else f"{value:.1f}"
 
 
 def machines(found: Found) -> Lines:
@@ -74,5 +60,5 @@ def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
 
 def setup(app: Any) -> dict[str, bool]:
     """Register the tables."""
-    TABLES.update({"kinks": (SOURCE, kinks), "cash": (SOURCE, cash), "random": (SOURCE, machines)})
+    TABLES.update({"kinks": (SOURCE, kinks), "random": (SOURCE, machines)})
     return {"parallel_read_safe": True}

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from measures import contact, joints, journal, laws_in_the_vane, mechanisms, stored, vane, wear
+from measures import contact, joints, journal, laws_in_the_vane, mebdf, mechanisms, stored, vane, wear
 from measures.base import Numbers
 
 from tribodyn.papers.cheng_2022 import Runs
@@ -23,6 +23,7 @@ NUMBERS: Final[Numbers] = {
     **joints.NUMBERS,
     **mechanisms.NUMBERS,
     **wear.NUMBERS,
+    **mebdf.NUMBERS,
     **stored.NUMBERS,
 }
 """Numbers by name, with what measures them."""

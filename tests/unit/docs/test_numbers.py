@@ -25,10 +25,6 @@ KINDS = {"given", "published", "derived", "prototype"}
 """Kinds of numbers that no run gives; any other key of the list names the test that holds the number."""
 
 
-NOT_YET = {"theory/mebdf.md"}
-"""Pages whose tables of comparisons with other solvers are not generated from stored benchmarks yet."""
-
-
 @pytest.fixture(scope="module")
 def measured() -> ModuleType:
     sys.path.insert(0, str(DOCS / "plots"))
@@ -56,7 +52,7 @@ def unheld(text: str, snippets: list[str]) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("page", [page for page in pages() if name(page) not in NOT_YET], ids=name)
+@pytest.mark.parametrize("page", pages(), ids=name)
 def test_no_number_of_a_page_is_typed_without_something_that_holds_it(page: Path) -> None:
     listed = LISTED.get(name(page), {})
     assert unheld(prose(page), [snippet for snippets in listed.values() for snippet in snippets]) == []
