@@ -18,7 +18,13 @@ from tribodyn.mechanisms.catalogue import MECHANISMS, built_in
 from tribodyn.mechanisms.workload import Workload
 from tribodyn.simulation import estimate, prepare
 
-MEASURE = """
+PEAK = """
+lines = pathlib.Path("/proc/self/status").read_text().splitlines()
+peak = 1024 * next(int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
+"""
+"""Peak memory of a process [B], that of its own program: the one of ``getrusage`` begins with the memory of
+the process that started it."""
+MEASURE = f"""
 import json, pathlib, sys, tempfile, time
 import tribodyn as td
 from tribodyn.mechanisms.results import write_run
@@ -30,18 +36,14 @@ dataset = td.simulate(case)
 with tempfile.TemporaryDirectory() as folder:
     write_run(dataset, pathlib.Path(folder))
 solver = json.loads(dataset.attrs["solver"])
-lines = pathlib.Path("/proc/self/status").read_text().splitlines()
-peak = 1024 * next(int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
-print(json.dumps({"memory": peak, "seconds": time.process_time() - begin, "steps": solver["steps"]}))
+{PEAK}print(json.dumps(dict(memory=peak, seconds=time.process_time() - begin, steps=solver["steps"])))
 """
-"""A run in a process of its own. Its peak, in kilobytes, is that of its own program: the one of ``getrusage``
-begins with the memory of the process that started it."""
-PEAK_OF_CHECK = """
+"""A run in a process of its own."""
+PEAK_OF_CHECK = f"""
 import pathlib, sys
 from tribodyn.cli.main import main
 main(["check", *sys.argv[1:]])
-lines = pathlib.Path("/proc/self/status").read_text().splitlines()
-print(1024 * next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")))
+{PEAK}print(peak)
 """
 FINEST = {"solver.grid.theta": 4096, "solver.grid.z": 256}
 Changes = Mapping[str, object]
