@@ -16,8 +16,8 @@ import numpy as np
 
 from benchmarks.dae_problems import DaeBenchmark, andrews, caraxis, pendulum, transistor
 from benchmarks.work_precision import cost_at
+from mebdf.kernels.state import N_F, N_LU, REJECTED, STEPS
 from tribodyn.integrate import MEBDF
-from tribodyn.kernels.mebdf.state import N_F, N_LU, REJECTED, STEPS
 
 COSTS: Final = ("steps", "rhs", "lu")
 MOST_STEPS: Final = 50_000

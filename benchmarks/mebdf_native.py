@@ -11,11 +11,11 @@ import numpy as np
 from numba.core.types import FunctionType
 
 from benchmarks.problems import JAC, RHS, Benchmark
-from tribodyn.kernels.arrays import copy
-from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.core import resume
-from tribodyn.kernels.mebdf.phases import FAILED, NEED_F, NEED_JACOBIAN
-from tribodyn.kernels.mebdf.state import (
+from mebdf.kernels.arrays import copy
+from mebdf.kernels.core import resume
+from mebdf.kernels.jit import kernel
+from mebdf.kernels.phases import FAILED, NEED_F, NEED_JACOBIAN
+from mebdf.kernels.state import (
     HISTORY,
     JACOBIAN,
     N_F,

@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mebdf import solver
+from mebdf.kernels import state
 from tribodyn.contact import SurfacePair, law, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
-from tribodyn.integrate import integrate, mebdf_solver
+from tribodyn.integrate import integrate
 from tribodyn.integrate.driver import Stepwise
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
-from tribodyn.kernels.mebdf import state
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.vsv.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
@@ -64,7 +65,7 @@ def scale_tolerances(factor: float) -> None:
     def scaled_call(self: Stepwise, problem: Any, schedule: Any, rtol: float, *others: Any) -> Any:
         return integrated(self, problem, schedule, factor * rtol, *others)
 
-    state.new_state = mebdf_solver.new_state = scaled_state
+    state.new_state = solver.new_state = scaled_state
     Stepwise.__call__ = scaled_call  # type: ignore[method-assign]
 
 

@@ -7,22 +7,28 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import mebdf
 import tribodyn
 
 GENERATED = Path("reference", "generated")
-TOP = "tribodyn"
+TOPS = {"tribodyn": tribodyn, "mebdf": mebdf}
 
 
 def packages() -> Iterator[str]:
-    """Yield the dotted name of every package below the top."""
-    for module in pkgutil.walk_packages(tribodyn.__path__, f"{TOP}."):
-        if module.ispkg:
-            yield module.name
+    """Yield the dotted name of every package below tribodyn, then of the solver and those below it."""
+    yield from _below("tribodyn")
+    yield "mebdf"
+    yield from _below("mebdf")
+
+
+def _below(top: str) -> Iterator[str]:
+    return (found.name for found in pkgutil.walk_packages(TOPS[top].__path__, f"{top}.") if found.ispkg)
 
 
 def page(package: str) -> str:
     """Return the page of a package: itself, then each of its modules."""
-    folder = Path(*tribodyn.__path__, *package.split(".")[1:])
+    top, *below = package.split(".")
+    folder = Path(*TOPS[top].__path__, *below)
     modules = [module.name for module in pkgutil.iter_modules([str(folder)]) if not module.ispkg]
     parts = [_part(package, "=")]
     parts += [_part(f"{package}.{name}", "-") for name in modules if not name.startswith("__")]

@@ -11,7 +11,18 @@ import pytest
 from tribodyn.cli.main import BAD_INPUT, COMMANDS, DONE
 from tribodyn.simulation import compilation
 
-NEEDED = {"matplotlib", "numba", "numpy", "pandas", "pydantic", "scipy", "tornado", "tribodyn", "xarray"}
+NEEDED = {
+    "matplotlib",
+    "mebdf",
+    "numba",
+    "numpy",
+    "pandas",
+    "pydantic",
+    "scipy",
+    "tornado",
+    "tribodyn",
+    "xarray",
+}
 NAMES = {*sys.stdlib_module_names, *NEEDED}
 """Names of planted modules: all of Python, and what tribodyn is made of and needs."""
 SHORT = ("vsv", "--set", "run.duration=2 ms", "--set", "run.output_interval=1 ms", "--quiet")

@@ -11,7 +11,7 @@ from math import comb
 import numpy as np
 import pytest
 
-from tribodyn.kernels.mebdf.coefficients import BDF_HISTORY, EXTENDED_HISTORY, MAX_K, SCALARS
+from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, MAX_K, SCALARS
 
 ANGLES = {1: 90.0, 2: 90.0, 3: 90.0, 4: 88.36, 5: 83.07, 6: 74.48, 7: 61.98}
 

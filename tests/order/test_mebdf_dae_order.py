@@ -11,10 +11,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from tribodyn.kernels.mebdf import phases
-from tribodyn.kernels.mebdf import state as entry
-from tribodyn.kernels.mebdf.coefficients import MAX_K
-from tribodyn.kernels.mebdf.core import resume
+from mebdf.kernels import phases
+from mebdf.kernels import state as entry
+from mebdf.kernels.coefficients import MAX_K
+from mebdf.kernels.core import resume
 
 
 def index_1(t, v):

@@ -6,9 +6,9 @@ from functools import partial
 from typing import Final
 
 from measures.base import Numbers
-from tribodyn.integrate.mebdf_index import FREQUENCIES
-from tribodyn.integrate.mebdf_jacobian import LARGEST_IN_CORE
-from tribodyn.kernels.mebdf import acceptance, control, core, matrix, newton, state
+from mebdf.index import FREQUENCIES
+from mebdf.jacobian import LARGEST_IN_CORE
+from mebdf.kernels import acceptance, control, core, matrix, newton, state
 from tribodyn.papers.cheng_2022 import Runs
 
 

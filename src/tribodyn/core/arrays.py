@@ -1,14 +1,5 @@
-"""Type aliases shared by every layer."""
+"""Type aliases shared by every layer: those of the solver."""
 
-from __future__ import annotations
+from mebdf.arrays import FloatArray, IntArray
 
-from typing import TypeAlias
-
-import numpy as np
-from numpy.typing import NDArray
-
-FloatArray: TypeAlias = NDArray[np.float64]
-"""Array of double precision numbers; shape and unit stand in the docstring that uses it."""
-
-IntArray: TypeAlias = NDArray[np.int64]
-"""Array of integers."""
+__all__ = ["FloatArray", "IntArray"]

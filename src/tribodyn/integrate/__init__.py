@@ -19,7 +19,7 @@ from tribodyn.integrate.radau import RADAU
 from tribodyn.integrate.schedule import make_schedule
 
 if TYPE_CHECKING:
-    from tribodyn.integrate.mebdf_solver import MEBDF
+    from mebdf import MEBDF
 
 __all__ = ["INTERRUPTED", "MEBDF", "SOLVERS", "integrate"]
 
@@ -36,7 +36,7 @@ SOLVERS: Final[dict[str, Integrator]] = {
 def __getattr__(name: str) -> Any:
     """Import the solver class for SciPy when it is asked for: SciPy and numba take a while."""
     if name == "MEBDF":
-        from tribodyn.integrate.mebdf_solver import MEBDF
+        from mebdf import MEBDF
 
         return MEBDF
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

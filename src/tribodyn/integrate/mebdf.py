@@ -24,10 +24,10 @@ from tribodyn.integrate.driver import Walk
 from tribodyn.integrate.schedule import Schedule
 
 if TYPE_CHECKING:
-    from tribodyn.integrate.mebdf_mass import MassMatrix
+    from mebdf.kernels.state import Mass, MebdfState
+    from mebdf.mass import MassMatrix
     from tribodyn.kernels.mebdf.drive import Marks
     from tribodyn.kernels.mebdf.own import OwnMatrix
-    from tribodyn.kernels.mebdf.state import Mass, MebdfState
 
 HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
 """Functions of a problem that the compiled loop is handed, in the order of its arguments."""
@@ -78,7 +78,7 @@ class _CompiledWalk(Walk):
 
     def prepare(self, rtol: float) -> None:
         """Compile, or find the compiled code; not counted as integration."""
-        from tribodyn.kernels.mebdf.core import resume
+        from mebdf.kernels.core import resume
         from tribodyn.kernels.mebdf.drive import AFTER_STEP, run
 
         self._rtol = rtol
@@ -125,7 +125,7 @@ class _CompiledWalk(Walk):
             self.ask()
 
     def _new_state(self, t: float, t_end: float) -> MebdfState:
-        from tribodyn.kernels.mebdf.state import new_state
+        from mebdf.kernels.state import new_state
 
         problem = self.problem
         return new_state(
@@ -150,10 +150,10 @@ class _CompiledWalk(Walk):
         super().enter()
         if self._matrix is None:
             return
-        from tribodyn.integrate.mebdf_consistent import consistent
-        from tribodyn.integrate.mebdf_differences import plain_jacobian
-        from tribodyn.integrate.mebdf_index import check_index
-        from tribodyn.integrate.mebdf_mass import LARGEST, with_index
+        from mebdf.consistent import consistent
+        from mebdf.differences import plain_jacobian
+        from mebdf.index import check_index
+        from mebdf.mass import LARGEST, with_index
 
         problem, rhs, matrix = self.problem, self.binding.rhs, self._matrix
         scale = problem.atol + self._relative * np.abs(self.y)
@@ -180,7 +180,7 @@ class _CompiledWalk(Walk):
         """Return the mass matrix of the problem, if it has one."""
         if self.problem.mass is None:
             return None
-        from tribodyn.integrate.mebdf_mass import read_mass
+        from mebdf.mass import read_mass
 
         try:
             return read_mass(self.problem.mass, self.problem.index or None, None, self.y.size)
@@ -189,7 +189,7 @@ class _CompiledWalk(Walk):
 
     def _jacobian(self, state: MebdfState) -> FloatArray:
         """Return what ``jac`` fills."""
-        from tribodyn.kernels.mebdf.state import JACOBIAN
+        from mebdf.kernels.state import JACOBIAN
 
         jacobian: FloatArray = state.matrices[JACOBIAN] if self._own is None else self._own.jacobian
         return jacobian
@@ -224,7 +224,7 @@ class _CompiledWalk(Walk):
 
     def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
         """Take from the compiled loop where it is and what it has cost."""
-        from tribodyn.kernels.mebdf import state as entry
+        from mebdf.kernels import state as entry
         from tribodyn.kernels.mebdf.drive import N_STEPS
 
         position = self._marks.position
@@ -246,7 +246,7 @@ class _CompiledWalk(Walk):
 
     def _reason(self, state: MebdfState) -> str:
         """Return why the core gave up, in words."""
-        from tribodyn.integrate.mebdf_reasons import reason
+        from mebdf.reasons import reason
 
         return reason(state, self.problem.state_names, self._entry_not_finite)
 

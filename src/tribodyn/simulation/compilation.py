@@ -86,9 +86,10 @@ def compile_elsewhere(case: Case) -> None:
     KeyboardInterrupt
         If the other process was interrupted, as by Ctrl-C, which reaches both.
     """
-    from tribodyn.kernels.cache import folder
+    from mebdf.compiled.cache import folder
+    from tribodyn.kernels.jit import SOURCES
 
-    if folder() is None:
+    if folder(SOURCES) is None:
         return
     with suppress(OSError), _child() as child:
         assert child.stdin is not None

@@ -8,6 +8,7 @@ from typing import Final
 
 ROOT: Final = Path(__file__).parents[3]
 DOCS: Final = ROOT / "docs"
+SOLVER: Final = ROOT / "src" / "mebdf" / "README.md"
 REMOVED: Final = (
     re.compile(r"\A---\n.*?^---\n", re.DOTALL | re.MULTILINE),
     re.compile(r"^```.*?^```[^\n]*$", re.DOTALL | re.MULTILINE),
@@ -32,14 +33,14 @@ NUMBER: Final = re.compile(
 
 
 def pages() -> list[Path]:
-    """Return the pages of the manual and the README."""
+    """Return the pages of the manual and what it includes, and the README."""
     built = {"_build", "_static", "generated", "jupyter_execute"}
-    return [ROOT / "README.md", *(p for p in sorted(DOCS.rglob("*.md")) if not built & set(p.parts))]
+    return [ROOT / "README.md", SOLVER, *(p for p in sorted(DOCS.rglob("*.md")) if not built & set(p.parts))]
 
 
 def name(page: Path) -> str:
     """Return the name of a page in the list of numbers."""
-    return str(page.relative_to(DOCS)) if page.is_relative_to(DOCS) else page.name
+    return str(page.relative_to(DOCS if page.is_relative_to(DOCS) else ROOT))
 
 
 def prose(page: Path) -> str:

@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 import tribodyn
-from tribodyn.kernels.cache import folder
+from mebdf.compiled.cache import folder
+from tribodyn.kernels.jit import SOURCES
 
 HERE = Path(__file__).parent
 SOURCE = Path(tribodyn.__file__).parent
@@ -51,7 +52,7 @@ ALL = (
 def machine_code(package: Path) -> Path:
     """Return a place with a copy of the machine code: types of the disc mean nothing to other processes."""
     place = package / "cache"
-    known = folder()
+    known = folder(SOURCES)
     if known is not None:
         shutil.copytree(known, place / "tribodyn" / known.name)
     for path in (place, place / "tribodyn"):

@@ -1,1 +1,1 @@
-"""Kernels of the modified extended backward differentiation formulae."""
+"""The loop that integrates a compiled problem with the core of the solver."""

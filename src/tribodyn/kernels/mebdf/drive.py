@@ -14,13 +14,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import copy
-from tribodyn.kernels.jit import kernel, unlocked
-from tribodyn.kernels.mebdf import state as at
-from tribodyn.kernels.mebdf.history import value_at
-from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over, trace
-from tribodyn.kernels.mebdf.phases import (
+from mebdf.kernels import state as at
+from mebdf.kernels.arrays import copy
+from mebdf.kernels.history import state_at
+from mebdf.kernels.phases import (
     FAILED,
     NEED_F,
     NEED_FACTORS,
@@ -28,7 +25,10 @@ from tribodyn.kernels.mebdf.phases import (
     NEED_MAGNITUDE,
     NEED_SOLUTION,
 )
-from tribodyn.kernels.mebdf.state import MebdfState
+from mebdf.kernels.state import MebdfState
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel, unlocked
+from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over, trace
 
 ENDED: Final = 0
 PAUSED: Final = 1
@@ -93,14 +93,6 @@ class Marks(NamedTuple):
     wanted: FloatArray
     reached: FloatArray
     end: FloatArray
-
-
-@kernel
-def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: float, y: FloatArray) -> None:
-    """Fill ``y`` with the solution at a time inside the last accepted step."""
-    s = (t - real[at.T]) / real[at.H_LAST]
-    for i in range(y.size):
-        y[i] = value_at(rows, at.HISTORY, count[at.K_LAST] + 1, s, i)
 
 
 @kernel

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.kernels.arrays import copy
+from mebdf.kernels.mass import is_algebraic, magnitude_of_mass
+from mebdf.kernels.state import ATOL, DELTA, MAGNITUDE, RESIDUAL, RTOL, Y
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mebdf.mass import is_algebraic, magnitude_of_mass
-from tribodyn.kernels.mebdf.state import ATOL, DELTA, MAGNITUDE, RESIDUAL, RTOL, Y
 
 
 class OwnMatrix(NamedTuple):
@@ -68,7 +68,7 @@ def trace(own: OwnMatrix) -> float:
 def magnify(
     own: OwnMatrix, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64], scaled: float
 ) -> None:
-    """Fill the row MAGNITUDE, as :func:`tribodyn.kernels.mebdf.matrix.magnify` does."""
+    """Fill the row MAGNITUDE, as :func:`mebdf.kernels.matrix.magnify` does."""
     for i in range(rows.shape[1]):
         rows[MAGNITUDE, i] = magnitude_of_mass(rows, mass, places, i)
     for k in range(own.places.shape[1]):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
+from mebdf.kernels.arrays import copy
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.memory import note_peaks

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from mebdf.kernels.arrays import copy
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import copy
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory

@@ -1,0 +1,104 @@
+"""What a solver class of SciPy refuses or warns of, in the words SciPy's own use."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from warnings import warn
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mebdf.arrays import FloatArray
+
+SMALLEST_TOLERANCE = 1.0e-299
+SMALLEST_RTOL = 100.0 * float(np.finfo(np.float64).eps)
+
+
+def tolerances(rtol: ArrayLike, atol: ArrayLike, n: int) -> tuple[FloatArray, FloatArray]:
+    """Return relative and absolute tolerances, each of shape (n,)."""
+    relative = np.asarray(rtol, dtype=np.float64)
+    if np.any(relative < SMALLEST_RTOL):
+        warn(
+            "At least one element of `rtol` is too small. "
+            f"Setting `rtol = np.maximum(rtol, {SMALLEST_RTOL})`.",
+            stacklevel=3,
+        )
+        relative = np.maximum(relative, SMALLEST_RTOL)
+    return _vector("rtol", relative, n), _vector("atol", np.asarray(atol, dtype=np.float64), n)
+
+
+def span(t0: float, t_bound: float) -> None:
+    """Refuse a start or an end that is not a number."""
+    if not np.isfinite(t0) or np.isnan(t_bound):
+        raise ValueError(f"`t0` must be finite and `t_bound` a number, not {t0} and {t_bound}.")
+
+
+def order(max_order: int, largest: int) -> int:
+    """Return the largest order."""
+    if max_order != int(max_order) or not 2 <= max_order <= largest:
+        raise ValueError(f"`max_order` must be a whole number from 2 to {largest}, not {max_order}.")
+    return int(max_order)
+
+
+def bands(lower: int | None, upper: int | None, n: int) -> tuple[int, int] | None:
+    """Return how many diagonals lie below and above the main one; ``None`` if neither number is given."""
+    if lower is None and upper is None:
+        return None
+    numbers = lower or 0, upper or 0
+    for name, number in zip(("lband", "uband"), numbers, strict=True):
+        if number != int(number) or not 0 <= number < max(n, 1):
+            raise ValueError(f"`{name}` must be a whole number from 0 to {n - 1}, not {number}.")
+    return int(numbers[0]), int(numbers[1])
+
+
+def inner_times(times: ArrayLike, t0: float, t_bound: float) -> list[float]:
+    """Return the times between start and end, each once, in the order in which they are met."""
+    array = np.unique(np.asarray(times, dtype=np.float64))
+    if np.any(np.isnan(array)):
+        raise ValueError("`breakpoints` must be numbers.")
+    inner: list[float] = array[(array > min(t0, t_bound)) & (array < max(t0, t_bound))].tolist()
+    return inner if t_bound >= t0 else inner[::-1]
+
+
+def resolved(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> None:
+    """Refuse what is too small for its relative tolerance to be a number of full precision."""
+    lost = (atol == 0.0) & (y0 != 0.0) & (rtol * np.abs(y0) < SMALLEST_TOLERANCE)
+    if np.any(lost):
+        i = int(np.argmax(lost))
+        raise ValueError(
+            f"`atol` must be positive for component {i}: with {y0[i]:g} the relative tolerance alone is "
+            f"below {SMALLEST_TOLERANCE:g}; or take another unit."
+        )
+
+
+def _vector(name: str, values: FloatArray, n: int) -> FloatArray:
+    """Return ``values`` with shape (n,)."""
+    if values.ndim > 0 and values.shape != (n,):
+        raise ValueError(f"`{name}` has wrong shape.")
+    if np.any(values < 0.0) or np.any(np.isnan(values)):
+        raise ValueError(f"`{name}` must be positive.")
+    return np.broadcast_to(values, (n,)).copy()
+
+
+def largest_step(max_step: float) -> float:
+    """Return the largest step."""
+    if not max_step > 0:
+        raise ValueError("`max_step` must be positive.")
+    return float(max_step)
+
+
+def starting_step(first_step: float | None, t0: float, t_bound: float) -> float:
+    """Return the first step, 0 if the method is to choose it."""
+    if first_step is None:
+        return 0.0
+    if not first_step > 0:
+        raise ValueError("`first_step` must be positive.")
+    if first_step > abs(t_bound - t0):
+        raise ValueError("`first_step` exceeds bounds.")
+    return float(first_step)
+
+
+def warn_extraneous(names: Iterable[str]) -> None:
+    """Warn of arguments that have no effect."""
+    if listed := ", ".join(f"`{name}`" for name in names):
+        warn(f"The following arguments have no effect for a chosen solver: {listed}.", stacklevel=3)

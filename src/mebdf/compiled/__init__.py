@@ -1,0 +1,1 @@
+"""Compiled code: how functions are compiled, and where their machine code is kept."""

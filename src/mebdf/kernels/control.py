@@ -1,0 +1,193 @@
+"""Which order and which step next: error tests, growth, and the way back from failures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mebdf.arrays import FloatArray
+from mebdf.kernels import state as at
+from mebdf.kernels.coefficients import SCALARS
+from mebdf.kernels.history import rescale
+from mebdf.kernels.jit import inlined, kernel
+from mebdf.kernels.mass import weigh
+from mebdf.kernels.phases import ERROR_TEST, NEWTON, STEP
+
+SMALLEST_SCALE = 1.0e-300
+"""What stands for a tolerance of zero where the solution is zero too."""
+CAUTION = 1
+"""Steps that must prove their stages after Newton's iteration has failed."""
+MOST_CAUTION = 7
+"""Most of them when it fails again meanwhile."""
+LEAST_STEP = 10.0 * float(np.finfo(np.float64).eps)
+"""Smallest step relative to the time."""
+ROUNDED = 1.0e-8
+"""Relative change of a step by the rounding of the time above which the step itself is rounded."""
+FAILED_NEWTON = 0.25
+"""What the step is multiplied by when Newton's iteration fails although the Jacobian is new."""
+
+
+@inlined
+def norm(rows: FloatArray, row: int, weight: int) -> float:
+    """Return the root mean square of a row, weighted by another one."""
+    total = 0.0
+    for i in range(rows.shape[1]):
+        total += (rows[row, i] * rows[weight, i]) ** 2
+    return math.sqrt(total / rows.shape[1])
+
+
+@inlined
+def error_weight(places: NDArray[np.int64]) -> int:
+    """Return the row that weighs errors."""
+    return at.ERROR_WEIGHT if places.size > 0 else at.WEIGHT
+
+
+@inlined
+def set_weights(real: FloatArray, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
+    """Make the weights those of the newest value."""
+    for i in range(rows.shape[1]):
+        scale = real[at.TIGHT] * (rows[at.ATOL, i] + rows[at.RTOL, i] * abs(rows[at.HISTORY, i]))
+        rows[at.WEIGHT, i] = 1.0 / max(scale, SMALLEST_SCALE)
+    if places.size > 0:
+        weigh(mass, places, rows, real[at.H])
+
+
+@kernel
+def change_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float) -> None:
+    """Multiply the step by ``factor`` and make the history fit it."""
+    rescale(rows, count[at.K], factor, 0.0)
+    real[at.H] *= factor
+    count[at.EQUAL_STEPS] = 0
+    count[at.CARRIED] = 0
+
+
+@inlined
+def _not_too_short(real: FloatArray, factor: float) -> float:
+    """Return a factor for the step that leads to the shortest one before it leads below it."""
+    least = 1.1 * LEAST_STEP * abs(real[at.T])  # rounding may take a twentieth of it
+    return max(factor, min(least / abs(real[at.H]), 1.0))
+
+
+@inlined
+def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+    """Keep the step below its maximum; where nothing may be evaluated beyond the end, end there.
+
+    Late in time the step is a multiple of the spacing of times. Otherwise equal steps, rounded equally, would
+    add up to another time than the solution has reached.
+    """
+    rounded = (real[at.T] + real[at.H]) - real[at.T]
+    if rounded != 0.0 and abs(rounded / real[at.H] - 1.0) > ROUNDED:
+        change_step(real, count, rows, rounded / real[at.H])
+    left = abs(real[at.T_END] - real[at.T])
+    h, largest = abs(real[at.H]), real[at.H_MAX]
+    count[at.LAST] = 0
+    if count[at.INSIDE] == 1:
+        largest = min(largest, left)
+        if h < left * (1.0 - 1.0e-9) and 2.0 * h > left:
+            # Two equal last steps rather than a long one and a sliver.
+            largest = min(largest, 0.5 * left)
+    if h > largest:
+        change_step(real, count, rows, largest / h)
+    if count[at.INSIDE] == 1 and 2.0 * abs(real[at.H]) > left * (1.0 + 1.0e-9):
+        count[at.LAST] = 1
+
+
+@kernel
+def blame(count: NDArray[np.int64], rows: FloatArray, row: int, weight: int) -> None:
+    """Remember the component that contributes most to the norm of a row."""
+    count[at.CAUSE] = NEWTON if row == at.DELTA else ERROR_TEST
+    worst = -1.0
+    for i in range(rows.shape[1]):
+        size = abs(rows[row, i] * rows[weight, i])
+        if size > worst:
+            worst = size
+            count[at.WORST] = i
+
+
+@kernel
+def reject(
+    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float, row: int, weight: int
+) -> None:
+    """Go back to the start of the step and try a smaller one; the largest entry of ``row`` is to blame."""
+    blame(count, rows, row, weight)
+    count[at.REJECTED] += 1
+    count[at.FAILURES] += 1
+    if count[at.FAILURES] >= 3 and count[at.K] > 1:
+        # The history is of no use: begin again at the lowest order from the last slope.
+        count[at.K] = 1
+        for m in range(2, at.N_DIFFERENCES):
+            for i in range(rows.shape[1]):
+                rows[at.HISTORY + m, i] = 0.0
+    if abs(real[at.H]) > 1.5 * LEAST_STEP * abs(real[at.T]):
+        factor = _not_too_short(real, factor)
+    change_step(real, count, rows, factor)
+    count[at.PHASE] = STEP
+
+
+@kernel
+def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool) -> None:
+    """Try again with a new Jacobian, or with a shorter step where it was new already.
+
+    However short the step, the values of algebraic equations may lie behind a kink. So with a mass matrix the
+    Jacobian is by turns that of the newest value and that of the predicted one.
+    """
+    if count[at.FRESH] == 0:
+        real[at.FACTORED] = 0.0
+        count[at.CARRIED] = 0
+        count[at.PHASE] = STEP
+    else:
+        count[at.WARY] = min(2 * count[at.WARY] + CAUTION, MOST_CAUTION)
+        count[at.VAIN] += 1
+        reject(real, count, rows, FAILED_NEWTON, at.DELTA, at.WEIGHT)
+        if not massive:
+            return
+        count[at.AHEAD] = 1 - count[at.AHEAD]
+        count[at.FRESH] = 0
+    count[at.JACOBIAN_AGE] = int(real[at.OLD_JACOBIAN]) + 1
+
+
+@kernel
+def growth(rows: FloatArray, weight: int, k: int, safety: float) -> float:
+    """Return by how much the step could grow with ``k`` back values."""
+    error = SCALARS[k, 3] * norm(rows, at.HISTORY + k + 1, weight)
+    return 1.0 / (safety * error ** (1.0 / (k + 1)) + 1.0e-6)
+
+
+@kernel
+def choose(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> None:
+    """Choose order and step for the next step, once enough equal steps have been taken."""
+    k = count[at.K]
+    settled = count[at.EQUAL_STEPS] >= k + real[at.WAIT]
+    if count[at.FIXED] == 1 or not (settled or real[at.ERROR] > real[at.EARLY]):
+        return
+    set_weights(real, rows, mass, places)
+    weight = error_weight(places)
+    best, factor = k, growth(rows, weight, k, real[at.SAFETY])
+    if k > 1:
+        lower = growth(rows, weight, k - 1, real[at.SAFETY_LOWER])
+        if lower > factor:
+            best, factor = k - 1, lower
+    if settled and k < count[at.LARGEST_K]:
+        higher = growth(rows, weight, k + 1, real[at.SAFETY_HIGHER])
+        if higher > factor:
+            best, factor = k + 1, higher
+    if settled and factor < real[at.LEAST_GROWTH]:
+        # Not worth a new matrix; look again after as many steps.
+        count[at.EQUAL_STEPS] = 1
+        return
+    if not settled and factor >= 1.0:
+        return
+    count[at.K] = best
+    largest = real[at.LARGEST_GROWTH]
+    if k == 1:
+        # Nothing higher than ∇² is rescaled: it is magnified less than ∇⁴ by the usual limit.
+        largest *= largest
+    change_step(real, count, rows, _not_too_short(real, min(factor, largest)))

@@ -1,0 +1,67 @@
+"""Backward differences: change of step, the newest value, and the polynomial through them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mebdf.arrays import FloatArray
+from mebdf.kernels.jit import inlined, kernel
+from mebdf.kernels.state import H_LAST, HISTORY, K_LAST, N_DIFFERENCES, SCRATCH, T
+
+
+@kernel
+def rescale(rows: FloatArray, degree: int, factor: float, shift: float) -> None:
+    """Make the differences ∇^0 … ∇^degree those of the same polynomial with steps ``factor`` times as long.
+
+    The polynomial through y_n, y_{n-1}, … is evaluated at the new points by Newton's formula and
+    differenced again. The newest of them lies ``shift`` steps after the present one. Higher differences
+    are dropped.
+    """
+    n = rows.shape[1]
+    for i in range(n):
+        for j in range(degree + 1):
+            rows[SCRATCH + j, i] = value_at(rows, HISTORY, degree, shift - j * factor, i)
+        for m in range(1, degree + 1):
+            for j in range(degree, m - 1, -1):
+                rows[SCRATCH + j, i] = rows[SCRATCH + j - 1, i] - rows[SCRATCH + j, i]
+    for m in range(degree + 1):
+        for i in range(n):
+            rows[HISTORY + m, i] = rows[SCRATCH + m, i]
+    for m in range(degree + 1, N_DIFFERENCES):
+        for i in range(n):
+            rows[HISTORY + m, i] = 0.0
+
+
+@inlined
+def value_at(rows: FloatArray, first: int, degree: int, s: float, i: int) -> float:
+    """Return component ``i`` of the polynomial, ``s`` steps after its newest value (s ≤ 0 is inside).
+
+    Horner's form of Σ_m ∇^m y_n s (s + 1) … (s + m − 1)/m!.
+    """
+    total = 0.0
+    for m in range(degree, 0, -1):
+        total = (s + m - 1.0) / m * (rows[first + m, i] + total)
+    return rows[first, i] + total
+
+
+@inlined
+def push(rows: FloatArray, newest: int, count: int, first: int) -> None:
+    """Write ``count`` differences of the history after row ``newest`` has joined it, from row ``first``.
+
+    ``first`` may be HISTORY itself.
+    """
+    for i in range(rows.shape[1]):
+        value = rows[newest, i]
+        for m in range(count):
+            older = rows[HISTORY + m, i]
+            rows[first + m, i] = value
+            value -= older
+
+
+@kernel
+def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: float, y: FloatArray) -> None:
+    """Fill ``y`` with the solution at a time inside the last accepted step."""
+    s = (t - real[T]) / real[H_LAST]
+    for i in range(y.size):
+        y[i] = value_at(rows, HISTORY, count[K_LAST] + 1, s, i)

@@ -1,0 +1,102 @@
+"""The first step: f at the start, and at a trial point if the step must be estimated."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mebdf.arrays import FloatArray
+from mebdf.kernels import state as at
+from mebdf.kernels.control import norm, set_weights
+from mebdf.kernels.jit import kernel
+from mebdf.kernels.phases import BEGIN, FAILED, FIRST_F, NEED_F, NOT_FINITE, SECOND_F, STEP
+
+SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
+"""Shortest first step relative to the time: 16 or more spacings between numbers."""
+
+
+@kernel
+def start(
+    real: FloatArray,
+    count: NDArray[np.int64],
+    rows: FloatArray,
+    mass: FloatArray,
+    places: NDArray[np.int64],
+) -> int:
+    """Go through the phases before the first step; return what is needed, 0 when it can begin."""
+    if count[at.PHASE] == BEGIN:
+        set_weights(real, rows, mass, places)
+        return _ask(real, count, rows, 0.0, FIRST_F)
+    if count[at.PHASE] == FIRST_F:
+        if remember_not_finite(real, count, rows):
+            count[at.REASON] = NOT_FINITE
+            return FAILED
+        first = at.F_2 if places.size > 0 else at.F_1
+        for i in range(rows.shape[1]):
+            rows[first, i] = rows[at.F, i]
+        if real[at.H] == 0.0:
+            real[at.H] = _trial_step(real, rows)
+            return _ask(real, count, rows, real[at.DIRECTION] * real[at.H], SECOND_F)
+    else:
+        real[at.H] = _first_step(real, rows, places)
+    real[at.H] = max(real[at.H], _least(real)) * real[at.DIRECTION]
+    for i in range(rows.shape[1]):
+        rows[at.HISTORY + 1, i] = real[at.H] * rows[at.F_1, i]
+    count[at.PHASE] = STEP
+    return 0
+
+
+@kernel
+def _ask(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, h: float, phase: int) -> int:
+    """Ask for f a distance ``h`` along the first slope."""
+    for i in range(rows.shape[1]):
+        rows[at.Y, i] = rows[at.HISTORY, i]
+        if h != 0.0:
+            rows[at.Y, i] += h * rows[at.F_1, i]
+    real[at.T_EVAL] = real[at.T] + h
+    count[at.PHASE] = phase
+    count[at.N_F] += 1
+    return NEED_F
+
+
+@kernel
+def remember_not_finite(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> bool:
+    """Remember where f is not finite; tell whether there was such a place."""
+    for i in range(rows.shape[1]):
+        if not math.isfinite(rows[at.F, i]):
+            count[at.BAD] = i
+            real[at.T_BAD] = real[at.T_EVAL]
+            return True
+    return False
+
+
+@kernel
+def _trial_step(real: FloatArray, rows: FloatArray) -> float:
+    """Return a step over which the solution changes by about a hundredth of itself."""
+    value, slope = norm(rows, at.HISTORY, at.WEIGHT), norm(rows, at.F_1, at.WEIGHT)
+    size = 1.0e-6 if value < 1.0e-5 or slope < 1.0e-5 else 0.01 * value / slope
+    return max(min(size, real[at.H_MAX], abs(real[at.T_END] - real[at.T])), _least(real))
+
+
+@kernel
+def _least(real: FloatArray) -> float:
+    """Return the shortest first step: the times of its stages must differ."""
+    return min(SHORTEST * abs(real[at.T]), real[at.H_MAX], abs(real[at.T_END] - real[at.T]))
+
+
+@kernel
+def _first_step(real: FloatArray, rows: FloatArray, places: NDArray[np.int64]) -> float:
+    """Return the size of the first step from two slopes: Hairer, Nørsett and Wanner, II.4, for order one."""
+    trial = real[at.H]
+    slope = norm(rows, at.F_1, at.WEIGHT)
+    first, weight = (at.F_2, at.ROW_WEIGHT) if places.size > 0 else (at.F_1, at.WEIGHT)
+    for i in range(rows.shape[1]):
+        rows[at.DELTA, i] = (rows[at.F, i] - rows[first, i]) / trial
+    largest = max(slope, norm(rows, at.DELTA, weight))
+    if not math.isfinite(largest):
+        return 1.0e-3 * trial
+    size = max(1.0e-6, 1.0e-3 * trial) if largest <= 1.0e-15 else math.sqrt(0.01 / largest)
+    return min(100.0 * trial, size, real[at.H_MAX], abs(real[at.T_END] - real[at.T]))

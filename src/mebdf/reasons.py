@@ -1,0 +1,69 @@
+"""Why the MEBDF gave up, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from mebdf.kernels import phases
+from mebdf.kernels import state as entry
+from mebdf.kernels.state import MebdfState
+
+
+def reason(
+    state: MebdfState, names: Sequence[str], entry_not_finite: Callable[[MebdfState], tuple[int, int]]
+) -> str:
+    """Return the reason of a failure: what went wrong, and in which state.
+
+    Parameters
+    ----------
+    state
+        After ``resume`` has returned FAILED.
+    names
+        Names of the states.
+    entry_not_finite
+        Tells row and column of the first entry of the Jacobian that is not finite.
+    """
+    if state.counts[entry.REASON] == phases.JACOBIAN_NOT_FINITE:
+        row, column = entry_not_finite(state)
+        return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
+    if state.counts[entry.CAUSE] == phases.SINGULAR and state.counts[entry.WORST] >= 0:
+        return f"the matrix of Newton's iteration is singular{_undetermined(state, names)}"
+    if state.counts[entry.REASON] == phases.NO_PROGRESS:
+        name = names[int(state.counts[entry.WORST])]
+        return (
+            f"Newton's iteration fails again and again, worst in {name}, with hardly any progress: "
+            "the rates jump there or the Jacobian is wrong"
+        )
+    text = "the step became shorter than the spacing between numbers"
+    if (bad := int(state.counts[entry.BAD])) >= 0:
+        return f"{text}; the rate of {names[bad]} was not finite at t = {state.real[entry.T_BAD]:.9g} s"
+    if (worst := int(state.counts[entry.WORST])) >= 0:
+        cause = (
+            "Newton's iteration did not converge"
+            if state.counts[entry.CAUSE] == phases.NEWTON
+            else "the error stayed above the tolerance"
+        )
+        return f"{text}; {cause}, worst in {names[worst]}"
+    newest = state.rows[entry.HISTORY + int(state.counts[entry.K_LAST]) + 1]
+    fastest = int(np.argmax(np.abs(newest * state.rows[entry.WEIGHT])))
+    return f"{text}; the solution changes fastest in {names[fastest]}"
+
+
+def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
+    """Return, in words, which state the equations do not determine, where that can be found."""
+    if not state.matrices.size:
+        return ": the equations do not determine all states"
+    n = state.rows.shape[1]
+    matrix = -float(state.real[entry.SCALED]) * state.matrices[entry.LAST_JACOBIAN]
+    if state.places.size:
+        row, size = np.repeat(np.arange(n), np.diff(state.places[: n + 1])), state.places[n]
+        matrix[row, state.places[n + 1 : n + 1 + size]] += state.mass[:size]
+    else:
+        matrix += np.eye(n)
+    if not np.isfinite(matrix).all() or not matrix.any():
+        return ": the equations do not determine all states"
+    direction = np.linalg.svd(matrix / np.abs(matrix).max())[2][-1]
+    name = names[int(np.argmax(np.abs(direction)))]
+    return f": the equations do not determine {name}; see to them, the mass matrix and the index"

@@ -1,0 +1,359 @@
+"""The MEBDF as a solver class of SciPy: ``solve_ivp(fun, t_span, y0, method=mebdf.MEBDF)``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any, Final
+from warnings import warn
+
+import numba as nb
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import DenseOutput, OdeSolver
+
+from mebdf.algebra import Algebra
+from mebdf.arrays import FloatArray
+from mebdf.checks import (
+    SMALLEST_RTOL,
+    bands,
+    inner_times,
+    largest_step,
+    order,
+    resolved,
+    span,
+    starting_step,
+    tolerances,
+    warn_extraneous,
+)
+from mebdf.consistent import consistent
+from mebdf.dense import JumpDenseOutput, MebdfDenseOutput, end_of_jump
+from mebdf.differences import plain_jacobian
+from mebdf.implicit import ImplicitFull, Residual, fill_mass, mass_at_start
+from mebdf.index import check_index
+from mebdf.jacobian import LARGEST_IN_CORE, Linear, make_jacobian
+from mebdf.kernels import state as entry
+from mebdf.kernels.coefficients import MAX_K
+from mebdf.kernels.core import resume
+from mebdf.kernels.phases import (
+    FAILED,
+    NEED_F,
+    NEED_FACTORS,
+    NEED_JACOBIAN,
+    NEED_MAGNITUDE,
+    NEED_SOLUTION,
+    STEP_ACCEPTED,
+)
+from mebdf.kernels.state import HISTORY, N_F, N_J, N_LU, T_EVAL, F, T, Y, new_state
+from mebdf.mass import LARGEST, MassMatrix, read_mass, with_index
+from mebdf.reasons import reason
+
+ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
+RENEWED: Final = 0.5
+"""Decompositions a step that make the Jacobian be checked; a right one takes a third or so."""
+
+
+class MEBDF(OdeSolver):
+    """Modified extended backward differentiation formulae of Cash, orders 2 to 8.
+
+    For stiff problems. Use it as ``solve_ivp(..., method=MEBDF)``, with events, dense output and
+    everything else that SciPy's own stiff solvers take. The right-hand side is never evaluated beyond
+    ``t_bound``.
+
+    Parameters
+    ----------
+    fun
+        ``fun(t, y)``: right-hand side, shape (n,); with ``vectorized`` also (n, m) of (n, m).
+    t0, t_bound
+        Start and end; backward in time if ``t_bound < t0``.
+    y0
+        Initial state, shape (n,), real.
+    max_step, first_step
+        Largest step; first step, ``None`` to choose it.
+    rtol, atol
+        The local error of component i is kept below ``atol_i + rtol_i |y_i|`` in the root mean square;
+        numbers or shape (n,).
+    jac
+        Jacobian ``jac(t, y)`` of shape (n, n), a constant matrix, or ``None`` for finite differences; dense
+        or sparse.
+    jac_sparsity
+        Where entries of the Jacobian may differ from zero, to group finite differences; shape (n, n). From
+        65 equations on a sparse Jacobian leads to sparse or banded decompositions.
+    vectorized
+        Whether ``fun`` takes several states at once.
+    lband, uband
+        Numbers of diagonals of the Jacobian below and above the main one. ``jac`` then gives the diagonals,
+        ``jac(t, y)[i - j + uband, j]`` = ∂f_i/∂y_j, shape (lband + uband + 1, n); one not given is 0.
+    mass
+        Constant mass matrix M of M y' = f(t, y), which may be singular: shape (n, n), dense or sparse, or its
+        diagonal, shape (n,). ``None`` for the unit matrix.
+    index
+        Index of each variable, 1 to 3, shape (n,); ``None`` for 1. The errors of variables of index 2 and 3
+        are multiplied by the step and its square (of steps below 1), so theirs may be many tolerances. An
+        index that is too high is refused, one that is too low is raised with a warning.
+    test_algebraic
+        Whether variables without derivatives are in the error test; ``None`` for those of index 1.
+    breakpoints
+        Times at which the right-hand side jumps or kinks, where the integration begins anew; those outside of
+        the interval are dropped. No evaluation for a step before one of them lies at it or behind it. Where
+        algebraic variables jump there, or were not consistent at the start, a step of some spacings of
+        numbers leads from the values before to those behind.
+    slope
+        y' at the start, shape (n,). Where it is given the equation is the implicit one F(t, y, y') = 0, with
+        ``fun(t, y, slope)`` for F; zeros will do where F determines y'. ``jac(t, y, slope)`` then gives ∂F/∂y
+        and ∂F/∂y', both dense.
+    max_order
+        Largest order, 2 to 8.
+
+    References
+    ----------
+    J. R. Cash, Comput. Math. Appl. 9 (1983) 645-657; J. R. Cash, S. Considine, ACM Trans. Math. Softw. 18
+    (1992) 142-155.
+    """
+
+    def __init__(
+        self,
+        fun: Any,
+        t0: float,
+        y0: Any,
+        t_bound: float,
+        max_step: float = np.inf,
+        rtol: ArrayLike = 1e-3,
+        atol: ArrayLike = 1e-6,
+        jac: Any = None,
+        jac_sparsity: Any = None,
+        vectorized: bool = False,
+        first_step: float | None = None,
+        lband: int | None = None,
+        uband: int | None = None,
+        mass: Any = None,
+        index: ArrayLike | None = None,
+        test_algebraic: bool | None = None,
+        breakpoints: ArrayLike = (),
+        slope: ArrayLike | None = None,
+        max_order: int = MAX_K + 1,
+        **extraneous: Any,
+    ) -> None:
+        warn_extraneous(extraneous)
+        span(t0, t_bound)
+        self._residual: Residual | None = None
+        if slope is not None:
+            if any(option is not None for option in (mass, jac_sparsity, lband, uband)) or vectorized:
+                raise ValueError(
+                    "`slope` excludes `mass`, `jac_sparsity`, `lband`, `uband` and `vectorized`."
+                )
+            fun = self._residual = Residual(fun, slope, jac, np.size(y0))
+        super().__init__(fun, t0, y0, t_bound, vectorized)
+        self.max_step = largest_step(max_step)
+        self.rtol, self.atol = tolerances(rtol, atol, self.n)
+        resolved(self.y, self.rtol, self.atol)
+        self._index, self._test_algebraic = index, test_algebraic
+        self._mass = None if self._residual else read_mass(mass, index, test_algebraic, self.n)
+        self._names = [f"component {i}" for i in range(self.n)]
+        self._ends = [*inner_times(breakpoints, self.t, self.t_bound), float(self.t_bound)]
+        if self._residual:
+            self._jacobian, self._algebra, evaluations = self._implicit_jacobian(self._residual)
+        else:
+            self._jacobian, self._algebra, evaluations = make_jacobian(
+                self,
+                jac,
+                jac_sparsity,
+                bands(lband, uband, self.n),
+                (self.rtol, self.atol),
+                self._mass,
+                self._in_trouble,
+            )
+        self._options: dict[str, Any] = {
+            "max_step": self.max_step,
+            "largest_k": order(max_order, MAX_K + 1) - 1,
+            "inside": True,
+            "differenced": evaluations,
+            "outside": self._algebra is not None,
+        }
+        # Evaluations, Jacobians and decompositions before the last breakpoint.
+        self._before = (0, 0, 0)
+        # Values before a jump of algebraic variables, one to be reported and one that is the last step.
+        self._jump: FloatArray | None = None
+        self._before_jump: FloatArray | None = None
+        self._state = self._new_state(starting_step(first_step, t0, t_bound))
+        self._resume = _machine_code()
+
+    def _new_state(self, first_step: float) -> entry.MebdfState:
+        """Begin at the present time, up to the next breakpoint or the end."""
+        before, mass, warning = self.y, None, ""
+        if self._residual:
+            mass, warning = self._implicit_start(self._residual)
+        elif self._mass is not None:
+            self._mass, slope, warning = self._consistent(self.fun_single, self._slopes, self._mass)
+            mass = self._mass.for_core(slope)
+        if warning:
+            warn(warning, stacklevel=4)
+            self._jump = before
+        t, end = float(self.t), self._ends[0]
+        return new_state(
+            t, self.y, end, self.rtol, self.atol, first_step=first_step, mass=mass, **self._options
+        )
+
+    def _consistent(
+        self, fun: Callable[..., FloatArray], jacobian: Callable[..., Any], mass: MassMatrix
+    ) -> tuple[MassMatrix, FloatArray, str]:
+        """Find consistent values; return the matrix with the right index, y', and what was changed."""
+        t = float(self.t)
+        # A step leaves variables of higher index as wrong as its weights allow.
+        step = 1.0 if self.t_old is None else min(abs(self._state.real.item(entry.H_LAST)), 1.0)
+        scale = (self.atol + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
+        self.y, slope, warning = consistent(fun, jacobian, t, self.y, self._ends[0], mass, scale, self._names)
+        if self.t_old is None:
+            found = check_index(jacobian, t, self.y, mass.matrix, mass.index, self._typical, self._names)
+            if found is not mass.index:
+                self._index, mass = found, with_index(mass.matrix, found, self._test_algebraic)
+        return mass, slope, warning
+
+    @property
+    def _typical(self) -> FloatArray:
+        """Return the size of each variable at which both its tolerances are equal, shape (n,)."""
+        return np.asarray(self.atol / np.maximum(self.rtol, SMALLEST_RTOL))
+
+    def _slopes(self, t: float, y: FloatArray) -> Any:
+        """Return the Jacobian for consistent values: by differences where one that is given may be wrong."""
+        if self.n > LARGEST:
+            return self._jacobian(t, y)
+        return plain_jacobian(self.fun_single, self._typical)(t, y)
+
+    def _implicit_start(self, residual: Residual) -> tuple[entry.Mass, str]:
+        """Find consistent values and the slope; return ∂F/∂y' there, and what was changed."""
+        t, left, tolerances = float(self.t), self._ends[0] - float(self.t), (self.rtol, self.atol)
+        typical = self.atol / self.rtol
+        self.y, warning = residual.consistent(t, self.y, left, tolerances, self._names)
+        of_slope = residual.linearise(t, self.y, typical, left)[1]
+        read = read_mass(of_slope, self._index, self._test_algebraic, self.n)
+        assert read is not None
+        read, _, more = self._consistent(
+            residual.explicit(of_slope), lambda t, y: residual.linearise(t, y, typical, left)[0], read
+        )
+        if more:
+            self.y, _ = residual.consistent(t, self.y, left, tolerances, self._names)
+        return mass_at_start(of_slope, residual.slope, read), " ".join(filter(None, (warning, more)))
+
+    def _implicit_jacobian(self, residual: Residual) -> Linear:
+        """Return the Jacobian of an implicit equation, and who solves with it."""
+
+        def pair(t: float, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+            residual.move_to_newest(self._state)
+            h = float(self._state.real[entry.H])
+            return residual.linearise(t, y, self.atol / self.rtol, h)
+
+        def jacobian(t: float, y: FloatArray) -> FloatArray:
+            """Renew the mass matrix, too, unless one of them is not finite."""
+            of_y, of_slope = pair(t, y)
+            if not np.isfinite(of_slope).all():
+                return np.full_like(of_y, np.nan)
+            if np.isfinite(of_y).all():
+                fill_mass(self._state.mass, self._state.places, of_slope)
+            return of_y
+
+        if self.n <= LARGEST_IN_CORE:
+            return Linear(jacobian, None, residual.evaluations)
+        return Linear(jacobian, ImplicitFull(pair, self.atol / self.rtol), residual.evaluations)
+
+    def _step_impl(self) -> tuple[bool, str | None]:
+        """Take one step; return whether it succeeded, and why not."""
+        if len(self._ends) > 1 and self.t == self._ends[0]:
+            self._before = self.nfev, self.njev, self.nlu
+            del self._ends[0]
+            try:
+                self._state = self._new_state(0.0)
+            except ValueError as problem:
+                return False, str(problem)
+        if self._jump is not None:
+            self._before_jump, self._jump = self._jump, None
+            self.t = end_of_jump(float(self.t), self._ends[0])
+            return True, None
+        self._before_jump = None
+        request = self._core_step()
+        while request == STEP_ACCEPTED and self.direction * (self._state.real.item(T) - self.t) <= 0.0:
+            request = self._core_step()  # inside the jump that was the last step
+        counts, before = self._state.counts, self._before
+        self.nfev = before[0] + counts.item(N_F)
+        self.njev = before[1] + counts.item(N_J)
+        self.nlu = before[2] + counts.item(N_LU)
+        if request == FAILED:
+            return False, reason(self._state, self._names, self._entry_not_finite)
+        self.t, self.y = self._state.real.item(T), self._state.rows[HISTORY].copy()
+        return True, None
+
+    def _core_step(self) -> int:
+        """Evaluate for the core until it has accepted a step or given up; return which."""
+        state, core, fun = self._state, self._resume, self.fun_single
+        real, rows = state.real, state.rows
+        kink = self._ends[0] if len(self._ends) > 1 else None
+        while (request := core(*state)) not in ENDS_OF_STEP:
+            t, y = real.item(T_EVAL), rows[Y].copy()
+            if t == kink:
+                t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
+            if request != NEED_F:
+                self._answer(request, t, y)
+                continue
+            if self._residual:
+                self._residual.move(state)
+            f = fun(t, y)
+            if f.size != self.n:  # one number will do for one equation, but not for several
+                raise ValueError(
+                    f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
+                )
+            rows[F] = f
+        return request
+
+    def _answer(self, request: int, t: float, y: FloatArray) -> None:
+        """Do what the core asks of who differentiates and solves for it."""
+        state, algebra = self._state, self._algebra
+        if algebra is None:
+            state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
+            return
+        _solve(request, state, algebra, t, y)
+        if isinstance(algebra, ImplicitFull) and request == NEED_JACOBIAN:
+            fill_mass(state.mass, state.places, algebra.dense_mass)
+
+    def _in_trouble(self) -> bool:
+        """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
+        counts = self._state.counts
+        return bool(counts[entry.N_LU] > RENEWED * counts[entry.STEPS])
+
+    def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
+        """Return row and column of the first entry of the Jacobian that is not finite."""
+        if self._algebra is not None:
+            return self._algebra.entry_not_finite()
+        row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
+        return int(row), int(column)
+
+    def _dense_output_impl(self) -> DenseOutput:
+        """Return the polynomial of the last step, or the jump that was it."""
+        if self._before_jump is not None:
+            return JumpDenseOutput(self.t_old, self.t, self._before_jump, self.y.copy())
+        return MebdfDenseOutput(self.t_old, self.t, self._state)
+
+
+def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
+    """Do what the core asks of who solves for it."""
+    scaled, rows = float(state.real[entry.SCALED]), state.rows
+    if request == NEED_JACOBIAN:
+        state.counts[entry.FINITE] = algebra.linearise(t, y)
+    elif request == NEED_FACTORS:
+        back = state.counts.item(entry.BACK)
+        if back:
+            algebra.go_back(to_zero=back == 2 and state.places.size == 0)
+        state.counts[entry.SIGN] = algebra.factorise(scaled)
+        state.real[entry.TRACE] = algebra.trace()
+    elif request == NEED_SOLUTION:
+        rows[entry.DELTA] = algebra.solve(rows[entry.RESIDUAL])
+    elif request == NEED_MAGNITUDE:
+        rows[entry.MAGNITUDE] = algebra.magnitude(scaled, y)
+
+
+@cache
+def _machine_code() -> Callable[..., int]:
+    """Return the core compiled for its only types: called directly it need not find them out each time."""
+    matrices = (nb.float64[:, ::1], nb.float64[:, :, ::1])
+    types = (nb.float64[::1], nb.int64[::1], *matrices, nb.float64[::1], nb.int64[::1])
+    code: Callable[..., int] = resume.compile(types)
+    return code
