@@ -18,8 +18,9 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.integrate.driver import Stepwise
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.clearances import Clearance
+from tribodyn.joints.shapes import SHAPES
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.vsv.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
 from tribodyn.mechanisms.vsv.problem import vsv_problem
 
@@ -116,15 +117,15 @@ def make_joint(contact_table: ContactTable, table_1_pair: SurfacePair) -> Callab
 
 
 SIZES = {
-    "cylinder": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3},
-    "wide": {"radius": 200e-3, "radial": 20e-6, "length": 20e-3},
-    "piston": {"radius": 200e-3, "radial": 20e-6, "length": 40e-3, "pin_length": 20e-3},
-    "flanged": {"radius": 6e-3, "radial": 20e-6, "length": 20e-3, "axial": 15e-6, "flange": 9e-3},
-    "annulus": {"inner": 6e-3, "outer": 9e-3, "axial": 20e-6, "height": 10e-3},
-    "sphere": {"radius": 8e-3, "radial": 20e-6, "band": 0.8},
-    "ball": {"radius": 8e-3, "radial": 20e-6, "band": 0.1},
-    "mesh": {"gap": 20e-6, "edge": 4e-3},
-    "guide": {"gap": 20e-6, "edge": 4e-3, "slides": 1.0},
+    "cylinder": {"radius": 6e-3, "clearance": 20e-6, "length": 20e-3},
+    "wide": {"radius": 200e-3, "clearance": 20e-6, "length": 20e-3},
+    "piston": {"radius": 200e-3, "clearance": 20e-6, "length": 40e-3, "pin_length": 20e-3},
+    "flanged": {"radius": 6e-3, "clearance": 20e-6, "length": 20e-3, "axial": 15e-6, "flange": 9e-3},
+    "annulus": {"inner": 6e-3, "outer": 9e-3, "clearance": 20e-6, "height": 10e-3},
+    "sphere": {"radius": 8e-3, "clearance": 20e-6, "band": 0.8},
+    "ball": {"radius": 8e-3, "clearance": 20e-6, "band": 0.1},
+    "mesh": {"clearance": 20e-6, "edge": 4e-3},
+    "guide": {"clearance": 20e-6, "edge": 4e-3, "slides": 1.0},
 }
 """Sizes of a clearance joint of each shape [m].
 
@@ -140,6 +141,9 @@ def square_tube(half: float) -> FloatArray:
     wall = corners[[[0, 2, 1], [0, 3, 2]]]
     turns = [np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
     return np.concatenate([wall @ turn.T for turn in turns])
+
+
+FACETS = {shape: {"facets": square_tube(8e-3)} for shape in ("mesh", "guide")}
 
 
 @pytest.fixture(scope="session")
@@ -158,8 +162,7 @@ def make_clearance(contact_table: ContactTable, table_1_pair: SurfacePair) -> Ca
         **sizes: float,
     ) -> Clearance:
         return Clearance(
-            shape=VARIANTS.get(shape, shape),
-            sizes=SIZES[shape] | sizes,
+            shape=SHAPES[VARIANTS.get(shape, shape)](**FACETS.get(shape, {}), **(SIZES[shape] | sizes)),
             grid=grid,
             roughness=table_1_pair.roughness_rms,
             law=law("rsdc", table_1_pair),
@@ -170,7 +173,6 @@ def make_clearance(contact_table: ContactTable, table_1_pair: SurfacePair) -> Ca
             minimum_velocity=1e-3,
             tensile_clip=clip,
             contact=contact,
-            facets=square_tube(8e-3) if shape in ("mesh", "guide") else np.zeros((0, 3, 3)),
         )
 
     return make

@@ -12,11 +12,10 @@ from scipy.spatial.transform import Rotation
 
 from tribodyn.contact import RSDC, SurfacePair
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints.clearances import assemble, pose_at
+from tribodyn.joints.clearances import Clearance, assemble, pose_at
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.joint import pressure_field, wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.surface.memory import new_memory
-from tribodyn.mechanisms.general.description import Clearance
 
 MakeClearance = Callable[..., Clearance]
 Pressure = Callable[[FloatArray], FloatArray]

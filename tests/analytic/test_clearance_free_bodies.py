@@ -12,11 +12,10 @@ from scipy.spatial.transform import Rotation
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.joints.clearances import assemble, pose_at
+from tribodyn.joints.clearances import Clearance, assemble, pose_at
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.joint import report, update_entry_velocity, wrench
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
-from tribodyn.mechanisms.general.description import Clearance
 
 MASS = np.array([0.8, 0.3])
 INERTIA = np.array([[4e-4, 6e-4, 5e-4], [1e-4, 0.8e-4, 0.5e-4]])

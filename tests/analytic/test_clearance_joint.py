@@ -17,7 +17,7 @@ from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.joints.bushing import new_memory as bushing_memory
 from tribodyn.joints.bushing import pose_at as bushing_pose
-from tribodyn.joints.clearances import assemble, places, pose_at, shape_of, table_of
+from tribodyn.joints.clearances import Clearance, assemble, places, pose_at, table_of
 from tribodyn.joints.point_contact import point_table
 from tribodyn.kernels.joints.cylinder.joint import pressure_field as bushing_field
 from tribodyn.kernels.joints.surface.data import SurfaceData
@@ -28,7 +28,6 @@ from tribodyn.kernels.joints.surface.joint import (
     wrench_and_jacobian,
 )
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
-from tribodyn.mechanisms.general.description import Clearance
 
 MakeClearance = Callable[..., Clearance]
 POINT = "point-lankarani-nikravesh"
@@ -51,7 +50,7 @@ def kinds(make_clearance: MakeClearance, table_1_pair: SurfacePair) -> dict[str,
     chosen = law("rsdc", table_1_pair)
     for kind in KINDS[len(SHAPES) :]:
         shape = kind.split(maxsplit=1)[0]
-        table = table_of(POINT, chosen, shape_of(made[shape]), onset=4.0, smoothing_width=1.0)
+        table = table_of(POINT, chosen, made[shape].shape, onset=4.0, smoothing_width=1.0)
         made[kind] = make_clearance(shape, contact=POINT, table=table, grid=(24, 6))
     return made
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tribodyn.joints.clearances import assemble, places, pose_at
+from tribodyn.joints.clearances import Clearance, assemble, places, pose_at
 from tribodyn.kernels.joints.surface.joint import (
     pressure_field,
     report,
@@ -16,7 +16,6 @@ from tribodyn.kernels.joints.surface.joint import (
     update_entry_velocity,
 )
 from tribodyn.kernels.joints.surface.memory import new_memory, note_peaks
-from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.wear import Archard
 
 MakeClearance = Callable[..., Clearance]

@@ -15,14 +15,13 @@ import pytest
 from scipy.optimize import brentq
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints.clearances import assemble, places, pose_at
+from tribodyn.joints.clearances import Clearance, assemble, places, pose_at
 from tribodyn.kernels.film.data import CONVERGED, OUT_OF_RANGE
 from tribodyn.kernels.film.wrench import film_wrench
 from tribodyn.kernels.joints.surface.joint import report, wrench
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.kernels.lookup import pressure_and_damping
 from tribodyn.lubrication import Film, FilmGrid
-from tribodyn.mechanisms.general.description import Clearance
 
 MakeClearance = Callable[..., Clearance]
 GRID = (96, 8)
@@ -61,10 +60,10 @@ def exact(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the gaps at the nodes, and the wrench of the rigid pressure on the pin about its origin."""
     surface = places([clearance])[0].surface
-    rotation, radius = upright(lean), clearance.sizes["radius"]
-    bore_radius = radius + clearance.sizes["radial"]
+    rotation, radius = upright(lean), clearance.shape.radius
+    bore_radius = radius + clearance.shape.clearance
     if pin_is_longer:
-        bore = surface.position + clearance.sizes["radial"] * surface.normal
+        bore = surface.position + clearance.shape.clearance * surface.normal
         gap, normal = from_the_bore(bore, -surface.normal, d, rotation, radius)
         arm = bore - gap[:, None] * surface.normal - d
     else:
@@ -86,7 +85,7 @@ def pressed(
         gaps, _ = exact(clearance, size * way, lean, pin_is_longer=pin_is_longer)
         return float(gaps.min()) - clearance.roughness
 
-    size = brentq(excess, 0.0, 2.0 * clearance.sizes["radial"], xtol=1e-13)
+    size = brentq(excess, 0.0, 2.0 * clearance.shape.clearance, xtol=1e-13)
     return size * way, *exact(clearance, size * way, lean, pin_is_longer=pin_is_longer)
 
 
@@ -95,7 +94,7 @@ def pressed(
 def test_wrench_and_least_gap_are_those_of_exact_geometry(
     radius: float, length: float, radial: float, pin_is_longer: bool, make_clearance: MakeClearance
 ) -> None:
-    sizes = {"radius": radius, "radial": radial, "length": length}
+    sizes = {"radius": radius, "clearance": radial, "length": length}
     if not pin_is_longer:
         sizes |= {"length": 2.0 * length, "pin_length": length}
     clearance = make_clearance("cylinder", grid=GRID, coefficient=0.0, **sizes)
@@ -120,7 +119,7 @@ def test_a_wide_short_guide_bears_a_lean_early(
     radial: float, tilt: float, make_clearance: MakeClearance
 ) -> None:
     # Without r φ²/2 moments are 40 and more times too small.
-    clearance = make_clearance("cylinder", grid=GRID, coefficient=0.0, radial=radial, **GUIDE)
+    clearance = make_clearance("cylinder", grid=GRID, coefficient=0.0, clearance=radial, **GUIDE)
     data, out = assemble([clearance]), np.empty(6)
     lean = np.array([tilt, 0.0])
     _, expected = exact(clearance, np.zeros(3), lean, pin_is_longer=True)

@@ -16,7 +16,7 @@ from tests.faults.test_random_mechanisms import BEYOND
 from tests.faults.test_random_physics import chunks
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.general.describe import describe
+from tribodyn.mechanisms.general.surfaces import clearances_of
 from tribodyn.simulation import simulate
 
 PATIENCE = 60.0
@@ -70,11 +70,9 @@ def impact_factors(drawing: Drawing) -> dict[str, float]:
     1 + √(1 + 2 h/δ), for a weight that falls through h onto a spring that it compresses by δ at rest: h is
     the clearance, δ the range of the contact law.
     """
-    joints = {joint.name: joint.clearance for joint in describe(drawing.case()).joints}
     return {
-        name: 1.0 + math.sqrt(1.0 + 2.0 * of.sizes["radial"] / (RANGE * of.roughness))
-        for name, of in joints.items()
-        if of is not None
+        name: 1.0 + math.sqrt(1.0 + 2.0 * of.shape.clearance / (RANGE * of.roughness))
+        for name, of in clearances_of(drawing.case()).items()
     }
 
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from tests.unit.mechanisms.general.drawings import bricard, run, spatial_slider_crank
 
-from tribodyn.mechanisms.general.description import Description
+from tribodyn.mechanisms.general.model import Model
 
 RTOL = np.array([1e-4, 1e-5, 1e-6, 1e-7, 1e-8])
 
 
 @pytest.mark.parametrize("make", [spatial_slider_crank, bricard], ids=["spatial", "Bricard"])
-def test_error_is_in_proportion_to_the_tolerance(make: Callable[[], Description]) -> None:
+def test_error_is_in_proportion_to_the_tolerance(make: Callable[[], Model]) -> None:
     times = np.linspace(0.0, 2.0, 21)
     exact = run(make(), times, 1e-11)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +16,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.core.stopping import ask
 from tribodyn.core.tables import ContactTable
-from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
-from tribodyn.joints.shapes import SHAPES, Shape, Surface
+from tribodyn.joints.shapes import Shape, Surface
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
@@ -28,64 +27,45 @@ SPHERE: Final = "point-lankarani-nikravesh"
 """The point contact that a ball in a race can have."""
 
 
-class JointClearance(Protocol):
-    """What makes an ideal joint a real one; meanings as in ``mechanisms/general/description.py``."""
+@dataclass(frozen=True)
+class Clearance:
+    """What makes an ideal joint a real one: two surfaces and what acts between them.
 
-    @property
-    def shape(self) -> str:
-        """A name of ``SHAPES``."""
+    Attributes
+    ----------
+    shape
+        Where the surfaces are, with their dimensions.
+    grid
+        Nodes along the two directions of the shape.
+    roughness
+        Combined rms roughness σ [m].
+    law, table
+        Contact law, and the same tabulated.
+    friction_coefficient, slip_velocity
+        μ and its regularisation u_s [m/s].
+    onset, minimum_velocity, tensile_clip
+        See ``joints.EntryMemory``.
+    contact
+        ``surface``, or a point contact of ``joints.CONTACTS``.
+    liner
+        What the asperities stand on; None where that is rigid.
+    slides
+        Whether the shaft is meant to slide along its axis, however far.
+    """
 
-    @property
-    def sizes(self) -> dict[str, float]:
-        """Its dimensions by name."""
-
-    @property
-    def grid(self) -> tuple[int, int]:
-        """Nodes along the two directions of the shape."""
-
-    @property
-    def roughness(self) -> float:
-        """Combined rms roughness σ [m]."""
-
-    @property
-    def contact(self) -> str:
-        """One of ``CONTACTS``."""
-
-    @property
-    def table(self) -> ContactTable:
-        """Tabulated contact law."""
-
-    @property
-    def facets(self) -> FloatArray:
-        """Triangles of a mesh [m], shape (n, 3, 3)."""
-
-    @property
-    def form(self) -> Form:
-        """What a cylinder stands back from one."""
-
-    @property
-    def friction_coefficient(self) -> float:
-        """μ [1]."""
-
-    @property
-    def slip_velocity(self) -> float:
-        """Regularisation velocity u_s [m/s]."""
-
-    @property
-    def onset(self) -> float:
-        """Separation over σ below which a point is in contact [1]."""
-
-    @property
-    def minimum_velocity(self) -> float:
-        """Least entry velocity v_min [m/s]."""
-
-    @property
-    def tensile_clip(self) -> bool:
-        """Whether the total pressure is kept from becoming tensile."""
-
-    @property
-    def slides(self) -> bool:
-        """Whether the shaft is meant to slide along its axis, however far."""
+    shape: Shape
+    grid: tuple[int, int]
+    roughness: float
+    law: ContactLaw
+    table: ContactTable
+    friction_coefficient: float
+    slip_velocity: float
+    onset: float
+    minimum_velocity: float
+    tensile_clip: bool
+    contact: str
+    liner: Liner | None = None
+    slides: bool = False
 
 
 @dataclass(frozen=True)
@@ -107,14 +87,6 @@ class Place:
     nodes: slice
 
 
-def shape_of(clearance: JointClearance) -> Shape:
-    """Return the shape of a clearance."""
-    if clearance.shape not in SHAPES:
-        raise InputError(f"given {clearance.shape!r}; allowed: {', '.join(SHAPES)}", key="shape")
-    more: dict[str, Any] = {"mesh": {"facets": clearance.facets}, "cylinder": {"form": clearance.form}}
-    return SHAPES[clearance.shape](**clearance.sizes, **more.get(clearance.shape, {}))
-
-
 def table_of(
     contact: str,
     law: ContactLaw,
@@ -133,7 +105,7 @@ def table_of(
     return point_table(contact, law, points, len(points.heights))
 
 
-def places(clearances: Sequence[JointClearance]) -> tuple[Place, ...]:
+def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
     """Return where the surfaces of clearance joints lie, joint by joint.
 
     Raises
@@ -143,14 +115,14 @@ def places(clearances: Sequence[JointClearance]) -> tuple[Place, ...]:
     """
     found: list[Place] = []
     for joint, clearance in enumerate(clearances):
-        for surface in shape_of(clearance).surfaces(clearance.grid):
+        for surface in clearance.shape.surfaces(clearance.grid):
             ask()
             first = found[-1].nodes.stop if found else 0
             found.append(Place(joint, surface, slice(first, first + surface.area.size)))
     return tuple(found)
 
 
-def assemble(clearances: Sequence[JointClearance], wear: FloatArray | None = None) -> SurfaceData:
+def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) -> SurfaceData:
     """Return what the kernels of ``kernels/joints/surface`` read.
 
     Parameters
@@ -220,20 +192,20 @@ def _intervals(table: ContactTable) -> int:
     return int(table.nodes.shape[0]) + 1
 
 
-def _fill_law(record: Record, clearance: JointClearance) -> None:
+def _fill_law(record: Record, clearance: Clearance) -> None:
     """Tell a surface how it touches."""
     for name in ("roughness", "friction_coefficient", "slip_velocity", "onset"):
         record[name] = getattr(clearance, name)
     record["minimum_entry_velocity"] = clearance.minimum_velocity
     record["tensile_clip"] = 1.0 if clearance.tensile_clip else 0.0
     if clearance.contact != SURFACE:
-        points = shape_of(clearance).points()
+        points = clearance.shape.points()
         record["points"], record["radius"] = len(points.heights), points.radius
         record["clearance"] = points.clearance
         record["heights"][: len(points.heights)] = points.heights
 
 
-def _reach(clearance: JointClearance, nodes: FloatArray) -> tuple[float, float]:
+def _reach(clearance: Clearance, nodes: FloatArray) -> tuple[float, float]:
     """Return how far a shaft may be displaced across and along its axis within a surface of these nodes [m].
 
     Across it has left its bore when the wall is thinner than the shaft and behind it. Along, where it is not

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from unittest.mock import patch
 
 import matplotlib as mpl
 import pytest
-
-from tribodyn.joints.shapes import SHAPES
 
 DOCS = Path(__file__).parents[3] / "docs"
 CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(?::[^\n]*\n)*(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -33,6 +30,5 @@ def test_the_page_runs(path, monkeypatch, tmp_path):
     names = {"__name__": path.stem}
     cells = CELL.findall(path.read_text(encoding="utf-8"))
     assert cells
-    with patch.dict(SHAPES):  # a page may add its own
-        for cell in cells:
-            exec(compile(cell, str(path), "exec", dont_inherit=True), names)
+    for cell in cells:
+        exec(compile(cell, str(path), "exec", dont_inherit=True), names)

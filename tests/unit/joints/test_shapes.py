@@ -110,7 +110,7 @@ def test_neighbours_lie_together() -> None:
         (lambda: Cylinder(1e-3, 1e-5, 1e-2, axial=1e-5, flange=5e-4).surfaces((8, 3)), "outer"),
         (lambda: Cylinder(1e-3, 1e-5, 1e-2, axial=1e-5, flange=2e-3).points(), "axial"),
         (lambda: Annulus(2e-3, 1e-3), "outer"),
-        (lambda: Annulus(1e-3, 2e-3, axial=-1e-6), "axial"),
+        (lambda: Annulus(1e-3, 2e-3, clearance=-1e-6), "axial"),
         (lambda: Annulus(1e-3, 2e-3, direction=0.5), "direction"),
         (lambda: Annulus(1e-3, 2e-3).points(), "contact"),
         (lambda: Sphere(1e-3, 1e-5, 2.0), "band"),

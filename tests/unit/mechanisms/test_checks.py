@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from tribodyn.contact import law
-from tribodyn.joints.clearances import places
+from tribodyn.joints.clearances import Clearance, places
+from tribodyn.joints.shapes import Cylinder
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.quantities import Extremes
 from tribodyn.mechanisms.catalogue import load_case
@@ -28,7 +29,6 @@ from tribodyn.mechanisms.checks import (
 )
 from tribodyn.mechanisms.general import checks as general_checks
 from tribodyn.mechanisms.general.contacts import Contacts
-from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.journal import checks as journal_checks
 from tribodyn.mechanisms.vsv import checks
 from tribodyn.mechanisms.vsv.parameters import Vsv
@@ -95,10 +95,8 @@ def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
 
 def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
     joint, entry = vsv.joint, vsv.joint.entry
-    sizes = {"radius": joint.geometry.radius, "radial": joint.geometry.clearance, "length": 20e-3}
     pin = Clearance(
-        shape="cylinder",
-        sizes=sizes,
+        shape=Cylinder(joint.geometry.radius, joint.geometry.clearance, 20e-3),
         grid=(12, 2),
         roughness=joint.roughness,
         law=law("rsdc", load_case("vsv").surface_pair),
@@ -109,7 +107,6 @@ def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
         minimum_velocity=entry.minimum_velocity,
         tensile_clip=entry.tensile_clip,
         contact=joint.contact,
-        facets=np.zeros((0, 3, 3)),
     )
     contacts = Contacts((pin,), (0,), ("pin:barrel",), places([pin]))
     peaks = {

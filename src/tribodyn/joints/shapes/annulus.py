@@ -20,7 +20,7 @@ class Annulus:
     ----------
     inner, outer
         Its radii.
-    axial
+    clearance
         Gap as drawn; 0 for faces that lie on each other.
     height
         Of the face along the axis, from the joint's point.
@@ -31,7 +31,7 @@ class Annulus:
 
     inner: float
     outer: float
-    axial: float = 0.0
+    clearance: float = 0.0
     height: float = 0.0
     direction: float = -1.0
 
@@ -43,8 +43,8 @@ class Annulus:
                 f"must be larger than the inner radius {self.inner:g} m, not {self.outer:g} m",
                 key="outer",
             )
-        if not self.axial >= 0.0:
-            raise InputError(f"must not be negative, as {self.axial:g}", key="axial")
+        if not self.clearance >= 0.0:
+            raise InputError(f"must not be negative, as {self.clearance:g}", key="axial")
         if abs(self.direction) != 1.0:
             raise InputError(f"must be 1 or -1, not {self.direction:g}", key="direction")
 
@@ -58,7 +58,7 @@ class Annulus:
         rho, weight = across(self.inner, self.outer, n_rho)
         ones = np.ones(rho.size)
         rings = Rings(rho, self.height * ones, 0.0 * ones, self.direction * ones, rho * weight)
-        return rings.surface(name, ("rho", rho), self.axial, n_theta, AXIS)
+        return rings.surface(name, ("rho", rho), self.clearance, n_theta, AXIS)
 
     def points(self) -> Points:
         """Refuse a point contact."""

@@ -25,7 +25,7 @@ class Ball:
     ----------
     radius
         Of the ball [m].
-    radial
+    clearance
         Radial clearance [m].
     band
         Latitude up to which there are nodes on both sides of the equator [rad]; what can touch must lie
@@ -33,26 +33,26 @@ class Ball:
     """
 
     radius: float
-    radial: float
+    clearance: float
     band: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
-        check_positive("ball", radius=self.radius, radial=self.radial)
+        check_positive("ball", radius=self.radius, radial=self.clearance)
         if self.band is not None and not 0.0 < self.band < 0.5 * math.pi:
             raise InputError(f"must lie between 0 and 90°, not at {self.band:g} rad", key="band")
 
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the band, weighed by the area of the bore."""
         n_theta, n_z = grid
-        band = math.acos(1.0 - self.radial / self.radius) if self.band is None else self.band
+        band = math.acos(1.0 - self.clearance / self.radius) if self.band is None else self.band
         edge = self.radius * math.sin(band)
         z, weight = across(-edge, edge, n_z)
         ones, latitude = np.ones(z.size), np.arcsin(z / self.radius)
         rings = Rings(
-            self.radius * np.cos(latitude), z, ones, 0.0 * ones, (self.radius + self.radial) * weight
+            self.radius * np.cos(latitude), z, ones, 0.0 * ones, (self.radius + self.clearance) * weight
         )
-        gap = self.radial + self.radius * (1.0 - np.cos(latitude))
+        gap = self.clearance + self.radius * (1.0 - np.cos(latitude))
         return (rings.surface("ball", ("latitude", latitude), gap, n_theta, NO_TILT),)
 
     def points(self) -> Points:

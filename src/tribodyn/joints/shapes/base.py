@@ -83,6 +83,10 @@ class Points:
 class Shape(Protocol):
     """A node generator; its sizes are the arguments by which it is made."""
 
+    @property
+    def clearance(self) -> float:
+        """Gap between shaft and socket, the shaft in the middle: of round ones the radial clearance [m]."""
+
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the surfaces with ``grid`` nodes along their two directions."""
 

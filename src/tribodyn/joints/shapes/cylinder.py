@@ -29,7 +29,7 @@ class Cylinder:
     ----------
     radius
         Of the shaft.
-    radial
+    clearance
         Radial clearance c.
     length
         Of the bore.
@@ -46,7 +46,7 @@ class Cylinder:
     """
 
     radius: float
-    radial: float
+    clearance: float
     length: float
     pin_length: float | None = None
     axial: float | None = None
@@ -57,22 +57,22 @@ class Cylinder:
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
-        check_positive("cylinder", radius=self.radius, radial=self.radial, length=self.length)
+        check_positive("cylinder", radius=self.radius, radial=self.clearance, length=self.length)
         if self.pin_length is not None:
             check_positive("cylinder", pin_length=self.pin_length)
-        if self._faces and self._pin_is_shorter:
+        if self.faces and self._pin_is_shorter:
             raise InputError(
                 f"must be at least the length, {self.length:g} m, with end faces, not {self.pin_length:g} m",
                 key="pin_length",
             )
-        if bool(self._faces) != (self.flange is not None):
+        if bool(self.faces) != (self.flange is not None):
             raise InputError(
                 "end faces need both their gap, axial, and their outer radius, flange", key="flange"
             )
 
     @property
-    def _faces(self) -> dict[str, float]:
-        """Gaps of the end faces [m]."""
+    def faces(self) -> dict[str, float]:
+        """Gaps of the end faces it has [m]: ``upper``, ``lower``."""
         gaps = {"upper": self.axial_upper, "lower": self.axial_lower}
         gaps = {end: self.axial if gap is None else gap for end, gap in gaps.items()}
         return {end: gap for end, gap in gaps.items() if gap is not None}
@@ -93,30 +93,30 @@ class Cylinder:
         half = 0.5 * length
         z, weight = with_edges(-half, half, *self.form.quadrature(n_z, length))
         ones = np.ones(z.size)
-        rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.radial) * weight)
-        barrel = rings.surface("barrel", ("z", z), self.radial + self.form.gap(z, length), n_theta, AXIS)
+        rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.clearance) * weight)
+        barrel = rings.surface("barrel", ("z", z), self.clearance + self.form.gap(z, length), n_theta, AXIS)
         measured = self.form.measured(barrel.axes["theta"], z).ravel()
         barrel = replace(barrel, gap=barrel.gap + measured, slides=lean > 0.0, lean=lean)
         return (
             barrel,
-            *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self._faces.items()),
+            *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self.faces.items()),
         )
 
     def _face(self, end: str, gap: float) -> Annulus:
         assert self.flange is not None
         return Annulus(
-            inner=self.radius + self.radial,
+            inner=self.radius + self.clearance,
             outer=self.flange,
-            axial=gap,
+            clearance=gap,
             height=0.5 * ENDS[end] * self.length,
             direction=-ENDS[end],
         )
 
     def points(self) -> Points:
         """Return a circle at each end."""
-        if self._faces:
+        if self.faces:
             raise InputError(
                 "end faces touch over their surface, not at points; leave axial out", key="axial"
             )
         half = 0.5 * self.overlap
-        return Points(self.radius, self.radial, self.overlap, (-half, half))
+        return Points(self.radius, self.clearance, self.overlap, (-half, half))

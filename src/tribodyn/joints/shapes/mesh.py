@@ -31,8 +31,8 @@ class Mesh:
     ----------
     facets
         Corners in the socket's frame [m], shape (n, 3, 3), anticlockwise as seen from the shaft.
-    gap
-        As drawn, everywhere [m].
+    clearance
+        Gap as drawn, everywhere [m].
     edge
         Longest edge that a triangle may have [m]; longer ones are split.
     slides
@@ -40,13 +40,13 @@ class Mesh:
     """
 
     facets: FloatArray
-    gap: float
+    clearance: float
     edge: float
     slides: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse what is no mesh."""
-        check_positive("mesh", gap=self.gap, edge=self.edge)
+        check_positive("mesh", gap=self.clearance, edge=self.edge)
         facets = np.asarray(self.facets)
         if facets.ndim != 3 or facets.shape[1:] != (3, 3) or not len(facets):
             raise InputError(f"a mesh has triangles, shape (n, 3, 3), not {facets.shape}", key="facets")
@@ -65,14 +65,14 @@ class Mesh:
         order = nearby(middle)
         middle, area = middle[order], area[order]
         normal = -across[order] / area[:, None]
-        position = middle - self.gap * normal
+        position = middle - self.clearance * normal
         return (
             Surface(
                 name="mesh",
                 position=position,
                 normal=normal,
                 area=area,
-                gap=np.full(area.size, self.gap),
+                gap=np.full(area.size, self.clearance),
                 rows=patches(position, normal, area),
                 tilt=WHOLE,
                 slides=bool(self.slides),

@@ -21,19 +21,19 @@ class Sphere:
     ----------
     radius
         Of the ball [m].
-    radial
+    clearance
         Radial clearance [m].
     band
         Latitude up to which the race reaches on both sides of the plane across the axis [rad].
     """
 
     radius: float
-    radial: float
+    clearance: float
     band: float
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
-        check_positive("sphere", radius=self.radius, radial=self.radial)
+        check_positive("sphere", radius=self.radius, radial=self.clearance)
         if not 0.0 < self.band <= 0.5 * math.pi:
             raise InputError(f"must lie above 0 and at most at 90°, not {self.band:g} rad", key="band")
 
@@ -42,10 +42,10 @@ class Sphere:
         n_theta, n_latitude = grid
         sine, weight = across(-math.sin(self.band), math.sin(self.band), n_latitude)
         cosine = np.sqrt(1.0 - sine**2)
-        strip = (self.radius + self.radial) ** 2 * weight
+        strip = (self.radius + self.clearance) ** 2 * weight
         rings = Rings(self.radius * cosine, self.radius * sine, cosine, sine, strip)
-        return (rings.surface("race", ("latitude", np.arcsin(sine)), self.radial, n_theta, NO_TILT),)
+        return (rings.surface("race", ("latitude", np.arcsin(sine)), self.clearance, n_theta, NO_TILT),)
 
     def points(self) -> Points:
         """Return the one sphere; its force acts wherever the ball is, on the race or beside it."""
-        return Points(self.radius, self.radial, 0.0, (0.0,))
+        return Points(self.radius, self.clearance, 0.0, (0.0,))

@@ -29,7 +29,7 @@ GIVEN: Final = {
     "velocity": ("position", 1),
     "force": ("position", 2),
 }
-"""What a drive may give: coordinate and level, see :class:`~.description.Drive`."""
+"""What a drive may give: a coordinate, and 0 for itself, 1 for its rate, 2 for what acts along it."""
 
 
 class DriveKeys(NamedGroup):

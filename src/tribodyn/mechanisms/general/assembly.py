@@ -13,12 +13,10 @@ from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMe
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
 from tribodyn.mechanisms.general.closing import CLOSED, DEPENDENT, System
-from tribodyn.mechanisms.general.counterpart import as_drawn, counterpart, has_loops
-from tribodyn.mechanisms.general.description import Description
 from tribodyn.mechanisms.general.equations import new_memory
-from tribodyn.mechanisms.general.inspection import ModelError, inspect
 from tribodyn.mechanisms.general.misfit import Misfit
-from tribodyn.mechanisms.general.speeds import start
+from tribodyn.mechanisms.general.model import Model, ModelError
+from tribodyn.mechanisms.general.speeds import speeds_of, start
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ class Assembly:
 
     Attributes
     ----------
-    description
+    model
         As drawn.
     findings
         What forbids a run; empty for a sound mechanism.
@@ -68,7 +66,7 @@ class Assembly:
         Which clearances take what ideal joints do not allow, in words; empty for none.
     """
 
-    description: Description
+    model: Model
     findings: tuple[ModelError, ...]
     freedoms: int
     redundancy: Redundancy | None
@@ -110,22 +108,22 @@ class Assembly:
             raise InputError(self.findings[0].text, key=self.findings[0].key)
 
 
-def assemble(description: Description, worn: FloatArray | None = None) -> Assembly:
+def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     """Put a mechanism together as drawn.
 
     Joints with clearance are closed as if they were ideal, so that each shaft starts in the middle.
 
     Parameters
     ----------
-    description
-        The drawing; findings that concern it alone are part of the result.
+    model
+        The mechanism; findings that concern it alone are part of the result.
     worn
         Wear depth at the nodes of all joints with clearance [m], shape (n_nodes,); none by default.
     """
-    findings = list(inspect(description))
-    closed, open_joints, doubts = _closed(description)
+    findings = list(model.loose())
+    closed, open_joints, doubts = _closed(model)
     findings += open_joints
-    system = System(description, worn)
+    system = System(model, worn)
     system.take_positions(closed)
     if doubts:
         system.close()
@@ -133,27 +131,27 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
     redundancy = None
     if dependent.size:
         taking_part = _taking_part(system, dependent)
-        names = dict.fromkeys(description.constraint(k)[0].removeprefix("joint ") for k, _ in taking_part)
+        names = dict.fromkeys(model.constraint(k)[0].removeprefix("joint ") for k, _ in taking_part)
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
     contradictions = _contradictions(system, dependent)
     findings += contradictions
     ideal_rank, ideal = rank, None
-    if _is_real(description):
-        ideal = Misfit(description, System(counterpart(description)))
+    if model.clearances:
+        ideal = Misfit(model, System(model.counterpart))
         ideal.system.take_positions(system)
-    if ideal and has_loops(description) and not (contradictions or open_joints or doubts):
+    if ideal and model.has_loops and not (contradictions or open_joints or doubts):
         ideal_rank, dependent = ideal.system.independence()
         doubts = _contradictions(ideal.system, dependent)
     system.parts.constants.rank = rank
     unequal, inexact = system.unequal(rank)
-    contrary = start(system, description.speeds, ideal, fits=not doubts)
+    contrary = start(system, speeds_of(model), ideal, fits=not doubts)
     findings += doubts if doubts and contrary else [*unequal, *contrary]
     moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
-    state = np.zeros(N_STATES * len(description.bodies))
+    state = np.zeros(N_STATES * len(model.bodies))
     collect(system.now.bodies, state)
-    freedoms = 6 * len(description.bodies) - rank
+    freedoms = 6 * len(model.bodies) - rank
     return Assembly(
-        description,
+        model,
         tuple(findings),
         freedoms,
         redundancy,
@@ -166,12 +164,7 @@ def assemble(description: Description, worn: FloatArray | None = None) -> Assemb
     )
 
 
-def _is_real(description: Description) -> bool:
-    """Tell whether any joint has clearance."""
-    return any(joint.clearance is not None for joint in description.joints)
-
-
-def _closed(description: Description) -> tuple[System, list[ModelError], list[ModelError]]:
+def _closed(model: Model) -> tuple[System, list[ModelError], list[ModelError]]:
     """Close the joints as if they were ideal.
 
     Returns
@@ -183,13 +176,13 @@ def _closed(description: Description) -> tuple[System, list[ModelError], list[Mo
     doubts
         What does not close but for the clearances.
     """
-    closed = System(as_drawn(description))
+    closed = System(model.as_drawn)
     found = closed.approach()
-    if not (found and _is_real(description)):
+    if not (found and model.clearances):
         return closed, found, []
-    closed = System(counterpart(description))
+    closed = System(model.counterpart)
     found = closed.approach()
-    fits = not found or Misfit(description, closed).close()
+    fits = not found or Misfit(model, closed).close()
     return (closed, [], found) if fits else (closed, found, [])
 
 

@@ -9,17 +9,17 @@ import numpy as np
 from tribodyn.core.problem import Problem
 from tribodyn.kernels.mechanism.data import INTACT, OPENED, OVERLAPPED, Now
 from tribodyn.mechanisms.checks import beyond_law
-from tribodyn.mechanisms.general.description import Description, name_of
+from tribodyn.mechanisms.general.model import Model
 
 
-def failure(problem: Problem, description: Description, surfaces: Sequence[str], t_end: float) -> str:
+def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: float) -> str:
     """Return what became of which joint, in words; empty where all are intact.
 
     Parameters
     ----------
     problem
         What was integrated.
-    description
+    model
         The mechanism as drawn.
     surfaces
         Names of the surfaces of all joints with clearance, as ``joint:surface``.
@@ -31,18 +31,18 @@ def failure(problem: Problem, description: Description, surfaces: Sequence[str],
     if broken == INTACT:
         return ""
     if broken == OPENED:
-        return f"stopped at t = {t_end:.6g} s: {_opened(now, description, at)}"
+        return f"stopped at t = {t_end:.6g} s: {_opened(now, model, at)}"
     joint, surface = surfaces[at].rsplit(":", 1)
     if broken == OVERLAPPED:
         h_first = float(problem.data.contact.surfaces[at]["h_first"])
         return beyond_law(h_first, t_end, f"joint {joint} ({surface})")
-    return f"stopped at t = {t_end:.6g} s: {_left(problem, description, joint, at)}"
+    return f"stopped at t = {t_end:.6g} s: {_left(problem, model, joint, at)}"
 
 
-def _opened(now: Now, description: Description, number: int) -> str:
+def _opened(now: Now, model: Model, number: int) -> str:
     """Return that an ideal joint, or an element, came apart."""
-    name, bodies = description.constraint(number)
-    between = " and ".join(name_of(description, body) for body in bodies)
+    name, bodies = model.constraint(number)
+    between = " and ".join(bodies)
     gap = float(np.max(np.abs(now.couplings[number].residual)))
     return (
         f"{name} between {between}, which is ideal, came apart by {gap:.2g} m or rad: "
@@ -50,17 +50,15 @@ def _opened(now: Now, description: Description, number: int) -> str:
     )
 
 
-def _left(problem: Problem, description: Description, name: str, surface: int) -> str:
+def _left(problem: Problem, model: Model, name: str, surface: int) -> str:
     """Return that a shaft has left its socket."""
-    number = next(k for k, joint in enumerate(description.joints) if joint.name == name)
-    joint, d = description.joints[number], problem.memory.now.couplings[number].pose.d
-    bodies = [name_of(description, body) for body in joint.bodies]
-    socket, shaft = bodies if joint.sign > 0.0 else bodies[::-1]
+    joint, d = model.case.joints[name], problem.memory.now.couplings[model.joints.index(name)].pose.d
+    socket, shaft = joint.between if joint.sign > 0.0 else joint.between[::-1]
     across, along = problem.data.contact.surfaces[surface]["reach"]
     off, reach, way = float(np.hypot(d[0], d[1])), across, "across"
     if abs(float(d[2])) > along:
         off, reach, way = abs(float(d[2])), along, "along"
-    hold = f'; joints.{name}.clearance.axial = "50 um" would hold it' if joint.kind == "revolute" else ""
+    hold = f'; joints.{name}.clearance.axial = "50 um" would hold it' if joint.type == "revolute" else ""
     return (
         f"the pin of {shaft} has left its bore in {socket}, joint {name}: it is displaced by "
         f"{1e3 * off:.4g} mm {way} the axis, and the bore reaches {1e3 * reach:.4g} mm{hold}"

@@ -21,9 +21,10 @@ from tribodyn.kernels.mechanism.solution import (
     set_compliance,
     set_offsets,
 )
-from tribodyn.mechanisms.general.description import GROUND, Description, name_of
+from tribodyn.mechanisms.general.actions import GIVEN
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
-from tribodyn.mechanisms.general.inspection import ModelError, sound_drives
+from tribodyn.mechanisms.general.kinds import GROUND
+from tribodyn.mechanisms.general.model import Model, ModelError
 
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
@@ -57,13 +58,13 @@ Position: TypeAlias = tuple[Any, Any]
 class System:
     """A mechanism while it is put together, its rows as full matrices."""
 
-    def __init__(self, description: Description, worn: FloatArray | None = None) -> None:
-        self.description = description
-        self.data = mechanism_data(description, worn)
+    def __init__(self, model: Model, worn: FloatArray | None = None) -> None:
+        self.model = model
+        self.data = mechanism_data(model, worn)
         memory = new_memory(self.data)
         self.parts, self.now, self._blocks = self.data.parts, memory.now, memory.blocks
         self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]
-        self.n = len(description.bodies)
+        self.n = len(model.bodies)
         self.size = float(self.parts.constants.size)
         self._wait = 0
         self._later_legs = [
@@ -113,13 +114,13 @@ class System:
     def drive_rows(self) -> list[tuple[int, int, str]]:
         """Return coupling, row and name of the drives that are constraints."""
         found = []
-        for drive in sound_drives(self.description):
-            if drive.level < 2:
-                kind = ANGLE if drive.coordinate == "angle" else POSITION
-                of_joint = self.parts.couplings[drive.joint].row_kind[
-                    : self.parts.couplings[drive.joint].n_rows
-                ]
-                found += [(drive.joint, m, drive.name) for m in np.flatnonzero(of_joint == kind).tolist()]
+        for name, drive in self.model.case.drives.items():
+            coordinate, level = GIVEN[drive.gives]
+            if level < 2:
+                k = self.model.joints.index(drive.joint)
+                kind = ANGLE if coordinate == "angle" else POSITION
+                of_joint = self.parts.couplings[k].row_kind[: self.parts.couplings[k].n_rows]
+                found += [(k, m, name) for m in np.flatnonzero(of_joint == kind).tolist()]
         return found
 
     def matrix(self) -> FloatArray:
@@ -271,18 +272,17 @@ class System:
 
     def _drawn_gaps(self) -> FloatArray:
         """Return how far apart the two points of each joint are in the drawing [m], shape (n_joints,)."""
-        joints = self.description.joints
-        return np.array([np.linalg.norm(joint.points[1] - joint.points[0]) for joint in joints])
+        return np.array([math.dist(*joint.points) for joint in self.model.case.joints.values()])
 
     def _drawn_open(self, gaps: FloatArray) -> ModelError:
         """Return which joint is open in the drawing; closing spreads its gap over others."""
-        joint = self.description.joints[int(np.argmax(gaps))]
-        first, second = (name_of(self.description, b) for b in joint.bodies)
+        name = self.model.joints[int(np.argmax(gaps))]
+        first, second = self.model.case.joints[name].between
         text = (
-            f"joint {joint.name} between {first} and {second} does not close: its points stand "
+            f"joint {name} between {first} and {second} does not close: its points stand "
             f"{np.max(gaps) * 1e3:.4g} mm apart in the drawing, and no motion of bodies brings them together"
         )
-        return ModelError(f"joints.{joint.name}", text)
+        return ModelError(f"joints.{name}", text)
 
     def _value(self, number: int) -> float:
         """Return a signal at the start."""
@@ -294,7 +294,7 @@ class System:
     def open_joint(self) -> ModelError:
         """Return which joint closes least, with its gap and its bodies."""
         worst, size = 0, -1.0
-        for k in range(len(self.description.joints)):
+        for k in range(len(self.model.joints)):
             n_rows = self.parts.couplings[k].n_rows
             gap = float(np.max(np.abs(self.now.couplings[k].residual[:n_rows]), initial=0.0))
             if gap > size:
@@ -302,34 +302,34 @@ class System:
         element = self._open_element(size)
         if element is not None:
             return element
-        joint = self.description.joints[worst]
+        name = self.model.joints[worst]
         now = self.now.couplings[worst]
-        way = float(np.linalg.norm(now.pose.d[_HELD.get(joint.kind, slice(3))]))
-        first, second = (name_of(self.description, b) for b in joint.bodies)
+        way = float(np.linalg.norm(now.pose.d[_HELD.get(self.model.kind(name), slice(3))]))
+        first, second = self.model.case.joints[name].between
         text = (
-            f"joint {joint.name} between {first} and {second} does not close: when all joints are nearest to "
+            f"joint {name} between {first} and {second} does not close: when all joints are nearest to "
             + (
                 f"closing, {way * 1e3:.4g} mm are left between its points"
                 if way >= size
                 else f"closing, its directions stay {math.degrees(math.asin(min(size, 1.0))):.3g}° apart"
             )
         )
-        return ModelError(f"joints.{joint.name}", text)
+        return ModelError(f"joints.{name}", text)
 
     def _open_element(self, least: float) -> ModelError | None:
         """Return which element misses its equation most, if any does by more than that [m]."""
-        first = self.description.first_leg
+        first = self.model.first_leg
         gaps = np.where(
             self.parts.couplings.n_rows[first:] > 0, abs(self.now.couplings.residual[first:, 0]), 0.0
         )
         if np.max(gaps, initial=0.0) <= least:
             return None
-        element = self.description.element_of(first + int(np.argmax(gaps)))
+        element = self.model.element_of(first + int(np.argmax(gaps)))
         text = (
-            f"{element.kind.METHOD} {element.name} does not hold: when all joints are nearest to closing, "
+            f"{element.keys.METHOD} {element.name} does not hold: when all joints are nearest to closing, "
             f"it misses by {np.max(gaps) * 1e3:.4g} mm"
         )
-        return ModelError(f"{element.kind.TABLE}.{element.name}", text)
+        return ModelError(f"{element.keys.TABLE}.{element.name}", text)
 
     def independence(self) -> tuple[int, FloatArray]:
         """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
@@ -375,18 +375,20 @@ class System:
         if lost < _INEXACT or share > _BY_MASS * of_places:
             return [], []
         rows = np.flatnonzero(np.abs(u[:, rank - 1]) > _TAKES_PART)
-        tied = {b for i in rows for b in self.description.constraint(self.rows[i][0])[1] if b != GROUND}
-        light, heavy = (pick(tied, key=lambda b: self.description.bodies[b].mass) for pick in (min, max))
-        first, second = self.description.bodies[light], self.description.bodies[heavy]
-        moments = [np.linalg.eigvalsh(self.description.bodies[b].inertia) for b in tied]
+        bodies = self.model.case.bodies
+        named = {b for i in rows for b in self.model.constraint(self.rows[i][0])[1] if b != GROUND}
+        tied = sorted(named, key=lambda b: bodies[b].mass)
+        light, heavy = tied[0], tied[-1]
+        first, second = bodies[light], bodies[heavy]
+        moments = [bodies[b].inertia for b in tied]
         # A long chain of like bodies is ill-conditioned by its length, and its reactions are exact.
         if second.mass <= _ALIKE * first.mass and np.max(moments) <= _ALIKE**2 * np.min(moments):
             return [], []
-        pair = f"light beside {second.name} with {second.mass:.3g} kg for the ideal joints that tie them"
+        pair = f"light beside {heavy} with {second.mass:.3g} kg for the ideal joints that tie them"
         change = "give it more mass, or make a joint of it a spring-damper"
-        body = f"{first.name} with {first.mass:.3g} kg"
+        body = f"{light} with {first.mass:.3g} kg"
         if lost >= _WRONG:
-            return [ModelError(f"bodies.{first.name}.mass", f"{body} is too {pair}: {change}")], []
+            return [ModelError(f"bodies.{light}.mass", f"{body} is too {pair}: {change}")], []
         return [], [f"{body} is {pair}, whose reactions may be wrong by up to {100.0 * lost:.1g} %: {change}"]
 
 

@@ -12,15 +12,15 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import Stopped
 from tribodyn.core.quantities import Record
 from tribodyn.core.stopping import skip
-from tribodyn.joints.clearances import Place, assemble, places, pose_at
+from tribodyn.joints.clearances import Clearance, Place, assemble, places, pose_at
 from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.shapes import Ball, Cylinder, Sphere
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.mechanisms.bushing import loading
 from tribodyn.mechanisms.checks import named, of_contact, of_damping_pressure, of_load
-from tribodyn.mechanisms.general.description import Clearance
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.wear import resampled
 
@@ -156,11 +156,10 @@ class Contacts:
 
 def _touch(clearance: Clearance, place: Place) -> Touch:
     """Return both sides of a surface; faces do not curve round each other, nor does a mesh."""
-    sizes = {} if place.surface.name.endswith("face") else clearance.sizes
-    radial, radius = (sizes.get(name, np.nan) for name in ("radial", "radius"))
-    return Touch(
-        clearance.roughness, clearance.table, clearance.contact, clearance.liner, radial, radius + radial
-    )
+    shape, radial, bore = clearance.shape, np.nan, np.nan
+    if isinstance(shape, (Cylinder, Sphere, Ball)) and not place.surface.name.endswith("face"):
+        radial, bore = shape.clearance, shape.radius + shape.clearance
+    return Touch(clearance.roughness, clearance.table, clearance.contact, clearance.liner, radial, bore)
 
 
 def _resampled(depth: FloatArray, place: Place, there: Place) -> FloatArray:

@@ -17,9 +17,8 @@ import numpy as np
 from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.counterpart import counterpart, has_loops
-from tribodyn.mechanisms.general.inspection import ModelError
 from tribodyn.mechanisms.general.misfit import Misfit, described
+from tribodyn.mechanisms.general.model import ModelError
 
 _TURN: Final = 0.1
 """Largest change of a drive in one step, in radians or units of the size."""
@@ -69,16 +68,16 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
     duration
         Of the run [s]; at most some eight turns are looked at.
     """
-    if not has_loops(assembly.description):
+    if not assembly.model.has_loops:
         return Passage()
-    ideal = counterpart(assembly.description)
+    ideal = assembly.model.counterpart
     stuck: tuple[float, ModelError] | None = (0.0, assembly.doubts[0]) if assembly.doubts else None
     if stuck is None:
         stuck = _stuck(_placed(System(ideal), assembly), assembly.ideal_rank, duration)
     if stuck is None:
         return Passage()
     time, finding = stuck
-    misfit = Misfit(assembly.description, _placed(System(ideal), assembly))
+    misfit = Misfit(assembly.model, _placed(System(ideal), assembly))
     if misfit.possible and _led(misfit.system, duration, misfit.close) is None:
         needed = described(misfit.shares) or "none to speak of"
         warning = f"clearances must take a misfit, for with ideal joints {finding.text}; share of clearance "
@@ -169,7 +168,7 @@ def _finding(system: System, time: float) -> ModelError:
 def _where(system: System, coupling: int, row: int, name: str) -> str:
     """Return where a drive is, in words."""
     value = float(system.now.couplings[coupling].prescribed[row, 0])
-    value *= system.description.joints[coupling].sign
+    value *= system.model.joint(coupling).sign
     if system.parts.couplings[coupling].row_kind[row] == ANGLE:
         return f"drive {name} at {math.degrees(math.remainder(value, 2.0 * math.pi)):.4g}°"
     return f"drive {name} at {1e3 * value:.4g} mm"

@@ -43,5 +43,5 @@ MECHANISM: Final = MechanismDescriptor(
         "surfaces.bushing.roughness",
         "contact.law",
     ),
-    bearings="tribodyn.mechanisms.general.describe:bearings",
+    bearings="tribodyn.mechanisms.general.surfaces:bearings",
 )

@@ -1,4 +1,4 @@
-"""A description as the arrays that kernels read."""
+"""The keys of a mechanism as the records that kernels read."""
 
 from __future__ import annotations
 
@@ -6,8 +6,12 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from tribodyn.cases.beyond import lasts_a_cycle
+from tribodyn.cases.fields import Vector
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal, constant, for_each_cycle, scaled
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
@@ -19,46 +23,46 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
 )
-from tribodyn.mechanisms.general.description import Description, Drive, Joint, Load, Spring, number_of
+from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.elements.base import Leg
-from tribodyn.mechanisms.general.inspection import sound_drives
 from tribodyn.mechanisms.general.joints import ROWS, frame
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
+from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys, unit
+from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 
 _LOADS: Final = {
     "ground": kinds.LOAD_GROUND,
     "body": kinds.LOAD_BODY,
     "motion": kinds.LOAD_MOTION,
-    "line": kinds.LOAD_LINE,
 }
 _COORDINATES: Final = ("angle", "position")
-_NOWHERE: Final = -1
 
 
-def mechanism_data(description: Description, worn: FloatArray | None = None) -> MechanismData:
+def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismData:
     """Return what the kernels read of a mechanism.
 
     Parameters
     ----------
-    description
+    model
         The mechanism as drawn.
     worn
         Wear depth at the nodes of all joints [m], shape (n_nodes,); none by default.
     """
     signals = SignalList()
-    couplings = _couplings(description, signals)
-    mass, newton = _patterns(len(description.bodies), couplings)
+    couplings = _couplings(model, signals)
+    mass, newton = _patterns(len(model.bodies), couplings)
     constants = new_record(kinds.Constants)
-    constants.gravity[:] = description.gravity
+    constants.gravity[:] = model.case.gravity
     constants.n_rows = constants.rank = int(np.sum(couplings.n_rows))
-    constants.n_nodes = len(description.bodies) + int(np.sum(couplings.n_rows > 0))
-    constants.n_work = -(-(constants.n_nodes + len(description.bodies)) // 6)
-    constants.size = _size(description)
-    clearances = [joint.clearance for joint in description.joints if joint.clearance is not None]
-    contact = surfaces(clearances, worn)
-    parts = Parts(constants, _bodies(description), couplings)
+    constants.n_nodes = len(model.bodies) + int(np.sum(couplings.n_rows > 0))
+    constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
+    constants.size = _size(model)
+    contact = surfaces(tuple(model.clearances.values()), worn)
+    parts = Parts(constants, _bodies(model), couplings)
     return MechanismData(parts, signals.records(), mass, newton, contact)
 
 
@@ -93,28 +97,37 @@ def n_blocks(pattern: kinds.Pattern) -> int:
     return 1 + int(np.max(pattern.factor[:, 1:]))
 
 
-def _size(description: Description) -> float:
+def _size(model: Model) -> float:
     """Return the distance between the farthest points of the drawing, at most twice that [m]."""
-    points = [body.centre for body in description.bodies]
-    points += [point for joint in description.joints for point in joint.points]
-    points += [point for spring in description.springs for point in spring.points]
+    case = model.case
+    points = [body.centre for body in case.bodies.values()]
+    points += [point for joint in case.joints.values() for point in joint.points]
+    points += [point for spring in case.springs.values() for point in spring.points]
     return float(np.linalg.norm(np.ptp(np.array(points), axis=0))) or 1.0
 
 
-def _bodies(description: Description) -> Any:
+def _bodies(model: Model) -> Any:
     """Return the records of the bodies."""
-    records = np.recarray(len(description.bodies), dtype=kinds.Body)
-    for record, body in zip(records, description.bodies, strict=True):
+    records = np.recarray(len(model.bodies), dtype=kinds.Body)
+    for record, body in zip(records, model.case.bodies.values(), strict=True):
+        inertia = _inertia(body)
         record.mass, record.centre[:] = body.mass, body.centre
-        record.inertia[:], record.inverse[:] = body.inertia, np.linalg.inv(body.inertia)
+        record.inertia[:], record.inverse[:] = inertia, np.linalg.inv(inertia)
     return records
 
 
-def _couplings(description: Description, signals: SignalList) -> Any:
+def _inertia(body: BodyKeys) -> FloatArray:
+    """Return the inertia about the mass centre, along the axes of the drawing [kg m²], shape (3, 3)."""
+    first, second = unit(body.first_axis, "first_axis"), unit(body.second_axis, "second_axis")
+    axes = np.column_stack([first, second, np.cross(first, second)])
+    inertia = axes @ np.diag(body.inertia) @ axes.T
+    return np.asarray(0.5 * (inertia + inertia.T))
+
+
+def _couplings(model: Model, signals: SignalList) -> Any:
     """Return the records of joints, springs, loads and legs of elements, in this order."""
-    joints, springs, loads = description.joints, description.springs, description.loads
-    n_legs = sum(len(element.legs) for element in description.elements)
-    records = np.recarray(description.first_leg + n_legs, dtype=kinds.Coupling)
+    case = model.case
+    records = np.recarray(model.first_leg + sum(len(e.legs) for e in model.elements), dtype=kinds.Coupling)
     records.view(np.uint8)[:] = 0
     for name in (
         "node",
@@ -129,20 +142,19 @@ def _couplings(description: Description, signals: SignalList) -> Any:
         "next_leg",
     ):
         records[name][:] = NONE
-    real = 0
-    for record, joint in zip(records, joints, strict=False):
-        _fill_joint(record, description, joint)
-        if joint.clearance is not None:
-            record.force, record.contact = kinds.CONTACT, real
-            real += 1
-    for drive in sound_drives(description):
-        _add_drive(records[drive.joint], description.joints[drive.joint], drive, signals)
-    for record, spring in zip(records[len(joints) :], springs, strict=False):
-        _fill_spring(record, description, spring)
-    for record, load in zip(records[len(joints) + len(springs) :], loads, strict=False):
-        _fill_load(record, description, load, signals)
-    _fill_elements(records, description)
-    nodes, rows = len(description.bodies), 0
+    for record, (name, joint) in zip(records, case.joints.items(), strict=False):
+        _fill_joint(record, model, name, joint)
+    for contact, number in enumerate(model.real):
+        records[number].force, records[number].contact = kinds.CONTACT, contact
+    for drive in case.drives.values():
+        _add_drive(records[model.joints.index(drive.joint)], case.joints[drive.joint], drive, signals)
+    others = iter(records[len(case.joints) :])
+    for spring in case.springs.values():
+        _fill_spring(next(others), model, spring)
+    for load in case.loads.values():
+        _fill_load(next(others), model, load, signals)
+    _fill_elements(records, model)
+    nodes, rows = len(model.bodies), 0
     for record in records:
         if record.n_rows > 0:
             record.node, record.first_row = nodes, rows
@@ -154,37 +166,43 @@ def _couplings(description: Description, signals: SignalList) -> Any:
 
 def _place(
     record: Any,
-    description: Description,
-    bodies: Sequence[int],
-    points: FloatArray,
+    model: Model,
+    bodies: Sequence[str],
+    points: ArrayLike,
     axes: tuple[FloatArray, FloatArray],
 ) -> None:
-    """Fill bodies, origins and axes of socket and shaft; ``axes`` as drawn."""
-    n = len(description.bodies)
-    centres = [np.zeros(3) if b < 0 else description.bodies[b].centre for b in bodies]
-    record.socket, record.shaft = (n if b < 0 else b for b in bodies)
-    record.socket_point[:], record.shaft_point[:] = points[0] - centres[0], points[1] - centres[1]
+    """Fill bodies, origins and axes of socket and shaft; ``points`` and ``axes`` as drawn."""
+    n, keys = len(model.bodies), model.case.bodies
+    origins = np.array(points) - [keys[b].centre if b in keys else (0.0, 0.0, 0.0) for b in bodies]
+    record.socket, record.shaft = (model.number(b) if b in keys else n for b in bodies)
+    record.socket_point[:], record.shaft_point[:] = origins
     record.to_socket[:], record.shaft_axes[:] = axes[0].T, axes[1]
 
 
-def _fill_joint(record: Any, description: Description, joint: Joint) -> None:
+def _fill_joint(record: Any, model: Model, name: str, joint: JointKeys) -> None:
     """Fill a joint: the rows of its kind, or its springs."""
-    socket = frame(joint.axes[0], joint.axes[1])
-    shaft = socket
-    if joint.kind == "universal":
-        across = frame(joint.axes[1], joint.axes[0])  # z along the shaft's own axis
+    axes = axes_of(model.case, joint)
+    socket = shaft = frame(axes[0], axes[1])
+    kind = model.kind(name)
+    if kind == "universal":
+        across = frame(axes[1], axes[0])  # z along the shaft's own axis
         shaft = np.column_stack([across[:, 2], -across[:, 1], across[:, 0]])
-    order = [0, 1] if joint.sign > 0.0 else [1, 0]
-    _place(record, description, [joint.bodies[k] for k in order], joint.points[order], (socket, shaft))
-    if joint.clearance is not None:
+    turned = 1 if joint.sign > 0.0 else -1
+    _place(record, model, joint.between[::turned], joint.points[::turned], (socket, shaft))
+    if name in model.clearances:
         return
-    for row in ROWS[joint.kind]:
+    for row in ROWS[kind]:
         _add_row(record, *row)
-    if joint.kind == "spring-damper":
+    if kind == "spring-damper":
         record.force = kinds.SPRINGS
-        turned = [1, 2, 0]  # given along axis, second axis and across; wanted along x, y, z
-        for source, target in ((joint.stiffness, record.stiffness), (joint.damping, record.damping)):
-            target[:3], target[3:] = source[:3][turned], source[3:][turned]
+        record.stiffness[:] = _six(joint.stiffness, joint.angular_stiffness)
+        record.damping[:] = _six(joint.damping, joint.angular_damping)
+
+
+def _six(along: Vector | None, about: Vector | None) -> list[float]:
+    """Return what is given along and about axis, second axis and across as it is along and about x, y, z."""
+    turned = [1, 2, 0]
+    return [given[k] for given in (along or (0.0,) * 3, about or (0.0,) * 3) for k in turned]
 
 
 def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) -> None:
@@ -199,17 +217,18 @@ def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) 
     record.n_rows = record.n_terms = m + 1
 
 
-def _add_drive(record: Any, joint: Joint, drive: Drive, signals: SignalList) -> None:
+def _add_drive(record: Any, joint: JointKeys, drive: DriveKeys, signals: SignalList) -> None:
     """Add a drive: a row for motion, an effort for torque or force.
 
     It moves the second body against the first; where that carries the socket, the shaft goes the other way.
     """
-    pieces = pieces_of(drive.signal)
+    signal, (coordinate, level) = drive.signal.signal(), GIVEN[drive.gives]
+    pieces = pieces_of(signal)
     if joint.sign < 0.0:
         pieces = negated(pieces)
-    number = signals.add(integral_of(pieces) if drive.level == 1 else pieces, drive.signal.kinks)
-    which = _COORDINATES.index(drive.coordinate)
-    if drive.level == 2:
+    number = signals.add(integral_of(pieces) if level == 1 else pieces, signal.kinks)
+    which = _COORDINATES.index(coordinate)
+    if level == 2:
         record.effort[which] = number
     elif which == 0:
         _add_row(record, kinds.ANGLE, 0, 0, number)
@@ -217,44 +236,60 @@ def _add_drive(record: Any, joint: Joint, drive: Drive, signals: SignalList) -> 
         _add_row(record, kinds.POSITION, 2, 0, number)
 
 
-def _fill_spring(record: Any, description: Description, spring: Spring) -> None:
+def _fill_spring(record: Any, model: Model, spring: SpringKeys) -> None:
     """Fill a spring between two points."""
-    _place(record, description, spring.bodies, spring.points, (np.eye(3), np.eye(3)))
-    record.force, record.length = kinds.SPRING, spring.length
+    _place(record, model, spring.between, spring.points, (np.eye(3), np.eye(3)))
+    record.force = kinds.SPRING
+    record.length = spring.drawn_length if spring.length is None else spring.length
     record.stiffness[0], record.damping[0] = spring.stiffness, spring.damping
 
 
-def _fill_load(record: Any, description: Description, load: Load, signals: SignalList) -> None:
+def _fill_load(record: Any, model: Model, load: LoadKeys, signals: SignalList) -> None:
     """Fill a load: on the shaft against the ground, or on the socket where it turns with the body."""
-    bodies = (load.body, _NOWHERE) if load.frame == "body" else (_NOWHERE, load.body)
-    _place(record, description, bodies, np.array([load.point, load.point]), (np.eye(3), np.eye(3)))
-    record.force, record.slip_velocity = _LOADS[load.frame], load.slip_velocity
-    record.follows = load.joint
-    if load.joint >= 0:
-        followed = description.joints[load.joint]
-        record.follows_position = int(KINDS[followed.kind].coordinates == ("position",))
+    bodies = (load.body, GROUND) if load.frame == "body" else (GROUND, load.body)
+    point = load.point or model.case.bodies[load.body].centre
+    _place(record, model, bodies, (point, point), (np.eye(3), np.eye(3)))
+    against = load.frame == "motion"
+    record.force = kinds.LOAD_LINE if against and load.direction is not None else _LOADS[load.frame]
+    record.slip_velocity = load.slip_rate if against and load.moment is not None else load.slip_velocity
+    if load.along is not None:
+        followed = model.case.joints[load.along]
+        record.follows = model.joints.index(load.along)
+        record.follows_position = int(KINDS[model.kind(load.along)].coordinates == ("position",))
         record.follows_sign = followed.sign
-    for i, signal in enumerate(load.signals):
-        record.signals[i] = signals.add(pieces_of(signal), signal.kinks if load.joint < 0 else np.zeros(0))
+    for i, signal in enumerate(_components(model.case, load)):
+        kinks = signal.kinks if load.along is None else np.zeros(0)
+        record.signals[i] = signals.add(pieces_of(signal), kinks)
 
 
-def _fill_elements(records: Any, description: Description) -> None:
+def _components(case: MechanismCase, load: LoadKeys) -> list[Signal]:
+    """Return the six components of a load, which all follow its one force and its one moment."""
+    direction = (1.0, 0.0, 0.0) if load.direction is None else unit(load.direction, "direction")
+    found: list[Signal] = []
+    for keys in (load.force, load.moment):
+        signal = constant(0.0) if keys is None else keys.signal()
+        if keys is not None and lasts_a_cycle(keys.times or (), case.period):
+            signal = for_each_cycle(signal, case.period or 0.0, case.duration)
+        found += [scaled(signal, share) if share else constant(0.0) for share in direction]
+    return found
+
+
+def _fill_elements(records: Any, model: Model) -> None:
     """Fill the legs of all elements; only the first of each counts the equation."""
-    number = description.first_leg
-    for element in description.elements:
+    number = model.first_leg
+    for element in model.elements:
         first = number
         for leg in element.legs:
             record = records[number]
-            _fill_leg(record, description, leg)
+            _fill_leg(record, model, leg)
             if number > first:
                 record.n_rows, record.first_leg, records[number - 1].next_leg = 0, first, number
             number += 1
 
 
-def _fill_leg(record: Any, description: Description, leg: Leg) -> None:
+def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
     """Fill one term of the equation of an element."""
-    bodies = [number_of(description, name) for name in leg.bodies]
-    _place(record, description, bodies, leg.points, (leg.axes, leg.axes))
+    _place(record, model, leg.bodies, leg.points, (leg.axes, leg.axes))
     record.along[:], record.about = leg.along, leg.about
     _add_row(record, kinds.COORDINATE, 2, 0)
 

@@ -13,9 +13,11 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.clearances import Clearance
+from tribodyn.joints.shapes import Cylinder, Mesh
 from tribodyn.kernels.mechanism.data import DIRECTION, POINT
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.description import Clearance, Description
+from tribodyn.mechanisms.general.model import Model
 
 MOST: Final = 1.5
 """Share of its clearance from which on a joint surely seizes: shares add up squared here, and of two poses
@@ -40,10 +42,10 @@ class Misfit:
         The largest share of its clearance that each joint has needed so far, by its name.
     """
 
-    def __init__(self, description: Description, system: System) -> None:
+    def __init__(self, model: Model, system: System) -> None:
         self.system, self.shares = system, dict[str, float]()
-        self._joints = {k: joint for k, joint in enumerate(description.joints) if joint.clearance is not None}
-        allowed = {k: _allowed(joint.clearance) for k, joint in self._joints.items() if joint.clearance}
+        self._joints = dict(zip(model.real, model.clearances, strict=True))
+        allowed = {k: _allowed(model.clearances[name]) for k, name in self._joints.items()}
         self._allowed = np.array([self._of_row(k, m, allowed) for k, m in system.rows])
 
     def _of_row(self, k: int, m: int, allowed: Mapping[int, tuple[float, float, float]]) -> float:
@@ -99,7 +101,7 @@ class Misfit:
     def _needed(self) -> dict[str, float]:
         """Return the share of its clearance that each joint needs here; of ideal ones all or none."""
         missed, found = self._residuals(), dict[str, float]()
-        for k, joint in self._joints.items():
+        for k, name in self._joints.items():
             parts = {"across": 0.0, "along": 0.0, "tilt": 0.0}
             for i, (coupling, m) in enumerate(self.system.rows):
                 if coupling == k and self._allowed[i] > 0.0:
@@ -107,7 +109,7 @@ class Misfit:
                     along = "along" if record.row_axis[m] == 2 else "across"
                     part = "tilt" if record.row_kind[m] == DIRECTION else along
                     parts[part] = math.hypot(parts[part], missed[i] / self._allowed[i])
-            found[joint.name] = max(parts["across"], parts["along"]) + parts["tilt"]
+            found[name] = max(parts["across"], parts["along"]) + parts["tilt"]
         hard = np.abs(missed[self._allowed == 0.0])
         if np.max(hard, initial=0.0) > _HARD * min(self._allowed[self._allowed > 0.0], default=0.0):
             return dict.fromkeys(found, math.inf)
@@ -119,12 +121,14 @@ def _allowed(clearance: Clearance) -> tuple[float, float, float]:
 
     What surfaces give way until their contact law ends is part of it.
     """
-    sizes = clearance.sizes
+    shape = clearance.shape
     give = -clearance.table.h_first * clearance.roughness
-    across = sizes.get("radial", sizes.get("gap", 0.0)) + give
-    faces = [gap for name, gap in sizes.items() if name.startswith("axial")]
-    along = min(faces) + give if faces else across
-    length = sizes.get("length", float(np.ptp(clearance.facets)) if clearance.facets.size else 0.0)
+    across, along, length = shape.clearance + give, shape.clearance + give, 0.0
+    if isinstance(shape, Cylinder):
+        length = shape.length
+        along = min(shape.faces.values(), default=shape.clearance) + give
+    elif isinstance(shape, Mesh):
+        length = float(np.ptp(shape.facets))
     return across, along, 2.0 * across / length if length > 0.0 else math.inf
 
 

@@ -336,6 +336,16 @@ class JointKeys(NamedGroup):
         return None if self.clearance is None or self.clearance.ideal else self.clearance
 
     @property
+    def sign(self) -> float:
+        """−1 where the second body carries the socket, so that its motion is against that of the shaft."""
+        return -1.0 if self.real is not None and self.real.socket == self.between[1] else 1.0
+
+    @property
+    def points(self) -> tuple[Vector, Vector]:
+        """Where it is on the first and on the second body, as drawn [m]."""
+        return self.point, self.other_point or self.point
+
+    @property
     def shape(self) -> str:
         """Shape of its clearance."""
         chosen = None if self.clearance is None else self.clearance.shape
@@ -364,9 +374,14 @@ class SpringKeys(NamedGroup):
         demand(self.drawn_length > 0.0, "second_point", "the two ends of a spring must stand apart")
 
     @property
+    def points(self) -> tuple[Vector, Vector]:
+        """Its ends as drawn [m]."""
+        return self.first_point, self.second_point
+
+    @property
     def drawn_length(self) -> float:
         """Length in the drawing [m]."""
-        return math.dist(self.first_point, self.second_point)
+        return math.dist(*self.points)
 
 
 def unit(direction: Vector, key: str) -> Vector:

@@ -67,7 +67,7 @@ def mechanism_problem(
     dense
         Whether the Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
     """
-    data, bodies, n = assembly.data, assembly.description.bodies, len(assembly.description.bodies)
+    data, n = assembly.data, len(assembly.model.bodies)
     begin = assembly.state if state is None else state
     start = (begin if carried is None else carried.state).copy()
     memory, kinks = memory_of(assembly, start), data.signals.kinks
@@ -85,7 +85,7 @@ def mechanism_problem(
         breakpoints=tuple(kinks[(kinks > 0.0) & (kinks < duration)].tolist()),
         atol=np.tile(np.repeat(tolerances, [3, 4, 3, 3]), n),
         relative=np.tile(np.repeat([0.0, 1.0], [VELOCITY, N_STATES - VELOCITY]), n),
-        state_names=tuple(f"{name} of {body.name}" for body in bodies for name in STATES),
+        state_names=tuple(f"{name} of {body}" for body in assembly.model.bodies for name in STATES),
         n_observed=N_WHOLE + n * N_BODY + data.parts.couplings.size * N_COUPLING,
         field_shape=(data.contact.nodes.shape[1],),
         algebra=None if dense else _algebra(data),
@@ -115,13 +115,7 @@ def length_scale(assembly: Assembly) -> float:
 
     The smallest clearance as drawn; a tenth of the mechanism where all joints are ideal.
     """
-    clearances = [
-        size
-        for joint in assembly.description.joints
-        if joint.clearance is not None
-        for name, size in joint.clearance.sizes.items()
-        if name in ("radial", "gap") and size > 0.0
-    ]
+    clearances = [real.shape.clearance for real in assembly.model.clearances.values()]
     return min(clearances, default=0.1 * float(assembly.data.parts.constants.size))
 
 
@@ -132,7 +126,7 @@ def _scales(assembly: Assembly, duration: float) -> FloatArray:
     speed = max(
         float(np.max(np.linalg.norm(state[:, VELOCITY:TURNING], axis=1))),
         size * float(np.max(np.linalg.norm(state[:, TURNING:], axis=1))),
-        float(np.sqrt(np.linalg.norm(assembly.description.gravity) * size)),
+        float(np.sqrt(np.linalg.norm(assembly.model.case.gravity) * size)),
         size / duration,
     )
     return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])

@@ -1,4 +1,4 @@
-"""Default axis of the race of a ball joint, derived from the mechanism: it turns with the model."""
+"""Axes of a joint; that of the race of a ball joint follows from the mechanism and turns with it."""
 
 from __future__ import annotations
 
@@ -10,13 +10,28 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND
-from tribodyn.mechanisms.general.parts import JointKeys
+from tribodyn.mechanisms.general.parts import JointKeys, unit
 
 _PARALLEL: Final = 1e-3
 """Sine of an angle below which two directions are taken for one."""
 
 
-def race_axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
+def axes_of(case: MechanismCase, joint: JointKeys) -> FloatArray:
+    """Return the two unit vectors of a joint, shape (2, 3); the second is across the first if not given."""
+    if joint.type == "spherical" and joint.clearance is not None and joint.axis is None:
+        first, second = _race_axes(case, joint)
+    else:
+        first, second = np.array(unit(joint.axis or (0.0, 0.0, 1.0), "axis")), None
+    if joint.second_axis is not None:
+        second = np.array(unit(joint.second_axis, "second_axis"))
+    if second is not None:
+        return np.array([first, second])
+    across = np.eye(3)[int(np.argmin(np.abs(first)))]
+    second = across - first * (first @ across)
+    return np.array([first, second / np.linalg.norm(second)])
+
+
+def _race_axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
     """Return axis and direction of angle zero of a joint that has no axis of its own, unit vectors (2, 3).
 
     The axis is normal to the plane of the joint and the mass centres of its two bodies, so that forces along

@@ -15,13 +15,23 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.closing import DEPENDENT, System
-from tribodyn.mechanisms.general.inspection import ModelError
 from tribodyn.mechanisms.general.misfit import Misfit
+from tribodyn.mechanisms.general.model import Model, ModelError
 
 _TINY: Final = 1.0e-300
 
 Speeds = tuple[tuple[int, str, float], ...]
 """Speeds of free coordinates as (joint, coordinate, value in [rad/s] or [m/s])."""
+
+
+def speeds_of(model: Model) -> Speeds:
+    """Return the speeds at the start that joints are given."""
+    return tuple(
+        (number, coordinate, speed)
+        for number, joint in enumerate(model.case.joints.values())
+        for coordinate, speed in (("angle", joint.start_speed), ("position", joint.start_velocity))
+        if speed is not None
+    )
 
 
 @dataclass(frozen=True)
@@ -86,7 +96,7 @@ def _rows(system: System, speeds: Speeds) -> _Rows:
         for side, body in enumerate((coupling.socket, coupling.shaft)):
             row[6 * body : 6 * body + 6] += now.H[entry, 6 * side : 6 * side + 6]
         matrices.append(row[None, : 6 * system.n])
-        targets.append(np.array([value * system.description.joints[k].sign]))
+        targets.append(np.array([value * system.model.joint(k).sign]))
     return _Rows(np.vstack(matrices), np.concatenate(targets) if targets else np.zeros(0))
 
 
@@ -109,7 +119,7 @@ def _guided(exact: _Rows, held: _Rows, velocity: FloatArray, root: FloatArray, i
 
 def _contrary(system: System, speeds: Speeds) -> ModelError:
     """Return that drives and given speeds contradict each other."""
-    asked = [system.description.joints[k].name for k, _, _ in speeds]
+    asked = [system.model.joints[k] for k, _, _ in speeds]
     text = "no motion has the speeds at the start that drives and joints ask for"
     key = f"joints.{asked[0]}" if asked else "drives"
     return ModelError(key, f"{text}; given are those of {', '.join(asked)}" if asked else text)

@@ -29,8 +29,7 @@ from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.counterpart import counterpart
-from tribodyn.mechanisms.general.speeds import start
+from tribodyn.mechanisms.general.speeds import speeds_of, start
 
 _MOVING: Final = 1.0e-6
 """Slip over the one at which traction is developed that is rest."""
@@ -70,10 +69,9 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     Stopped
         If the caller wanted to stop before the end of the search.
     """
-    description = assembly.description
-    if all(joint.clearance is None for joint in description.joints):
+    if not assembly.model.clearances:
         return assembly.state
-    ideal = System(counterpart(description))
+    ideal = System(assembly.model.counterpart)
     ideal.adopt(assembly.state)
     ideal.close()
     return _settled(_Loads(assembly, ideal))
@@ -140,9 +138,9 @@ class _Loads:
         self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE))
         parts = newton.N_PLACES + newton.N_BODY
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
-        self.ideal, self.real = ideal, System(assembly.description)
+        self.ideal, self.real = ideal, System(assembly.model)
         self.real.adopt(self.state)
-        self.speeds, self.largest = assembly.description.speeds, 0.0
+        self.speeds, self.largest = speeds_of(assembly.model), 0.0
         self.ahead: FloatArray | None = None
 
     def look(self) -> None:

@@ -15,7 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.joints.clearances import places
+from tribodyn.joints.clearances import Clearance, places
 from tribodyn.kernels.mechanism.quantities import OF_SECOND
 from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
 from tribodyn.mechanisms.bushing import of_expansion
@@ -25,10 +25,9 @@ from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
-from tribodyn.mechanisms.general.describe import describe
-from tribodyn.mechanisms.general.description import Clearance, Description
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
+from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import (
@@ -53,9 +52,9 @@ class MechanismSystem:
     case: MechanismCase
 
     @cached_property
-    def description(self) -> Description:
-        """The mechanism as drawn, in SI units."""
-        return describe(self.case)
+    def model(self) -> Model:
+        """The mechanism as drawn."""
+        return model_of(self.case)
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -67,15 +66,14 @@ class MechanismSystem:
         return replace(found, strain=passage.warning)
 
     def _assembled(self, depth: FloatArray | None) -> Assembly:
-        found = assemble(self.description, depth)
+        found = assemble(self.model, depth)
         found.require_sound()
         return found
 
     @cached_property
     def real(self) -> tuple[tuple[str, Clearance], ...]:
         """Names and clearances of the joints that have one."""
-        joints = self.description.joints
-        return tuple((joint.name, joint.clearance) for joint in joints if joint.clearance is not None)
+        return tuple(self.model.clearances.items())
 
     @cached_property
     def maps(self) -> Maps:
@@ -92,7 +90,7 @@ class MechanismSystem:
     def nodes(self) -> WearNodes:
         """The nodes of all joints with clearance, shape (n_nodes,)."""
         roughness = min((clearance.roughness for _, clearance in self.real), default=1.0)
-        return WearNodes(self.maps.area, roughness, _STATES * len(self.description.bodies))
+        return WearNodes(self.maps.area, roughness, _STATES * len(self.model.bodies))
 
     @property
     def wear_rates(self) -> WearRates:
@@ -128,14 +126,15 @@ class MechanismSystem:
 
     def _following(self, duration: float) -> Following | None:
         """Return where rows follow the steps: where shafts may strike, faster than output times see."""
-        most, n_bodies = self.case.run.step_rows, len(self.description.bodies)
+        most, n_bodies = self.case.run.step_rows, len(self.model.bodies)
         if not self.real or most == 0:
             return None
-        joints, drives = range(len(self.description.joints)), self.description.drives
+        joints = self.model.joints
+        driven = [joints.index(drive.joint) for drive in self.case.drives.values()]
         watched = (
-            *(columns_of("reaction_force", k, n_bodies) for k in joints),
-            *(columns_of("pressure_max", k, n_bodies) for k in self._real_numbers),
-            *(columns_of(f"drive_{name}", d.joint, n_bodies) for d in drives for name in ("moment", "force")),
+            *(columns_of("reaction_force", k, n_bodies) for k in range(len(joints))),
+            *(columns_of("pressure_max", k, n_bodies) for k in self.model.real),
+            *(columns_of(f"drive_{name}", k, n_bodies) for k in driven for name in ("moment", "force")),
         )
         n = min(max(round(duration / self.period), 1), self.output_times(duration).size)
         edges = np.linspace(0.0, duration, n + 1)
@@ -184,7 +183,7 @@ class MechanismSystem:
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""
         force = np.linalg.norm(self._observed(run).couplings["reaction_force"], axis=-1)
-        means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self._real_numbers]]
+        means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self.model.real]]
         return {
             "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
             "wear_force_mean": max(means),
@@ -228,7 +227,7 @@ class MechanismSystem:
     @cached_property
     def _contacts(self) -> Contacts:
         clearances = tuple(clearance for _, clearance in self.real)
-        return Contacts(clearances, tuple(self._real_numbers), self.maps.names, self.maps.places)
+        return Contacts(clearances, tuple(self.model.real), self.maps.names, self.maps.places)
 
     def _of_temperatures(self) -> list[str]:
         """Return which clearances are other ones at the temperatures of the run."""
@@ -237,13 +236,13 @@ class MechanismSystem:
             text
             for name, cold, hot in keys
             if cold is not None and cold.radial is not None
-            for text in named(name, [of_expansion(cold.radial, hot.sizes["radial"])])
+            for text in named(name, [of_expansion(cold.radial, hot.shape.clearance)])
         ]
 
     def _followed(self, found: Observed, table: FollowedTable) -> FloatArray:
         """Return the coordinate of a joint that a load follows, shape (n_t,)."""
-        number = list(self.case.joints).index(table.follows)
-        couplings, sign = found.couplings, self.description.joints[number].sign
+        number = self.model.joints.index(table.follows)
+        couplings, sign = found.couplings, self.case.joints[table.follows].sign
         along = couplings["joint_angle"] if table.over == "angles" else couplings["displacement"][..., 2]
         return np.asarray(sign * along[:, number])
 
@@ -252,7 +251,7 @@ class MechanismSystem:
         reason, reached = run.solution.failure or "", float(run.solution.t_end)
         if reason in ("", INTERRUPTED):
             return reason
-        return broken.failure(run.problem, self.description, self.maps.names, reached) or reason
+        return broken.failure(run.problem, self.model, self.maps.names, reached) or reason
 
     def _least_energy(self, found: Observed) -> float:
         """Return the work of the largest force over the way to which positions are resolved [J].
@@ -273,14 +272,14 @@ class MechanismSystem:
         return {"start": "equilibrium" if self.start() is not None else "centred"}
 
     def _observed(self, run: FinishedRun) -> Observed:
-        return observed(run.solution.rows, len(self.description.bodies))
+        return observed(run.solution.rows, len(self.model.bodies))
 
     def _of_joints(self, found: Observed) -> dict[str, FloatArray]:
         """Return what is observed of the joints alone, which come before springs and loads.
 
         Kernels observe all of the shaft.
         """
-        signs = np.array([joint.sign for joint in self.description.joints])
+        signs = np.array([joint.sign for joint in self.case.joints.values()])
         columns = {name: found.couplings[name][:, : signs.size] for name in JOINTS}
         for name in OF_SECOND:
             columns[name] = columns[name] * signs.reshape(-1, *(1,) * (columns[name].ndim - 2))
@@ -288,12 +287,12 @@ class MechanismSystem:
 
     def _of_elements(self, found: Observed) -> dict[str, FloatArray]:
         """Return what elements transmit, each of shape (n_t, n_elements); nothing without elements."""
-        elements, first = self.description.elements, self.description.first_leg
+        elements, first = self.model.elements, self.model.first_leg
         if not elements:
             return {}
         forces, moments = [], []
         for element in elements:
-            last, of = first + len(element.legs) - 1, first + element.kind.MOMENT_OF
+            last, of = first + len(element.legs) - 1, first + element.keys.MOMENT_OF
             along = element.legs[-1].along
             force = found.couplings["reaction_force"][:, last] @ along
             forces.append(force if np.any(along) else np.full_like(force, np.nan))
@@ -301,20 +300,9 @@ class MechanismSystem:
             first = last + 1
         return {"element_force": np.stack(forces, axis=-1), "element_moment": np.stack(moments, axis=-1)}
 
-    @property
-    def _real_numbers(self) -> list[int]:
-        return [k for k, joint in enumerate(self.description.joints) if joint.clearance is not None]
-
     def _clearances(self) -> FloatArray:
-        joints = self.description.joints
-        return np.array(
-            [
-                np.nan
-                if j.clearance is None
-                else j.clearance.sizes.get("radial", j.clearance.sizes.get("gap", np.nan))
-                for j in joints
-            ]
-        )
+        real = self.model.clearances
+        return np.array([real[j].shape.clearance if j in real else np.nan for j in self.model.joints])
 
     def _peaks(self, run: FinishedRun) -> dict[str, FloatArray]:
         """Return what was largest or least of each surface at any step; NaN where it never touched."""
@@ -325,13 +313,13 @@ class MechanismSystem:
 
     def _coordinates(self, run: FinishedRun) -> dict[str, ArrayLike]:
         parts = {
-            "body": [body.name for body in self.description.bodies],
-            "joint": [joint.name for joint in self.description.joints],
+            "body": list(self.model.bodies),
+            "joint": list(self.model.joints),
             "axis": list(AXES),
             "entry": list(ENTRIES),
         }
-        if self.description.elements:
-            parts["element"] = [element.name for element in self.description.elements]
+        if self.model.elements:
+            parts["element"] = [element.name for element in self.model.elements]
         if not self.real:
             return dict(parts)
         frames = run.solution.picture_times[self._playback(run)]

@@ -1,145 +1,201 @@
-"""Mechanisms described in SI units, and runs of them, for tests of the numbers."""
+"""Mechanisms made of keys in SI units, and runs of them, for tests of the numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tribodyn.cases.signals import SpeedSignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Statistics
-from tribodyn.core.signals import constant
 from tribodyn.integrate import integrate
+from tribodyn.joints.clearances import Clearance
+from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.assembly import assemble
-from tribodyn.mechanisms.general.description import GROUND, Body, Description, Drive, Joint, Spring
+from tribodyn.mechanisms.general.case import MechanismCase, RunKeys
 from tribodyn.mechanisms.general.joints import ROWS
+from tribodyn.mechanisms.general.model import Model
+from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.general.variables import AXES, Observed, observed
 
-NOTHING = np.zeros(0)
+G = "ground"
+UP, X, Y, Z = (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+def vector(values: ArrayLike) -> tuple[float, float, float]:
+    """Return three numbers as keys hold them."""
+    x, y, z = np.asarray(values, dtype=float).tolist()
+    return x, y, z
 
 
 def joint(
-    name: str,
     kind: str,
-    bodies: tuple[int, int],
+    between: tuple[str, str],
     point: ArrayLike,
-    axis: ArrayLike = (0.0, 0.0, 1.0),
-    second: ArrayLike = (1.0, 0.0, 0.0),
-    stiffness: ArrayLike = (),
-    damping: ArrayLike = (),
-) -> Joint:
-    """Return a joint that is drawn closed."""
-    place = np.array(point, dtype=float)
-    axes = np.array([axis, second], dtype=float)
-    springs = np.array(stiffness, dtype=float), np.array(damping, dtype=float)
-    return Joint(name, kind, bodies, np.array([place, place]), axes, None, *springs)
+    axis: ArrayLike = Z,
+    second: ArrayLike = X,
+    stiffness: ArrayLike | None = None,
+    damping: ArrayLike | None = None,
+) -> JointKeys:
+    """Return a joint that is drawn closed; stiffness and damping along and about its axes, shape (6,)."""
+    springs = {}
+    for key, values in (("stiffness", stiffness), ("damping", damping)):
+        if values is not None:
+            along, about = np.reshape(values, (2, 3))
+            springs |= {key: vector(along), f"angular_{key}": vector(about)}
+    return JointKeys(
+        type=kind,
+        between=between,
+        point=vector(point),
+        axis=vector(axis),
+        second_axis=vector(second),
+        **springs,
+    )
 
 
-def body(name: str, mass: float, centre: ArrayLike, moments: ArrayLike) -> Body:
-    """Return a body with moments of inertia about the axes of the drawing."""
-    return Body(name, mass, np.array(centre, dtype=float), np.diag(np.array(moments, dtype=float)))
+def body(mass: float, centre: ArrayLike, inertia: ArrayLike) -> BodyKeys:
+    """Return a body with moments of inertia about the axes of the drawing, or an inertia matrix."""
+    inertia = np.asarray(inertia, dtype=float)
+    moments, axes = (inertia, np.eye(3)) if inertia.ndim == 1 else np.linalg.eigh(inertia)
+    first, second = axes[:, 0], axes[:, 1]
+    return BodyKeys(
+        mass=mass,
+        centre=vector(centre),
+        inertia=vector(moments),
+        first_axis=vector(first),
+        second_axis=vector(second),
+    )
 
 
-def rod(name: str, start: ArrayLike, end: ArrayLike, mass: float = 1.0, axial: float = 1e-3) -> Body:
+def rod(start: ArrayLike, end: ArrayLike, mass: float = 1.0, axial: float = 1e-3) -> BodyKeys:
     """Return a thin rod; ``axial`` is its moment of inertia about itself [kg m²]."""
     a, b = np.array(start, dtype=float), np.array(end, dtype=float)
     length = float(np.linalg.norm(b - a))
     along = np.outer(b - a, b - a) / length**2
-    return Body(name, mass, 0.5 * (a + b), mass * length**2 / 12.0 * (np.eye(3) - along) + axial * along)
+    return body(mass, 0.5 * (a + b), mass * length**2 / 12.0 * (np.eye(3) - along) + axial * along)
 
 
 def mechanism(
-    bodies: Sequence[Body],
-    joints: Sequence[Joint],
-    *,
-    drives: Sequence[Drive] = (),
-    springs: Sequence[Spring] = (),
-    gravity: ArrayLike = (0.0, 0.0, 0.0),
-    speeds: Sequence[tuple[int, str, float]] = (),
-) -> Description:
-    """Return a description without loads."""
-    parts = tuple(bodies), tuple(joints), tuple(drives)
-    return Description(*parts, (), tuple(springs), np.array(gravity, dtype=float), tuple(speeds))
+    bodies: Mapping[str, BodyKeys],
+    joints: Mapping[str, JointKeys],
+    gravity: ArrayLike = ORIGIN,
+    **tables: Mapping[str, DriveKeys | LoadKeys | SpringKeys],
+) -> Model:
+    """Return a mechanism of these parts."""
+    parts = {"bodies": dict(bodies), "joints": dict(joints), **tables}
+    return Model(MechanismCase(gravity=vector(gravity), run=RunKeys(duration=1.0), **parts))
 
 
-def speed_drive(name: str, joint: int, speed: float) -> Drive:
+def changed(model: Model, **parts: object) -> Model:
+    """Return a mechanism with tables added to those it has, or ``gravity`` changed."""
+    tables = {
+        name: {**getattr(model.case, name), **given} if isinstance(given, Mapping) else given
+        for name, given in parts.items()
+    }
+    return replace(model, case=model.case.model_copy(update=tables))
+
+
+def with_joints(model: Model, names: object = (), **keys: object) -> Model:
+    """Return a mechanism with keys of some of its joints changed; of all by default."""
+    joints = {name: model.case.joints[name] for name in tuple(names) or model.joints}
+    return changed(model, joints={name: old.model_copy(update=keys) for name, old in joints.items()})
+
+
+def with_clearance(model: Model, clearance: Clearance, *names: str, socket: str | None = None) -> Model:
+    """Return a mechanism some of whose joints are real; flanged ones are held along their axes."""
+    axial = 1e-6 if clearance.shape.faces else None  # that there are faces; how large is in the clearance
+    keys = ClearanceKeys(socket=socket, axial=axial)
+    real = with_joints(model, names, clearance=keys)
+    return replace(real, clearances=dict.fromkeys(names, clearance))
+
+
+def speed_drive(joint: str, speed: float) -> DriveKeys:
     """Return a drive of constant angular velocity [rad/s]."""
-    return Drive(name, joint, "angle", 1, constant(speed))
+    return DriveKeys(joint=joint, speed=SpeedSignal(value=speed))
 
 
-def slider_crank(speed: float = 5000.0 * 2.0 * np.pi / 60.0) -> Description:
+def slider_crank(speed: float = 5000.0 * 2.0 * np.pi / 60.0) -> Model:
     """Return the slider-crank of the specification, crank along x."""
     r, long = 0.05, 0.12
-    bodies = (
-        body("crank", 0.3, (0.0, 0.0, 0.0), (1e-4, 1e-4, 1e-4)),
-        body("rod", 0.21, (r + 0.5 * long, 0.0, 0.0), (1e-5, 2.5e-4, 2.5e-4)),
-        body("slider", 0.14, (r + long, 0.0, 0.0), (1e-5, 1e-5, 1e-5)),
-    )
-    joints = (
-        joint("main", "revolute", (GROUND, 0), (0.0, 0.0, 0.0)),
-        joint("pin", "revolute", (0, 1), (r, 0.0, 0.0)),
-        joint("wrist", "revolute", (1, 2), (r + long, 0.0, 0.0)),
-        joint("guide", "prismatic", (GROUND, 2), (r + long, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-    )
-    return mechanism(bodies, joints, drives=(speed_drive("motor", 0, speed),))
+    bodies = {
+        "crank": body(0.3, (0.0, 0.0, 0.0), (1e-4, 1e-4, 1e-4)),
+        "rod": body(0.21, (r + 0.5 * long, 0.0, 0.0), (1e-5, 2.5e-4, 2.5e-4)),
+        "slider": body(0.14, (r + long, 0.0, 0.0), (1e-5, 1e-5, 1e-5)),
+    }
+    joints = {
+        "main": joint("revolute", (G, "crank"), ORIGIN),
+        "pin": joint("revolute", ("crank", "rod"), (r, 0.0, 0.0)),
+        "wrist": joint("revolute", ("rod", "slider"), (r + long, 0.0, 0.0)),
+        "guide": joint("prismatic", (G, "slider"), (r + long, 0.0, 0.0), X, Y),
+    }
+    return mechanism(bodies, joints, drives={"motor": speed_drive("main", speed)})
 
 
-def two_four_bars() -> Description:
+def two_four_bars() -> Model:
     """Return IFToMM's benchmark A02, two loops of a four-bar."""
     a = [(float(i), 0.0, 0.0) for i in range(3)]
     b = [(float(i), 1.0, 0.0) for i in range(3)]
-    bodies = (
-        *(rod("left", a[0], b[0]), rod("first", b[0], b[1]), rod("middle", a[1], b[1])),
-        *(rod("second", b[1], b[2]), rod("right", a[2], b[2])),
-    )
-    joints = (
-        *(joint("A0", "revolute", (GROUND, 0), a[0]), joint("B0", "revolute", (0, 1), b[0])),
-        *(joint("A1", "revolute", (GROUND, 2), a[1]), joint("B1", "revolute", (1, 2), b[1])),
-        *(joint("C1", "revolute", (2, 3), b[1]), joint("A2", "revolute", (GROUND, 4), a[2])),
-        joint("B2", "revolute", (3, 4), b[2]),
-    )
-    return mechanism(bodies, joints, gravity=(0.0, -9.81, 0.0), speeds=((0, "angle", -1.0),))
+    bodies = {
+        "left": rod(a[0], b[0]),
+        "first": rod(b[0], b[1]),
+        "middle": rod(a[1], b[1]),
+        "second": rod(b[1], b[2]),
+        "right": rod(a[2], b[2]),
+    }
+    joints = {
+        "A0": joint("revolute", (G, "left"), a[0]).model_copy(update={"start_speed": -1.0}),
+        "B0": joint("revolute", ("left", "first"), b[0]),
+        "A1": joint("revolute", (G, "middle"), a[1]),
+        "B1": joint("revolute", ("first", "middle"), b[1]),
+        "C1": joint("revolute", ("middle", "second"), b[1]),
+        "A2": joint("revolute", (G, "right"), a[2]),
+        "B2": joint("revolute", ("second", "right"), b[2]),
+    }
+    return mechanism(bodies, joints, gravity=(0.0, -9.81, 0.0))
 
 
-def spatial_slider_crank() -> Description:
+def spatial_slider_crank() -> Model:
     """Return the spatial slider-crank of Haug's book with the numbers of the specification."""
     pivot = np.array([0.0, 0.1, 0.12])
     top = pivot + np.array([0.0, 0.0, 0.08])
     end = np.array([np.sqrt(0.3**2 - top[1] ** 2 - top[2] ** 2), 0.0, 0.0])
     along = (end - top) / 0.3
     inertia = 4e-3 * (np.eye(3) - np.outer(along, along)) + 4e-4 * np.outer(along, along)
-    bodies = (
-        body("crank", 0.12, 0.5 * (pivot + top), (1e-4, 1e-4, 1e-5)),
-        Body("rod", 0.5, 0.5 * (top + end), inertia),
-        body("slider", 2.0, end, (1e-4, 1e-4, 1e-4)),
-    )
-    x, y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
-    joints = (
-        joint("main", "revolute", (GROUND, 0), pivot, x, y),
-        joint("ball", "spherical", (0, 1), top),
-        joint("cardan", "universal", (2, 1), end, x, np.cross(x, along)),
-        joint("guide", "prismatic", (GROUND, 2), end, x, y),
-    )
-    return mechanism(bodies, joints, gravity=(0.0, 0.0, -9.81), speeds=((0, "angle", 6.0),))
+    bodies = {
+        "crank": body(0.12, 0.5 * (pivot + top), (1e-4, 1e-4, 1e-5)),
+        "rod": body(0.5, 0.5 * (top + end), inertia),
+        "slider": body(2.0, end, (1e-4, 1e-4, 1e-4)),
+    }
+    joints = {
+        "main": joint("revolute", (G, "crank"), pivot, X, Y).model_copy(update={"start_speed": 6.0}),
+        "ball": joint("spherical", ("crank", "rod"), top),
+        "cardan": joint("universal", ("slider", "rod"), end, X, np.cross(X, along)),
+        "guide": joint("prismatic", (G, "slider"), end, X, Y),
+    }
+    return mechanism(bodies, joints, gravity=(0.0, 0.0, -9.81))
 
 
-def bricard() -> Description:
+def bricard() -> Model:
     """Return a linkage of Bricard's along six edges of a cube, five rods of 1 m and 1 kg, redundant."""
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1), (0, 0, 1)]
     axes = [(0, 1, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 0)]
-    bodies = [rod(f"rod {k}", corners[k], corners[k + 1], axial=1.0 / 600.0) for k in range(5)]
-    pairs = [(GROUND, 0), (0, 1), (1, 2), (2, 3), (3, 4), (4, GROUND)]
+    bodies = {f"rod {k}": rod(corners[k], corners[k + 1], axial=1.0 / 600.0) for k in range(5)}
+    names = [G, *bodies, G]
     seconds = [(1, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0)]
-    parts = zip(range(6), pairs, corners, axes, seconds, strict=True)
-    joints = [joint(f"P{k}", "revolute", *place) for k, *place in parts]
+    joints = {
+        f"P{k}": joint("revolute", (names[k], names[k + 1]), corners[k], axes[k], seconds[k])
+        for k in range(6)
+    }
     return mechanism(bodies, joints, gravity=(0.0, -9.81, 0.0))
 
 
-def governor() -> Description:
+def governor() -> Model:
     """Return IFToMM's benchmark A05, a flyball governor whose lower rods are stiff springs with dampers."""
     lean = np.radians(30.0)
     top = np.array([0.0, 1.0, 0.0])
@@ -150,63 +206,72 @@ def governor() -> Description:
     density, section = 3000.0, 0.01
     mass = density * section**2
     square, ball, cube = mass * section**2 / 6.0, 5.0, density * 1e-3
-    arms = []
+    arms = {}
     for name, end in zip(("right", "left"), ends, strict=True):
-        arm = rod(name, top, end, mass, square)
-        centre = (mass * arm.centre + ball * end) / (mass + ball)
-        inertia = arm.inertia + sum(
-            m * (float(way @ way) * np.eye(3) - np.outer(way, way))
-            for m, way in ((mass, arm.centre - centre), (ball, end - centre))
+        along = np.outer(end - top, end - top)
+        centre = (mass * 0.5 * (top + end) + ball * end) / (mass + ball)
+        inertia = mass / 12.0 * (np.eye(3) - along) + square * along
+        for m, way in ((mass, 0.5 * (top + end) - centre), (ball, end - centre)):
+            inertia = inertia + m * (float(way @ way) * np.eye(3) - np.outer(way, way))
+        arms[name] = body(mass + ball, centre, inertia)
+    bodies = {
+        "shaft": rod(ORIGIN, UP, mass, square),
+        **arms,
+        "slider": body(cube, slider, np.full(3, cube * 0.01 / 6.0)),
+    }
+    bearing = joint("revolute", (G, "shaft"), ORIGIN, UP, X)
+    joints = {
+        "bearing": bearing.model_copy(update={"start_speed": 2.0 * np.pi}),
+        "right hinge": joint("revolute", ("shaft", "right"), top, Z, X),
+        "left hinge": joint("revolute", ("shaft", "left"), top, Z, X),
+        "guide": joint("prismatic", ("shaft", "slider"), slider, UP, X),
+    }
+    springs = {
+        f"rod {name}": SpringKeys(
+            between=(name, "slider"),
+            first_point=vector(middle),
+            second_point=vector(slider),
+            stiffness=8e5,
+            damping=4e4,
+            length=0.5,
         )
-        arms.append(Body(name, mass + ball, centre, inertia))
-    bodies = (
-        rod("shaft", (0.0, 0.0, 0.0), top, mass, square),
-        *arms,
-        body("slider", cube, slider, np.full(3, cube * 0.01 / 6.0)),
-    )
-    up, x, z = (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
-    joints = (
-        joint("bearing", "revolute", (GROUND, 0), (0.0, 0.0, 0.0), up, x),
-        joint("right hinge", "revolute", (0, 1), top, z, x),
-        joint("left hinge", "revolute", (0, 2), top, z, x),
-        joint("guide", "prismatic", (0, 3), slider, up, x),
-    )
-    springs = [Spring(f"rod {k}", (k, 3), np.array([middles[k - 1], slider]), 8e5, 4e4, 0.5) for k in (1, 2)]
-    speeds = ((0, "angle", 2.0 * np.pi),)
-    return mechanism(bodies, joints, springs=springs, gravity=(0.0, -9.81, 0.0), speeds=speeds)
+        for name, middle in zip(arms, middles, strict=True)
+    }
+    return mechanism(bodies, joints, springs=springs, gravity=(0.0, -9.81, 0.0))
 
 
-def chain(n: int) -> Description:
+def chain(n: int) -> Model:
     """Return a chain of n links from the ground, with pins at right angles to each other in turn."""
-    bodies = [rod(f"link {k}", (0.1 * k, 0.0, 0.0), (0.1 * (k + 1), 0.0, 0.0), 0.1, 1e-5) for k in range(n)]
-    axes = [(0.0, 0.0, 1.0), (0.0, 1.0, 0.0)]
-    joints = [
-        joint(f"pin {k}", "revolute", (k - 1 if k else GROUND, k), (0.1 * k, 0.0, 0.0), axes[k % 2])
+    bodies = {f"link {k}": rod((0.1 * k, 0.0, 0.0), (0.1 * (k + 1), 0.0, 0.0), 0.1, 1e-5) for k in range(n)}
+    names = [G, *bodies]
+    joints = {
+        f"pin {k}": joint("revolute", (names[k], names[k + 1]), (0.1 * k, 0.0, 0.0), (Z, Y)[k % 2])
         for k in range(n)
-    ]
+    }
     return mechanism(bodies, joints, gravity=(0.0, 0.0, -9.81))
 
 
-def with_springs(description: Description, stiffness: float, turning: float, share: float) -> Description:
+def with_springs(model: Model, stiffness: float, turning: float, share: float) -> Model:
     """Return a mechanism with springs and dampers in place of the constraints of its joints.
 
     Parameters
     ----------
-    description
+    model
         With joints that spring-dampers can stand for: those that leave axes free that they have springs for.
     stiffness, turning
         Of the springs [N/m], [N m/rad].
     share
         Damping over stiffness [s].
     """
-    joints = []
-    for old in description.joints:
-        rows = set(ROWS[old.kind])
+    joints = {}
+    for name, old in model.case.joints.items():
+        rows = set(ROWS[old.type])
         held = [(0, 2, 0) in rows, (0, 0, 0) in rows, (0, 1, 0) in rows]
         held += [(1, 1, 0) in rows, (1, 1, 2) in rows, (1, 0, 2) in rows]
         k = np.array([*[stiffness] * 3, *[turning] * 3]) * held
-        joints.append(replace(old, kind="spring-damper", stiffness=k, damping=share * k))
-    return replace(description, joints=tuple(joints))
+        soft = joint("spring-damper", old.between, old.point, old.axis, old.second_axis, k, share * k)
+        joints[name] = soft.model_copy(update={"start_speed": old.start_speed})
+    return changed(model, joints=joints)
 
 
 @dataclass(frozen=True)
@@ -215,7 +280,7 @@ class Run:
 
     Attributes
     ----------
-    description
+    model
         What ran.
     t
         Output times [s].
@@ -225,7 +290,7 @@ class Run:
         What it cost.
     """
 
-    description: Description
+    model: Model
     t: FloatArray
     rows: FloatArray
     statistics: Statistics
@@ -244,7 +309,7 @@ class Run:
 
     @cached_property
     def _observed(self) -> Observed:
-        return observed(self.rows, len(self.description.bodies))
+        return observed(self.rows, len(self.model.bodies))
 
     @staticmethod
     def _component(values: FloatArray, axis: str) -> FloatArray:
@@ -265,7 +330,7 @@ class Run:
 
 
 def run(
-    description: Description,
+    model: Model,
     times: ArrayLike,
     rtol: float,
     solver: str = "mebdf",
@@ -276,11 +341,11 @@ def run(
     It begins in ``state``, shape (13 n,); in that of its assembly by default.
     """
     t = np.asarray(times, dtype=float)
-    assembly = assemble(description)
+    assembly = assemble(model)
     assembly.require_sound()
     problem = mechanism_problem(
         assembly, duration=float(t[-1]), rtol=rtol, state=state, dense=solver != "mebdf"
     )
     solution = integrate(problem, rtol=rtol, output_times=t, solver=solver)
     assert solution.complete, solution.failure
-    return Run(description, t, solution.rows, solution.statistics)
+    return Run(model, t, solution.rows, solution.statistics)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ from tests.unit.mechanisms.general.drawings import (
     body,
     bricard,
     chain,
+    changed,
     joint,
     mechanism,
     rod,
@@ -18,44 +18,44 @@ from tests.unit.mechanisms.general.drawings import (
     spatial_slider_crank,
     speed_drive,
     two_four_bars,
+    with_joints,
 )
 
 import tribodyn as td
+from tribodyn.cases.signals import AngleSignal
 from tribodyn.core.errors import InputError
-from tribodyn.core.signals import constant, sinusoid
+from tribodyn.mechanisms.general.actions import DriveKeys
 from tribodyn.mechanisms.general.assembly import assemble
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.cycle import drive_through
-from tribodyn.mechanisms.general.describe import describe
-from tribodyn.mechanisms.general.description import GROUND, Description, Drive, Joint
+from tribodyn.mechanisms.general.model import Model, model_of
 
 
-def four_bar(crank: float = 0.2) -> Description:
+def four_bar(crank: float = 0.2) -> Model:
     """Return a driven four-bar with a coupler and a rocker of 0.5 m, drawn with the crank along x."""
     pivot, end = np.zeros(3), np.array([crank, 0.0, 0.0])
     ground = np.array([0.6, 0.0, 0.0])
     across = ground - end
     half = 0.5 * float(np.linalg.norm(across))
     top = end + 0.5 * across + np.array([0.0, np.sqrt(0.25 - half**2), 0.0])
-    bodies = [rod("crank", pivot, end), rod("coupler", end, top), rod("rocker", top, ground)]
-    joints = [
-        *(joint("A", "revolute", (GROUND, 0), pivot), joint("B", "revolute", (0, 1), end)),
-        *(joint("C", "revolute", (1, 2), top), joint("D", "revolute", (2, GROUND), ground)),
-    ]
-    return mechanism(bodies, joints, drives=[speed_drive("motor", 0, 10.0)])
+    bodies = {"crank": rod(pivot, end), "coupler": rod(end, top), "rocker": rod(top, ground)}
+    joints = {
+        "A": joint("revolute", ("ground", "crank"), pivot),
+        "B": joint("revolute", ("crank", "coupler"), end),
+        "C": joint("revolute", ("coupler", "rocker"), top),
+        "D": joint("revolute", ("rocker", "ground"), ground),
+    }
+    return mechanism(bodies, joints, drives={"motor": speed_drive("A", 10.0)})
 
 
-def moved(description: Description, number: int, change: tuple[float, float, float]) -> Description:
+def moved(model: Model, name: str, change: tuple[float, float, float]) -> Model:
     """Return a drawing in which a joint's point on its second body is elsewhere."""
-    joints: list[Joint] = list(description.joints)
-    points = joints[number].points.copy()
-    points[1] += change
-    joints[number] = replace(joints[number], points=points)
-    return replace(description, joints=tuple(joints))
+    point = tuple((np.array(model.case.joints[name].point) + change).tolist())
+    return with_joints(model, [name], other_point=point)
 
 
 @pytest.mark.parametrize(
-    ("description", "freedoms", "redundant"),
+    ("model", "freedoms", "redundant"),
     [
         (slider_crank(), 0, 3),
         (two_four_bars(), 1, 6),
@@ -66,8 +66,8 @@ def moved(description: Description, number: int, change: tuple[float, float, flo
     ],
     ids=["slider-crank", "A02", "spatial", "Bricard", "four-bar", "chain"],
 )
-def test_freedoms_and_redundancy(description: Description, freedoms: int, redundant: int) -> None:
-    assembly = assemble(description)
+def test_freedoms_and_redundancy(model: Model, freedoms: int, redundant: int) -> None:
+    assembly = assemble(model)
     assembly.require_sound()
     assert assembly.freedoms == freedoms
     number = 0 if assembly.redundancy is None else assembly.redundancy.number
@@ -75,14 +75,16 @@ def test_freedoms_and_redundancy(description: Description, freedoms: int, redund
     assert (f"{redundant} constraint" in "".join(assembly.warnings)) == (redundant > 0)
 
 
-def weighted(factors: tuple[float, float, float]) -> Description:
+def weighted(factors: tuple[float, float, float]) -> Model:
     """Return a chain of links so many times as heavy, each turning at 1 rad/s against the one before."""
     links = chain(3)
-    bodies = tuple(
-        replace(body, mass=body.mass * k, inertia=body.inertia * k)
-        for body, k in zip(links.bodies, factors, strict=True)
-    )
-    return replace(links, bodies=bodies, speeds=tuple((k, "angle", 1.0) for k in range(3)))
+    bodies = {
+        name: old.model_copy(
+            update={"mass": old.mass * k, "inertia": tuple(moment * k for moment in old.inertia)}
+        )
+        for (name, old), k in zip(links.case.bodies.items(), factors, strict=True)
+    }
+    return with_joints(changed(links, bodies=bodies), start_speed=1.0)
 
 
 def test_masses_do_not_decide_what_is_redundant() -> None:
@@ -105,15 +107,15 @@ def test_a_body_too_light_for_its_joints_is_told() -> None:
 
 def test_redundancy_names_the_joints_of_the_loop_alone() -> None:
     loop = four_bar()
-    bodies = (*loop.bodies, rod("tail", (0.6, 0.0, 0.0), (0.9, 0.0, 0.0)))
-    tail = joint("tail", "revolute", (GROUND, 3), (0.6, 0.0, 0.0))
-    assembly = assemble(replace(loop, bodies=bodies, joints=(*loop.joints, tail)))
+    tail = {"tail": rod((0.6, 0.0, 0.0), (0.9, 0.0, 0.0))}
+    hinge = {"tail": joint("revolute", ("ground", "tail"), (0.6, 0.0, 0.0))}
+    assembly = assemble(changed(loop, bodies=tail, joints=hinge))
     assert assembly.redundancy is not None
     assert assembly.redundancy.joints == ("A", "B", "C", "D")
 
 
 def test_a_small_gap_is_closed_on_the_branch_that_was_drawn() -> None:
-    assembly = assemble(moved(four_bar(), 2, (1e-3, 2e-3, 0.0)))
+    assembly = assemble(moved(four_bar(), "C", (1e-3, 2e-3, 0.0)))
     assembly.require_sound()
     assert 0.0 < assembly.moved < 0.01
     assert assembly.state[13 + 1] > 0.0
@@ -121,9 +123,9 @@ def test_a_small_gap_is_closed_on_the_branch_that_was_drawn() -> None:
 
 
 def test_a_gap_that_does_not_close_is_told_with_its_joint_and_bodies() -> None:
-    assembly = assemble(moved(four_bar(), 2, (0.0, 0.0, 5e-3)))
+    assembly = assemble(moved(four_bar(), "C", (0.0, 0.0, 5e-3)))
     finding = assembly.findings[0]
-    assert finding.key == f"joints.{assembly.description.joints[2].name}"
+    assert finding.key == "joints.C"
     assert "does not close" in finding.text
     assert "5 mm apart" in finding.text
     with pytest.raises(InputError, match="does not close"):
@@ -132,8 +134,8 @@ def test_a_gap_that_does_not_close_is_told_with_its_joint_and_bodies() -> None:
 
 def test_a_drive_starts_elsewhere_than_the_drawing() -> None:
     start = np.radians(100.0)
-    description = replace(four_bar(), drives=(Drive("motor", 0, "angle", 0, sinusoid(start, 0.1, 5.0, 0.0)),))
-    assembly = assemble(description)
+    angle = AngleSignal(value=float(start), amplitude=0.1, angular_frequency=5.0)
+    assembly = assemble(changed(four_bar(), drives={"motor": DriveKeys(joint="A", angle=angle)}))
     assembly.require_sound()
     assert assembly.state[:2] == pytest.approx([0.1 * np.cos(start), 0.1 * np.sin(start)], abs=1e-9)
     # ω = 0.1 · 5 at the start.
@@ -148,32 +150,21 @@ def test_velocities_follow_from_the_drive() -> None:
     assert state[1, 12] == pytest.approx(-100.0 * 0.05 / 0.12, rel=1e-9)
 
 
-def _keys(description: Description) -> list[str]:
-    return [finding.key for finding in assemble(description).findings]
-
-
 def test_findings_name_what_to_change() -> None:
     loop = four_bar()
-    loose = replace(loop, bodies=(*loop.bodies, body("loose", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))))
-    assert _keys(loose) == ["bodies.loose"]
-    flat = replace(loop, bodies=(body("crank", 1.0, (0.1, 0.0, 0.0), (1.0, 1.0, 3.0)), *loop.bodies[1:]))
-    assert _keys(flat) == ["bodies.crank.inertia"]
-    second = Drive("second", 3, "angle", 1, constant(1.0))
-    twice = assemble(replace(loop, drives=(*loop.drives, second)))
+    loose = assemble(changed(loop, bodies={"loose": body(1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))}))
+    assert [finding.key for finding in loose.findings] == ["bodies.loose"]
+    twice = assemble(changed(loop, drives={"second": speed_drive("D", 1.0)}))
     assert "motor and second drive one freedom" in twice.findings[0].text
-    same = Drive("again", 0, "angle", 1, constant(1.0))
-    assert "drive one freedom" in assemble(replace(loop, drives=(*loop.drives, same))).findings[0].text
-    wrong = Drive("pusher", 1, "position", 1, constant(1.0))
-    assert "has nothing to drive" in assemble(replace(loop, drives=(wrong,))).findings[0].text
 
 
 def test_a_drive_against_a_locked_joint_has_nothing_to_drive() -> None:
-    bodies = [rod("arm", (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))]
-    joints = [
-        joint("pivot", "revolute", (GROUND, 0), (0.0, 0.0, 0.0)),
-        joint("lock", "fixed", (GROUND, 0), (1.0, 0.0, 0.0)),
-    ]
-    findings = assemble(mechanism(bodies, joints, drives=[speed_drive("motor", 0, 1.0)])).findings
+    bodies = {"arm": rod((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))}
+    joints = {
+        "pivot": joint("revolute", ("ground", "arm"), (0.0, 0.0, 0.0)),
+        "lock": joint("fixed", ("ground", "arm"), (1.0, 0.0, 0.0)),
+    }
+    findings = assemble(mechanism(bodies, joints, drives={"motor": speed_drive("pivot", 1.0)})).findings
     assert "drive motor has nothing to drive" in findings[0].text
 
 
@@ -187,7 +178,7 @@ def test_a_loop_that_does_not_close_over_the_drive_is_found() -> None:
 
 
 def test_speeds_that_contradict_a_drive_are_refused() -> None:
-    findings = assemble(replace(slider_crank(), speeds=((0, "angle", 1.0),))).findings
+    findings = assemble(with_joints(slider_crank(), ["main"], start_speed=1.0)).findings
     assert findings[0].key == "joints.main"
 
 
@@ -219,7 +210,7 @@ def test_reactions_of_a_light_body_are_exact_or_a_warning_names_it(mass: float, 
 
 
 def test_a_body_whose_reactions_would_be_wrong_is_refused() -> None:
-    finding = assemble(describe(swinging(1e-8).case())).findings[0]
+    finding = assemble(model_of(swinging(1e-8).case())).findings[0]
     assert finding.key == "bodies.link.mass"
     assert "link with 1e-08 kg is too light beside block with 1 kg" in finding.text
 

@@ -10,10 +10,11 @@ from tests.unit.mechanisms.general.slider_crank import FILE, built, parsed
 
 from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
+from tribodyn.joints.shapes import Cylinder
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.describe import describe
-from tribodyn.mechanisms.general.description import GROUND
+from tribodyn.mechanisms.general.equations import mechanism_data
+from tribodyn.mechanisms.general.model import model_of
 from tribodyn.studies.plan import make_plan
 
 CASE = parsed()
@@ -55,33 +56,30 @@ def test_every_key_of_every_joint_can_be_changed_and_varied() -> None:
     assert len(plan.points) == 6
 
 
-def test_the_description_is_in_si_with_numbers_for_names() -> None:
-    found = describe(CASE)
-    assert [body.name for body in found.bodies] == ["crank", "rod", "slider"]
-    assert [joint.bodies for joint in found.joints] == [(GROUND, 0), (0, 1), (1, 2), (GROUND, 2)]
-    wrist = found.joints[2].clearance
-    assert wrist is not None
-    assert wrist.sizes == {
-        "radius": 9.5e-3,
-        "radial": 20e-6,
-        "length": 20e-3,
-        "axial": 50e-6,
-        "flange": 14e-3,
-    }
-    assert (wrist.shape, found.joints[2].socket, wrist.grid) == ("cylinder", 0, (96, 16))
-    assert found.drives[0].level == 1
-    assert found.springs[0].length == pytest.approx(0.1)
-    force = found.loads[0].signals
-    assert list(force[0].coefficients) == [-100.0, -50.0, 10.0, 0.0]
-    assert all(signal.coefficients.any() == False for signal in force[1:])  # noqa: E712
-    assert list(found.loads[0].point) == [0.17, 0.0, 0.0]
+def test_keys_fill_records_in_si_with_numbers_for_names() -> None:
+    model = model_of(CASE)
+    assert model.bodies == ("crank", "rod", "slider")
+    data = mechanism_data(model)
+    couplings, n = data.parts.couplings, len(model.bodies)
+    joints = [(int(c.socket), int(c.shaft)) for c in couplings[: len(model.joints)]]
+    assert joints == [(n, 0), (0, 1), (1, 2), (n, 2)]
+    wrist = model.clearances["wrist"]
+    assert wrist.shape == Cylinder(9.5e-3, 20e-6, 20e-3, axial=50e-6, flange=14e-3)
+    assert wrist.grid == (96, 16)
+    spring, load = couplings[len(model.joints) :]
+    assert spring.length == pytest.approx(0.1)
+    pieces = [data.signals.pieces.c[data.signals.signals[i].first] for i in load.signals]
+    assert list(pieces[0][:2]) == [-100.0, 0.0]
+    assert not np.any(pieces[1:])
+    # The force acts at the point as drawn, the mass centre of the slider.
+    assert list(load.shaft_point) == [0.0, 0.0, 0.0]
 
 
 def test_principal_axes_turn_the_inertia() -> None:
     turned = CASE.replace({"bodies.rod.first_axis": "[0, 2, 0]", "bodies.rod.second_axis": "[-1, 0, 0]"})
     # Rounding of products of unit vectors.
     np.testing.assert_allclose(
-        describe(turned).bodies[1].inertia, np.diag([2.5e-4, 2e-5, 2.5e-4]), atol=1e-19
+        mechanism_data(model_of(turned)).parts.bodies[1].inertia, np.diag([2.5e-4, 2e-5, 2.5e-4]), atol=1e-19
     )
 
 

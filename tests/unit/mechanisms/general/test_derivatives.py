@@ -4,53 +4,84 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.unit.mechanisms.general.drawings import body, joint, mechanism, vector
 
+from tribodyn.cases.signals import AngleSignal, ForceSignal, TorqueSignal, VelocitySignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
-from tribodyn.core.signals import sinusoid
+from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.assembly import assemble
-from tribodyn.mechanisms.general.description import GROUND, Body, Description, Drive, Joint, Load, Spring
+from tribodyn.mechanisms.general.model import Model
+from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.problem import mechanism_problem
 
+Signal = AngleSignal | ForceSignal | TorqueSignal | VelocitySignal
 T = 0.3
+FRAMES = ("ground", "body", "motion")
+WRENCH = ("force", "moment")
 
 
-def _everything() -> Description:
+def _everything() -> Model:
     """Return a mechanism with every kind of row, drive, load and spring, anywhere in space."""
     rng = np.random.default_rng(1)
 
-    def signal() -> object:
-        return sinusoid(*rng.normal(size=4))
+    def signal(kind: type[Signal]) -> Signal:
+        value, amplitude, phase = rng.normal(size=3).tolist()
+        frequency = float(np.abs(rng.normal()))
+        return kind(value=value, amplitude=amplitude, angular_frequency=frequency, phase=phase)
 
-    def body(number: int) -> Body:
+    def any_body() -> BodyKeys:
         root = rng.normal(size=(3, 3))
-        return Body(f"body {number}", rng.uniform(0.5, 2.0), rng.normal(size=3), root @ root.T + np.eye(3))
+        moments, axes = np.linalg.eigh(root @ root.T)
+        # Moments of three masses along these axes.
+        inertia = axes @ np.diag(sum(moments) - moments) @ axes.T
+        return body(rng.uniform(0.5, 2.0), rng.normal(size=3), inertia)
 
-    def joint(kind: str, bodies: tuple[int, int], *springs: FloatArray) -> Joint:
-        points = np.tile(rng.normal(size=3), (2, 1))
-        given = springs or (np.zeros(0), np.zeros(0))
-        return Joint(kind, kind, bodies, points, rng.normal(size=(2, 3)), None, *given)
+    def any_joint(kind: str, between: tuple[str, str], *springs: FloatArray) -> JointKeys:
+        return joint(kind, between, *rng.normal(size=(3, 3)), *springs)
 
-    joints = (
-        *(joint("revolute", (GROUND, 0)), joint("universal", (0, 1)), joint("cylindrical", (1, 2))),
-        joint("prismatic", (2, 3)),
-        # None about the axis: its turning moment is differentiated but for the second order of the tilt.
-        joint("spring-damper", (GROUND, 3), np.array([3.0, 4.0, 5.0, 0.0, 2.0, 1.0]), np.full(6, 0.3)),
-        joint("spherical", (3, 0)),
+    bodies = {f"body {k}": any_body() for k in range(4)}
+    b = list(bodies)
+    # None about the axis: its turning moment is differentiated but for the second order of the tilt.
+    springs = np.array([3.0, 4.0, 5.0, 0.0, 2.0, 1.0]), np.full(6, 0.3)
+    joints = {
+        "revolute": any_joint("revolute", ("ground", b[0])),
+        "universal": any_joint("universal", (b[0], b[1])),
+        "cylindrical": any_joint("cylindrical", (b[1], b[2])),
+        "prismatic": any_joint("prismatic", (b[2], b[3])),
+        "soft": any_joint("spring-damper", ("ground", b[3]), *springs),
+        "spherical": any_joint("spherical", (b[3], b[0])),
+    }
+    drives = {
+        "turn": DriveKeys(joint="revolute", angle=signal(AngleSignal)),
+        "slide": DriveKeys(joint="cylindrical", velocity=signal(VelocitySignal)),
+        "push": DriveKeys(joint="prismatic", force=signal(ForceSignal)),
+    }
+
+    def load(k: int, frame: str, kind: str, *, aimed: bool = True) -> LoadKeys:
+        what = {"force": ForceSignal, "moment": TorqueSignal}[kind]
+        return LoadKeys(
+            body=b[k],
+            point=vector(rng.normal(size=3)),
+            frame=frame,
+            direction=vector(rng.normal(size=3)) if aimed else None,
+            slip_velocity=0.3,
+            slip_rate=0.3,
+            **{kind: signal(what)},
+        )
+
+    loads = {f"{frame} {kind}": load(k, frame, kind) for k, frame in enumerate(FRAMES) for kind in WRENCH}
+    loads |= {f"against {kind}": load(3, "motion", kind, aimed=False) for kind in WRENCH}
+    between = SpringKeys(
+        between=(b[0], b[3]),
+        first_point=vector(rng.normal(size=3)),
+        second_point=vector(rng.normal(size=3)),
+        stiffness=3.0,
+        damping=0.7,
+        length=0.2,
     )
-    drives = (
-        Drive("turn", 0, "angle", 0, signal()),
-        Drive("slide", 2, "position", 1, signal()),
-        Drive("push", 3, "position", 2, signal()),
-    )
-    frames = ("ground", "body", "motion", "line")
-    loads = tuple(
-        Load(frame, k, rng.normal(size=3), frame, tuple(signal() for _ in range(6)), -1, 0.3)
-        for k, frame in enumerate(frames)
-    )
-    springs = (Spring("spring", (0, 3), rng.normal(size=(2, 3)), 3.0, 0.7, 0.2),)
-    return Description(
-        tuple(body(k) for k in range(4)), joints, drives, loads, springs, rng.normal(size=3), ()
+    return mechanism(
+        bodies, joints, rng.normal(size=3), drives=drives, loads=loads, springs={"spring": between}
     )
 
 

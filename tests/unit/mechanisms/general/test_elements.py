@@ -22,10 +22,10 @@ from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.describe import describe
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.figures.mechanism import draw
+from tribodyn.mechanisms.general.model import model_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.general.sections import mechanism
 from tribodyn.mechanisms.general.skeleton import skeleton
@@ -47,14 +47,14 @@ def floating(kind: type[ElementKeys]) -> MechanismCase:
 
 
 def assembled(kind: type[ElementKeys]) -> Assembly:
-    found = assemble(describe(floating(kind)))
+    found = assemble(model_of(floating(kind)))
     found.require_sound()
     return found
 
 
 def disturbed(kind: type[ElementKeys], share: float) -> System:
     """Return the mechanism with its bodies somewhat off, so that joints are open, and moving."""
-    system, chance = System(assembled(kind).description), np.random.default_rng(1)
+    system, chance = System(assembled(kind).model), np.random.default_rng(1)
     for body in range(system.n):
         change = share * chance.normal(size=6) * np.repeat([system.size, 1.0], 3)
         move(system.now.bodies[body], change, np.zeros(4))
@@ -102,9 +102,9 @@ def test_reactions_on_all_bodies_have_no_resultant(kind: type[ElementKeys]) -> N
 
 @pytest.mark.parametrize("kind", ELEMENTS[:2], ids=lambda kind: kind.METHOD)
 def test_teeth_load_the_wheels_and_not_the_body_that_carries_them(kind: type[ElementKeys]) -> None:
-    system = System(assembled(kind).description)
+    system = System(assembled(kind).model)
     loads = system.matrix()[row_of_element(system)].reshape(-1, 6)
-    names = [body.name for body in system.description.bodies]
+    names = system.model.bodies
     sizes = {name: float(np.max(np.abs(load))) for name, load in zip(names, loads, strict=True)}
     assert sizes.pop("base") < 1e-15
     assert min(sizes.values()) == 1.0
@@ -251,8 +251,8 @@ def test_two_elements_need_two_names() -> None:
 
 def test_a_state_that_is_carried_on_keeps_the_equation_after_any_number_of_turns() -> None:
     kind = ELEMENTS[0]
-    assembly = assemble(describe(parsed(kind.EXAMPLE)))
-    state, bodies = assembly.state.copy(), System(assembly.description).now.bodies
+    assembly = assemble(model_of(parsed(kind.EXAMPLE)))
+    state, bodies = assembly.state.copy(), System(assembly.model).now.bodies
     place(state, bodies)
     for body, turn in ((0, 2.0 * np.pi), (1, -np.pi)):
         for _ in range(100):

@@ -9,11 +9,10 @@ import pytest
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.joints.clearances import places
+from tribodyn.joints.clearances import Clearance, places
 from tribodyn.mechanisms.bushing import bushing_of
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.describe import describe
-from tribodyn.mechanisms.general.description import Clearance
+from tribodyn.mechanisms.general.surfaces import clearances_of
 
 EXPANSION = {
     "surfaces.trunnion.thermal_expansion": "12e-6 1/K",
@@ -41,9 +40,7 @@ FORMS: dict[str, dict[str, object]] = {
 
 def clearance_of(case: object, joint: str = "trunnion") -> Clearance:
     assert isinstance(case, MechanismCase)
-    found = next(part.clearance for part in describe(case).joints if part.name == joint)
-    assert found is not None
-    return found
+    return clearances_of(case)[joint]
 
 
 def free(changes: Mapping[str, object], case: str = "vsv-free", joint: str = "trunnion") -> object:
@@ -85,22 +82,22 @@ def test_a_map_from_a_file_is_that_map(tmp_path) -> None:
 
 
 def test_flanges_go_apart_with_the_shaft_and_ends_of_the_bore_with_the_bushing() -> None:
-    warm = clearance_of(free(FORMS["warm"])).sizes
-    assert warm["axial_upper"] == 7e-6  # a single face: the shaft stands where it is drawn
-    warm = clearance_of(free(FORMS["warm"] | {"axial_lower": "93 um"})).sizes
+    warm = clearance_of(free(FORMS["warm"])).shape
+    assert warm.axial_upper == 7e-6  # a single face: the shaft stands where it is drawn
+    warm = clearance_of(free(FORMS["warm"] | {"axial_lower": "93 um"})).shape
     # 20 mm of bushing at 200 °C, 20.1 mm of shaft at 150 °C; shared as drawn.
     play = 20.1e-3 * (1.0 + 12e-6 * 130.0) - 20e-3 * (1.0 + 20e-6 * 180.0)
-    assert warm["axial_upper"] == pytest.approx(0.07 * play, rel=1e-9)
-    assert warm["axial_lower"] == pytest.approx(0.93 * play, rel=1e-9)
+    assert warm.axial_upper == pytest.approx(0.07 * play, rel=1e-9)
+    assert warm.axial_lower == pytest.approx(0.93 * play, rel=1e-9)
 
 
 def test_a_ball_and_its_race_grow() -> None:
     changes = {"temperature.trunnion": "120 degC"}
     cold, warm = (
-        clearance_of(free(given, "vsv-joints", "ring-ball"), "ring-ball").sizes for given in ({}, changes)
+        clearance_of(free(given, "vsv-joints", "ring-ball"), "ring-ball").shape for given in ({}, changes)
     )
-    assert warm["radius"] == pytest.approx(cold["radius"] * (1.0 + 1.2e-3), rel=1e-12)
-    assert warm["radial"] == pytest.approx(cold["radial"] - 1.2e-3 * cold["radius"], rel=1e-9)
+    assert warm.radius == pytest.approx(cold.radius * (1.0 + 1.2e-3), rel=1e-12)
+    assert warm.clearance == pytest.approx(cold.clearance - 1.2e-3 * cold.radius, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -2,35 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from tests.unit.mechanisms.general.drawings import chain, joint, mechanism, rod
+from tests.unit.mechanisms.general.drawings import chain, joint, mechanism, rod, with_springs
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.blocks import factorise, solve
-from tribodyn.mechanisms.general.description import GROUND, Description
 from tribodyn.mechanisms.general.equations import mechanism_data, n_blocks
+from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
 
 
-def star(n: int) -> Description:
+def star(n: int) -> Model:
     """Return a ring that turns about the ground, with n bodies hinged to it."""
-    ring = rod("ring", (-0.5, 0.0, 0.0), (0.5, 0.0, 0.0))
     ways = [np.array([np.cos(a), np.sin(a), 0.0]) for a in 2.0 * np.pi * np.arange(n) / n]
-    vanes = [rod(f"vane {k}", 0.5 * way, way) for k, way in enumerate(ways)]
-    hinges = [joint(f"hinge {k}", "spherical", (0, k + 1), 0.5 * way) for k, way in enumerate(ways)]
-    return mechanism([ring, *vanes], [joint("main", "revolute", (GROUND, 0), (0.0, 0.0, 0.0)), *hinges])
+    vanes = {f"vane {k}": rod(0.5 * way, way) for k, way in enumerate(ways)}
+    ring = {"ring": rod((-0.5, 0.0, 0.0), (0.5, 0.0, 0.0))}
+    hinges = {
+        f"hinge {k}": joint("spherical", ("ring", f"vane {k}"), 0.5 * way) for k, way in enumerate(ways)
+    }
+    main = {"main": joint("revolute", ("ground", "ring"), (0.0, 0.0, 0.0))}
+    return mechanism(ring | vanes, main | hinges)
 
 
-def softened(description: Description) -> Description:
+def softened(model: Model) -> Model:
     """Return a mechanism whose joints are springs, so that nothing but bodies is eliminated."""
-    springs = np.ones(6)
-    joints = [
-        replace(j, kind="spring-damper", stiffness=springs, damping=springs) for j in description.joints
-    ]
-    return replace(description, joints=tuple(joints))
+    return with_springs(model, 1.0, 1.0, 1.0)
 
 
 @pytest.mark.parametrize("make", [chain, star])

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import tribodyn as td
 from tribodyn.mechanisms.general.builder import Mechanism
-from tribodyn.mechanisms.general.describe import describe
+from tribodyn.mechanisms.general.races import axes_of
 
 TURN = Rotation.from_rotvec([0.4, -0.7, 1.1]).as_matrix()
 RACE = {"radius": "6 mm", "radial": "20 um", "nodes_around": 36, "nodes_along": 6}
@@ -30,11 +30,12 @@ def hanging(turn: np.ndarray) -> Mechanism:
 
 
 def test_the_race_is_normal_to_the_plane_of_joint_and_mass_centres() -> None:
-    plain, turned = (describe(hanging(turn).case()) for turn in (np.eye(3), TURN))
-    for before, after in zip(plain.joints, turned.joints, strict=True):
-        np.testing.assert_allclose(after.axes, before.axes @ TURN.T, atol=1e-12)
-    centre, point = plain.bodies[0].centre, plain.joints[0].points[0]
-    assert plain.joints[0].axes[0] @ (centre - point) == pytest.approx(0.0, abs=1e-15)
+    plain, turned = (hanging(turn).case() for turn in (np.eye(3), TURN))
+    for before, after in zip(plain.joints.values(), turned.joints.values(), strict=True):
+        np.testing.assert_allclose(axes_of(turned, after), axes_of(plain, before) @ TURN.T, atol=1e-12)
+    left = plain.joints["left"]
+    way = np.array(plain.bodies["plate"].centre) - left.point
+    assert axes_of(plain, left)[0] @ way == pytest.approx(0.0, abs=1e-15)
 
 
 def test_rotating_the_model_changes_no_force() -> None:
@@ -51,6 +52,7 @@ def test_a_mechanism_on_a_line_has_an_axis_across_it(centre: str) -> None:
     drawn = Mechanism("Bob", run={"duration": "1 us"})
     drawn.body("bob", mass="1 kg", centre=centre, inertia="1e-3, 1e-3, 1e-3 kg m^2")
     drawn.spherical("pivot", "ground", "bob", point="0, 0, 0 mm").clearance("pivot", **RACE)
-    axis, second = describe(drawn.case()).joints[0].axes
+    case = drawn.case()
+    axis, second = axes_of(case, case.joints["pivot"])
     assert axis @ second == pytest.approx(0.0, abs=1e-15)
     assert np.linalg.norm(axis) == pytest.approx(1.0)

@@ -9,7 +9,7 @@ import tribodyn as td
 from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.describe import describe
+from tribodyn.mechanisms.general.model import model_of
 from tribodyn.mechanisms.general.system import MechanismSystem
 
 
@@ -18,7 +18,7 @@ def velocities(assembly: Assembly) -> np.ndarray:
 
 
 def assembled(case: MechanismCase) -> Assembly:
-    found = assemble(describe(case))
+    found = assemble(model_of(case))
     found.require_sound()
     return found
 
@@ -71,7 +71,7 @@ def test_a_drive_keeps_its_speed_where_clearances_take_a_misfit(start: str) -> N
     assert "clearances must take a misfit" in str(system.check())
     assembly, begin = system.assembly, system.start()
     v = (assembly.state if begin is None else begin).reshape(-1, 13)[:, 7:]
-    names = [body.name for body in assembly.description.bodies]
+    names = assembly.model.bodies
     crank, rod, slider = (v[names.index(name)] for name in ("crank", "rod", "slider"))
     assert crank[5] == pytest.approx(523.5988, rel=1e-6)
     pin = rod[:3] + np.cross(rod[3:], [0.06, 0.0, 0.0])

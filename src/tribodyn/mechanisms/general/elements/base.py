@@ -130,7 +130,7 @@ def other_body(joint: JointKeys, body: str) -> str:
 
 def origin(joint: JointKeys, body: str) -> FloatArray:
     """Return the point of a joint as drawn on this body, and on the other one [m], shape (2, 3)."""
-    points = np.array([joint.point, joint.other_point or joint.point])
+    points = np.array(joint.points)
     return points if joint.between[0] == body else points[::-1]
 
 

@@ -1,0 +1,163 @@
+"""The surfaces of joints with clearance, from the keys of a case."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, TypeVar
+
+import numpy as np
+
+from tribodyn.cases.case import demand
+from tribodyn.cases.temperature import Names
+from tribodyn.contact import Liner
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints import BushingGeometry, Friction
+from tribodyn.joints.clearances import Clearance, table_of
+from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
+from tribodyn.mechanisms.bushing import Bearing
+from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.joints import frame
+from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.parts import FLANGE, ClearanceKeys, JointKeys
+from tribodyn.mechanisms.general.races import axes_of
+
+_Round = TypeVar("_Round", Cylinder, Sphere, Ball)
+
+
+def bearings(case: MechanismCase) -> dict[str, Bearing]:
+    """Return the shafts in bores of a mechanism by the names of their joints, without its equations."""
+    return {
+        name: _bearing(case, name, joint.real)
+        for name, joint in case.joints.items()
+        if joint.real is not None and joint.shape == "cylinder"
+    }
+
+
+def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
+    pair, shape = case.of_pair(keys), _hot(case, name, keys, _cylinder(keys))
+    return Bearing(
+        contact=pair.contact,
+        pair=pair.surface_pair,
+        geometry=BushingGeometry(shape.clearance, shape.radius, shape.length),
+        liner=_liner(case, name, keys),
+        friction=Friction(keys.friction_coefficient, "traction", keys.slip_velocity),
+        nodes=keys.nodes_around or case.solver.grid.theta,
+    )
+
+
+def clearances_of(case: MechanismCase) -> dict[str, Clearance]:
+    """Return the clearances of all joints that are not ideal by their names, contact laws tabulated."""
+    return {
+        name: _clearance(case, name, joint, joint.real)
+        for name, joint in case.joints.items()
+        if joint.real is not None
+    }
+
+
+def _clearance(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys) -> Clearance:
+    pair = case.of_pair(keys)
+    contact, surfaces = pair.contact, pair.surface_pair
+    grid, law = case.solver.grid, contact.law_of(surfaces)
+    liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
+    return Clearance(
+        shape=shape,
+        grid=(keys.nodes_around or grid.theta, keys.nodes_along or grid.z),
+        roughness=surfaces.roughness_rms,
+        law=law,
+        table=table_of(
+            keys.contact,
+            law,
+            shape,
+            onset=contact.onset_separation,
+            smoothing_width=contact.smoothing_width,
+            liner=liner,
+        ),
+        friction_coefficient=keys.friction_coefficient,
+        slip_velocity=keys.slip_velocity,
+        onset=contact.onset_separation,
+        minimum_velocity=contact.least_entry_velocity,
+        tensile_clip=contact.tensile_clip,
+        contact=keys.contact,
+        liner=liner,
+        slides="position" in KINDS[joint.type].coordinates,
+    )
+
+
+def _liner(case: MechanismCase, name: str, keys: ClearanceKeys) -> Liner | None:
+    soft = case.of_pair(keys).surfaces.bushing
+    return keys.liner.layer(soft, f"joints.{name}.clearance.liner")
+
+
+def _shape(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys) -> Shape:
+    """Return the shape of a clearance at the temperatures of the run."""
+    if joint.shape == "mesh":
+        facets = _facets(case, joint, keys)
+        edge = keys.mesh_edge or float(np.ptp(facets.reshape(-1, 3), axis=0).max())
+        return Mesh(facets, _given(keys.gap), edge)
+    if joint.shape == "cylinder":
+        return _hot(case, name, keys, _cylinder(keys))
+    radius, clearance = _given(keys.radius), _given(keys.radial)
+    if joint.shape == "sphere":
+        return _hot(case, name, keys, Sphere(radius, clearance, keys.band))
+    return _hot(case, name, keys, Ball(radius, clearance))
+
+
+def _cylinder(keys: ClearanceKeys) -> Cylinder:
+    """Return a shaft in a bore as drawn."""
+    radius = _given(keys.radius)
+    return Cylinder(
+        radius=radius,
+        clearance=_given(keys.radial),
+        length=_given(keys.length),
+        pin_length=keys.pin_length,
+        axial=keys.axial,
+        axial_upper=keys.axial_upper,
+        axial_lower=keys.axial_lower,
+        flange=keys.flange or (FLANGE * radius if keys.has_faces else None),
+        form=keys.form.form(),
+    )
+
+
+def _given(size: float | None) -> float:
+    """Return a size that the shape of a joint needs, which its keys have checked."""
+    assert size is not None
+    return size
+
+
+def _facets(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> FloatArray:
+    """Return the triangles of a mesh in the axes of the joint, shape (n, 3, 3)."""
+    corners = np.array(keys.facets).reshape(-1, 3, 3)
+    return np.ascontiguousarray((corners - np.array(joint.point)) @ frame(*axes_of(case, joint)))
+
+
+def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _Round:
+    """Return the shape of a clearance at the temperatures of the run.
+
+    Of faces at both ends the play between the flanges of the shaft changes, shared as drawn. Against one face
+    alone the shaft stands where it is drawn.
+    """
+    temperature = keys.temperature
+    if not temperature.changes:
+        return cold
+    joint = f"joints.{name}.clearance."
+    names = Names(
+        f"{joint}radial", joint, f"{joint}temperature.", "" if keys.pair is None else f"pairs.{keys.pair}."
+    )
+    surfaces, length = case.of_pair(keys).surfaces, cold.length if isinstance(cold, Cylinder) else 0.0
+    geometry = BushingGeometry(cold.clearance, cold.radius, length)
+    warm = temperature.hot(geometry, surfaces, keys.liner, names)
+    shape = replace(cold, radius=warm.radius, clearance=warm.clearance)
+    if not isinstance(shape, Cylinder):
+        return shape
+    strain = temperature.strains(surfaces, names)[0]
+    sizes: dict[str, Any] = {"length": warm.length}
+    if len(shape.faces) == 2:
+        play = sum(shape.faces.values())
+        left = (length + play) * (1.0 + strain) - warm.length
+        words = f"the joint would seize along its axis: more than {1e6 * (play - left):.3g} um of play"
+        demand(left > 0.0, f"{joint}temperature", f"{words} are needed at assembly")
+        gaps = {key: getattr(shape, key) for key in ("axial", "axial_upper", "axial_lower")}
+        sizes |= {key: gap * left / play for key, gap in gaps.items() if gap is not None}
+    if shape.pin_length is not None:
+        sizes["pin_length"] = shape.pin_length * (1.0 + strain)
+    return replace(shape, **sizes)
