@@ -246,13 +246,8 @@ class System:
         """Close all joints, drives led from the drawing to where they start; return what fails."""
         pieces = self.data.signals.pieces
         numbers = {int(self.parts.couplings[k].row_signal[m]) for k, m, _ in self.drive_rows()}
-        firsts = [
-            slice(
-                self.data.signals.signals[i].first,
-                self.data.signals.signals[i].first + self.data.signals.signals[i].n,
-            )
-            for i in numbers
-        ]
+        driven = [self.data.signals.signals[i] for i in numbers]
+        firsts = [slice(signal.first, signal.first + signal.n) for signal in driven]
         if not self.rows:
             return []
         starts = [self._value(i) for i in numbers]

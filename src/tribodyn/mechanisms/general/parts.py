@@ -288,13 +288,10 @@ class JointKeys(NamedGroup):
 
     def _check_spring(self) -> None:
         keys = ("stiffness", "damping", "angular_stiffness", "angular_damping")
-        given: dict[str, Numbers] = {
-            key: getattr(self, key) for key in keys if getattr(self, key) is not None
-        }
+        given = {key: getattr(self, key) for key in keys if getattr(self, key) is not None}
         for key, values in given.items():
-            demand(
-                self.type == "spring-damper", key, f"this belongs to a spring-damper, not a {self.type} joint"
-            )
+            words = f"this belongs to a spring-damper, not a {self.type} joint"
+            demand(self.type == "spring-damper", key, words)
             demand(min(values) >= 0.0, key, "none of them may be below zero")
         stiff = {"stiffness", "angular_stiffness"} & set(given)
         demand(self.type != "spring-damper" or bool(stiff), "stiffness", "a spring-damper needs a stiffness")
@@ -305,9 +302,8 @@ class JointKeys(NamedGroup):
             return
         shapes = KINDS[self.type].shapes
         real = ", ".join(kind for kind, about in KINDS.items() if about.shapes)
-        demand(
-            bool(shapes), "clearance.radial", f"a {self.type} joint is always ideal; clearance is for: {real}"
-        )
+        words = f"a {self.type} joint is always ideal; clearance is for: {real}"
+        demand(bool(shapes), "clearance.radial", words)
         shape = self.shape
         words = f"a {self.type} joint has the shape {' or '.join(shapes)}"
         demand(shape in shapes, "clearance.shape", words)
@@ -323,8 +319,7 @@ class JointKeys(NamedGroup):
         words = f"a bonded sleeve is that of a shaft in a bore, not of the shape {shape}"
         bonded = clearance.temperature.fit == "bonded"
         demand(shape == "cylinder" or not bonded, "clearance.temperature.fit", words)
-        faces = ("axial", "axial_upper", "axial_lower", "flange")
-        for key in faces:
+        for key in ("axial", "axial_upper", "axial_lower", "flange"):
             words = f"end faces are for revolute joints, not for a {self.type} one"
             demand(self.type == "revolute" or getattr(clearance, key) is None, f"clearance.{key}", words)
         words = f"this is neither {self.between[0]} nor {self.between[1]}"
