@@ -325,6 +325,30 @@ def test_a_comparison_shows_directory_names_as_text(
     reader.keep_picture("comparison")
 
 
+def test_lines_of_points_whose_energy_is_missed_are_grey(opened: Opened, tmp_path: Path) -> None:
+    plan = make_plan(load_case("vsv"), {"joint.clearance": "20:40:10 um"}, Sampling())
+    missed = ("", "the energy balance misses 7 %", "")
+    numbers = {
+        point.name: {"failure": "", "doubtful": doubt, "contact_force_max_N": 10.0 * k}
+        for k, (point, doubt) in enumerate(zip(plan.points, missed, strict=True))
+    }
+    reader = opened(write(merge(plan, numbers), tmp_path))
+    reader.look_at("parallel")
+    marks = "[0, 0.5, 1].map((share) => [plot.plotted.x.at(0), plot.plotted.y.at(share)])"
+    saturations = [max(colour) - min(colour) for colour in reader.colours("parallel", marks)]
+    assert saturations[1] < 20 < min(saturations[0], saturations[2])
+    reader.keep_picture("sweep-doubtful")
+    place = reader.plot(
+        "parallel",
+        "(({left, top}, {x, y}) => [left + x.at(0), top + y.at(0.5)])"
+        "(plot.getBoundingClientRect(), plot.plotted)",
+    )
+    reader.page.mouse.move(*place)
+    reader.settle()
+    words = reader.page.locator("#parallel .readout").inner_text()
+    assert "Do not use these numbers: the energy balance misses 7 %." in words
+
+
 @pytest.mark.parametrize("width", [1280, 380])
 def test_a_point_of_a_sweep_opens_its_report(opened: Opened, tmp_path: Path, width: int) -> None:
     plan = make_plan(load_case("vsv"), {"joint.clearance": "20:50:10 um"}, Sampling())

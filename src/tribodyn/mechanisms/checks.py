@@ -68,25 +68,61 @@ def beyond_law(
     )
 
 
-def of_load(loading: Mapping[str, float]) -> list[str]:
+def instant(time: float, begins: Iterable[float] = (), lasting: float = 0.0) -> str:
+    """Return an instant in words, with the impact that it belongs to.
+
+    Parameters
+    ----------
+    time
+        The instant [s]; NaN where it is not known.
+    begins
+        Times of the start and of the reversals [s].
+    lasting
+        How long impacts last after each of them [s].
+    """
+    if math.isnan(time):
+        return "at an unknown time"
+    before = max((begin for begin in begins if begin <= time), default=-math.inf)
+    words = f"at t = {time:.4g} s"
+    if time > before + lasting:
+        return words
+    event = f"the reversal at {before:.4g} s" if before > 0.0 else "the start"
+    return f"{words}, in the impact after {event}"
+
+
+def of_load(loading: Mapping[str, float], when: str) -> list[str]:
     """Return what is to be said of the load on the surfaces; empty texts where nothing is.
 
     Parameters
     ----------
     loading
         From :func:`tribodyn.mechanisms.bushing.loading`.
+    when
+        The instant of the largest pressure in words, see :func:`instant`.
     """
     hardness, area = loading["hardness_share"], loading["real_area_share"]
     return [
-        f"The contact pressure reached {100 * hardness:.2g} % of the hardness: above a third of it the bulk "
-        "yields, not asperities alone."
+        f"The contact pressure reached {100 * hardness:.2g} % of the hardness {when}: above a third of it "
+        "the bulk yields, not asperities alone."
         if hardness > HARDNESS_LIMIT
         else "",
-        f"The real area of contact reached {100 * area:.2g} % of the nominal one where the surfaces came "
-        f"closest: above {100 * AREA_LIMIT:g} % asperities do not deform one by one, as contact laws have it."
-        if area > AREA_LIMIT
-        else "",
+        _of_real_area(area, when) if area > AREA_LIMIT else "",
     ]
+
+
+def _of_real_area(area: float, when: str) -> str:
+    """Return what is to be said of a real area of contact, over the nominal one."""
+    if area > 1.0:
+        return (
+            "The contact law has left its range: where the surfaces came closest it gives more real area of "
+            f"contact than there is. The pressure was largest {when}; do not use contact forces of such "
+            "instants."
+        )
+    return (
+        f"The real area of contact reached {100 * area:.2g} % of the nominal one where the surfaces came "
+        f"closest (largest pressure {when}): above {100 * AREA_LIMIT:g} % asperities do not deform one by "
+        "one, as contact laws have it."
+    )
 
 
 def of_damping_pressure(pressure: float, at_rest: float) -> str:

@@ -14,6 +14,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.store import POINTS
+from tribodyn.results.summary import caution
 from tribodyn.views.encode import packed
 from tribodyn.views.numbers import as_read, in_words
 from tribodyn.views.section import Payload
@@ -159,5 +160,7 @@ def payload(
             for axis in axes
         ],
         "shown": at_first(axes, key_numbers),
-        "points": [{"name": point.name, "link": point.link, "failure": point.failure} for point in points],
+        "points": [
+            {"name": point.name, "link": point.link, "caution": caution(point.doubtful)} for point in points
+        ],
     }

@@ -37,7 +37,8 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         title="All points",
         caption=(
             "Each line is a point of the sweep. Click a line where it meets an axis to open the report of "
-            "that point. Choose below which axes stand side by side; colours follow the first of them."
+            "that point. Choose below which axes stand side by side; colours follow the first of them. "
+            "Grey dashed lines are points whose energy balance misses too much: do not use their numbers."
         ),
         needs=(),
         widget="parallel",

@@ -26,6 +26,7 @@ from tribodyn.mechanisms.checks import (
     REJECTED_LIMIT,
     RESTART_LIMIT,
     ROUGH_LIMIT,
+    instant,
 )
 from tribodyn.mechanisms.general import checks as general_checks
 from tribodyn.mechanisms.general.contacts import Contacts
@@ -34,6 +35,8 @@ from tribodyn.mechanisms.vsv import checks
 from tribodyn.mechanisms.vsv.parameters import Vsv
 
 T_END = 2.0
+PEAK = 0.7503
+"""When the pressure was largest [s]."""
 SOUND = {
     "energy": 0.0,
     "clearance_energy": 0.0,
@@ -82,7 +85,7 @@ def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str
         **loading(seen),
     }
     residuals = seen["energy"], seen["clearance_energy"]
-    return checks.warnings(vsv, found, *residuals, T_END, cost)
+    return checks.warnings(vsv, found, *residuals, T_END, cost, instant(PEAK, np.array([0.0, 0.75]), 0.01))
 
 
 def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
@@ -90,7 +93,9 @@ def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
     found.separation_least = seen["depth"] * vsv.joint.roughness
     found.tensile_clip_time = seen["clipped"] * T_END
     numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
-    return journal_checks.warnings(found, vsv.joint, loading(seen), **numbers, statistics=cost)
+    return journal_checks.warnings(
+        found, vsv.joint, loading(seen), **numbers, statistics=cost, when=instant(PEAK)
+    )
 
 
 def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
@@ -112,6 +117,7 @@ def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
     peaks = {
         "separation_least": np.array([seen["depth"] * joint.roughness]),
         "tensile_clip_time": np.array([seen["clipped"] * T_END]),
+        "pressure_peak_time": np.array([PEAK]),
     }
     found = {name: np.array([value]) for name, value in loading(seen).items()}
     found["grid_force_error"] = np.array([seen["grid"]])
@@ -147,6 +153,36 @@ def test_a_threshold_is_where_the_warning_begins(
         messages = told(make_vsv(), seen, statistics(seen))
         assert len(messages) == expected
         assert all(words.lower() in text.lower() and text.endswith(".") for text in messages)
+
+
+@pytest.mark.parametrize("told", EVERY)
+@pytest.mark.parametrize(("name", "value"), [("hardness", 0.5), ("area", 0.16)])
+def test_an_overload_names_its_instant(
+    make_vsv: Callable[..., Vsv], told: Callable[..., list[str]], name: str, value: float
+) -> None:
+    (message,) = told(make_vsv(), SOUND | {name: value}, statistics(SOUND))
+    assert "at t = 0.7503 s" in message
+    assert ("the impact after the reversal at 0.75 s" in message) == (told is of_vsv)
+    assert message.startswith("In pin:barrel") == (told is of_general)
+
+
+@pytest.mark.parametrize("told", EVERY)
+def test_more_than_all_of_the_area_is_no_share(
+    make_vsv: Callable[..., Vsv], told: Callable[..., list[str]]
+) -> None:
+    (below,) = told(make_vsv(), SOUND | {"area": 0.99}, statistics(SOUND))
+    assert "reached 99 % of the nominal one" in below
+    (beyond,) = told(make_vsv(), SOUND | {"area": 7.5}, statistics(SOUND))
+    assert "750 %" not in beyond
+    assert "contact law has left its range" in beyond
+
+
+def test_an_instant_names_the_impact_that_it_belongs_to() -> None:
+    begins = np.array([0.0, 0.5, 1.0])
+    assert instant(0.004, begins, 0.01) == "at t = 0.004 s, in the impact after the start"
+    assert instant(0.505, begins, 0.01) == "at t = 0.505 s, in the impact after the reversal at 0.5 s"
+    assert instant(0.52, begins, 0.01) == "at t = 0.52 s"
+    assert instant(float("nan"), begins, 0.01) == "at an unknown time"
 
 
 def test_points_of_contact_are_told_of_and_have_no_depth(make_vsv: Callable[..., Vsv]) -> None:

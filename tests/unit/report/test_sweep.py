@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
@@ -55,3 +56,18 @@ def test_a_sweep_without_any_result_still_has_a_page(sweep, tmp_path):
     text = write(bare, tmp_path).read_text(encoding="utf-8")
     assert "page-data" not in text
     assert "Table of all 6 points" in text
+
+
+def test_lines_of_points_whose_energy_is_missed_are_marked(sweep):
+    doubts = np.full(sweep["failure"].shape, "", dtype=object)
+    doubts.flat[2] = "the energy balance misses 7 %"
+    marked = sweep.assign(doubtful=(sweep["failure"].dims, doubts.astype(str)))
+    found = payload(axes_of(marked), points_of(marked, None), ())
+    assert [point["caution"] for point in found["points"]] == [
+        "",
+        "",
+        "Do not use these numbers: the energy balance misses 7 %.",
+        "",
+        "",
+        "",
+    ]

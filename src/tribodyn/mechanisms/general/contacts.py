@@ -20,7 +20,7 @@ from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.mechanisms.bushing import loading
-from tribodyn.mechanisms.checks import named, of_contact, of_damping_pressure, of_load
+from tribodyn.mechanisms.checks import instant, named, of_contact, of_damping_pressure, of_load
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.wear import resampled
 
@@ -96,7 +96,8 @@ class Contacts:
                 clipped=float(peaks["tensile_clip_time"][s]) / t_end if t_end > 0.0 else 0.0,
                 grid_error=float(found["grid_force_error"][s]),
             )
-            said += named(name, [*of_surface, *of_load(load)])
+            when = instant(float(peaks["pressure_peak_time"][s]))
+            said += named(name, [*of_surface, *of_load(load, when)])
         return said
 
     def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:

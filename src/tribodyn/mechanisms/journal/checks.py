@@ -18,6 +18,7 @@ def warnings(
     grid_error: float,
     t_end: float,
     statistics: Mapping[str, float],
+    when: str,
 ) -> list[str]:
     """Return what a user should know before trusting the numbers, one sentence each.
 
@@ -37,6 +38,8 @@ def warnings(
         Simulated time reached [s].
     statistics
         As for :func:`tribodyn.mechanisms.checks.of_steps`.
+    when
+        When the contact pressure was largest, in words.
     """
     messages = [
         f"Energy is missed: {100 * residual:.2g} % of all in the ledger. {TIGHTEN}"
@@ -48,7 +51,7 @@ def warnings(
             clipped=float(extremes.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,
         ),
-        *of_load(load),
+        *of_load(load, when),
         *of_steps(statistics),
     ]
     return [message for message in messages if message]

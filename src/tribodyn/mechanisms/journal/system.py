@@ -26,7 +26,7 @@ from tribodyn.mechanisms.bushing import (
     loading,
     of_temperature,
 )
-from tribodyn.mechanisms.checks import beyond_law, extremes, of_clearance, of_tables
+from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
 from tribodyn.mechanisms.journal.course import angle
@@ -129,9 +129,9 @@ class JournalSystem:
         residual = residual_fraction(columns, self.journal)
         grid_error = grid_force_error(self.journal.joint, rows)
         found = run.problem.memory.joint.extremes
-        pressure = of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"]
+        largest = of_run(run.problem.memory.peaks, WATCHED)
         law = self.case.contact.law_of(self.case.surface_pair)
-        load = loading(law, self.journal.joint.touch, pressure, float(found.separation_least))
+        load = loading(law, self.journal.joint.touch, largest["pressure_peak"], float(found.separation_least))
         return ResultPart(
             columns=columns,
             fields=self._numbers(run, rows, balance),
@@ -150,6 +150,7 @@ class JournalSystem:
                     grid_error=grid_error,
                     t_end=float(run.solution.t_end),
                     statistics=run.cost,
+                    when=instant(largest["pressure_peak_time"]),
                 ),
                 *of_tables(self.case.followed(), run.solution.t, lambda _: self._turned(run.solution.t)),
             ],

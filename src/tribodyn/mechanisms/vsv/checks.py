@@ -36,6 +36,7 @@ def warnings(
     clearance: float,
     t_end: float,
     statistics: Mapping[str, float],
+    when: str,
 ) -> list[str]:
     """Return what a user should know before trusting the numbers, one sentence each.
 
@@ -51,6 +52,8 @@ def warnings(
         Simulated time reached [s].
     statistics
         Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`.
+    when
+        When the contact pressure was largest, in words.
     """
     share = lift_off_share(found, t_end)
     messages = [
@@ -61,7 +64,7 @@ def warnings(
             clipped=found["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
             grid_error=found["grid_force_error"],
         ),
-        *of_load(found),
+        *of_load(found, when),
         of_lift_off(share) if share > LIFT_OFF_LIMIT else "",
         *of_steps(statistics),
     ]

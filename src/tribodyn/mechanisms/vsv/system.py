@@ -29,7 +29,7 @@ from tribodyn.mechanisms.bushing import (
     of_temperature,
     pressure_at_rest,
 )
-from tribodyn.mechanisms.checks import beyond_law, extremes, of_clearance, of_tables
+from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
@@ -192,13 +192,15 @@ class VsvSystem:
         grid_error = grid_force_error(bushing, rows, worn, clearance)
         memory = run.problem.memory
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
-        pressure = of_run(memory.peaks, WATCHED)["pressure_peak"]
+        largest = of_run(memory.peaks, WATCHED)
+        pressure = largest["pressure_peak"]
         law = self.case.contact.law_of(self.case.surface_pair)
         found |= loading(law, bushing.touch, pressure, found["separation_least"])
         speed = rows["omega_v"] * bushing.geometry.radius
         flash = flash_of(self.case, bushing, rows, speed)
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         turns, t_end = self._turns(run), float(run.solution.t_end)
+        when = instant(largest["pressure_peak_time"], turns, self.vsv.drive.impact_time)
         return ResultPart(
             coordinates=self._coordinates(run),
             columns=force_parts(rows) | ledger | moving,
@@ -216,7 +218,7 @@ class VsvSystem:
                 **flash,
             },
             warnings=[
-                *warnings(self.vsv, found, whole, of_clearance, t_end, run.cost),
+                *warnings(self.vsv, found, whole, of_clearance, t_end, run.cost, when),
                 *of_tables(self.case.followed(), run.solution.t, lambda table: rows[_ANGLES[table.follows]]),
             ],
             notes=[

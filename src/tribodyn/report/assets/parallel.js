@@ -7,6 +7,8 @@ const AXIS_WIDTH = 84;
 const NEAR = 30;
 const LOWEST = -0.12;
 const HIGHEST_TEXT = 1.32;
+/** Dash of the lines of points whose numbers are not to be used [px]. */
+const NOT_TO_USE = [5, 4];
 
 widgets.parallel = (box) => {
   const area = plotArea(scroller(box), 420, {}, "The table of points below holds the same and the links.");
@@ -104,24 +106,34 @@ function pointNear(state, [x, y]) {
 /** Return a point in words: its place on every axis shown. */
 function inWords(data, axes, point) {
   const parts = axes.map((axis) => `${axis.label} = ${axis.texts[point]}`);
-  return `${data.points[point].name}: ${parts.join(", ")}`;
+  const { name, caution } = data.points[point];
+  return `${name}: ${parts.join(", ")}${caution ? `. ${caution}` : ""}`;
 }
 
-/** Draw the lines of all points in shades of the first axis, the one pointed at last and wider. */
+/** Draw the lines of all points, those not to be used first, the one pointed at last and wider. */
 function drawPoints(pen, state) {
-  const order = state.data.points.map((_, point) => point);
+  const { points } = state.data;
+  const order = points.map((_, point) => point).sort((a, b) => Boolean(points[b].caution) - Boolean(points[a].caution));
   if (state.pointed >= 0) order.push(state.pointed);
   order.forEach((point, n) => {
     const places = placesOf(state, point);
-    const colour = shade(Math.min(SHADES - 1, Math.floor(SHADES * (places[0] || 0))));
-    const wide = n === state.data.points.length;
+    const colour = colourOf(state, point);
+    const wide = n === points.length;
     Object.assign(pen, { strokeStyle: colour, fillStyle: colour, lineWidth: wide ? 4 : 1.6, globalAlpha: wide ? 1 : 0.85 });
+    pen.setLineDash(points[point].caution ? NOT_TO_USE : []);
     drawCurve(pen, places.map((_, k) => k), places, state.x, state.y);
+    pen.setLineDash([]);
     places.forEach((place, k) => {
       if (Number.isFinite(place)) drawMark(pen, "circle", state.x.at(k), state.y.at(place), 2.4);
     });
   });
   pen.globalAlpha = 1;
+}
+
+/** Return the colour of a point: a shade by its place on the first axis, grey where its numbers are not to be used. */
+function colourOf(state, point) {
+  if (state.data.points[point].caution) return theme.colour("quiet");
+  return shade(Math.min(SHADES - 1, Math.floor(SHADES * (placesOf(state, point)[0] || 0))));
 }
 
 /** Return the colour of a shade, light or dark enough to be seen on the page. */
