@@ -30,8 +30,8 @@ from tribodyn.kernels.joints.pose import N_WRENCH
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 
 FloatArray = NDArray[np.float64]
 

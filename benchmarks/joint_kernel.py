@@ -19,7 +19,7 @@ from tribodyn.joints.bushing import joint_wrench, new_memory, pose_at
 from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field, update_entry_velocity
 from tribodyn.kernels.joints.pose import N_MOTION, N_WRENCH
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.vsv.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 STATE = np.array([-3.9e-6, 6.57e-6, 6.46e-4, 1.31e-3, 3.6e-6, -2.4e-6, -2.8e-4, 3.8e-4])
 """Attitude and rates while the vane turns under load, a tilted trunnion [m, rad, m/s, rad/s]."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from benchmarks.numpy_vsv import integrate_with_scipy
 from benchmarks.vsv_case import one, problem_of, vsv_case
-from tribodyn.mechanisms.vsv.times import output_times
+from tribodyn.papers.cheng_2022.reduced.times import output_times
 
 POINT: Final = {"joint.contact": "point-lankarani-nikravesh"}
 EVERY: Final = 5e-3

@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.peers import paired, peers, setting
 from benchmarks.vsv_case import NATIVE, RTOL, accurate, errors, one, reference
-from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
+from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE, ledger_columns
 
 SOLVERS = (NATIVE, "cvode", "bdf", "radau", "lsoda")
 LADDER = ((1e-3, 1.0), (1e-4, 1.0), (1e-4, 0.1), (1e-5, 0.1), (1e-5, 0.01))

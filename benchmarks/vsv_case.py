@@ -16,11 +16,11 @@ from tribodyn.integrate.schedule import make_schedule
 from tribodyn.kernels.vsv.data import Mechanism, VsvData
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.parameters import Vsv
-from tribodyn.mechanisms.vsv.problem import vsv_problem
-from tribodyn.mechanisms.vsv.system import vsv_of
-from tribodyn.mechanisms.vsv.times import output_times
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.times import output_times
 
 FloatArray = NDArray[np.float64]
 

@@ -21,8 +21,8 @@ from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.shapes import SHAPES
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.vsv.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
-from tribodyn.mechanisms.vsv.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, math.radians(20.0), math.radians(55.0))
 INERTIAS = Inertias(0.82, 0.1232, 0.6744, 0.253, 6.22e-4, 8.33e-4, 7.20e-2, 2.16e-3, 2.16e-3)

@@ -17,7 +17,7 @@ from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, law, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
 from tribodyn.joints import CONTACTS, SURFACE
-from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c564b")
 STYLES = ("-", "--", "-.", ":")

@@ -16,8 +16,8 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.joints import Grid
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 REVERSAL = np.pi
 DURATION = "4 s"

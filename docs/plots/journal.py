@@ -17,7 +17,7 @@ from tribodyn.mechanisms.journal.parameters import Journal
 from tribodyn.mechanisms.journal.problem import journal_problem
 from tribodyn.mechanisms.journal.stribeck import stribeck
 from tribodyn.mechanisms.journal.system import journal_of
-from tribodyn.papers.cheng_2022 import FIGURES, Runs
+from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)

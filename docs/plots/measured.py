@@ -13,7 +13,7 @@ from typing import Final
 from measures import contact, joints, journal, laws_in_the_vane, mebdf, mechanisms, stored, vane, wear
 from measures.base import Numbers
 
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 
 NUMBERS: Final[Numbers] = {
     **contact.NUMBERS,

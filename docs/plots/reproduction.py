@@ -11,8 +11,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tribodyn.papers.cheng_2022 import FIGURES, Runs
 from tribodyn.papers.cheng_2022.claims import CLAIMS, judge
+from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, FORMULATIONS, smooth
 from tribodyn.papers.cheng_2022.save import save_claims, save_figure
 

@@ -15,7 +15,7 @@ import pytest
 from scipy.optimize import brentq
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 
 FIRST_DIFFERENCE = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 SECOND_DIFFERENCE = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0

@@ -10,8 +10,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingGeometry
 from tribodyn.joints.expansion import Casing, clearance_rates, expanded
 from tribodyn.kernels.actions import NONE
-from tribodyn.mechanisms.vsv.equilibrium import equilibrium
-from tribodyn.mechanisms.vsv.system import VsvSystem
+from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
+from tribodyn.papers.cheng_2022.reduced.system import VsvSystem
 
 COLD = BushingGeometry(clearance=60e-6, radius=6e-3, length=20e-3)
 ALPHA_T, ALPHA_B, ALPHA_C, NU, THICKNESS, RISE = 12e-6, 50e-6, 11e-6, 0.34, 1e-3, 380.0

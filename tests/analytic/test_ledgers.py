@@ -16,7 +16,7 @@ import tribodyn as td
 from tribodyn.integrate import integrate
 from tribodyn.kernels.ledger import NOW, POSITION, RATE, SPEED, SWING, add_part, begin, new_books
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.vsv.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
 ALLOWED = 0.01
 """A user is warned above this."""

@@ -17,9 +17,9 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.vsv.parameters import Lengths, Vsv
-from tribodyn.mechanisms.vsv.problem import vsv_problem
-from tribodyn.mechanisms.vsv.reach import closure, ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.parameters import Lengths, Vsv
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.reach import closure, ideal_vane_angle
 from tribodyn.simulation import simulate
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))

@@ -19,7 +19,7 @@ from tribodyn.kernels.vsv.equations import drive_moment
 from tribodyn.kernels.vsv.newton_euler import M_D
 from tribodyn.kernels.vsv.observe import observe
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 FORMULATIONS = ("exact", "paper")
 EXCURSION = 1e-3

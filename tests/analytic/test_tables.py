@@ -17,9 +17,9 @@ from tribodyn.kernels.vsv.observe import observe
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.actions import Term
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.vsv.course import course, ideal_motion
-from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
-from tribodyn.mechanisms.vsv.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.course import course, ideal_motion
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 SAME = 1e-12
 """A constant, and a spline through equal values: rounding."""

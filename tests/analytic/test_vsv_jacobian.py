@@ -13,7 +13,7 @@ import pytest
 
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.equations import accelerations
-from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 SCALE = np.array([1.6e-6, 1.6e-6, 1.6e-4, 1.6e-4, 1e-3, 1e-3, 0.1, 0.1])
 """What makes about the same difference in each state, see the test of the joint's Jacobian."""

@@ -13,8 +13,8 @@ import pytest
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
-from tribodyn.mechanisms.vsv.parameters import CrankMotion
-from tribodyn.mechanisms.vsv.problem import vsv_data
+from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data
 
 SCALE = np.array([1e-3, 1e-3, 0.05, 0.05])
 """Offsets [m] and tilts [rad]; rates are as many per second."""

@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 import tribodyn as td
 from benchmarks.workbench_page import OPTIONS
 from tribodyn.figures.save import save
-from tribodyn.mechanisms.vsv.figures import FIGURES
+from tribodyn.papers.cheng_2022.reduced.figures import FIGURES
 from tribodyn.report import write
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")

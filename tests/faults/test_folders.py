@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
-from tribodyn.papers.cheng_2022 import FIGURES
+from tribodyn.papers.cheng_2022.figures import FIGURES
 from tribodyn.surfaces import SelfAffine, generate, write_text
 
 COMMANDS = [

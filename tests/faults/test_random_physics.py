@@ -22,7 +22,7 @@ from tribodyn.contact import DAMPING_FACTORS, LAWS
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.mechanisms.checks import TIGHTEN
-from tribodyn.mechanisms.vsv.reach import reachable
+from tribodyn.papers.cheng_2022.reduced.reach import reachable
 from tribodyn.results.peaks import PARTS
 from tribodyn.simulation import simulate
 

@@ -16,7 +16,7 @@ from tribodyn.integrate import integrate
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.quantities import WATCHED
 from tribodyn.mechanisms.peaks import of_reversals
-from tribodyn.mechanisms.vsv.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
 HALF_LOAD = 0.42
 """Half the size of M_air in Table 3 [N m]."""

@@ -13,8 +13,8 @@ from scipy.integrate import simpson
 from tribodyn.contact import RSDC, law, tabulate
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.layout import E_X, PHI_Y
-from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
-from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
 
 CRANK = np.radians([-16.0, -10.0, 5.0, 24.0])
 

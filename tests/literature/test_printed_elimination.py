@@ -15,7 +15,7 @@ import pytest
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.equations import ring_centre
-from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 TIMES = np.linspace(0.05, 6.2, 60)
 LINK, CRANK, BX, BZ, F43Y = 0, 3, 6, 7, 8

@@ -13,9 +13,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.vsv.layout import THETA_V, VALUE, VELOCITY
-from tribodyn.mechanisms.vsv.equilibrium import equilibrium
-from tribodyn.mechanisms.vsv.problem import vsv_data, vsv_memory
-from tribodyn.mechanisms.vsv.reach import check_reach, ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.reach import check_reach, ideal_vane_angle
 
 VANE_ANGLES = [(-16.0, 60.9995), (-10.0, 73.165), (0.0, 89.658), (10.0, 103.691), (24.0, 120.277)]
 

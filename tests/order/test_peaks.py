@@ -10,7 +10,7 @@ import pytest
 import tribodyn as td
 from tribodyn.integrate import integrate
 from tribodyn.mechanisms.base import FinishedRun
-from tribodyn.mechanisms.vsv.descriptor import MECHANISM
+from tribodyn.papers.cheng_2022.reduced.descriptor import MECHANISM
 
 PEAKED = {
     "contact_force": lambda row: np.hypot(row["F_cx"], row["F_cy"]),

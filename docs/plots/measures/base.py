@@ -10,7 +10,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.results import summarise
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 
 Numbers: TypeAlias = dict[str, Callable[[Runs], str]]
 PEAK, ERROR = "contact_force_max_N", "vane_angle_error_outside_deg"

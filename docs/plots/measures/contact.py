@@ -16,7 +16,7 @@ from tribodyn.contact.bounce import Bounce, bounce
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.quadrature import asperity_integral
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 from tribodyn.simulation.bounce import BounceRow, bounces
 
 RESTITUTION: Final = 0.7

@@ -8,11 +8,10 @@ from typing import Final
 import numpy as np
 
 from measures.base import Numbers
-from tribodyn.papers.cheng_2022 import Runs
 from tribodyn.papers.cheng_2022.claims import all_joints
 from tribodyn.papers.cheng_2022.claims.all_joints import GUIDE_JOINT, ONE, means
 from tribodyn.papers.cheng_2022.claims.base import GUIDE, Trial
-from tribodyn.papers.cheng_2022.runs import JOINTS
+from tribodyn.papers.cheng_2022.runs import JOINTS, Runs
 
 CLEARANCES: Final = (20, 40)
 """Clearances of the page [µm]."""

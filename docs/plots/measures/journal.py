@@ -10,7 +10,7 @@ import numpy as np
 import tribodyn as td
 from measures.base import Numbers, key_result, keys
 from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 
 
 def journal(runs: Runs, *, name: str, digits: str, **changes: object) -> str:

@@ -11,8 +11,7 @@ import xarray as xr
 
 import tribodyn as td
 from measures.base import ERROR, PEAK, Numbers, first_reversal, force, key_result, result, span, spread, vsv
-from tribodyn.papers.cheng_2022 import Runs
-from tribodyn.papers.cheng_2022.runs import smooth
+from tribodyn.papers.cheng_2022.runs import Runs, smooth
 
 LAWS: Final = ("gt", "gw", "ke", "ceb", "jg", "linear")
 ROUGH: Final = tuple(name for name in LAWS if name != "linear")

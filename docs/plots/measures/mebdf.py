@@ -9,7 +9,7 @@ from measures.base import Numbers
 from mebdf.index import FREQUENCIES
 from mebdf.jacobian import LARGEST_IN_CORE
 from mebdf.kernels import acceptance, control, core, matrix, newton, state
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 
 
 def setting(entry: int) -> float:

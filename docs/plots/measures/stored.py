@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from measures.base import Numbers
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 
 SOURCE: Final = Path(__file__).parents[2] / "_static" / "benchmarks.json"
 FOUND: Final[dict[str, Any]] = json.loads(SOURCE.read_text(encoding="utf-8"))

@@ -9,10 +9,9 @@ import numpy as np
 
 from measures.base import PEAK, SOLVERS, Numbers, force, key_result, spread, vsv
 from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022 import Runs
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.damping import MOMENTS, under_moment
-from tribodyn.papers.cheng_2022.runs import smooth
+from tribodyn.papers.cheng_2022.runs import Runs, smooth
 
 
 def by_cycle(runs: Runs, name: str, clearance: str) -> float:

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 
 from measures.base import Numbers
-from tribodyn.papers.cheng_2022 import Runs
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.wear import profile
+from tribodyn.papers.cheng_2022.runs import Runs
 from tribodyn.papers.cheng_2022.wear import worn
 
 MILLION: Final[dict[str, object]] = {

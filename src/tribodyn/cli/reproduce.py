@@ -15,7 +15,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
-    from tribodyn.papers.cheng_2022 import PaperFigure, Runs
+    from tribodyn.papers.cheng_2022.base import PaperFigure
+    from tribodyn.papers.cheng_2022.runs import Runs
 
 HELP = "make the figures of the source paper, and judge its claims"
 CLAIMS: Final = "claims"
@@ -43,7 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Make what is asked for."""
-    from tribodyn.papers.cheng_2022 import FIGURES, FORMULATIONS, Runs
+    from tribodyn.papers.cheng_2022.figures import FIGURES, FORMULATIONS, Runs
 
     wanted = _wanted(args.what or [ALL], list(FIGURES))
     if args.formulation not in FORMULATIONS:

@@ -1,7 +1,8 @@
 """What a mechanism is to the rest of the program: one descriptor, and the systems that its cases describe.
 
-A mechanism is one folder beside this file and one line in ``FOLDERS`` of ``catalogue.py``. Everything
-above reads the descriptor and knows no mechanism by name.
+A mechanism is one folder beside this file and one line in ``FOLDERS`` of ``catalogue.py``, or a package of
+its own that registers its descriptor under the entry points ``tribodyn.mechanisms``. Everything above reads
+the descriptor and knows no mechanism by name.
 """
 
 from __future__ import annotations

@@ -1,10 +1,16 @@
-"""The list of the mechanisms, and their cases: by built-in name, from a TOML file, from TOML text."""
+"""The list of the mechanisms, and their cases: by built-in name, from a TOML file, from TOML text.
+
+Mechanisms of this package are folders; packages above it, and other installed packages, register theirs by
+entry points.
+"""
 
 from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Collection, Iterator, Mapping
+from importlib.metadata import entry_points
 from pathlib import Path
 from types import MappingProxyType
 from typing import Final, Protocol, TypeAlias, cast
@@ -18,11 +24,11 @@ from tribodyn.core.quoting import brief
 from tribodyn.mechanisms.base import MechanismDescriptor
 
 FOLDERS: Final = (
-    "vsv",
     "general",
     "journal",
 )
-"""Every mechanism by its folder beside this file, whose ``descriptor.py`` holds its ``MECHANISM``."""
+"""Mechanisms by their folders beside this file, whose ``descriptor.py`` holds their ``MECHANISM``."""
+_GROUP: Final = "tribodyn.mechanisms"
 
 
 def _described(folder: str) -> MechanismDescriptor:
@@ -31,10 +37,35 @@ def _described(folder: str) -> MechanismDescriptor:
     )
 
 
-MECHANISMS: Final[dict[str, MechanismDescriptor]] = {
-    mechanism.kind: mechanism for mechanism in map(_described, FOLDERS)
-}
-"""Every mechanism, by the kind of its cases."""
+def _registered(taken: Collection[str]) -> Iterator[MechanismDescriptor]:
+    """Yield the mechanisms under the entry points ``tribodyn.mechanisms``.
+
+    One that cannot be imported, is no mechanism or takes the name of another is left out with a warning: it
+    must not keep a user from the others.
+    """
+    kinds = set(taken)
+    for entry in entry_points(group=_GROUP):
+        try:
+            mechanism = entry.load()
+            if not isinstance(mechanism, MechanismDescriptor):
+                raise TypeError("it is no MechanismDescriptor")
+            if mechanism.kind in kinds:
+                raise ValueError(f"there is a mechanism {mechanism.kind!r} already")
+        except Exception as error:
+            warnings.warn(f"the mechanism {entry.value} was left out: {error}", stacklevel=2)
+            continue
+        kinds.add(mechanism.kind)
+        yield mechanism
+
+
+def _all() -> Iterator[MechanismDescriptor]:
+    ours = [_described(folder) for folder in FOLDERS]
+    yield from _registered([mechanism.kind for mechanism in ours])
+    yield from ours
+
+
+MECHANISMS: Final[dict[str, MechanismDescriptor]] = {mechanism.kind: mechanism for mechanism in _all()}
+"""Every mechanism, by the kind of its cases: those registered by entry points, and our own."""
 
 
 def kinds() -> dict[str, type[Case]]:

@@ -12,7 +12,7 @@ import tribodyn as td
 from tribodyn.cases.functions import with_functions
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.vsv.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 CASE = td.load_case("vsv").replace({"run.duration": "0.4 s"})
 

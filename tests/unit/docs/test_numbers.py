@@ -11,7 +11,7 @@ from types import ModuleType
 
 import pytest
 
-from tribodyn.papers.cheng_2022 import Runs
+from tribodyn.papers.cheng_2022.runs import Runs
 
 sys.path.insert(0, str(Path(__file__).parent))
 from pages import DOCS, ROOT, name, numbers, pages, prose

@@ -13,7 +13,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from tribodyn.mechanisms.vsv.figures import FIGURES as ALL
+from tribodyn.papers.cheng_2022.reduced.figures import FIGURES as ALL
 from tribodyn.report import draw_all
 from tribodyn.results import build
 

@@ -5,7 +5,7 @@ import io
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.vsv.figures import FIGURES
+from tribodyn.papers.cheng_2022.reduced.figures import FIGURES
 from tribodyn.report import figures_of
 from tribodyn.views.wear import no_feedback
 

@@ -31,8 +31,8 @@ from tribodyn.mechanisms.checks import (
 from tribodyn.mechanisms.general import checks as general_checks
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.journal import checks as journal_checks
-from tribodyn.mechanisms.vsv import checks
-from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.papers.cheng_2022.reduced import checks
+from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 
 T_END = 2.0
 PEAK = 0.7503

@@ -9,8 +9,8 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.vsv.headlines import HEADLINES
-from tribodyn.mechanisms.vsv.sections import CHAPTERS
+from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES
+from tribodyn.papers.cheng_2022.reduced.sections import CHAPTERS
 from tribodyn.report import draw_all, write
 from tribodyn.results import build
 from tribodyn.views.numbers import in_words

@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.results import headlines_of, summarise
-from tribodyn.mechanisms.vsv.headlines import HEADLINES
+from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES
 from tribodyn.results import build
 
 PERIOD = 2.0 * np.pi

@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.cases import keys_of
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.studies.variation import Levels, Scatter, variation, written
 
 KEYS = keys_of(VsvCase)

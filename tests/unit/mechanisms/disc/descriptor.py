@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from falling_disc.case import DiscCase
+from falling_disc.variables import VARIABLES
+
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import MechanismDescriptor
-from tribodyn.mechanisms.disc.case import DiscCase
-from tribodyn.mechanisms.disc.variables import VARIABLES
 from tribodyn.results.reading import column, peak
 from tribodyn.results.summary import Headline
 
 MECHANISM = MechanismDescriptor(
-    folder="tribodyn.mechanisms.disc",
+    folder="falling_disc",
     case=DiscCase,
     built_in={"disc": BuiltIn(DiscCase, "a disc that falls on an elastic floor")},
     variables=VARIABLES,

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from falling_disc.case import DiscCase
 
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.kernels.jit import entry
 from tribodyn.mechanisms.base import FinishedRun, ResultPart
-from tribodyn.mechanisms.disc.case import DiscCase
 
 GRAVITY = 9.81
 NAMES = ("height", "floor_force", "energy_lost")

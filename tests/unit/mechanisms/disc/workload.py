@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tribodyn.mechanisms.disc.case import DiscCase
+from falling_disc.case import DiscCase
+
 from tribodyn.mechanisms.workload import Workload
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.papers.cheng_2022 import FIGURES, Runs
+from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 
 
 def test_a_figure_leaves_the_runs_that_claims_are_judged_on():

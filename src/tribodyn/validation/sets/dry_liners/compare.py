@@ -8,7 +8,7 @@ from typing import Final, cast
 from tribodyn.cases.materials import MATERIALS
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.checks import HARDNESS_LIMIT, of_load
-from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet

@@ -11,7 +11,7 @@ import xarray as xr
 from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet

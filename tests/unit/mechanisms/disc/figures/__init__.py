@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
+from falling_disc.sections import HEIGHT
+
 from tribodyn.figures import chart
-from tribodyn.mechanisms.disc.sections import HEIGHT
 
 FIGURES = {"height": chart.family(HEIGHT)}

@@ -7,8 +7,8 @@ from typing import Final
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, MOST_CLOSE
-from tribodyn.mechanisms.vsv.case import VsvCase
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 _STEPS_OF_REVERSAL: Final = 1150.0
 """Steps of a reversal at ``rtol`` 1e-3, measured over 2 and 40 cycles and with drives of 1 and 10 rad/s."""

@@ -1,4 +1,4 @@
-"""A mechanism is one folder and one line: a falling disc is added to a copy, and every command knows it."""
+"""A package registers a mechanism, a falling disc, by an entry point; every command then knows it."""
 
 from __future__ import annotations
 
@@ -8,29 +8,59 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
-import tribodyn
 from mebdf.compiled.cache import folder
 from tribodyn.kernels.jit import SOURCES
+from tribodyn.mechanisms.catalogue import MECHANISMS
 
 HERE = Path(__file__).parent
-SOURCE = Path(tribodyn.__file__).parent
+
+
+def register(place: Path, entries: Mapping[str, str]) -> None:
+    """Write what remains of an installed package that has these entry points."""
+    about = place / "falling_disc-1.0.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: falling-disc\nVersion: 1.0\n")
+    lines = [f"{name} = {value}" for name, value in entries.items()]
+    (about / "entry_points.txt").write_text("\n".join(["[tribodyn.mechanisms]", *lines]))
 
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with a copy of the package to which the disc was added."""
+    """Return a folder with a package of another name, as installed, that holds the disc."""
     place = tmp_path_factory.mktemp("package")
-    copy = place / "tribodyn"
-    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copytree(HERE / "disc", copy / "mechanisms" / "disc")
-    catalogue = copy / "mechanisms" / "catalogue.py"
-    text = catalogue.read_text(encoding="utf-8")
-    catalogue.write_text(text.replace('    "journal",\n', '    "journal",\n    "disc",\n'), encoding="utf-8")
+    shutil.copytree(HERE / "disc", place / "falling_disc", ignore=shutil.ignore_patterns("__pycache__"))
+    register(place, {"disc": "falling_disc.descriptor:MECHANISM"})
     return place
+
+
+def test_the_reduced_model_of_the_paper_is_registered_the_same_way() -> None:
+    assert MECHANISMS["vsv"].folder == "tribodyn.papers.cheng_2022.reduced"
+
+
+def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
+    shutil.copytree(HERE / "disc", tmp_path / "falling_disc")
+    wrong = {
+        "absent": "falling_disc.nowhere:MECHANISM",
+        "none": "falling_disc.case:DiscCase",
+        "taken": "tribodyn.mechanisms.journal.descriptor:MECHANISM",
+    }
+    register(tmp_path, wrong)
+    done = subprocess.run(
+        [sys.executable, "-c", "from tribodyn.mechanisms.catalogue import MECHANISMS; print(*MECHANISMS)"],
+        env=os.environ | {"PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == list(MECHANISMS)
+    assert "No module named 'falling_disc.nowhere'" in done.stderr
+    assert "it is no MechanismDescriptor" in done.stderr
+    assert "there is a mechanism 'journal' already" in done.stderr
 
 
 COMMANDS = [

@@ -12,11 +12,11 @@ import numpy as np
 from tribodyn.cases.case import demand
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, polyline, repeated, scaled, spline
-from tribodyn.mechanisms.vsv.parameters import AnyDrive, CrankMotion, TableDrive
+from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, CrankMotion, TableDrive
 
 if TYPE_CHECKING:
     from tribodyn.cases.signals import AngleTable, PositionTable, SpeedTable
-    from tribodyn.mechanisms.vsv.actions import CrankKeys
+    from tribodyn.papers.cheng_2022.reduced.actions import CrankKeys
 
 _CLOSED: Final = 1.0e-6
 """Of a table's largest angle or speed: what end and beginning may differ by where it is repeated."""

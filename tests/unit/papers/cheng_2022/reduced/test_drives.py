@@ -12,9 +12,9 @@ import pytest
 import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.course import course
-from tribodyn.mechanisms.vsv.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.course import course
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 TIMES = np.linspace(0.0, 2.0 * math.pi, 65)
 SINUSOID = np.radians(-16.0 + 20.0 * (1.0 - np.cos(TIMES)))

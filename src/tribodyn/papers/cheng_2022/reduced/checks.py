@@ -19,8 +19,8 @@ from tribodyn.mechanisms.checks import (
     of_load,
     of_steps,
 )
-from tribodyn.mechanisms.vsv.course import course
-from tribodyn.mechanisms.vsv.parameters import Vsv
+from tribodyn.papers.cheng_2022.reduced.course import course
+from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 
 GAINS_ENERGY: Final = (
     "the equations of formulation 'paper' can gain energy in an impact, with damping and at small loads too; "

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE
-from tribodyn.mechanisms.vsv.sections import mechanism, vane_error
-from tribodyn.mechanisms.vsv.sections.clearance import WARMING
-from tribodyn.mechanisms.vsv.sections.motion import MOTION
+from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE
+from tribodyn.papers.cheng_2022.reduced.sections import mechanism, vane_error
+from tribodyn.papers.cheng_2022.reduced.sections.clearance import WARMING
+from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION
 from tribodyn.views import orbit, overlay, pressure
 from tribodyn.views.bushing_charts import CONTACT_FORCE, TILT
 from tribodyn.views.energy import ledger_chart

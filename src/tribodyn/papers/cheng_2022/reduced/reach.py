@@ -15,7 +15,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.vsv.closure import closure_residual, crank_end
 from tribodyn.kernels.vsv.layout import N_IDEAL
-from tribodyn.mechanisms.vsv.parameters import Lengths
+from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 
 _SCAN: Final = 1441
 _BLOCK: Final = 32

@@ -13,10 +13,10 @@ from tribodyn.core.problem import Following
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.actions import crossings
 from tribodyn.mechanisms.playback import distinct
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.course import course, ideal_motion
-from tribodyn.mechanisms.vsv.parameters import CrankMotion, Lengths, TableDrive, Vsv
-from tribodyn.mechanisms.vsv.reach import ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.course import course, ideal_motion
+from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Lengths, TableDrive, Vsv
+from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
 
 _WATCHED: Final = tuple(
     (OBSERVED.index(name),) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")

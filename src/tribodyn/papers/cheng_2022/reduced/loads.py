@@ -21,8 +21,8 @@ from tribodyn.kernels.vsv.data import (
 from tribodyn.mechanisms.actions import Term
 
 if TYPE_CHECKING:
-    from tribodyn.mechanisms.vsv.actions import VaneLoad
-    from tribodyn.mechanisms.vsv.case import VsvCase
+    from tribodyn.papers.cheng_2022.reduced.actions import VaneLoad
+    from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 _TARGETS: Final = {"force_x": AIR_X, "force_y": AIR_Y, "force_z": AIR_Z, "moment": AIR_M}
 _BENDS: Final = {"force_x": BEND_Y, "force_y": BEND_X}

@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 MM: Final = 1e3
 

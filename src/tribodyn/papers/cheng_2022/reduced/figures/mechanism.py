@@ -27,8 +27,8 @@ from tribodyn.figures.style import (
     note,
     sheet,
 )
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.places import MM, case_of, crank_pivot, crank_tip, ring_points
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip, ring_points
 from tribodyn.views.series import finite, series
 
 TITLE: Final = "The mechanism at three vane positions"

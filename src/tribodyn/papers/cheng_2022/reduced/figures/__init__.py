@@ -6,10 +6,10 @@ from typing import Final
 
 from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear, wear_history
 from tribodyn.figures.base import Family
-from tribodyn.mechanisms.vsv.figures import mechanism, vane_error
-from tribodyn.mechanisms.vsv.ledger import LEDGERS
-from tribodyn.mechanisms.vsv.sections.clearance import WARMING
-from tribodyn.mechanisms.vsv.sections.motion import MOTION
+from tribodyn.papers.cheng_2022.reduced.figures import mechanism, vane_error
+from tribodyn.papers.cheng_2022.reduced.ledger import LEDGERS
+from tribodyn.papers.cheng_2022.reduced.sections.clearance import WARMING
+from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION
 from tribodyn.views.bushing_charts import TILT
 
 FIGURES: Final[dict[str, Family]] = {

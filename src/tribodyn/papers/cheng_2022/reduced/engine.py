@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms.vsv.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 _POLYIMIDE: Final = "makeitfrom.com, 40% Graphite Thermoset PI (ASTM D6456 Type II Class 2), to 260 degC"
 _STEEL: Final = "assumed: martensitic stainless steel"

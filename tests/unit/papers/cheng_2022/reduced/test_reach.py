@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.vsv.parameters import Lengths
-from tribodyn.mechanisms.vsv.reach import check_reach, closure, ideal_vane_angle, reachable
+from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
+from tribodyn.papers.cheng_2022.reduced.reach import check_reach, closure, ideal_vane_angle, reachable
 
 SEEDS = range(24)
 

@@ -25,7 +25,7 @@ from tribodyn.figures.style import (
     lines,
     sheet,
 )
-from tribodyn.mechanisms.vsv.sections.vane_error import DEG, ERROR, error
+from tribodyn.papers.cheng_2022.reduced.sections.vane_error import DEG, ERROR, error
 from tribodyn.views.events import direction, reversal_times
 from tribodyn.views.series import peak, series
 

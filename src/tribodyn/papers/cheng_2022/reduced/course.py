@@ -14,8 +14,8 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels.vsv.data import CRANK_ANGLE, TIME, VANE
 from tribodyn.mechanisms.actions import Term, crossings, inside, kinks_over, segments_of
-from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths, Vsv
-from tribodyn.mechanisms.vsv.reach import dead_centres, ideal_table
+from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths, Vsv
+from tribodyn.papers.cheng_2022.reduced.reach import dead_centres, ideal_table
 
 CLEARANCE_ROOM: Final = 0.01
 """What clearance may add to θ_v, generously [rad]."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.vsv.problem import initial_state, vsv_data, vsv_memory
-from tribodyn.mechanisms.vsv.system import vsv_of
+from tribodyn.papers.cheng_2022.reduced.problem import initial_state, vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 
 @pytest.mark.parametrize("clearance", [5, 20, 100, 190, 500])

@@ -20,10 +20,17 @@ from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature
 from tribodyn.core.errors import Faults
-from tribodyn.mechanisms.vsv.actions import COMPONENTS, DRIVE_TABLES, CrankKeys, Surge, VaneLoad, VanePassing
+from tribodyn.papers.cheng_2022.reduced.actions import (
+    COMPONENTS,
+    DRIVE_TABLES,
+    CrankKeys,
+    Surge,
+    VaneLoad,
+    VanePassing,
+)
 
 if TYPE_CHECKING:
-    from tribodyn.mechanisms.vsv.parameters import AnyDrive, Lengths
+    from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths
 
 TABLE_2 = "paper, Table 2"
 TABLE_3 = "paper, Table 3"
@@ -213,7 +220,7 @@ class VsvCase(BushingCase):
     def lengths(self) -> Lengths:
         """Lengths and angles of the mechanism in the symbols of the paper."""
         # Imported here: the mechanism brings compiled code along, which reading the models does not need.
-        from tribodyn.mechanisms.vsv.parameters import Lengths
+        from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 
         m = self.mechanism
         return Lengths(
@@ -230,7 +237,7 @@ class VsvCase(BushingCase):
     @property
     def crank(self) -> AnyDrive:
         """Motion of the crank in the symbols of the paper."""
-        from tribodyn.mechanisms.vsv.drives import drive_of
+        from tribodyn.papers.cheng_2022.reduced.drives import drive_of
 
         return drive_of(self.drive, self.duration, again=self.wear.cycles > 0)
 
@@ -255,7 +262,7 @@ class VsvCase(BushingCase):
 
     def doors(self) -> Doors:
         """Return where functions for drive and loads go."""
-        from tribodyn.mechanisms.vsv.course import ideal_range
+        from tribodyn.papers.cheng_2022.reduced.course import ideal_range
 
         crank = self.crank.crank_range(self.duration)
         span = self.period if self.run.cycles is not None else self.duration
@@ -367,7 +374,7 @@ class VsvCase(BushingCase):
 
     def _check_reach(self) -> None:
         """Check that the loop closes at every crank angle of the drive."""
-        from tribodyn.mechanisms.vsv.reach import check_reach
+        from tribodyn.papers.cheng_2022.reduced.reach import check_reach
 
         demand(self.drive.speed_amplitude != 0.0, "drive.speed_amplitude", "the crank must move")
         check_reach(self.lengths, *self.crank.crank_range(self.duration))

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.mechanisms.vsv.places import MM, case_of, crank_pivot, crank_tip
+from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip
 from tribodyn.views.encode import packed
 from tribodyn.views.playback import at_frames, playback_times
 from tribodyn.views.section import Payload, Section

@@ -33,15 +33,15 @@ from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearan
 from tribodyn.mechanisms.flash import flash_of
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.checks import GAINS_ENERGY, notes, warnings
-from tribodyn.mechanisms.vsv.course import course
-from tribodyn.mechanisms.vsv.ledger import CLEARANCE, WHOLE, ledger_columns
-from tribodyn.mechanisms.vsv.loads import terms_of
-from tribodyn.mechanisms.vsv.parameters import AirLoads, Inertias, Vsv
-from tribodyn.mechanisms.vsv.problem import vsv_problem
-from tribodyn.mechanisms.vsv.reach import at_limit, ideal_vane_angle
-from tribodyn.mechanisms.vsv.times import following, output_times, snapshots
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warnings
+from tribodyn.papers.cheng_2022.reduced.course import course
+from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE, ledger_columns
+from tribodyn.papers.cheng_2022.reduced.loads import terms_of
+from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
+from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.times import following, output_times, snapshots
 from tribodyn.results.attributes import CARRIED
 from tribodyn.wear import loaded_depth
 

@@ -6,13 +6,13 @@ from typing import Final
 
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import MechanismDescriptor
-from tribodyn.mechanisms.vsv.case import VsvCase
-from tribodyn.mechanisms.vsv.engine import ENGINE
-from tribodyn.mechanisms.vsv.headlines import HEADLINES, KEY_NUMBERS
-from tribodyn.mechanisms.vsv.variables import OF_CYCLE, VARIABLES
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.engine import ENGINE
+from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES, KEY_NUMBERS
+from tribodyn.papers.cheng_2022.reduced.variables import OF_CYCLE, VARIABLES
 
 MECHANISM: Final = MechanismDescriptor(
-    folder="tribodyn.mechanisms.vsv",
+    folder="tribodyn.papers.cheng_2022.reduced",
     case=VsvCase,
     built_in={
         "vsv": BuiltIn(

@@ -28,10 +28,10 @@ from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
 from tribodyn.mechanisms.actions import actions_of, shortest_wave
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.signals import SignalList, pieces_of
-from tribodyn.mechanisms.vsv.course import course
-from tribodyn.mechanisms.vsv.equilibrium import equilibrium
-from tribodyn.mechanisms.vsv.parameters import CrankMotion, Vsv
-from tribodyn.mechanisms.vsv.reach import ideal_table
+from tribodyn.papers.cheng_2022.reduced.course import course
+from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
+from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
+from tribodyn.papers.cheng_2022.reduced.reach import ideal_table
 
 STARTS: Final = ("equilibrium", "centred")
 WAVE_STEPS: Final = 24
