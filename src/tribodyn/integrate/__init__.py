@@ -10,13 +10,11 @@ from numpy.typing import ArrayLike
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.integrate.bdf import BDF
 from tribodyn.integrate.cvode import CVODE
 from tribodyn.integrate.driver import INTERRUPTED, Integrator, Stepwise
-from tribodyn.integrate.lsoda import LSODA
 from tribodyn.integrate.mebdf import MEBDF as COMPILED_MEBDF
-from tribodyn.integrate.radau import RADAU
 from tribodyn.integrate.schedule import make_schedule
+from tribodyn.integrate.scipy_steps import BDF, LSODA, RADAU
 
 if TYPE_CHECKING:
     from mebdf import MEBDF

@@ -55,6 +55,40 @@ class Step(NamedTuple):
     interpolate: Interpolant
 
 
+class Segment(NamedTuple):
+    """A plain initial value problem.
+
+    Attributes
+    ----------
+    rhs, jac
+        Right-hand side and its Jacobian; both return a new array at each call.
+    t_start
+        Begin [s].
+    y_start
+        State there, shape (n,).
+    t_end
+        End [s], after ``t_start``.
+    rtol
+        Relative tolerance.
+    atol
+        Absolute tolerance of each state, shape (n,).
+    statistics
+        Where LU decompositions and rejected steps are added.
+    longest
+        Length that no step exceeds [s].
+    """
+
+    rhs: VectorFunction
+    jac: VectorFunction
+    t_start: float
+    y_start: FloatArray
+    t_end: float
+    rtol: float
+    atol: FloatArray
+    statistics: Statistics
+    longest: float = math.inf
+
+
 class Method(Protocol):
     """A method that advances an initial value problem step by step."""
 
@@ -66,35 +100,6 @@ class Method(Protocol):
         """
         ...
 
-    def steps(
-        self,
-        rhs: VectorFunction,
-        jac: VectorFunction,
-        t_start: float,
-        y_start: FloatArray,
-        t_end: float,
-        rtol: float,
-        atol: FloatArray,
-        statistics: Statistics,
-        longest: float = math.inf,
-    ) -> Iterator[Step]:
-        """Yield the accepted steps from ``t_start`` to ``t_end``.
-
-        Parameters
-        ----------
-        rhs, jac
-            Right-hand side and its Jacobian; both return a new array at each call.
-        t_start, t_end
-            Begin and end of the segment [s], ``t_start < t_end``.
-        y_start
-            State at ``t_start``, shape (n,).
-        rtol
-            Relative tolerance.
-        atol
-            Absolute tolerance of each state, shape (n,).
-        statistics
-            Where LU decompositions and rejected steps are added.
-        longest
-            Length that no step exceeds [s].
-        """
+    def steps(self, segment: Segment) -> Iterator[Step]:
+        """Yield the accepted steps from the begin to the end of a segment."""
         ...

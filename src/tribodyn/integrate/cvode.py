@@ -7,7 +7,6 @@ equation solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
 from __future__ import annotations
 
 import importlib
-import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -15,8 +14,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
-from tribodyn.core.problem import Statistics
-from tribodyn.integrate.base import Step, VectorFunction
+from tribodyn.integrate.base import Segment, Step, VectorFunction
 
 
 class Cvode:
@@ -26,34 +24,23 @@ class Cvode:
         """Import scikit-sundae."""
         _cvode_class()
 
-    def steps(
-        self,
-        rhs: VectorFunction,
-        jac: VectorFunction,
-        t_start: float,
-        y_start: FloatArray,
-        t_end: float,
-        rtol: float,
-        atol: FloatArray,
-        statistics: Statistics,
-        longest: float = math.inf,
-    ) -> Iterator[Step]:
+    def steps(self, segment: Segment) -> Iterator[Step]:
         """Yield the accepted steps, see :class:`tribodyn.integrate.base.Method`.
 
         LU decompositions and rejected steps are not told by scikit-sundae.
         """
         # Without a least step CVODE goes on, printing warnings, when its steps no longer change t.
-        least = 4.0 * float(np.spacing(max(abs(t_start), abs(t_end))))
-        functions = {"rhsfn": _filling(rhs), "jacfn": _filling_matrix(jac)}
-        bounds = {"min_step": least, "max_step": min(longest, t_end - t_start)}
-        solver = _cvode_class()(**functions, **bounds, rtol=rtol, atol=atol)
-        solver.init_step(t_start, y_start)
+        t_old, t_end = segment.t_start, segment.t_end
+        least = 4.0 * float(np.spacing(max(abs(t_old), abs(t_end))))
+        functions = {"rhsfn": _filling(segment.rhs), "jacfn": _filling_matrix(segment.jac)}
+        bounds = {"min_step": least, "max_step": min(segment.longest, t_end - t_old)}
+        solver = _cvode_class()(**functions, **bounds, rtol=segment.rtol, atol=segment.atol)
+        solver.init_step(t_old, segment.y_start)
 
         def interpolate(t: float) -> FloatArray:
             y: FloatArray = solver.step(t, "normal", None).y
             return y
 
-        t_old = t_start
         while t_old < t_end:
             result = solver.step(t_end, "onestep", t_end)
             if result.success and result.t == t_old:

@@ -16,7 +16,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem, Solution, Statistics
-from tribodyn.integrate.base import Method, Step, VectorFunction
+from tribodyn.integrate.base import Method, Segment, Step, VectorFunction
 from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 from tribodyn.integrate.following import Followed
 from tribodyn.integrate.patience import Patience
@@ -139,10 +139,9 @@ class Walk:
 
     def segment(self, method: Method, rtol: float, t_end: float) -> None:
         """Integrate to the next breakpoint or to the end."""
-        binding, atol = self.binding, self.problem.atol
-        rhs, jac = self.listening(binding.rhs), self.listening(binding.jac)
-        longest = self.problem.longest_step
-        for step in method.steps(rhs, jac, self.t, self.y, t_end, rtol, atol, self.statistics, longest):
+        rhs, jac = self.listening(self.binding.rhs), self.listening(self.binding.jac)
+        bounds = rtol, self.problem.atol, self.statistics, self.problem.longest_step
+        for step in method.steps(Segment(rhs, jac, self.t, self.y, t_end, *bounds)):
             self.check(step)
             self.walk(step)
             self.ask()

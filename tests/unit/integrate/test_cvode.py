@@ -9,6 +9,7 @@ import pytest
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Statistics
+from tribodyn.integrate.base import Segment
 from tribodyn.integrate.cvode import CVODE
 
 
@@ -21,7 +22,8 @@ def jac(t, y):
 
 
 def steps(t_end=20.0):
-    return CVODE.steps(rhs, jac, 0.0, np.array([2.0, 0.0]), t_end, 1e-6, np.full(2, 1e-8), Statistics())
+    start = np.array([2.0, 0.0])
+    return CVODE.steps(Segment(rhs, jac, 0.0, start, t_end, 1e-6, np.full(2, 1e-8), Statistics()))
 
 
 def test_interpolation_does_not_disturb_the_steps():

@@ -25,7 +25,8 @@ class ExactSteps:
     def prepare(self):
         pass
 
-    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics, longest):
+    def steps(self, segment):
+        t_start, y_start, t_end = segment.t_start, segment.y_start, segment.t_end
         t = t_start
         while t < t_end:
             t_old, t = t, min(t + 0.4, t_end)
@@ -179,11 +180,11 @@ def test_progress_is_told_the_time_of_every_step():
 class OneLongStep(ExactSteps):
     """Evaluate again and again for minutes before the first step."""
 
-    def steps(self, rhs, jac, t_start, y_start, t_end, rtol, atol, statistics, longest):
+    def steps(self, segment):
         until = time.monotonic() + 300.0
         while time.monotonic() < until:
-            rhs(t_start, y_start)
-        yield from super().steps(rhs, jac, t_start, y_start, t_end, rtol, atol, statistics, longest)
+            segment.rhs(segment.t_start, segment.y_start)
+        yield from super().steps(segment)
 
 
 def test_stop_is_asked_in_the_middle_of_a_step_that_takes_long():

@@ -8,9 +8,8 @@ import scipy.integrate
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Statistics
-from tribodyn.integrate.bdf import BDF
-from tribodyn.integrate.lsoda import LSODA
-from tribodyn.integrate.radau import RADAU
+from tribodyn.integrate.base import Segment
+from tribodyn.integrate.scipy_steps import BDF, LSODA, RADAU
 
 METHODS = [BDF, RADAU, LSODA]
 
@@ -40,7 +39,8 @@ def test_interpolant_is_that_of_scipy(method):
 def test_steps_follow_each_other_to_the_end(method):
     statistics = Statistics()
     t = 0.0
-    for step in method.steps(rhs, jac, 0.0, np.array([2.0, 0.0]), 3.0, 1e-4, np.full(2, 1e-6), statistics):
+    segment = Segment(rhs, jac, 0.0, np.array([2.0, 0.0]), 3.0, 1e-4, np.full(2, 1e-6), statistics)
+    for step in method.steps(segment):
         assert step.t_old == t < step.t
         t = step.t
     assert t == 3.0
@@ -49,7 +49,7 @@ def test_steps_follow_each_other_to_the_end(method):
 
 @pytest.mark.parametrize("method", METHODS, ids=lambda method: method.class_name)
 def test_a_blow_up_ends_with_a_failure(method):
-    steps = method.steps(
+    segment = Segment(
         lambda t, y: y**2,
         lambda t, y: np.diag(2.0 * y),
         0.0,
@@ -60,13 +60,13 @@ def test_a_blow_up_ends_with_a_failure(method):
         Statistics(),
     )
     with pytest.raises(IntegrationFailure, match=r"step|progress") as failure:
-        list(steps)
+        list(method.steps(segment))
     assert failure.value.time == pytest.approx(1.0, abs=1e-3)
 
 
 def test_radau_sees_a_right_hand_side_that_changed_when_the_step_was_accepted():
     damping = [1.0]
-    method_steps = RADAU.steps(
+    segment = Segment(
         lambda t, y: np.array([y[1], -1e4 * y[0] - damping[0] * y[1]]),
         lambda t, y: np.array([[0.0, 1.0], [-1e4, -damping[0]]]),
         0.0,
@@ -77,7 +77,7 @@ def test_radau_sees_a_right_hand_side_that_changed_when_the_step_was_accepted():
         Statistics(),
     )
     count = 0
-    for _ in method_steps:
+    for _ in RADAU.steps(segment):
         count += 1
         damping[0] = 40.0 if count % 10 < 5 else 1.0
     # 534 steps with the stale derivative in the error estimate, 344 with the renewed one.
