@@ -12,9 +12,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from tribodyn.papers.cheng_2022.claims import CLAIMS, judge
-from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
+from tribodyn.papers.cheng_2022.figures import FIGURES, Runs, save_claims, save_figure
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, FORMULATIONS, smooth
-from tribodyn.papers.cheng_2022.save import save_claims, save_figure
 
 LOOKS = {"paper": ("0.55", "--"), "exact": ("#0072b2", "-")}
 

@@ -75,7 +75,7 @@ def _wanted(given: list[str], figures: list[str]) -> list[str]:
 
 
 def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, console: Console) -> None:
-    from tribodyn.papers.cheng_2022.save import save_figure
+    from tribodyn.papers.cheng_2022.figures import save_figure
 
     data = figure.data(runs, formulation)
     console.note(f"drawing {figure.name}: {figure.title}")
@@ -85,7 +85,7 @@ def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, con
 def _claims(runs: Runs, folder: Path, console: Console) -> None:
     from tribodyn.papers.cheng_2022 import claims
     from tribodyn.papers.cheng_2022.claims import summary
-    from tribodyn.papers.cheng_2022.save import save_claims
+    from tribodyn.papers.cheng_2022.figures import save_claims
 
     console.note("measuring the claims of the paper")
     rows = claims.judge(runs, claims.CLAIMS)

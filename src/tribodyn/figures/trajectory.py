@@ -26,8 +26,8 @@ from tribodyn.figures.style import (
     lines,
     sheet,
 )
+from tribodyn.views.bushing_sections import centre
 from tribodyn.views.events import direction
-from tribodyn.views.orbit import centre
 from tribodyn.views.series import finite, peak, signed
 
 TITLE: Final = "Trunnion trajectory in the clearance circle"

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from tribodyn.surfaces import Scan, analyse
-from tribodyn.surfaces.amplitudes import arithmetic_mean, mean_total_height
-from tribodyn.surfaces.parameters import numbers
+from tribodyn.surfaces.parameters import arithmetic_mean, mean_total_height, numbers
 
 SINE = np.sin(2.0 * np.pi * np.arange(10_000) / 1000.0)
 

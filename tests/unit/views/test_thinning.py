@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tribodyn.views.thinning import thinned
+from tribodyn.views.charts import thinned
 
 
 @given(

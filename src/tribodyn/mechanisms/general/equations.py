@@ -26,7 +26,7 @@ from tribodyn.kernels.mechanism.data import (
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.elements.base import Leg
-from tribodyn.mechanisms.general.joints import ROWS, frame
+from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
@@ -191,7 +191,7 @@ def _fill_joint(record: Any, model: Model, name: str, joint: JointKeys) -> None:
     _place(record, model, joint.between[::turned], joint.points[::turned], (socket, shaft))
     if name in model.clearances:
         return
-    for row in ROWS[kind]:
+    for row in KINDS[kind].rows:
         _add_row(record, *row)
     if kind == "spring-damper":
         record.force = kinds.SPRINGS

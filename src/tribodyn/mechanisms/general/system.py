@@ -20,7 +20,7 @@ from tribodyn.kernels.mechanism.quantities import OF_SECOND
 from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
 from tribodyn.mechanisms.bushing import of_expansion
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
-from tribodyn.mechanisms.general import broken, checks
+from tribodyn.mechanisms.general import checks
 from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
@@ -251,7 +251,7 @@ class MechanismSystem:
         reason, reached = run.solution.failure or "", float(run.solution.t_end)
         if reason in ("", INTERRUPTED):
             return reason
-        return broken.failure(run.problem, self.model, self.maps.names, reached) or reason
+        return checks.failure(run.problem, self.model, self.maps.names, reached) or reason
 
     def _least_energy(self, found: Observed) -> float:
         """Return the work of the largest force over the way to which positions are resolved [J].

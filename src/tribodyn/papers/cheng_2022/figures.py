@@ -1,12 +1,21 @@
-"""The figures of the paper from our own runs, listed once."""
+"""The figures of the paper from our own runs, listed once, and how they and the claims are written."""
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Final
 
+import xarray as xr
+
+from tribodyn.figures.save import save_png
 from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, split, trunnion, undamped, wear
 from tribodyn.papers.cheng_2022.base import PaperFigure
+from tribodyn.papers.cheng_2022.claims import summary
+from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, Runs
+from tribodyn.results import netcdf_content
+from tribodyn.results.atomic import write_bytes, write_text
 
 FIGURES: Final[dict[str, PaperFigure]] = {
     figure.name: figure
@@ -30,3 +39,29 @@ FIGURES: Final[dict[str, PaperFigure]] = {
 """Every figure of the paper that shows results, by name, and two that its conclusions ask for."""
 
 __all__ = ["FIGURES", "FORMULATIONS", "PaperFigure", "Runs"]
+
+
+def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
+    """Write ``fig12.png`` and its data, ``fig12.nc``.
+
+    Parameters
+    ----------
+    figure
+        What to draw.
+    data
+        From ``figure.data``.
+    folder
+        Where to; must exist.
+    """
+    write_bytes(folder / f"{figure.name}.nc", netcdf_content(data))
+    save_png(figure.draw(data), folder / f"{figure.name}.png")
+
+
+def save_claims(rows: list[Row], folder: Path) -> None:
+    """Write the table and its counts, each as Markdown and as JSON."""
+    found = summary.summarise(rows)
+    write_text(folder / "claims.md", as_markdown(rows))
+    write_text(folder / "counts.md", summary.as_markdown(found))
+    for name, data in (("claims", as_json(rows)), ("counts", found)):
+        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+        write_text(folder / f"{name}.json", text + "\n")

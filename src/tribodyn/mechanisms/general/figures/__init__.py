@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.figures import chart, energy, wear_history
+from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Family
 from tribodyn.mechanisms.general.figures import joints, mechanism
 from tribodyn.mechanisms.general.ledger import LEDGERS
@@ -21,6 +21,6 @@ FIGURES: Final[dict[str, Family]] = {
         joints.PRESSURE,
         joints.WEAR,
         energy.family(LEDGERS),
-        wear_history.FAMILY,
+        wear.HISTORY,
     )
 }

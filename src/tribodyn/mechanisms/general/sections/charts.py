@@ -11,7 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.ledger import WHOLE
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
-from tribodyn.views.energy import ledger_chart
+from tribodyn.views.ledger import ledger_chart
 
 DEG: Final = 180.0 / np.pi
 

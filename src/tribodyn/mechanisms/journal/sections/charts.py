@@ -9,7 +9,7 @@ import xarray as xr
 
 from tribodyn.mechanisms.journal.ledger import LEDGER
 from tribodyn.views.charts import Chart, ChartCurve, Panel
-from tribodyn.views.energy import ledger_chart
+from tribodyn.views.ledger import ledger_chart
 from tribodyn.views.series import series
 
 _FORCES: Final = (("F_c", "contact force"), ("F_o", "film force"))

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear, wear_history
+from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear
 from tribodyn.figures.base import Family
 from tribodyn.papers.cheng_2022.reduced.figures import mechanism, vane_error
 from tribodyn.papers.cheng_2022.reduced.ledger import LEDGERS
-from tribodyn.papers.cheng_2022.reduced.sections.clearance import WARMING
-from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION
-from tribodyn.views.bushing_charts import TILT
+from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
+from tribodyn.views.bushing_sections import TILT
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
@@ -25,6 +24,6 @@ FIGURES: Final[dict[str, Family]] = {
         wear.FAMILY,
         energy.family(LEDGERS),
         mechanism.FAMILY,
-        wear_history.FAMILY,
+        wear.HISTORY,
     )
 }

@@ -6,11 +6,10 @@ from typing import Final
 
 from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE
 from tribodyn.papers.cheng_2022.reduced.sections import mechanism, vane_error
-from tribodyn.papers.cheng_2022.reduced.sections.clearance import WARMING
-from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION
-from tribodyn.views import orbit, overlay, pressure
-from tribodyn.views.bushing_charts import CONTACT_FORCE, TILT
-from tribodyn.views.energy import ledger_chart
+from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
+from tribodyn.views import overlay
+from tribodyn.views.bushing_sections import CONTACT_FORCE, ORBIT, PRESSURE, TILT
+from tribodyn.views.ledger import ledger_chart
 from tribodyn.views.overlay import Overlay, OverlayQuantity, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY, WEAR_MAP, WEAR_STAGES
@@ -39,7 +38,7 @@ CHAPTERS: Final = (
         "playback",
         "One cycle",
         "Everything in this part shows the same moment. Move the slider, or press play.",
-        (mechanism.SECTION, orbit.SECTION, pressure.SECTION),
+        (mechanism.SECTION, ORBIT, PRESSURE),
         playback=True,
     ),
     Chapter(

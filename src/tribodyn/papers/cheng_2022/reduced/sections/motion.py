@@ -1,4 +1,4 @@
-"""Motion of drive and vane, and the moment it takes."""
+"""Motion of drive and vane, the moment it takes, and the clearance at changing temperatures."""
 
 from __future__ import annotations
 
@@ -63,4 +63,20 @@ MOTION: Final = Chart(
     ),
     needs=("theta_a", "theta_v", "omega_a", "omega_v", "omega_v_ideal", "M_d"),
     panels=panels,
+)
+
+
+def _clearance(dataset: xr.Dataset) -> list[Panel]:
+    """Return the radial clearance [µm]."""
+    return [
+        Panel("clearance [µm]", [ChartCurve("radial clearance", series(dataset, "radial_clearance", 1e6))])
+    ]
+
+
+WARMING: Final = Chart(
+    name="clearance",
+    title="Clearance over time",
+    caption="Radial clearance at the temperatures of trunnion, bushing and casing.",
+    needs=("radial_clearance",),
+    panels=_clearance,
 )

@@ -1,0 +1,166 @@
+"""Charts and sections of any shaft in a bushing: forces, tilt, pressure on the unrolled bushing, path."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.bushing import unrolled
+from tribodyn.views.charts import Chart, ChartCurve, Panel
+from tribodyn.views.encode import packed
+from tribodyn.views.playback import in_playback, playback_times
+from tribodyn.views.section import Payload, Section
+from tribodyn.views.series import peak, series, signed
+from tribodyn.views.unrolled import best_cut, shares, unloaded_middle
+
+
+def _forces(dataset: xr.Dataset) -> list[Panel]:
+    """Return total, rigid and damping force and friction along X and Y [N]."""
+    return [_force(dataset, axis) for axis in "xy"]
+
+
+def _force(dataset: xr.Dataset, axis: str) -> Panel:
+    curves = (
+        ChartCurve("total contact force", series(dataset, f"F_c{axis}"), "pale", width=4.5),
+        ChartCurve("rigid part", series(dataset, f"F_k{axis}"), "blue"),
+        ChartCurve("damping part", series(dataset, f"F_d{axis}"), "vermilion", "dash"),
+        ChartCurve("friction", series(dataset, f"F_f{axis}"), "green", "dot"),
+    )
+    return Panel(f"along {axis.upper()} [N]", curves, smooth=True, unit="N")
+
+
+CONTACT_FORCE: Final = Chart(
+    name="contact_force",
+    title="Forces of the bushing on the trunnion",
+    caption=(
+        "The contact force (normal pressure) with its rigid and damping parts, and friction beside it. After "
+        "each reversal the trunnion crosses the clearance and lands on the other side: zoom in there."
+    ),
+    needs=("F_cx", "F_cy", "F_kx", "F_ky", "F_dx", "F_dy", "F_fx", "F_fy"),
+    panels=_forces,
+)
+
+
+def _tilts(dataset: xr.Dataset) -> list[Panel]:
+    """Return tilts [mrad], offsets [µm] and peak pressure [MPa]."""
+    return [
+        Panel("tilt [mrad]", _pair(dataset, "phi", 1e3)),
+        Panel("offset [µm]", _pair(dataset, "e", 1e6)),
+        Panel(
+            "peak pressure [MPa]",
+            [ChartCurve("peak pressure", series(dataset, "p_max", 1e-6))],
+            smooth=True,
+            unit="MPa",
+        ),
+    ]
+
+
+def _pair(dataset: xr.Dataset, symbol: str, scale: float) -> list[ChartCurve]:
+    return [
+        ChartCurve("X: φx, ex", series(dataset, f"{symbol}_x", scale), "blue"),
+        ChartCurve("Y: φy, ey", series(dataset, f"{symbol}_y", scale), "vermilion", "dash"),
+    ]
+
+
+TILT: Final = Chart(
+    name="tilt",
+    title="Tilt and offset of the trunnion, and peak pressure",
+    caption=(
+        "A tilted trunnion bears on the edges of the bushing. Where the two angles change, the loaded edge "
+        "moves and the peak pressure follows."
+    ),
+    needs=("phi_x", "phi_y", "e_x", "e_y", "p_max"),
+    panels=_tilts,
+)
+
+
+def _pressure(dataset: xr.Dataset) -> Payload | None:
+    """Return the frames in 255 steps of their own peaks [MPa], on the bushing laid flat."""
+    fields = np.nan_to_num(dataset["pressure_cycle"].values) * 1e-6
+    if fields.shape[0] < 2 or not fields.max(initial=0.0) > 0.0:
+        return None
+    envelope = fields.max(axis=0)
+    cut = best_cut(dataset["theta"].values, shares(fields))
+    places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
+    return places.payload(fields, "contact pressure", "MPa", lambda peaks: 1.6 * float(np.median(peaks)))
+
+
+PRESSURE: Final = Section(
+    name="pressure",
+    title="Contact pressure on the unrolled bushing",
+    caption=(
+        "The bushing cut open and laid flat. The angle names points of the bushing as the marks on the wall "
+        "of the clearance circle do."
+    ),
+    needs=("pressure_cycle", "frame_time", "theta", "z"),
+    widget="field",
+    data=_pressure,
+    still="pressure",
+)
+
+
+LOOKS: Final = (
+    {"colour": "blue", "dash": "solid", "symbol": "circle"},
+    {"colour": "ink", "dash": "dot", "symbol": "diamond"},
+    {"colour": "vermilion", "dash": "dash", "symbol": "square"},
+)
+"""Looks of top, middle and bottom."""
+
+
+def centre(dataset: xr.Dataset, z: float) -> tuple[FloatArray, FloatArray]:
+    """Return the displacement of the trunnion axis at height ``z`` [m], two arrays of shape (n_t,) [µm].
+
+    It is (e_x - z tan phi_y, e_y - z tan phi_x).
+    """
+    x = series(dataset, "e_x") - z * np.tan(series(dataset, "phi_y"))
+    y = series(dataset, "e_y") - z * np.tan(series(dataset, "phi_x"))
+    return x * 1e6, y * 1e6
+
+
+def _orbit(dataset: xr.Dataset) -> Payload | None:
+    """Return paths and positions at the frames [µm] of the top, middle and bottom centres."""
+    times = playback_times(dataset)
+    if times.size < 2:
+        return None
+    half = 0.5 * float(dataset.attrs.get("joint_length", 0.0))
+    clearance = float(dataset.attrs.get("clearance", 0.0)) * 1e6
+    time = dataset["time"].values
+    inside = in_playback(dataset)
+    centres = [centre(dataset, z) for z in (half, 0.0, -half)]
+    reach = max(clearance, *(peak(values[inside]) for path in centres for values in path), 1e-3)
+    return {
+        "clearance": clearance,
+        "reach": 1.25 * reach,
+        # The bushing point named theta lies at -(cos theta, sin theta).
+        "wall": -1,
+        "joined": True,
+        "looks": LOOKS,
+        "places": [f"top, z = {signed(half * 1e3)} mm", "middle", f"bottom, z = {signed(-half * 1e3)} mm"],
+        "paths": [{"x": packed(x[inside]), "y": packed(y[inside])} for x, y in centres],
+        "at": [_at(times, time, path) for path in centres],
+    }
+
+
+def _at(times: FloatArray, time: FloatArray, path: tuple[FloatArray, FloatArray]) -> dict[str, object]:
+    """Return where a centre is at the frames."""
+    x, y = (np.interp(times, time, values) for values in path)
+    return {"x": packed(x), "y": packed(y)}
+
+
+ORBIT: Final = Section(
+    name="orbit",
+    title="The trunnion in its bushing",
+    caption=(
+        "Seen along the axis: the circle is the clearance, the marks are the top, middle and bottom of the "
+        "trunnion axis now, the lines their paths. Beyond the circle the mean planes of the surfaces "
+        "overlap. Angles at the wall are those of the pressure map: 0° is the point of the bushing on the "
+        "left, at −X, 90° that below, at −Y."
+    ),
+    needs=("e_x", "e_y", "phi_x", "phi_y"),
+    widget="orbit",
+    data=_orbit,
+    still="trajectory",
+)
