@@ -7,8 +7,6 @@ the accepted-step functions in between; states inside a step are CVODE's own int
 from __future__ import annotations
 
 import ctypes as ct
-import time
-from collections.abc import Callable
 from functools import cache
 from typing import Any, Final
 
@@ -18,9 +16,8 @@ from numba.core import cgutils, imputils
 
 from benchmarks.sundials import CV_ONE_STEP, Cvode, columns, counts, library, numbers, vector
 from tribodyn.core.errors import IntegrationFailure
-from tribodyn.core.problem import CompiledFunctions, Problem, Solution
-from tribodyn.integrate.driver import Walk
-from tribodyn.integrate.schedule import Schedule
+from tribodyn.core.problem import CompiledFunctions, Solution
+from tribodyn.integrate.driver import Task, Walk
 
 ENDED: Final = 0
 _INT: Final = nb.types.intp
@@ -124,36 +121,22 @@ def _loop(functions: CompiledFunctions) -> Any:
 class NativeCvode:
     """The integrator, see :class:`tribodyn.integrate.driver.Integrator`; it takes no pictures."""
 
-    def __call__(
-        self,
-        problem: Problem,
-        schedule: Schedule,
-        rtol: float,
-        progress: Callable[[float], None] | None = None,
-        stop: Callable[[], bool] | None = None,
-    ) -> Solution:
-        """Integrate ``problem``."""
-        walk = _NativeWalk(problem, schedule, progress, stop)
-        failure: str | None = None
-        begin = time.perf_counter()
-        try:
-            walk.run(lambda t_end: walk.compiled_segment(rtol, t_end))
-        except IntegrationFailure as error:
-            failure = walk.describe(error)
-        walk.statistics.wall_time = time.perf_counter() - begin
-        return walk.solution(failure)
+    def __call__(self, task: Task) -> Solution:
+        """Integrate."""
+        walk = _NativeWalk(task)
+        return walk.solve(walk.compiled_segment)
 
 
 class _NativeWalk(Walk):
     """One integration under way."""
 
-    def compiled_segment(self, rtol: float, t_end: float) -> None:
+    def compiled_segment(self, t_end: float) -> None:
         """Integrate to the next breakpoint or to the end."""
         problem = self.problem
         y = self.y.copy()
         kind = nb.typeof((problem.data, problem.memory))
         rhs, jac = _callbacks(problem.functions, kind, y.size)
-        solver = Cvode(rhs.address, jac.address, self.t, y, rtol, problem.atol)
+        solver = Cvode(rhs.address, jac.address, self.t, y, self.rtol, problem.atol)
         solver("CVodeSetStopTime", ct.c_double(t_end))
         end = y.copy()
         vectors = [solver.y, vector(end, solver.context)]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
+from tribodyn.integrate.driver import Task
 from tribodyn.integrate.schedule import make_schedule
 from tribodyn.kernels.vsv.data import Mechanism, VsvData
 from tribodyn.kernels.vsv.quantities import OBSERVED
@@ -82,7 +83,8 @@ def _integrated(problem: Problem, solver: str, rtol: float, times: FloatArray) -
         return integrate(problem, solver=solver, rtol=rtol, output_times=times)
     from benchmarks.cvode_vsv import NATIVE_CVODE
 
-    return NATIVE_CVODE(problem, make_schedule(problem.t_span, problem.breakpoints, times, ()), rtol)
+    schedule = make_schedule(problem.t_span, problem.breakpoints, times, ())
+    return NATIVE_CVODE(Task(problem, schedule, rtol))
 
 
 def reference(cycles: float, **changes: Any) -> dict[str, Any]:

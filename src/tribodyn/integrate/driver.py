@@ -29,6 +29,17 @@ LONG_STEP: Final = 0.3
 """Time without an accepted step after which the caller is asked whether to stop all the same [s]."""
 
 
+@dataclass(frozen=True)
+class Task:
+    """What an integrator is to do; meanings as in :func:`tribodyn.integrate.integrate`."""
+
+    problem: Problem
+    schedule: Schedule
+    rtol: float
+    progress: Callable[[float], None] | None = None
+    stop: Callable[[], bool] | None = None
+
+
 class Integrator(Protocol):
     """What ``SOLVERS`` lists: runs a whole problem and never raises for a run that fails midway."""
 
@@ -36,15 +47,8 @@ class Integrator(Protocol):
         """Raise ``InputError`` if a package that the integrator needs is not installed."""
         ...
 
-    def __call__(
-        self,
-        problem: Problem,
-        schedule: Schedule,
-        rtol: float,
-        progress: Callable[[float], None] | None,
-        stop: Callable[[], bool] | None,
-    ) -> Solution:
-        """Integrate ``problem`` and return what was reached."""
+    def __call__(self, task: Task) -> Solution:
+        """Integrate the problem of a task and return what was reached."""
         ...
 
 
@@ -64,41 +68,20 @@ class Stepwise:
         """Import what the method needs, see :class:`Integrator`."""
         self.method.prepare()
 
-    def __call__(
-        self,
-        problem: Problem,
-        schedule: Schedule,
-        rtol: float,
-        progress: Callable[[float], None] | None,
-        stop: Callable[[], bool] | None,
-    ) -> Solution:
-        """Integrate ``problem``, see :class:`Integrator`."""
+    def __call__(self, task: Task) -> Solution:
+        """Integrate, see :class:`Integrator`."""
         self.prepare()
-        walk = Walk(problem, schedule, progress, stop)
-        begin = time.perf_counter()
-        failure: str | None = None
-        try:
-            walk.run(lambda t_end: walk.segment(self.method, rtol, t_end))
-        except IntegrationFailure as error:
-            failure = walk.describe(error)
-        walk.statistics.wall_time = time.perf_counter() - begin
-        return walk.solution(failure)
+        walk = Walk(task)
+        return walk.solve(lambda t_end: walk.segment(self.method, t_end))
 
 
 class Walk:
     """One integration under way."""
 
-    def __init__(
-        self,
-        problem: Problem,
-        schedule: Schedule,
-        progress: Callable[[float], None] | None,
-        stop: Callable[[], bool] | None,
-    ) -> None:
-        self.problem = problem
-        self.schedule = schedule
-        self.progress = progress
-        self.stop = stop
+    def __init__(self, task: Task) -> None:
+        problem, schedule = task.problem, task.schedule
+        self.problem, self.schedule, self.rtol = problem, schedule, task.rtol
+        self.progress, self.stop = task.progress, task.stop
         self.patience = Patience(schedule)
         self.statistics = Statistics()
         self.types = kernel_types(problem)
@@ -116,6 +99,17 @@ class Walk:
         self.n_pictures = 0
         self.followed = Followed(problem.following, problem.n_observed)
         self.n_followed = self.window = self.skipped = 0
+
+    def solve(self, segment: Callable[[float], None]) -> Solution:
+        """Integrate segment after segment and return what was reached; ``segment`` as for :meth:`run`."""
+        begin = time.perf_counter()
+        failure: str | None = None
+        try:
+            self.run(segment)
+        except IntegrationFailure as error:
+            failure = self.describe(error)
+        self.statistics.wall_time = time.perf_counter() - begin
+        return self.solution(failure)
 
     def run(self, segment: Callable[[float], None]) -> None:
         """Integrate segment after segment; ``segment`` integrates to the time it is given."""
@@ -137,10 +131,10 @@ class Walk:
                 self.binding.note = ""
                 raise IntegrationFailure(self.t, f"the {what} of {name} is not finite where a segment starts")
 
-    def segment(self, method: Method, rtol: float, t_end: float) -> None:
+    def segment(self, method: Method, t_end: float) -> None:
         """Integrate to the next breakpoint or to the end."""
         rhs, jac = self.listening(self.binding.rhs), self.listening(self.binding.jac)
-        bounds = rtol, self.problem.atol, self.statistics, self.problem.longest_step
+        bounds = self.rtol, self.problem.atol, self.statistics, self.problem.longest_step
         for step in method.steps(Segment(rhs, jac, self.t, self.y, t_end, *bounds)):
             self.check(step)
             self.walk(step)

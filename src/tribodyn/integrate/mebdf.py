@@ -8,7 +8,6 @@ code for stiff initial value problems, ACM Trans. Math. Softw. 18 (1992) 142-155
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any, Final
@@ -20,8 +19,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Problem, Solution
 from tribodyn.integrate.binding import argument_types, is_compiled
-from tribodyn.integrate.driver import Walk
-from tribodyn.integrate.schedule import Schedule
+from tribodyn.integrate.driver import Task, Walk
 
 if TYPE_CHECKING:
     from mebdf.kernels.state import Mass, MebdfState
@@ -41,26 +39,12 @@ class CompiledMebdf:
     def prepare(self) -> None:
         """Need nothing that tribodyn does not bring along."""
 
-    def __call__(
-        self,
-        problem: Problem,
-        schedule: Schedule,
-        rtol: float,
-        progress: Callable[[float], None] | None,
-        stop: Callable[[], bool] | None,
-    ) -> Solution:
-        """Integrate ``problem``, see :class:`tribodyn.integrate.driver.Integrator`."""
-        walk = _CompiledWalk(problem, schedule, progress, stop)
-        walk.prepare(rtol)
-        begin = time.perf_counter()
-        failure: str | None = None
-        try:
-            with walk.pauses():
-                walk.run(walk.compiled_segment)
-        except IntegrationFailure as error:
-            failure = walk.describe(error)
-        walk.statistics.wall_time = time.perf_counter() - begin
-        return walk.solution(failure)
+    def __call__(self, task: Task) -> Solution:
+        """Integrate, see :class:`tribodyn.integrate.driver.Integrator`."""
+        walk = _CompiledWalk(task)
+        walk.prepare()
+        with walk.pauses():
+            return walk.solve(walk.compiled_segment)
 
 
 class _CompiledWalk(Walk):
@@ -74,14 +58,12 @@ class _CompiledWalk(Walk):
     _marks: Marks
     _in_machine_code: bool
     _pause: NDArray[np.int64]
-    _rtol: float
 
-    def prepare(self, rtol: float) -> None:
+    def prepare(self) -> None:
         """Compile, or find the compiled code; not counted as integration."""
         from mebdf.kernels.core import resume
         from tribodyn.kernels.mebdf.drive import AFTER_STEP, run
 
-        self._rtol = rtol
         self._pause = np.array([AFTER_STEP])
         self._marks = self._new_marks()
         self._matrix = self._read_mass()
@@ -143,7 +125,7 @@ class _CompiledWalk(Walk):
     def _relative(self) -> float | FloatArray:
         """Relative tolerance of each state."""
         share = self.problem.relative
-        return self._rtol if share is None else self._rtol * share
+        return self.rtol if share is None else self.rtol * share
 
     def enter(self) -> None:
         """Begin a segment, with a mass matrix from consistent values."""
