@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
-from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.progress import announced_compilation
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case

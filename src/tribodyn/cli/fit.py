@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
-from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import last_words
+from tribodyn.cli.progress import announced_compilation
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 

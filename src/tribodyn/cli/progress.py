@@ -1,16 +1,46 @@
-"""How far a run has come: a bar on a terminal, a line every tenth elsewhere."""
+"""How far a run has come: a bar on a terminal, a line every tenth elsewhere; and that code is compiled."""
 
 from __future__ import annotations
 
 import shutil
 import sys
 import time
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Final, Protocol
+from typing import Any, Final, Protocol
 
 from tribodyn.cli.console import Console, is_terminal
+
+_MESSAGE = "compiling the equations for this machine; later runs start at once"
+
+
+@contextmanager
+def announced_compilation(note: Callable[[str], None]) -> Iterator[None]:
+    """Say so, once, when numba really compiles; functions read from its cache raise no event.
+
+    Parameters
+    ----------
+    note
+        Prints a line.
+    """
+    from numba.core import event
+
+    class Announcement(event.Listener):
+        told = False
+
+        def on_start(self, event: Any) -> None:
+            if not self.told:
+                self.told = True
+                note(_MESSAGE)
+
+        def on_end(self, event: Any) -> None:
+            """Nothing to say: progress follows."""
+
+    with event.install_listener("numba:compile", Announcement()):
+        yield
+
 
 _PARTS: Final = 10
 

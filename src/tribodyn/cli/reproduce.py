@@ -7,16 +7,15 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import last_words
+from tribodyn.cli.progress import announced_compilation
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
-    from tribodyn.papers.cheng_2022.base import PaperFigure
-    from tribodyn.papers.cheng_2022.runs import Runs
+    from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 
 HELP = "make the figures of the source paper, and judge its claims"
 CLAIMS: Final = "claims"

@@ -10,14 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
-from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import REPORT, RESULT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.log import stage
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
-from tribodyn.cli.progress import CYCLES, Progress, progress
+from tribodyn.cli.progress import CYCLES, Progress, announced_compilation, progress
 from tribodyn.cli.tables import in_words
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given

@@ -13,14 +13,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed, without_quotes
-from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.directory import POINTS as POINTS_FOLDER
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
-from tribodyn.cli.progress import POINTS, Progress, progress
+from tribodyn.cli.progress import POINTS, Progress, announced_compilation, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError

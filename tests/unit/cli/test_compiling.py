@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numba
 
-from tribodyn.cli.compiling import announced_compilation
+from tribodyn.cli.progress import announced_compilation
 
 
 def test_compilation_is_announced_once_and_only_when_it_happens() -> None:

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import DASHED, GREY, INK, SMALL, Curves, caption, finish, lines, sheet
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
-from tribodyn.papers.cheng_2022.runs import Runs, finer, is_smooth, mean_rate, over_clearances
+from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth, mean_rate, over_clearances
 from tribodyn.views.series import series
 
 DEGREES: Final = float(np.rad2deg(1.0))

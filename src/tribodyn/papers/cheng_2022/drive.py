@@ -9,9 +9,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from tribodyn.figures.style import BLUE, DASHED, SMALL, SOLID, VERMILION, finish, lines, sheet
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import first_cycle, keep
-from tribodyn.papers.cheng_2022.runs import Runs
+from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 from tribodyn.views.series import series
 
 DEGREES: Final = float(np.rad2deg(1.0))

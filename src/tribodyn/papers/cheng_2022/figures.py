@@ -10,10 +10,9 @@ import xarray as xr
 
 from tribodyn.figures.save import save_png
 from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, split, trunnion, undamped, wear
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
-from tribodyn.papers.cheng_2022.runs import FORMULATIONS, Runs
+from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
 

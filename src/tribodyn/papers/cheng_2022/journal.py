@@ -23,9 +23,8 @@ from tribodyn.figures.style import (
     lines,
     sheet,
 )
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import keep
-from tribodyn.papers.cheng_2022.runs import Runs
+from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 from tribodyn.views.series import series
 
 _LOOKS: Final[dict[tuple[str, str], tuple[str, LineStyle]]] = {

@@ -12,7 +12,6 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.pressure import draw as draw_pictures
 from tribodyn.joints.bushing import new_memory, pose_at
 from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import keep
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
@@ -20,7 +19,7 @@ from tribodyn.papers.cheng_2022.reduced.places import case_of
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
-from tribodyn.papers.cheng_2022.runs import Runs
+from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 
 ANGLES: Final = (60.0, 90.0, 120.0)
 """Vane angles of the pictures [deg]; the smallest that the mechanism reaches, 61.0°, stands for the first."""

@@ -1,4 +1,4 @@
-"""The runs that figures and claims share, each computed once."""
+"""The runs that figures and claims share, each computed once, and what a figure made of them is."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
@@ -191,3 +192,25 @@ def mean_rate(time: FloatArray, error: FloatArray, run: xr.Dataset) -> tuple[Flo
     middle = middle[inside & (middle % (0.5 * float(run.attrs["cycle_period"])) > half)]
     change = np.interp(middle + half, time, error) - np.interp(middle - half, time, error)
     return middle, change / _TREND
+
+
+@dataclass(frozen=True)
+class PaperFigure:
+    """One figure of the paper, made from our own runs, or one that it should have.
+
+    Attributes
+    ----------
+    name
+        Name on the command line and of the files: ``fig12``, or what it shows where the paper has none.
+    title
+        What it shows.
+    data
+        Returns the data, given the runs and the formulation (``paper`` or ``exact``).
+    draw
+        Draws it from its data, with the panels of the original.
+    """
+
+    name: str
+    title: str
+    data: Callable[[Runs, str], xr.Dataset]
+    draw: Callable[[xr.Dataset], Figure]

@@ -10,10 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.figures.style import BLUE, GREY, INK, ORANGE, SMALL, caption, finish, sheet
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.claims.all_joints import ONE, SEVEN, means
 from tribodyn.papers.cheng_2022.claims.base import Trial
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, JOINTS, Runs
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, JOINTS, PaperFigure, Runs
 
 _ENDS: Final = (CLEARANCES[0], CLEARANCES[-1])
 _WAYS: Final = ("forward", "back")

@@ -26,9 +26,8 @@ from tribodyn.figures.style import (
     lines,
     sheet,
 )
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import enlarge, keep, limits
-from tribodyn.papers.cheng_2022.runs import Runs, finer, is_smooth
+from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth
 from tribodyn.views.series import series
 
 CLEARANCE: Final = 20e-6

@@ -25,8 +25,7 @@ from tribodyn.figures.style import (
     finish,
     sheet,
 )
-from tribodyn.papers.cheng_2022.base import PaperFigure
-from tribodyn.papers.cheng_2022.runs import FORMULATIONS, Runs
+from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 
 FRICTIONS: Final = ("moment", "traction")
 """Models of friction: the paper's, and the one of ``exact``."""

@@ -13,9 +13,8 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import SMALL, TEXT, Curves, caption, finish, lines, sheet
 from tribodyn.figures.unrolled import draw_map
-from tribodyn.papers.cheng_2022.base import PaperFigure
 from tribodyn.papers.cheng_2022.layout import STYLES
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, over_clearances
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, PaperFigure, Runs, over_clearances
 from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
 
 CYCLES: Final = (100, 200, 300, 400)

@@ -6,9 +6,8 @@ import math
 import pytest
 
 from tribodyn.papers.cheng_2022.claims import CLAIMS, Claim, Finding, Row, as_json, as_markdown, as_text
-from tribodyn.papers.cheng_2022.claims.base import FRICTION
+from tribodyn.papers.cheng_2022.claims.base import FRICTION, SENTENCES
 from tribodyn.papers.cheng_2022.claims.bounds import CLOSE, NEAR, VERDICTS, above, below, near
-from tribodyn.papers.cheng_2022.claims.sentences import SENTENCES
 from tribodyn.papers.cheng_2022.claims.summary import as_markdown as counts_as_markdown
 from tribodyn.papers.cheng_2022.claims.summary import by_sentence, changed, summarise
 

@@ -1,20 +1,46 @@
-"""What a claim is, and what it is measured on."""
+"""What a claim is, its sentences in the paper, and what it is measured on."""
 
 from __future__ import annotations
 
 import inspect
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Final, Literal, TypeAlias
+from importlib.resources import files
+from typing import Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.bounds import Bound
-from tribodyn.papers.cheng_2022.claims.sentences import SENTENCES
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, smooth
+
+
+class Sentence(NamedTuple):
+    """A sentence of the paper.
+
+    Attributes
+    ----------
+    where
+        Section, and figure where it names one.
+    text
+        Its words, shortened where dots stand.
+    """
+
+    where: str
+    text: str
+
+
+def _read() -> dict[str, Sentence]:
+    text = files(__package__).joinpath("sentences.toml").read_text(encoding="utf-8")
+    return {name: Sentence(**row) for name, row in tomllib.loads(text).items()}
+
+
+SENTENCES: Final = _read()
+"""Sentences by name, in the order of the paper."""
+
 
 NARROW: Final = CLEARANCES[0]
 """Clearance of section 5.2 [m]."""
