@@ -17,7 +17,7 @@ from numba.core import cgutils, imputils
 from benchmarks.sundials import CV_ONE_STEP, Cvode, columns, counts, library, numbers, vector
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Solution
-from tribodyn.integrate.driver import Task, Walk
+from tribodyn.integrate.driver import IntegrationTask, Walk
 
 ENDED: Final = 0
 _INT: Final = nb.types.intp
@@ -121,7 +121,7 @@ def _loop(functions: CompiledFunctions) -> Any:
 class NativeCvode:
     """The integrator, see :class:`tribodyn.integrate.driver.Integrator`; it takes no pictures."""
 
-    def __call__(self, task: Task) -> Solution:
+    def __call__(self, task: IntegrationTask) -> Solution:
         """Integrate."""
         walk = _NativeWalk(task)
         return walk.solve(walk.compiled_segment)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
-from tribodyn.integrate.driver import Task
+from tribodyn.integrate.driver import IntegrationTask
 from tribodyn.integrate.schedule import make_schedule
 from tribodyn.kernels.vsv.data import Mechanism, VsvData
 from tribodyn.kernels.vsv.quantities import OBSERVED
@@ -84,7 +84,7 @@ def _integrated(problem: Problem, solver: str, rtol: float, times: FloatArray) -
     from benchmarks.cvode_vsv import NATIVE_CVODE
 
     schedule = make_schedule(problem.t_span, problem.breakpoints, times, ())
-    return NATIVE_CVODE(Task(problem, schedule, rtol))
+    return NATIVE_CVODE(IntegrationTask(problem, schedule, rtol))
 
 
 def reference(cycles: float, **changes: Any) -> dict[str, Any]:

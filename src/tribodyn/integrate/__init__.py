@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate.cvode import CVODE
-from tribodyn.integrate.driver import INTERRUPTED, Integrator, Stepwise, Task
+from tribodyn.integrate.driver import INTERRUPTED, IntegrationTask, Integrator, Stepwise
 from tribodyn.integrate.mebdf import MEBDF as COMPILED_MEBDF
 from tribodyn.integrate.schedule import make_schedule
 from tribodyn.integrate.scipy_steps import BDF, LSODA, RADAU
@@ -83,4 +83,4 @@ def integrate(
     if problem.mass is not None and solver != "mebdf":
         raise InputError(f"{solver!r} takes no mass matrix; choose mebdf", key="solver.name")
     schedule = make_schedule(problem.t_span, problem.breakpoints, output_times, picture_times)
-    return SOLVERS[solver](Task(problem, schedule, rtol, progress, stop))
+    return SOLVERS[solver](IntegrationTask(problem, schedule, rtol, progress, stop))

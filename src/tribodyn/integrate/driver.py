@@ -30,7 +30,7 @@ LONG_STEP: Final = 0.3
 
 
 @dataclass(frozen=True)
-class Task:
+class IntegrationTask:
     """What an integrator is to do; meanings as in :func:`tribodyn.integrate.integrate`."""
 
     problem: Problem
@@ -47,7 +47,7 @@ class Integrator(Protocol):
         """Raise ``InputError`` if a package that the integrator needs is not installed."""
         ...
 
-    def __call__(self, task: Task) -> Solution:
+    def __call__(self, task: IntegrationTask) -> Solution:
         """Integrate the problem of a task and return what was reached."""
         ...
 
@@ -68,7 +68,7 @@ class Stepwise:
         """Import what the method needs, see :class:`Integrator`."""
         self.method.prepare()
 
-    def __call__(self, task: Task) -> Solution:
+    def __call__(self, task: IntegrationTask) -> Solution:
         """Integrate, see :class:`Integrator`."""
         self.prepare()
         walk = Walk(task)
@@ -78,7 +78,7 @@ class Stepwise:
 class Walk:
     """One integration under way."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: IntegrationTask) -> None:
         problem, schedule = task.problem, task.schedule
         self.problem, self.schedule, self.rtol = problem, schedule, task.rtol
         self.progress, self.stop = task.progress, task.stop

@@ -19,7 +19,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Problem, Solution
 from tribodyn.integrate.binding import argument_types, is_compiled
-from tribodyn.integrate.driver import Task, Walk
+from tribodyn.integrate.driver import IntegrationTask, Walk
 
 if TYPE_CHECKING:
     from mebdf.kernels.state import Mass, MebdfState
@@ -39,7 +39,7 @@ class CompiledMebdf:
     def prepare(self) -> None:
         """Need nothing that tribodyn does not bring along."""
 
-    def __call__(self, task: Task) -> Solution:
+    def __call__(self, task: IntegrationTask) -> Solution:
         """Integrate, see :class:`tribodyn.integrate.driver.Integrator`."""
         walk = _CompiledWalk(task)
         walk.prepare()

@@ -11,7 +11,7 @@ import pytest
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.integrate.base import Step
-from tribodyn.integrate.driver import INTERRUPTED, Stepwise, Task
+from tribodyn.integrate.driver import INTERRUPTED, IntegrationTask, Stepwise
 from tribodyn.integrate.schedule import make_schedule
 
 
@@ -74,7 +74,7 @@ def run(breakpoints=(), outputs=(), pictures=(), method=None, progress=None, sto
         functions, None, np.zeros(1), np.zeros(1), (0.0, end), breakpoints, np.ones(1), ("y",), 3, (2, 2)
     )
     schedule = make_schedule(problem.t_span, problem.breakpoints, outputs, pictures)
-    solution = Stepwise(method or ExactSteps())(Task(problem, schedule, 1e-4, progress, stop))
+    solution = Stepwise(method or ExactSteps())(IntegrationTask(problem, schedule, 1e-4, progress, stop))
     return solution, log.calls
 
 
