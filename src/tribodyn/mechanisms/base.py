@@ -270,8 +270,8 @@ class WearingSystem(SimulatedSystem, Protocol):
         ...
 
 
-ByJoint: TypeAlias = Callable[[str], Headline]
-"""Returns a headline number of the joint with a name; the name of the number ends in that of the joint."""
+ByPart: TypeAlias = Callable[[str], Headline]
+"""Returns a headline number of the part with a name; the name of the number ends in that of the part."""
 
 
 def plain(name: str) -> str:
@@ -302,8 +302,9 @@ class MechanismDescriptor:
         Names of those that a reader wants first.
     of_cycle
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
-    by_joint
-        Headline numbers that each joint has, for mechanisms whose joints a user names; see :class:`ByJoint`.
+    by_part
+        Headline numbers that each part has, by the table of the case that names these parts, such as
+        ``joints``, and then by name; see :class:`ByPart`.
     controls
         Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
     bearings
@@ -318,7 +319,7 @@ class MechanismDescriptor:
     headlines: Mapping[str, Headline]
     key_numbers: tuple[str, ...]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
-    by_joint: Mapping[str, ByJoint] = field(default_factory=dict)
+    by_part: Mapping[str, Mapping[str, ByPart]] = field(default_factory=dict)
     controls: tuple[str, ...] = ()
     bearings: str = ""
 
@@ -329,10 +330,13 @@ class MechanismDescriptor:
         module, _, name = self.bearings.partition(":")
         return cast("Mapping[str, Bearing]", getattr(importlib.import_module(module), name)(case))
 
-    def headlines_of(self, joints: Iterable[str]) -> dict[str, Headline]:
-        """Return all headline numbers, those of joints with these names among them, in reading order."""
+    def headlines_of(self, parts: Mapping[str, Iterable[str]]) -> dict[str, Headline]:
+        """Return all headline numbers, in reading order, with those of parts; ``parts`` are names by table."""
         named = {
-            f"{name}_{plain(joint)}": made(joint) for joint in joints for name, made in self.by_joint.items()
+            f"{name}_{plain(part)}": made(part)
+            for table, numbers in self.by_part.items()
+            for part in parts.get(table, ())
+            for name, made in numbers.items()
         }
         return {**self.headlines, **named}
 

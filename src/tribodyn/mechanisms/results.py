@@ -77,9 +77,14 @@ def all_there(*datasets: xr.Dataset) -> Iterator[None]:
 
 def summarise(dataset: xr.Dataset) -> summary.Summary:
     """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
-    joints = dataset["joint"].values.tolist() if "joint" in dataset.coords else []
+    mechanism = mechanism_of(dataset)
+    parts = {
+        str(known.names): dataset[name].values.tolist()
+        for name, known in mechanism.variables.items()
+        if known.names in mechanism.by_part and name in dataset.coords
+    }
     with all_there(dataset):
-        return summary.summarise(dataset, mechanism_of(dataset).headlines_of(joints))
+        return summary.summarise(dataset, mechanism.headlines_of(parts))
 
 
 def headlines_of(kind: str) -> dict[str, Headline]:
@@ -90,9 +95,10 @@ def headlines_of(kind: str) -> dict[str, Headline]:
 
 
 def headlines_of_case(case: Case) -> dict[str, Headline]:
-    """Return the headline numbers of the results of a case, those of each of its joints among them."""
-    known = MECHANISMS[case.kind()].headlines_of(getattr(case, "joints", ()))
-    return known | summary.EFFORT
+    """Return the headline numbers of the results of a case, those of each of its parts among them."""
+    mechanism = MECHANISMS[case.kind()]
+    parts = {table: tuple(getattr(case, table)) for table in mechanism.by_part}
+    return mechanism.headlines_of(parts) | summary.EFFORT
 
 
 def key_numbers_of(kind: str) -> tuple[str, ...]:
@@ -105,15 +111,16 @@ def known(names: Iterable[str], kind: str) -> dict[str, Headline]:
     given = list(names)
     of_all = {name: headline for name, headline in headlines_of(kind).items() if name in given}
     own = {name: headline for name, headline in of_all.items() if name not in summary.EFFORT}
-    return own | _of_joints([name for name in given if name not in of_all], kind) | of_all
+    return own | _of_parts([name for name in given if name not in of_all], kind) | of_all
 
 
-def _of_joints(names: Iterable[str], kind: str) -> dict[str, Headline]:
-    """Return those of the names that are numbers of one joint."""
-    by_joint = MECHANISMS[kind].by_joint if kind in MECHANISMS else {}
+def _of_parts(names: Iterable[str], kind: str) -> dict[str, Headline]:
+    """Return those of the names that are numbers of one part, such as a joint."""
+    by_part = MECHANISMS[kind].by_part if kind in MECHANISMS else {}
     return {
         name: made(name.removeprefix(f"{base}_"))
         for name in names
-        for base, made in by_joint.items()
+        for numbers in by_part.values()
+        for base, made in numbers.items()
         if name.startswith(f"{base}_")
     }

@@ -139,6 +139,10 @@ class Mechanism:
         ends = {"between": [first, second], "first_point": first_point, "second_point": second_point}
         return self._add("springs", name, {**ends, **keys})
 
+    def output(self, name: str, body: str, **keys: object) -> Mechanism:
+        """Compare a motion with that of ideal joints: ``quantity``, ``point``, ``along``, ``reference``."""
+        return self._add("outputs", name, {"body": body, **keys})
+
     if TYPE_CHECKING:
 
         def __getattr__(self, method: str) -> Callable[..., Mechanism]:

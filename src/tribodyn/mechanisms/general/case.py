@@ -23,6 +23,7 @@ from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys
 
 if TYPE_CHECKING:
@@ -136,6 +137,7 @@ class _Parts(RoughCase):
     drives: Mapping[str, DriveKeys] = tables("what moves them")
     loads: Mapping[str, LoadKeys] = tables("what acts on them")
     springs: Mapping[str, SpringKeys] = tables("springs between them")
+    outputs: Mapping[str, OutputKeys] = tables("what is compared with the motion of ideal joints")
     pairs: Mapping[str, PairKeys] = tables("surfaces of joints that name them")
 
 
@@ -289,6 +291,9 @@ class MechanismCase(_WithElements):
             for name, part in getattr(self, table).items():
                 for body in part.between:
                     _known(body, bodies, f"{table}.{name}.between", "body")
+        for name, output in self.outputs.items():
+            _known(output.body, bodies, f"outputs.{name}.body", "body")
+            _known(output.reference, bodies, f"outputs.{name}.reference", "body")
         for name, joint in self.joints.items():
             if joint.clearance is not None and joint.clearance.pair is not None:
                 _known(joint.clearance.pair, self.pairs, f"joints.{name}.clearance.pair", "pair")

@@ -73,11 +73,11 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
     ideal = assembly.model.counterpart
     stuck: tuple[float, ModelError] | None = (0.0, assembly.doubts[0]) if assembly.doubts else None
     if stuck is None:
-        stuck = _stuck(_placed(System(ideal), assembly), assembly.ideal_rank, duration)
+        stuck = _stuck(placed(System(ideal), assembly), assembly.ideal_rank, duration)
     if stuck is None:
         return Passage()
     time, finding = stuck
-    misfit = Misfit(assembly.model, _placed(System(ideal), assembly))
+    misfit = Misfit(assembly.model, placed(System(ideal), assembly))
     if misfit.possible and _led(misfit.system, duration, misfit.close) is None:
         needed = described(misfit.shares) or "none to speak of"
         warning = f"clearances must take a misfit, for with ideal joints {finding.text}; share of clearance "
@@ -85,7 +85,7 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
     return Passage(finding, time)
 
 
-def _placed(system: System, assembly: Assembly) -> System:
+def placed(system: System, assembly: Assembly) -> System:
     """Put the bodies of a system where they are at the start."""
     system.adopt(assembly.state)
     return system
@@ -102,7 +102,7 @@ def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelErro
         system.restore(start)
 
         def close(wander: bool = way > 0) -> bool:
-            return _closes(system) and (not wander or _wanders(system, chance))
+            return closes(system) and (not wander or _wanders(system, chance))
 
         time = _led(system, duration, close)
         if time is None:
@@ -111,7 +111,7 @@ def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelErro
     return found
 
 
-def _closes(system: System) -> bool:
+def closes(system: System) -> bool:
     """Close all joints, by the compiled solution or else thoroughly."""
     kept = system.position()
     if system.close_fast() <= _CLOSED:
@@ -141,6 +141,16 @@ def _led(system: System, duration: float, close: Close) -> float | None:
         if end >= duration:
             break
     return None
+
+
+def lead(system: System, time: float, close: Close) -> bool:
+    """Lead the bodies from where the system's time is to a later one [s]; return whether joints close."""
+    while system.t < time:
+        begin = system.t
+        end = min(time, begin + system.time_to_move(_TURN))
+        if not _reached(system, begin, end, close):
+            return False
+    return close()
 
 
 def _reached(system: System, begin: float, end: float, close: Close) -> bool:

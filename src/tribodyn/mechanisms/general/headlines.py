@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.base import ByJoint
+from tribodyn.mechanisms.base import ByPart
 from tribodyn.mechanisms.general.ledger import WHOLE
 from tribodyn.results.reading import column, peak, time_mean
 from tribodyn.results.summary import Headline
@@ -245,7 +245,7 @@ def _above_zero(value: float) -> float:
 
 def _named(
     label: str, unit: str, group: str, meaning: str, compute: Callable[[xr.Dataset, int], float]
-) -> ByJoint:
+) -> ByPart:
     def made(joint: str) -> Headline:
         return Headline(f"{label}, {joint}", unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
 
@@ -260,7 +260,7 @@ def _pair_named(
     values: Callable[[xr.Dataset, int], FloatArray],
     *,
     scale: float = 1.0,
-) -> dict[str, ByJoint]:
+) -> dict[str, ByPart]:
     """Return the pair of numbers of a joint, see :func:`_pair`."""
 
     def made(name: str, joint: str) -> Headline:
@@ -278,7 +278,7 @@ def _pair_named(
     return {name: partial(made, name) for name in names}
 
 
-BY_JOINT: Final[dict[str, ByJoint]] = {
+BY_JOINT: Final[dict[str, ByPart]] = {
     **_pair_named(
         ("force_lasting_N", "force_max_N"),
         "Force",

@@ -25,9 +25,11 @@ from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
+from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
+from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import (
@@ -74,6 +76,11 @@ class MechanismSystem:
     def real(self) -> tuple[tuple[str, Clearance], ...]:
         """Names and clearances of the joints that have one."""
         return tuple(self.model.clearances.items())
+
+    @cached_property
+    def outputs(self) -> tuple[Output, ...]:
+        """What is compared with the motion of ideal joints."""
+        return outputs_of(self.case)
 
     @cached_property
     def maps(self) -> Maps:
@@ -192,6 +199,7 @@ class MechanismSystem:
     def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run."""
         found = self._observed(run)
+        of_outputs, notes_of_outputs = self._of_outputs(found, run)
         ledger = ledger_columns(found.whole)
         energy = WHOLE.fraction(ledger, self._least_energy(found))
         peaks = self._peaks(run)
@@ -203,6 +211,7 @@ class MechanismSystem:
                 **found.bodies,
                 **self._of_joints(found),
                 **self._of_elements(found),
+                **of_outputs,
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
@@ -220,7 +229,11 @@ class MechanismSystem:
                 of_tables(self.case.followed(), run.solution.t, partial(self._followed, found)),
                 cost=run.cost,
             ),
-            notes=[*self._of_temperatures(), *(contacts.notes(peaks, of_contacts) if peaks else [])],
+            notes=[
+                *self._of_temperatures(),
+                *(contacts.notes(peaks, of_contacts) if peaks else []),
+                *notes_of_outputs,
+            ],
             failure=self._failure(run),
         )
 
@@ -300,6 +313,16 @@ class MechanismSystem:
             first = last + 1
         return {"element_force": np.stack(forces, axis=-1), "element_moment": np.stack(moments, axis=-1)}
 
+    def _of_outputs(
+        self, found: Observed, run: FinishedRun
+    ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
+        """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
+        if not self.outputs:
+            return {}, ()
+        names = ("position", "orientation", "velocity", "angular_velocity")
+        motion = Motion(*(found.bodies[name] for name in names))
+        return compared(self.assembly, self.outputs, run.solution.t, motion)
+
     def _clearances(self) -> FloatArray:
         real = self.model.clearances
         return np.array([real[j].shape.clearance if j in real else np.nan for j in self.model.joints])
@@ -320,6 +343,9 @@ class MechanismSystem:
         }
         if self.model.elements:
             parts["element"] = [element.name for element in self.model.elements]
+        if self.outputs:
+            parts["output"] = [output.name for output in self.outputs]
+            parts["output_unit"] = [output.unit for output in self.outputs]
         if not self.real:
             return dict(parts)
         frames = run.solution.picture_times[self._playback(run)]

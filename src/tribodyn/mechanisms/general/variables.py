@@ -18,6 +18,7 @@ AXES: Final = ("x", "y", "z")
 ENTRIES: Final = ("w", *AXES)
 _VECTOR: Final = ("axis",)
 _ELEMENT: Final = (*TIME, "element")
+_OUTPUT: Final = (*TIME, "output")
 _QUATERNION: Final = ("entry",)
 _COMPONENTS: Final = {1: (), 3: _VECTOR, 4: _QUATERNION}
 """Dimensions of a quantity by its number of components."""
@@ -87,6 +88,15 @@ OF_ELEMENTS: Final[dict[str, Variable]] = {
 }
 """What an element transmits; see its kind for sign and place."""
 
+OF_OUTPUTS: Final[dict[str, Variable]] = {
+    "output": Variable("", "name of the output", ("output",), named=True, names="outputs"),
+    "output_unit": Variable("", "unit of the output", ("output",), named=True),
+    "output_value": Variable("1", "value of the output, in its unit", _OUTPUT),
+    "output_ideal": Variable("1", "value with ideal joints and the same drives, in its unit", _OUTPUT),
+    "output_error": Variable("1", "difference from the ideal motion, in the unit of the output", _OUTPUT),
+}
+"""Of what a user wants compared with the ideal motion; an error in all directions is the length of a vector."""
+
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
@@ -98,6 +108,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "joint": Variable("", "name of the joint", ("joint",), named=True, names="joints"),
     "element": Variable("", "name of the element", ("element",), named=True, names="elements"),
     **OF_ELEMENTS,
+    **OF_OUTPUTS,
     "surface": Variable("", "joint and surface of it", ("surface",), named=True),
     "axis": Variable("", "component of a vector", _VECTOR, named=True, names=AXES),
     "entry": Variable("", "entry of a quaternion", _QUATERNION, named=True, names=ENTRIES),

@@ -8,12 +8,13 @@ from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Family
 from tribodyn.mechanisms.general.figures import joints, mechanism
 from tribodyn.mechanisms.general.ledger import LEDGERS
-from tribodyn.mechanisms.general.sections.charts import CLEARANCES, JOINT_FORCES, MOTION
+from tribodyn.mechanisms.general.sections.charts import CLEARANCES, JOINT_FORCES, MOTION, OUTPUT_ERRORS
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         mechanism.FAMILY,
+        chart.family(OUTPUT_ERRORS),
         chart.family(JOINT_FORCES),
         chart.family(MOTION),
         joints.ORBITS,

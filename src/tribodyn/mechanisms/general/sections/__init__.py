@@ -8,7 +8,13 @@ import numpy as np
 
 from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.sections import mechanism
-from tribodyn.mechanisms.general.sections.charts import CLEARANCES, ENERGY, JOINT_FORCES, MOTION
+from tribodyn.mechanisms.general.sections.charts import (
+    CLEARANCES,
+    ENERGY,
+    JOINT_FORCES,
+    MOTION,
+    OUTPUT_ERRORS,
+)
 from tribodyn.mechanisms.general.sections.joints import ORBITS, PRESSURE, REACTIONS, WEAR
 from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
@@ -26,7 +32,14 @@ CHAPTERS: Final = (
         "time",
         "Over time",
         OVER_TIME,
-        (REACTIONS, JOINT_FORCES.section, CLEARANCES.section, MOTION.section, ENERGY.section),
+        (
+            OUTPUT_ERRORS.section,
+            REACTIONS,
+            JOINT_FORCES.section,
+            CLEARANCES.section,
+            MOTION.section,
+            ENERGY.section,
+        ),
     ),
     Chapter("worn", "Wear", "What is worn off the joints.", (WEAR, WEAR_HISTORY)),
 )

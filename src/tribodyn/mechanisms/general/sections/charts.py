@@ -10,6 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.ledger import WHOLE
+from tribodyn.mechanisms.general.output_numbers import SHOWN
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.ledger import ledger_chart
 
@@ -64,6 +65,24 @@ def clearances(dataset: xr.Dataset) -> list[Panel]:
     )
 
 
+def output_errors(dataset: xr.Dataset) -> list[Panel]:
+    """Return the errors of outputs against the ideal motion [µm, °, mm/s]."""
+    names, units = _names(dataset, "output"), dataset["output_unit"].values
+    error = dataset["output_error"].values
+    panels = []
+    for unit, (_, shown, scale) in SHOWN.items():
+        chosen = np.flatnonzero(units == unit)
+        panels.append((f"error [{shown}]", curves([names[k] for k in chosen], scale * error[:, chosen])))
+    return _panels(*panels)
+
+
+OUTPUT_ERRORS: Final = Chart(
+    name="output_errors",
+    title="Errors of the outputs",
+    caption="How far each output is from where ideal joints with the same drives would have it.",
+    needs=("output_error", "output_unit", "output"),
+    panels=output_errors,
+)
 MOTION: Final = Chart(
     name="motion",
     title="Motion",

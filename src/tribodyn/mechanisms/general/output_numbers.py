@@ -1,0 +1,67 @@
+"""Key results of the outputs of a mechanism: how far they are from the ideal motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.base import ByPart, plain
+from tribodyn.mechanisms.general.headlines import lasting, settled
+from tribodyn.results.reading import column, peak
+from tribodyn.results.summary import Headline
+
+SHOWN: Final = {"m": ("um", "µm", 1e6), "rad": ("deg", "°", 180.0 / math.pi), "m/s": ("mm_per_s", "mm/s", 1e3)}
+"""By SI unit: how names of key results spell the unit of an error, the unit, and its number in the SI unit."""
+Reduction = Callable[[xr.Dataset, FloatArray], float]
+
+
+def _rms(dataset: xr.Dataset, error: FloatArray) -> float:
+    """Return the root of the mean over time of the square."""
+    time, square = settled(dataset, column(dataset, "time")), settled(dataset, error) ** 2
+    return math.sqrt(float(np.trapezoid(square, time)) / float(time[-1] - time[0])) if time.size > 1 else math.nan
+
+
+MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
+    "lasting": (
+        "lasting",
+        "Largest difference from the motion with ideal joints, but for the hardest hundredth of the time.",
+        lasting,
+    ),
+    "max": ("peak", "The same at any time of the result.", lambda d, error: peak(settled(d, error))),
+    "rms": ("rms", "Root mean square over time of the difference from the motion with ideal joints.", _rms),
+}
+"""By what stands in the name of the key result: how an error over time becomes one number."""
+
+
+def number_of(dataset: xr.Dataset, output: str) -> int:
+    """Return the number of an output, whose name may be that of a key result; an unknown one raises."""
+    return [plain(str(name)) for name in dataset["output"].values].index(plain(output))
+
+
+def _made(measure: str, unit: str, output: str) -> Headline:
+    """Return the key result of an output; NaN where its error has another unit or is not known."""
+    label, meaning, reduce = MEASURES[measure]
+    _, shown, scale = SHOWN[unit]
+
+    def compute(dataset: xr.Dataset) -> float:
+        k = number_of(dataset, output)
+        error = column(dataset, "output_error")[:, k]
+        if str(dataset["output_unit"].values[k]) != unit or not np.isfinite(error).all():
+            return math.nan
+        return scale * reduce(dataset, error)
+
+    return Headline(f"Error, {label}, {output}", shown, "Outputs", meaning, compute)
+
+
+BY_OUTPUT: Final[dict[str, ByPart]] = {
+    f"error_{measure}_{spelled}": partial(_made, measure, unit)
+    for unit, (spelled, _, _) in SHOWN.items()
+    for measure in MEASURES
+}
+"""Key results of each output, by what stands before its name."""
