@@ -331,7 +331,7 @@ class MechanismDescriptor:
         return cast("Mapping[str, Bearing]", getattr(importlib.import_module(module), name)(case))
 
     def headlines_of(self, parts: Mapping[str, Iterable[str]]) -> dict[str, Headline]:
-        """Return all headline numbers, in reading order, with those of parts; ``parts`` are names by table."""
+        """Return all headline numbers in reading order, with those of parts, given as names by table."""
         named = {
             f"{name}_{plain(part)}": made(part)
             for table, numbers in self.by_part.items()

@@ -10,6 +10,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.bodies import move, place
 from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, Parts
+from tribodyn.kernels.mechanism.follow import follow
 from tribodyn.kernels.mechanism.functions import SMALL
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import (
@@ -28,6 +29,8 @@ from tribodyn.mechanisms.general.model import Model, ModelError
 
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
+CLOSES: Final = 1.0e-9
+"""The same, of joints of a mechanism on its way."""
 DEPENDENT: Final = 1.0e-6
 """Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
 _HELD: Final = {
@@ -205,6 +208,20 @@ class System:
         self._wait -= 1
         close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
         return self.gap()
+
+    def follow(self, times: FloatArray, first: int, matrix: FloatArray, states: FloatArray) -> int:
+        """Fill states at times from a number on; return the number of the first that is not reached at once.
+
+        See :func:`tribodyn.kernels.mechanism.follow.follow`.
+        """
+        compiled = (self.parts, self.now, self.data.signals, self.data.mass, self._blocks)
+        return int(follow(*compiled, times, first, _LONGEST, CLOSES, matrix, states))
+
+    def freedoms(self, rank: int) -> FloatArray:
+        """Return displacements that leave the joints closed, ways over the size, shape (n, 6 n_bodies)."""
+        if not self.rows:
+            return np.eye(6 * self.n)
+        return np.asarray(np.linalg.svd(self.over_sizes(self.matrix()))[2][rank:])
 
     def time_to_move(self, change: float) -> float:
         """Return the time in which no drive moves more than that, ways in units of the size [s]."""

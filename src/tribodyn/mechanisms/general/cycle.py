@@ -16,7 +16,7 @@ import numpy as np
 
 from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanisms.general.assembly import Assembly
-from tribodyn.mechanisms.general.closing import System
+from tribodyn.mechanisms.general.closing import CLOSES, System
 from tribodyn.mechanisms.general.misfit import Misfit, described
 from tribodyn.mechanisms.general.model import ModelError
 
@@ -30,8 +30,6 @@ _PARTS: Final = 8
 """Parts of a step that bodies are led through where they cannot make it at once."""
 _CORRECTIONS: Final = 20
 """Steps of Newton's method in which bodies that are near must close."""
-_CLOSED: Final = 1.0e-9
-"""Gap, in units of the size or in radians, of joints that close."""
 _WAYS: Final = 4
 """How many ways are tried where freedoms are left."""
 
@@ -114,16 +112,16 @@ def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelErro
 def closes(system: System) -> bool:
     """Close all joints, by the compiled solution or else thoroughly."""
     kept = system.position()
-    if system.close_fast() <= _CLOSED:
+    if system.close_fast() <= CLOSES:
         return True
     system.restore(kept)
-    return system.close(_CORRECTIONS) <= _CLOSED
+    return system.close(_CORRECTIONS) <= CLOSES
 
 
 def _wanders(system: System, chance: np.random.Generator) -> bool:
     """Go elsewhere in the freedoms that are left, as far as joints close there."""
     kept = system.position()
-    if not system.wander(chance) or system.gap() > _CLOSED:
+    if not system.wander(chance) or system.gap() > CLOSES:
         system.restore(kept)
     return True
 
@@ -150,7 +148,7 @@ def lead(system: System, time: float, close: Close) -> bool:
         end = min(time, begin + system.time_to_move(_TURN))
         if not _reached(system, begin, end, close):
             return False
-    return close()
+    return True
 
 
 def _reached(system: System, begin: float, end: float, close: Close) -> bool:

@@ -11,8 +11,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mechanism.bodies import collect, place
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import DEPENDENT, System
 from tribodyn.mechanisms.general.cycle import closes, lead, placed
@@ -68,8 +71,8 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], times: FloatArr
         rest = np.full((times.size - len(components), components.shape[1]), np.nan)
         found.append(np.concatenate([components, rest]))
     notes = [
-        f"output {output.name} depends on a freedom that drives and ideal joints leave: it has no ideal value "
-        "and no error"
+        f"output {output.name} depends on a freedom that drives and ideal joints leave: it has no ideal "
+        "value and no error"
         for output, is_free in zip(outputs, free, strict=True)
         if is_free
     ]
@@ -114,58 +117,45 @@ class _Follower:
 
     def follow(self, times: FloatArray) -> tuple[Motion, list[bool]]:
         """Return the motion as far as the joints close, and which outputs drives leave free."""
-        system = self.system
-        with_speeds = any(output.keys.quantity == "velocity" for output in self.outputs)
-        # At rest, the rates of the constraints are those of the drives alone.
-        system.now.bodies.v[:], system.now.bodies.w[:] = 0.0, 0.0
-        system.at(float(times[0]))
-        tried = set(np.linspace(0, times.size - 1, _PLACES).astype(int).tolist())
-        free, poses = np.zeros(len(self.outputs), dtype=bool), []
-        for k, t in enumerate(times.tolist()):
-            if not lead(system, t, lambda: closes(system)):
-                break
-            if k in tried:
-                free |= self._free()
-            poses.append(self._pose(with_speeds))
-        return _joined(poses, system.n), free.tolist()
+        system, n_rows = self.system, len(self.system.rows)
+        states, matrix = np.zeros((times.size, N_STATES * system.n)), np.zeros((n_rows, n_rows))
+        k, led = system.follow(times, 0, matrix, states), -1
+        while led < k < times.size and self._over(times, k, states):
+            k, led = system.follow(times, k, matrix, states), k
+        tried = np.unique(np.linspace(0, max(k - 1, 0), _PLACES).astype(int))
+        free = np.any([self._free(times[i], states[i]) for i in tried if i < k], axis=0)
+        return _motion(states[:k]), np.broadcast_to(free, len(self.outputs)).tolist()
 
-    def _pose(self, with_speeds: bool) -> tuple[FloatArray, ...]:
-        bodies = self.system.now.bodies[:-1]
-        if not with_speeds:
-            still = np.zeros_like(bodies.r)
-            return bodies.r.copy(), bodies.p.copy(), still, still
-        g, root, length = self.system.scaled()
-        inverse = self.system.inverse(g, self.system.matrix())
-        speeds = (root @ (inverse @ (-self.system.entries("rate") / length))).reshape(-1, 6)
-        return bodies.r.copy(), bodies.p.copy(), speeds[:, :3], np.einsum("nij,nj->ni", bodies.A, speeds[:, 3:])
+    def _over(self, times: FloatArray, k: int, states: FloatArray) -> bool:
+        """Lead the bodies to a time that they cannot reach at once; return whether joints close there."""
+        if k > 0:
+            self._put(times[k - 1], states[k - 1])
+        return lead(self.system, float(times[k]), lambda: closes(self.system)) and closes(self.system)
 
-    def _free(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def _put(self, t: float, state: FloatArray) -> None:
+        place(state, self.system.now.bodies)
+        self.system.at(float(t))
+
+    def _free(self, t: float, state: FloatArray) -> NDArray[np.bool_]:
         """Return which outputs change along a freedom that is left, each tried both ways."""
-        system = self.system
+        self._put(t, state)
+        system, found = self.system, np.zeros(len(self.outputs), dtype=bool)
         units = np.tile(np.repeat([system.size, 1.0], 3), system.n)
-        rows = system.over_sizes(system.matrix()) if system.rows else np.zeros((0, 6 * system.n))
-        freedoms = np.linalg.svd(rows)[2][self.rank :] if system.rows else np.eye(6 * system.n)
-        kept, found = system.position(), np.zeros(len(self.outputs), dtype=bool)
-        for freedom in freedoms:
+        scales = np.array([1.0 if output.unit == "rad" else system.size for output in self.outputs])
+        kept = system.position()
+        for freedom in system.freedoms(self.rank):
             ends = []
             for side in (1.0, -1.0):
                 system.step(side * _STEP * units * freedom)
-                motion = _joined([self._pose(False)], system.n)
-                ends.append([_place(output, motion) for output in self.outputs])
+                collect(system.now.bodies, state := np.zeros_like(state))
+                ends.append([output.as_place().components(_motion(state[None])) for output in self.outputs])
                 system.restore(kept)
             changes = [np.max(np.abs(a - b)) / (2.0 * _STEP) for a, b in zip(*ends, strict=True)]
-            scales = [1.0 if output.unit == "rad" else system.size for output in self.outputs]
-            found |= np.array(changes) > DEPENDENT * np.array(scales)
+            found |= np.array(changes) > DEPENDENT * scales
         return found
 
 
-def _place(output: Output, motion: Motion) -> FloatArray:
-    """Return the components of an output, of a velocity those of the place whose rate it is."""
-    return output.as_place().components(motion)
-
-
-def _joined(poses: Sequence[tuple[FloatArray, ...]], n: int) -> Motion:
-    """Return poses one after the other as a motion."""
-    if not poses:
-        return Motion(np.zeros((0, n, 3)), np.zeros((0, n, 4)), np.zeros((0, n, 3)), np.zeros((0, n, 3)))
-    return Motion(*(np.stack(parts) for parts in zip(*poses, strict=True)))
+def _motion(states: FloatArray) -> Motion:
+    """Return states of shape (n_t, 13 n_bodies), angular velocities in global axes, as a motion."""
+    parts = states.reshape(len(states), -1, N_STATES)
+    return Motion(*np.split(parts, [ORIENTATION, VELOCITY, TURNING], axis=2))

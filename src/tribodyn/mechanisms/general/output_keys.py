@@ -24,7 +24,9 @@ class OutputKeys(NamedGroup):
     point: Vector | None = vector(
         None, "observed point as drawn; the mass centre without it", "", unit="mm", example=POINT
     )
-    reference: str = name(GROUND, "body against which it is observed, or ground", "assumed", example='"frame"')
+    reference: str = name(
+        GROUND, "body against which it is observed, or ground", "assumed", example='"frame"'
+    )
     reference_point: Vector | None = vector(
         None,
         "point of the reference as drawn; without it the one where the observed point is drawn",
@@ -43,13 +45,19 @@ class OutputKeys(NamedGroup):
     def model_post_init(self, context: object, /) -> None:
         """Check that the quantity is defined."""
         demand(self.body != GROUND, "body", f"{GROUND} never moves; name a body")
-        demand(self.body != self.reference, "reference", "a body does not move against itself; name another one")
+        demand(
+            self.body != self.reference, "reference", "a body does not move against itself; name another one"
+        )
         needs_axis = "an angle needs its axis: give along, such as [0, 0, 1]"
         demand(self.quantity != "angle" or self.along is not None, "along", needs_axis)
         if self.quantity == "distance":
             words = "a distance needs its second point: give reference_point"
             demand(self.reference_point is not None, "reference_point", words)
-            demand(self.along is None, "along", "a distance has no direction; leave along out, or take a position")
+            demand(
+                self.along is None,
+                "along",
+                "a distance has no direction; leave along out, or take a position",
+            )
         if self.quantity == "angle":
             for key in ("point", "reference_point"):
                 demand(getattr(self, key) is None, key, "an angle needs no point; leave this key out")

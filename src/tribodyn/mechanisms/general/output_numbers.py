@@ -16,15 +16,23 @@ from tribodyn.mechanisms.general.headlines import lasting, settled
 from tribodyn.results.reading import column, peak
 from tribodyn.results.summary import Headline
 
-SHOWN: Final = {"m": ("um", "µm", 1e6), "rad": ("deg", "°", 180.0 / math.pi), "m/s": ("mm_per_s", "mm/s", 1e3)}
-"""By SI unit: how names of key results spell the unit of an error, the unit, and its number in the SI unit."""
+SHOWN: Final = {
+    "m": ("um", "µm", 1e6),
+    "rad": ("deg", "°", 180.0 / math.pi),
+    "m/s": ("mm_per_s", "mm/s", 1e3),
+}
+"""By SI unit: the unit of an error in the name of a key result, as shown, and its number in the SI unit."""
 Reduction = Callable[[xr.Dataset, FloatArray], float]
 
 
 def _rms(dataset: xr.Dataset, error: FloatArray) -> float:
     """Return the root of the mean over time of the square."""
     time, square = settled(dataset, column(dataset, "time")), settled(dataset, error) ** 2
-    return math.sqrt(float(np.trapezoid(square, time)) / float(time[-1] - time[0])) if time.size > 1 else math.nan
+    return (
+        math.sqrt(float(np.trapezoid(square, time)) / float(time[-1] - time[0]))
+        if time.size > 1
+        else math.nan
+    )
 
 
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {

@@ -82,7 +82,7 @@ class Output:
             return self._angle(motion)[:, None]
         point, rate = self._point_in_reference(motion)
         if self.keys.quantity == "distance":
-            return np.linalg.norm(point, axis=1, keepdims=True)
+            return np.asarray(np.linalg.norm(point, axis=1, keepdims=True))
         found = rate if self.keys.quantity == "velocity" else point
         return found if self.keys.along is None else (found @ self._along)[:, None]
 

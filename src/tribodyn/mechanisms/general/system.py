@@ -313,9 +313,7 @@ class MechanismSystem:
             first = last + 1
         return {"element_force": np.stack(forces, axis=-1), "element_moment": np.stack(moments, axis=-1)}
 
-    def _of_outputs(
-        self, found: Observed, run: FinishedRun
-    ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
+    def _of_outputs(self, found: Observed, run: FinishedRun) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
         if not self.outputs:
             return {}, ()

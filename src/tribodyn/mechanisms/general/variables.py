@@ -95,7 +95,7 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
     "output_ideal": Variable("1", "value with ideal joints and the same drives, in its unit", _OUTPUT),
     "output_error": Variable("1", "difference from the ideal motion, in the unit of the output", _OUTPUT),
 }
-"""Of what a user wants compared with the ideal motion; an error in all directions is the length of a vector."""
+"""Of what is compared with the ideal motion; an error in all directions is the length of a vector."""
 
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),

@@ -1,0 +1,99 @@
+"""A mechanism of ideal joints that follows its drives: positions and velocities without forces."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mechanism.bodies import collect
+from tribodyn.kernels.mechanism.data import (
+    ANGLE,
+    DIRECTION,
+    N_STATES,
+    TURNING,
+    Now,
+    Parts,
+    Pattern,
+)
+from tribodyn.kernels.mechanism.redundancy import choose_rows
+from tribodyn.kernels.mechanism.solution import close, correct_velocities, kinematics, mark_angles
+from tribodyn.kernels.mechanism.vectors import turn
+from tribodyn.kernels.signals import Signals
+
+
+@kernel
+def follow(
+    parts: Parts,
+    now: Now,
+    signals: Signals,
+    pattern: Pattern,
+    blocks: FloatArray,
+    times: FloatArray,
+    first: int,
+    most: float,
+    closed: float,
+    matrix: FloatArray,
+    motion: FloatArray,
+) -> int:
+    """Lead the bodies through times; return the number of the first at which joints do not close, or of none.
+
+    Velocities are those of the drives; freedoms that are left are at rest.
+
+    Parameters
+    ----------
+    parts, now, signals, pattern, blocks
+        The mechanism, its bodies where they are just before the first time.
+    times
+        Rising [s], shape (n_t,).
+    first
+        Number of the first of these.
+    most
+        Largest residual from which joints are closed at once, in units of the size or radians.
+    closed
+        Largest residual of joints that close, in these units.
+    matrix
+        Work space, shape (n_rows, n_rows).
+    motion
+        Is filled with states of the bodies, angular velocities in global axes, shape (n_t, 13 n_bodies).
+    """
+    for k in range(first, times.size):
+        kinematics(parts, now, signals, times[k])
+        mark_angles(now.couplings)
+        if not _gap(parts, now) <= most:
+            return k
+        if parts.constants.rank < parts.constants.n_rows:
+            choose_rows(parts, now, matrix)
+        close(parts, now, signals, pattern, blocks, times[k])
+        if not _gap(parts, now) <= closed:
+            return k
+        _stop(now.bodies)
+        kinematics(parts, now, signals, times[k])
+        correct_velocities(parts, now, signals, pattern, blocks, times[k])
+        collect(now.bodies, motion[k])
+        for b in range(now.bodies.size - 1):
+            body, begin = now.bodies[b], N_STATES * b + TURNING
+            turn(body.A, body.w, motion[k, begin : begin + 3])
+    return times.size
+
+
+@kernel
+def _gap(parts: Parts, now: Now) -> float:
+    """Return the largest residual, of ways in units of the size."""
+    largest = 0.0
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        for m in range(coupling.n_rows):
+            is_turn = coupling.row_kind[m] in (DIRECTION, ANGLE)
+            unit = 1.0 if is_turn else parts.constants.size
+            largest = max(largest, abs(now.couplings[k].residual[m]) / unit)
+    return largest
+
+
+@kernel
+def _stop(bodies: Any) -> None:
+    """Set all velocities to zero."""
+    for b in range(bodies.size):
+        for i in range(3):
+            bodies[b].v[i] = 0.0
+            bodies[b].w[i] = 0.0
