@@ -51,6 +51,7 @@ REFUSED_BY = {
     "stribeck": ("stribeck", "missing"),
     "reproduce": ("reproduce", "missing"),
     "surface": ("surface", "missing.csv"),
+    "contributions": ("contributions", "vsv"),
     "fit": ("fit", "vsv", "--data", "missing.csv", "--vary", "joint.clearance=1..2"),
 }
 """Commands with arguments that they refuse."""

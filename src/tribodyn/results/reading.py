@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.attributes import CARRIED
 from tribodyn.results.dataset import json_attribute
+
+_ROUNDING: Final = 1e-9
 
 
 def column(dataset: xr.Dataset, name: str) -> FloatArray:
@@ -89,3 +93,20 @@ def cycles(dataset: xr.Dataset) -> float:
 def statistic(name: str) -> Callable[[xr.Dataset], float]:
     """Return a reader of one entry of the solver statistics."""
     return lambda dataset: float(json_attribute(dataset, "solver", {})[name])
+
+
+def period(dataset: xr.Dataset) -> float:
+    """Return the time of one cycle [s]; without end where nothing says it."""
+    return float(dataset.attrs.get("cycle_period", math.inf))
+
+
+def in_settled(dataset: xr.Dataset) -> NDArray[np.bool_]:
+    """Tell which rows are looked at: of several cycles none of the first, in which the start dies away."""
+    time, cycle = column(dataset, "time"), period(dataset)
+    whole = time.size > 0 and time[-1] >= (2.0 - _ROUNDING) * cycle
+    return np.asarray(time >= cycle) if whole else np.full(time.shape, True)
+
+
+def settled(dataset: xr.Dataset, values: FloatArray) -> FloatArray:
+    """Return values over time, those of the rows that are looked at."""
+    return values[in_settled(dataset)]

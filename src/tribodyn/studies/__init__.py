@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tribodyn.studies.cluster import Tls
+from tribodyn.studies.contributions import OutputShares, contributions
 from tribodyn.studies.plan import Sampling, SweepPlan, make_plan
 from tribodyn.studies.sampling import DISTRIBUTIONS, SAMPLERS
 from tribodyn.studies.search import find
@@ -14,10 +15,12 @@ __all__ = [
     "SAMPLERS",
     "Arrival",
     "Means",
+    "OutputShares",
     "Sampling",
     "SweepPlan",
     "Tls",
     "Watcher",
+    "contributions",
     "find",
     "make_plan",
     "run",

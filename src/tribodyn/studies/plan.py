@@ -147,9 +147,14 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
     _check_number(math.prod(axis.size for axis in axes) * (sampling.samples or 1))
     if scatters:
         axes.append(_drawn(scatters, sampling))
+    return plan_of(case, tuple(axes), sampling)
+
+
+def plan_of(case: Case, axes: tuple[Axis, ...], sampling: Sampling = Sampling()) -> SweepPlan:
+    """Return the plan of all points of these dimensions; returns and raises as :func:`make_plan`."""
     n_points = math.prod(axis.size for axis in axes)
     _check_number(n_points)
-    return SweepPlan(case, tuple(axes), _points(case, axes, n_points), sampling)
+    return SweepPlan(case, axes, _points(case, axes, n_points), sampling)
 
 
 def varied_key(case: Case, path: str) -> Key:

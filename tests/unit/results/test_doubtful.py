@@ -105,10 +105,10 @@ def test_a_sweep_marks_the_points_whose_numbers_are_doubtful(
         for point, doubtful, value in zip(plan.points, ("", REASON), (5.0, 6.0), strict=True)
     }
     page = write(merge(plan, found), tmp_path).read_text()
-    assert page.count(f"Do not use these numbers: {REASON}.") == 1
     good, bad = page.split('<tr id="p-')[1:]
     assert 'class="doubtful"' not in good
     assert bad.split("</tr>")[0].count('class="doubtful"') == 1
+    assert bad.count(f'class="quiet">Do not use these numbers: {REASON}.<') == 1
     points = [{"changes": dict(point.changes), **found[point.name]} for point in plan.points]
     *_, good, bad, caution = sweep_in_words({"statistics": [], "points": points, "kind": "vsv"})
     assert caution == f"Do not use the numbers at joint.clearance = 30 um: {REASON}."

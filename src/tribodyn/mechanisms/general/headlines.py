@@ -14,24 +14,12 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart
 from tribodyn.mechanisms.general.ledger import WHOLE
-from tribodyn.results.reading import column, peak, time_mean
+from tribodyn.results.reading import column, in_settled, peak, period, settled, time_mean
 from tribodyn.results.summary import Headline
 
 SHORT: Final = 0.01
 """Share of the time that blows may last; what is exceeded no longer counts as lasting."""
 _ROUNDING: Final = 1e-9
-
-
-def _in_settled(dataset: xr.Dataset) -> NDArray[np.bool_]:
-    """Tell which rows are looked at: of several cycles none of the first, in which the start dies away."""
-    time, period = column(dataset, "time"), _period(dataset)
-    whole = time.size > 0 and time[-1] >= (2.0 - _ROUNDING) * period
-    return np.asarray(time >= period) if whole else np.full(time.shape, True)
-
-
-def settled(dataset: xr.Dataset, values: FloatArray) -> FloatArray:
-    """Return values over time, those of the rows that are looked at."""
-    return values[_in_settled(dataset)]
 
 
 def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
@@ -54,22 +42,17 @@ def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
     return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))
 
 
-def _period(dataset: xr.Dataset) -> float:
-    """Return the time of one cycle [s]; without end where nothing says it."""
-    return float(dataset.attrs.get("cycle_period", math.inf))
-
-
 def _cycles(dataset: xr.Dataset) -> float:
     """Return how many whole cycles are looked at; NaN where there is none."""
-    whole = math.floor(column(dataset, "time")[-1] / _period(dataset) + _ROUNDING)
-    return _above_zero(whole if _in_settled(dataset)[0] else whole - 1)
+    whole = math.floor(column(dataset, "time")[-1] / period(dataset) + _ROUNDING)
+    return _above_zero(whole if in_settled(dataset)[0] else whole - 1)
 
 
 def _scatter(dataset: xr.Dataset) -> float:
     """Return by how much the largest forces of the cycles looked at differ, of their mean [%]."""
     time, n = settled(dataset, column(dataset, "time")), int(_cycles(dataset))
     force = settled(dataset, sizes(dataset, "reaction_force").max(axis=1))
-    edges = np.searchsorted(time, time[0] + _period(dataset) * np.arange(1, n))
+    edges = np.searchsorted(time, time[0] + period(dataset) * np.arange(1, n))
     found = np.array([part.max() for part in np.split(force, edges)])
     return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
 

@@ -12,16 +12,11 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart, plain
-from tribodyn.mechanisms.general.headlines import lasting, settled
-from tribodyn.results.reading import column, peak
+from tribodyn.mechanisms.general.headlines import lasting
+from tribodyn.results.outputs import ERROR_UNITS
+from tribodyn.results.reading import column, peak, settled
 from tribodyn.results.summary import Headline
 
-SHOWN: Final = {
-    "m": ("um", "µm", 1e6),
-    "rad": ("deg", "°", 180.0 / math.pi),
-    "m/s": ("mm_per_s", "mm/s", 1e3),
-}
-"""By SI unit: the unit of an error in the name of a key result, as shown, and its number in the SI unit."""
 Reduction = Callable[[xr.Dataset, FloatArray], float]
 
 
@@ -55,7 +50,7 @@ def number_of(dataset: xr.Dataset, output: str) -> int:
 def _made(measure: str, unit: str, output: str) -> Headline:
     """Return the key result of an output; NaN where its error has another unit or is not known."""
     label, meaning, reduce = MEASURES[measure]
-    _, shown, scale = SHOWN[unit]
+    _, shown, scale = ERROR_UNITS[unit]
 
     def compute(dataset: xr.Dataset) -> float:
         k = number_of(dataset, output)
@@ -69,7 +64,7 @@ def _made(measure: str, unit: str, output: str) -> Headline:
 
 BY_OUTPUT: Final[dict[str, ByPart]] = {
     f"error_{measure}_{spelled}": partial(_made, measure, unit)
-    for unit, (spelled, _, _) in SHOWN.items()
+    for unit, (spelled, _, _) in ERROR_UNITS.items()
     for measure in MEASURES
 }
 """Key results of each output, by what stands before its name."""

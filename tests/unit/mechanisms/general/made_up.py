@@ -59,6 +59,8 @@ def result(failure: str = "") -> xr.Dataset:
             "surface": list(SURFACES),
             "axis": ["x", "y", "z"],
             "entry": ["w", "x", "y", "z"],
+            "output": ["slider"],
+            "output_unit": ["m"],
             "frame": np.arange(float(N)),
             "frame_time": t,
             "row": np.arange(4.0),
@@ -66,7 +68,12 @@ def result(failure: str = "") -> xr.Dataset:
             "row_place": np.array([[-0.01, -0.005, 0.005, 0.01], [0.0095, 0.011, 0.013, 0.014]]),
             "column_angle": np.array([theta, theta]),
         },
-        columns={**columns, **energy, **{name: zero for name in rest}},
+        columns={
+            **columns,
+            **energy,
+            **{name: zero for name in rest},
+            "output_error": 2e-5 * np.cos(turn)[:, None],
+        },
         fields={
             "clearance": np.array([np.nan, np.nan, 20e-6, np.nan]),
             "pressure_cycle": pressure,

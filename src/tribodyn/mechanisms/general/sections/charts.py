@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.ledger import WHOLE
-from tribodyn.mechanisms.general.output_numbers import SHOWN
+from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.ledger import ledger_chart
 
@@ -70,7 +70,7 @@ def output_errors(dataset: xr.Dataset) -> list[Panel]:
     names, units = _names(dataset, "output"), dataset["output_unit"].values
     error = dataset["output_error"].values
     panels = []
-    for unit, (_, shown, scale) in SHOWN.items():
+    for unit, (_, shown, scale) in ERROR_UNITS.items():
         chosen = np.flatnonzero(units == unit)
         panels.append((f"error [{shown}]", curves([names[k] for k in chosen], scale * error[:, chosen])))
     return _panels(*panels)

@@ -1,0 +1,72 @@
+"""``tribodyn contributions``: how much of the error of an output comes from which joint."""
+
+from __future__ import annotations
+
+import os
+from argparse import ArgumentParser, Namespace
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.compiling import announced_compilation
+from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.interrupt import Interruption, last_words
+
+if TYPE_CHECKING:
+    from tribodyn.studies import OutputShares
+
+HELP = "divide the error of each output among the joints with clearance"
+_STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``contributions``."""
+    add_case_arguments(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="where runs are kept (default: contributions-CASE)"
+    )
+    parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
+
+
+def execute(args: Namespace) -> int:
+    """Simulate each joint alone and all together, and print the shares."""
+    from tribodyn.studies import Watcher, contributions
+    from tribodyn.studies.contributions import real_joints
+
+    case, console = chosen_case(args), Console.of(args)
+    real_joints(case)
+    directory = OutputDirectory(
+        f"contributions-{Path(args.case).stem}" if args.output is None else args.output
+    )
+    with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
+        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+        stack.enter_context(announced_compilation(console.note))
+        watcher = Watcher(stop=stop, note=console.note)
+        found = contributions(case, directory=directory.path, workers=args.workers, watcher=watcher)
+    for one in found:
+        _tell(one, console)
+    if console.json:
+        show_json({one.output: _as_json(one) for one in found})
+    return 0
+
+
+def _tell(one: OutputShares, console: Console) -> None:
+    """Print the shares of the joints in the error of an output, the largest first."""
+    unit = one.unit
+    console.say(f"\nError of {one.output}, root mean square: {one.together:.4g} {unit}\n")
+    console.say(f"  {'joint':<24}{'alone':>12} {unit:<6}{'share':>10}")
+    for k in (-one.shares).argsort():
+        console.say(f"  {one.joints[k]:<24}{one.alone[k]:>12.4g} {unit:<6}{one.shares[k]:>9.1%}")
+    console.say(f"  {'only together':<24}{'':>12} {'':<6}{one.interaction:>9.1%}")
+
+
+def _as_json(one: OutputShares) -> dict[str, object]:
+    return {
+        "unit": one.unit,
+        "together": one.together,
+        "alone": dict(zip(one.joints, one.alone.tolist(), strict=True)),
+        "shares": dict(zip(one.joints, one.shares.tolist(), strict=True)),
+        "interaction": one.interaction,
+    }

@@ -1,0 +1,173 @@
+"""Which joint causes how much of the error of an output.
+
+The case is simulated with all its clearances, and once for each of them with every other joint ideal. With
+the error e of the whole, the error eₖ with joint k alone, and ⟨·,·⟩ the mean of a product over time (of
+several cycles without the first),
+
+    1 = Σ ⟨eₖ, e⟩ / ⟨e, e⟩ + interaction.
+
+A share is the part of the mean square error that varies together with the error of that joint (a variance is
+divided into covariances in the same way); it is below zero for a joint that compensates others. The
+interaction is what joints cause only together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases import Case, keys_in
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.results import read
+from tribodyn.results.outputs import ERROR_UNITS
+from tribodyn.results.reading import column, settled
+from tribodyn.results.store import POINTS
+from tribodyn.studies.plan import Axis, SweepPlan, plan_of
+from tribodyn.studies.sweep import Means, Watcher, run
+
+_SWITCH: Final = "joints.{}.clearance.ideal"
+_SILENT: Final = Watcher()
+
+
+@dataclass(frozen=True)
+class OutputShares:
+    """How the error of an output is made up.
+
+    Attributes
+    ----------
+    output
+        Its name.
+    unit
+        Unit of the errors, as they are shown.
+    joints
+        Names of the joints with clearance.
+    alone
+        Root mean square error with each of these joints alone, in that unit, shape (n_joints,).
+    together
+        The same with all.
+    shares
+        Part of the mean square error that each joint causes [1], shape (n_joints,).
+    """
+
+    output: str
+    unit: str
+    joints: tuple[str, ...]
+    alone: FloatArray
+    together: float
+    shares: FloatArray
+
+    @property
+    def interaction(self) -> float:
+        """Part of the mean square error that joints cause together only [1]."""
+        return 1.0 - float(np.sum(self.shares))
+
+
+def contributions(
+    case: Case | str | Path,
+    *,
+    directory: str | Path,
+    workers: int | None = None,
+    watcher: Watcher = _SILENT,
+) -> tuple[OutputShares, ...]:
+    """Return how the error of each output of a case is made up by its joints.
+
+    Parameters
+    ----------
+    case
+        A case with outputs and joints with clearance, the name of a built-in one, or a file.
+    directory
+        Where the runs are kept; what is there already is not computed again.
+    workers
+        Processes on this machine, by default one for each processor; 0 computes in this process.
+    watcher
+        Who is told how it is going, and may end it.
+
+    Raises
+    ------
+    InputError
+        The case has no outputs, or no joint with clearance.
+    TribodynError
+        A run failed, or no output has an ideal value.
+
+    Examples
+    --------
+    >>> from tribodyn.studies import contributions
+    >>> [shares] = contributions("slider-crank", directory="shares")  # doctest: +SKIP
+    >>> shares.shares  # doctest: +SKIP
+    array([1.])
+    """
+    chosen = case if isinstance(case, Case) else load_case(case)
+    joints = real_joints(chosen)
+    plan = _plan(chosen, joints)
+    folder = Path(directory)
+    found = run(plan, folder, Means(workers=workers), watcher)
+    for text in found["failure"].values.ravel().tolist():
+        if text:
+            raise TribodynError(f"a run failed: {text}")
+    whole, *alone = (read(folder / POINTS / point.name) for point in plan.points)
+    shares = [_shares_of(str(output), whole, alone, joints) for output in whole["output"].values]
+    known = tuple(one for one in shares if np.isfinite(one.together))
+    if not known:
+        raise TribodynError("no output has an ideal value that it could be compared with")
+    return known
+
+
+def real_joints(case: Case) -> tuple[str, ...]:
+    """Return the names of the joints with clearance of a case with outputs.
+
+    Raises
+    ------
+    InputError
+        It has no outputs, or no such joint.
+    """
+    if not getattr(case, "outputs", None):
+        words = "the case has no output whose error could be divided; write one, such as outputs.NAME.body"
+        raise InputError(words, key="outputs")
+    joints: Mapping[str, Any] = getattr(case, "joints", {})
+    found = tuple(name for name, joint in joints.items() if joint.real is not None)
+    if not found:
+        raise InputError("no joint has clearance; write joints.NAME.clearance", key="joints")
+    return found
+
+
+def _plan(case: Case, joints: Sequence[str]) -> SweepPlan:
+    """Return the plan of the runs: all joints real, then each alone."""
+    keys = keys_in(case)
+    ideal = ~np.vstack([np.ones(len(joints), bool), np.eye(len(joints), dtype=bool)])
+    columns = {
+        keys[_SWITCH.format(joint)]: tuple(of_joint)
+        for joint, of_joint in zip(joints, ideal.T.tolist(), strict=True)
+    }
+    return plan_of(case, (Axis("run", columns),))
+
+
+def _shares_of(
+    output: str, whole: xr.Dataset, alone: Sequence[xr.Dataset], joints: tuple[str, ...]
+) -> OutputShares:
+    time, error = settled(whole, column(whole, "time")), settled(whole, _error(whole, output))
+    errors = [np.interp(time, column(one, "time"), _error(one, output)) for one in alone]
+    square = _mean(time, error * error)
+    unit = ERROR_UNITS[str(whole["output_unit"].sel(output=output).values)]
+    return OutputShares(
+        output,
+        unit.shown,
+        joints,
+        unit.scale * np.array([np.sqrt(_mean(time, one * one)) for one in errors]),
+        unit.scale * float(np.sqrt(square)),
+        np.array([_mean(time, one * error) / square for one in errors]),
+    )
+
+
+def _error(result: xr.Dataset, output: str) -> FloatArray:
+    return np.asarray(result["output_error"].sel(output=output).values, dtype=np.float64)
+
+
+def _mean(time: FloatArray, values: FloatArray) -> float:
+    return float(np.trapezoid(values, time) / (time[-1] - time[0]))

@@ -1,0 +1,61 @@
+"""Shares of joints in the error of an output."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.analytic.test_outputs import CRANK, ROD, press
+
+import tribodyn as td
+from tribodyn.core.errors import InputError
+from tribodyn.studies import contributions
+
+PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("shares")
+
+
+def test_errors_of_two_joints_add_up(folder: Path) -> None:
+    # The load presses both pins along the rod: twice the clearance, twice the error.
+    drawn = press(radial="20 um", **PIN).clearance("crankpin", radial="40 um", **PIN)
+    found = {one.output: one for one in contributions(drawn.case(), directory=folder, workers=0)}
+    way = found["way"]
+    assert way.unit == "µm"
+    assert sorted(way.joints) == ["crankpin", "wrist"]
+    share = dict(zip(way.joints, way.shares.tolist(), strict=True))
+    alone = dict(zip(way.joints, way.alone.tolist(), strict=True))
+    # Clearance over cos β, root mean square (1 − (R/L)²)^(−1/4); roughness holds both pins apart alike.
+    assert alone["crankpin"] - alone["wrist"] == pytest.approx(
+        20.0 * (1.0 - (CRANK / ROD) ** 2) ** -0.25, rel=0.01
+    )
+    assert share["crankpin"] / share["wrist"] == pytest.approx(alone["crankpin"] / alone["wrist"], rel=0.01)
+    assert abs(way.interaction) < 0.01
+    assert way.together == pytest.approx(sum(alone.values()), rel=0.01)
+
+
+def test_shares_are_those_of_results_in_the_folder(folder: Path) -> None:
+    # The runs of the test above are found again; the folder holds one result for each run.
+    drawn = press(radial="20 um", **PIN).clearance("crankpin", radial="40 um", **PIN)
+    before = {path: path.stat().st_mtime_ns for path in folder.glob("points/*/result.nc")}
+    again = contributions(drawn.case(), directory=folder, workers=0)
+    assert len(before) == 3
+    assert {path: path.stat().st_mtime_ns for path in folder.glob("points/*/result.nc")} == before
+    for one in again:
+        assert np.sum(one.shares) + one.interaction == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("case", "said"), [("vsv", "has no output"), ("ideal", "no joint has clearance")], ids=["vsv", "ideal"]
+)
+def test_without_outputs_or_clearances_there_is_nothing_to_divide(
+    case: str, said: str, tmp_path: Path
+) -> None:
+    chosen = press().case() if case == "ideal" else td.load_case(case)
+    with pytest.raises(InputError, match=said):
+        contributions(chosen, directory=tmp_path)
+    assert not list(tmp_path.iterdir())
