@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
-from tribodyn.cli.compiling import announced_compilation
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.progress import announced_compilation
 
 if TYPE_CHECKING:
     from tribodyn.studies import OutputShares
