@@ -97,6 +97,8 @@ class Comparison:
         What a hand formula or an interpolation gives; None where there is none.
     band
         Acceptance band; None if the number is reported only.
+    not_judged
+        Why a number with a band is reported only: its computation was chosen with the measured values known.
     spread
         Lowest and highest computed value for which the verdict holds; the computed value alone without it.
     note
@@ -112,6 +114,7 @@ class Comparison:
     null: float | None = None
     band: Band | None = None
     spread: tuple[float, float] | None = None
+    not_judged: str = ""
     note: str = ""
 
     @property
@@ -125,7 +128,7 @@ class Comparison:
     @property
     def verdict(self) -> Verdict:
         """The verdict by the band."""
-        if self.band is None:
+        if self.band is None or self.not_judged:
             return Verdict.REPORTED
         low, high = self.spread or (self.computed, self.computed)
         return Verdict.WITHIN if self.band.accepts(low, high, self.measured) else Verdict.OUTSIDE

@@ -40,7 +40,7 @@ def as_text(judged: Judged) -> str:
     for row in rows:
         cells = "".join(f"{cell:>20}" for cell in _cells(row))
         lines.append(f"  {_named(row):<{width}}{cells}  {row.verdict.value}")
-        if text := judged.explanation(row) or row.note:
+        for text in filter(None, (judged.explanation(row), row.not_judged, row.note)):
             lines.append(f"      {text}")
     return "\n".join(lines)
 
@@ -72,6 +72,7 @@ def as_json(judged: Judged) -> dict[str, Any]:
             "accepted": allowed(row.band, row.measured),
             "verdict": row.verdict.value,
             "explanation": judged.explanation(row),
+            "not_judged": row.not_judged,
             "note": row.note,
         }
         for row in judged.outcome.comparisons
@@ -93,9 +94,11 @@ def as_page(judged: Judged) -> str:
     misses = [(row, text) for row in judged.outcome.comparisons if (text := judged.explanation(row))]
     if misses:
         parts.append("## Misses\n\n" + "\n".join(f"- *{row.name}*: {text}" for row, text in misses))
-    notes = [row for row in judged.outcome.comparisons if row.note]
+    notes = [
+        (row.name, text) for row in judged.outcome.comparisons for text in (row.not_judged, row.note) if text
+    ]
     if notes:
-        parts.append("## Remarks\n\n" + "\n".join(f"- *{row.name}*: {row.note}" for row in notes))
+        parts.append("## Remarks\n\n" + "\n".join(f"- *{name}*: {text}" for name, text in notes))
     if one.bands:
         parts.append("## Acceptance bands\n\n" + "\n".join(_bands(one.bands.values())))
     if one.inputs:

@@ -76,7 +76,8 @@ def restitution(factor: str, requested: float) -> float:
 
 def _factor(one: ValidationSet, name: str, requested: Sequence[float]) -> Comparison:
     deviation = max(abs(restitution(name, e) - e) for e in requested)
-    return Comparison(f"{name}, largest deviation", "", deviation, band=one.bands["factor"])
+    elastic = 1.0 - min(requested)
+    return Comparison(f"{name}, largest deviation", "", deviation, null=elastic, band=one.bands["factor"])
 
 
 def _plot(

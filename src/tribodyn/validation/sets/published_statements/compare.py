@@ -54,6 +54,7 @@ def compare(one: ValidationSet) -> Outcome:
             "",
             quotient,
             measured=MEASURED_RATIO,
+            null=0.5 * np.pi,
             note="The measured ratio belongs to an interference fit, which adds pressure of its own.",
         )
     )
@@ -87,6 +88,7 @@ def _wear(one: ValidationSet, order: Band) -> list[Comparison]:
             "worn volume, least growth between two stops",
             "1e-3 mm3",
             float(np.diff(volume).min() * 1e12),
+            null=float(np.diff(line).min() * 1e12),
             band=order,
         ),
         Comparison(
@@ -113,9 +115,10 @@ def _impacts(order: Band) -> list[Comparison]:
     rows = []
     by_clearance = [impact_force(clearance, SPEEDS[1]) for clearance in CLEARANCES]
     by_speed = [impact_force(CLEARANCES[0], speed) for speed in SPEEDS]
-    for name, places, forces, unit in (
-        ("clearance", CLEARANCES, by_clearance, "um"),
-        ("speed", SPEEDS, by_speed, "rpm"),
+    # Null model: forces of inertia alone, as without clearance.
+    for name, places, forces, unit, power in (
+        ("clearance", CLEARANCES, by_clearance, "um", 0),
+        ("speed", SPEEDS, by_speed, "rpm", 2),
     ):
         for k in range(2):
             rows.append(
@@ -123,6 +126,7 @@ def _impacts(order: Band) -> list[Comparison]:
                     f"growth of the peak force with {name}, {places[k]:g} to {places[k + 1]:g} {unit}",
                     "N",
                     forces[k + 1] - forces[k],
+                    null=forces[k] * ((places[k + 1] / places[k]) ** power - 1.0),
                     band=order,
                 )
             )

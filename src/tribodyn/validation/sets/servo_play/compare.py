@@ -50,6 +50,7 @@ def compare(one: ValidationSet) -> Outcome:
                 computed=found.named["compliance"],
                 measured=one.value("droop") if judged else None,
                 u_computed=0.5 * (high - low),
+                null=_straight_line(one, name),
                 spread=(low, high),
                 note="The measured value is the droop of servo_gear_friction at 12 V." if judged else "",
             )
@@ -67,6 +68,11 @@ def measured(one: ValidationSet, name: str) -> dict[str, float]:
     """Return released and loaded deviation of a configuration [deg]."""
     rows = [row for row in one.rows("deviation.csv") if row["configuration"] == name]
     return {row["state"]: float(row["recomputed_deg"]) for row in rows}
+
+
+def _straight_line(one: ValidationSet, name: str) -> float:
+    """Return the loaded deviation over the range of the torque, as if there were no play [deg/(N m)]."""
+    return 0.5 * measured(one, name)["loaded"] / one.inputs["torque"].value
 
 
 def fitted(one: ValidationSet, name: str) -> LeastSquares:
