@@ -209,6 +209,7 @@ def make_result() -> ResultFactory:
             "wear_cycles_reached": 2,  # as if of a campaign, so that every headline number is there
             "flash_temperature": 0.003,  # as if with the conductors of heat
             "wear_life_cycles": 3e6,
+            "wear_life_factor": 80.0,
             "friction_coefficient": 0.1,
             "contact_law": "rsdc",
             "formulation": "exact",

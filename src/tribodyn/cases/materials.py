@@ -32,6 +32,9 @@ OF_PAIR: Final = {
 """Properties of sliding against steel: unit, and keys, if a case has them, that take those of the bushing."""
 SURFACES: Final = ("trunnion", "bushing")
 _UNITS: Final = OF_SURFACE | {name: unit for name, (unit, _) in OF_PAIR.items()}
+_WEAR_RATE: Final = "specific_wear_rate"
+_UNNAMED: Final = "ptfe-liner"
+"""Whose range of wear rates holds for a liner without a name: many commercial and experimental liners."""
 _ROOM: Final = 293.15
 _FAR: Final = 50.0
 """Distance [K] from the temperatures of a property from which on it is told."""
@@ -108,6 +111,30 @@ class Material:
     def unknown(self) -> tuple[str, ...]:
         """Properties that no source gives, by the names of keys."""
         return tuple(name for name in _UNITS if name not in self.properties)
+
+
+def life_factor(given: object, material: str | None, at: float) -> float:
+    """Return the ratio of lives at both ends of the range of wear rates, one digit; NaN for a known rate.
+
+    Without a named material it is that of the liners of one laboratory.
+
+    Parameters
+    ----------
+    given
+        Specific wear rate as the case gives it, None if nobody wrote it down.
+    material
+        Material of the bushing, None without a name.
+    at
+        Specific wear rate that the case holds [m²/N].
+    """
+    if material is None:
+        known = MATERIALS[_UNNAMED].properties[_WEAR_RATE] if given is None else None
+    else:
+        known = MATERIALS[material].properties.get(_WEAR_RATE)
+        known = known if known is not None and known.at() == at else None
+    if known is None or known.spread is None:
+        return math.nan
+    return float(f"{known.spread[1] / known.spread[0]:.1g}")
 
 
 def between(places: Sequence[float], values: Sequence[float], at: float) -> float:

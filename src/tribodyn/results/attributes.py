@@ -31,7 +31,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),
     **dict.fromkeys(("separation_least", "collar_lift_off_time", "tensile_clip_time"), OUTCOME),
     "time_reached": OUTCOME,
-    **dict.fromkeys(("worn_volume", "wear_life_cycles", "wear_cycles_reached"), OUTCOME),
+    **dict.fromkeys(("worn_volume", "wear_life_cycles", "wear_life_factor", "wear_cycles_reached"), OUTCOME),
     **dict.fromkeys(("points_in_all", "points_failed", "samples", "sampling_seed"), NUMBER),
     "sampling_method": TEXT,
     "solver": FACTS,

@@ -12,6 +12,9 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.cases import groups
+from tribodyn.cases.case import Case
+from tribodyn.cases.materials import life_factor
+from tribodyn.cases.tables import keys_in, value_at
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearingCase, WearingSystem, Worn
 from tribodyn.simulation import checkpoint as checkpoints
@@ -26,6 +29,8 @@ def simulate_plain(session: Session) -> xr.Dataset:
     run = session.integrated(session.case.duration)
     depth = _archard(system, wear).depth(system.sliding_load(run.problem))
     life = _linear_life(wear, run.solution.t_end / system.period, depth)
+    if life:
+        life |= _stated_factor(cast(Case, session.case))
     return session.dataset(run, _worn(system, depth, life))
 
 
@@ -49,7 +54,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
     campaign, cycle = run_campaign(cycles, cycles.plan, resumed, keep)
     attributes: dict[str, object] = {"wear_cycles_reached": campaign.cycles}
     if math.isfinite(campaign.life):
-        attributes["wear_life_cycles"] = campaign.life
+        attributes |= {"wear_life_cycles": campaign.life} | _stated_factor(cast(Case, session.case))
     part = _worn(cycles.system, campaign.depth, attributes)
     more = replace(
         part,
@@ -102,6 +107,17 @@ def _linear_life(wear: groups.Wear, cycles: float, depth: FloatArray) -> dict[st
     if limit is None or cycles < 1.0 - 1e-9 or deepest == 0.0:
         return {}
     return {"wear_life_cycles": limit * cycles / deepest}
+
+
+def _stated_factor(case: Case) -> dict[str, object]:
+    """Return the factor that a life is stated with; nothing where the wear rate is known."""
+    rate, material = "wear.specific_wear_rate", "surfaces.bushing.material"
+    held = keys_in(case)
+    if rate not in held or material not in held:
+        return {}
+    name = case.at(material)
+    factor = life_factor(case.given(rate), None if name is None else str(name), value_at(case, rate))
+    return {} if math.isnan(factor) else {"wear_life_factor": factor}
 
 
 class _Cycles:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
-from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE
+from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE, life_factor
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import summarise
@@ -193,3 +195,17 @@ def test_surfaces_of_the_case_give_their_friction_to_joints_without_a_pair() -> 
 def test_another_bushing_of_a_pair_wears_as_that_of_the_paper_and_says_so() -> None:
     case = with_pair({"surfaces.bushing.hardness": "800 MPa"})
     assert "give pairs.pin.wear.specific_wear_rate" in " ".join(case.remarks().warnings)
+
+
+@pytest.mark.parametrize(
+    ("given", "material", "rate", "factor"),
+    [
+        (None, None, 1.1e-15, 80.0),
+        (2e-15, None, 2e-15, math.nan),
+        (None, "ptfe-liner", MATERIALS["ptfe-liner"].properties["specific_wear_rate"].at(), 80.0),
+        (2e-15, "ptfe-liner", 2e-15, math.nan),
+        (None, "polyimide-cheng", 1.1e-15, math.nan),
+    ],
+)
+def test_a_life_is_stated_with_the_range_of_wear_rates(given, material, rate, factor):
+    assert life_factor(given, material, rate) == pytest.approx(factor, nan_ok=True)

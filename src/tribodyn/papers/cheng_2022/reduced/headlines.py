@@ -245,6 +245,15 @@ HEADLINES: Final[dict[str, Headline]] = {
         "its own; without a campaign a linear estimate.",
         lambda d: float(d.attrs["wear_life_cycles"]),
     ),
+    "wear_life_factor": Headline(
+        "Factor of the life",
+        "",
+        "Wear",
+        "Lives at both ends of the range of wear rates, over each other: of the named material, or of the "
+        "liners of one laboratory where nobody gave a rate or a material.",
+        lambda d: float(d.attrs["wear_life_factor"]),
+        digits=1,
+    ),
     "energy_residual_percent": Headline(
         "Energy residual, whole system",
         "%",
