@@ -16,10 +16,13 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
+    from tribodyn.cases.case import Case
     from tribodyn.studies.calibration import Calibration
     from tribodyn.studies.fit_report import FittedKey
+    from tribodyn.studies.measured import Experiment
 
 HELP = "fit keys of a case to measured data: values, intervals, and what the data determine"
+_WITH: Final = " with "
 _BETWEEN: Final = re.compile(r",(?=\s*[A-Za-z_][\w.-]*\s*=)")
 
 
@@ -28,9 +31,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_case_arguments(parser)
     parser.add_argument(
         "--data",
-        metavar="FILE",
+        metavar="FILE[ with PATH=VALUE,...]",
+        action="append",
         required=True,
-        help="CSV: time and variables of a result, or quantity, value",
+        help="CSV: time and variables of a result, or quantity, value; several runs are fitted at once, "
+        'each with its own settings: --data "slow.csv with drives.motor.speed=500rpm"',
     )
     parser.add_argument(
         "--vary",
@@ -53,6 +58,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--no-profiles", action="store_true", help="leave out profile intervals, which take longest"
     )
     parser.add_argument(
+        "--posterior",
+        metavar="STEPS",
+        type=int,
+        help="sample the posterior distribution, too, with this many steps (needs tribodyn[posterior])",
+    )
+    parser.add_argument(
         "-o",
         "--output",
         metavar="DIR",
@@ -62,8 +73,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Fit, write the files and print the fitted keys."""
-    from tribodyn.simulation import simulate
-    from tribodyn.studies import measured
+    import numpy as np
+
+    from tribodyn.results.atomic import write_text
+    from tribodyn.studies import posterior
     from tribodyn.studies.calibration import Calibration, VariedKey
     from tribodyn.studies.fit_report import as_json, fitted_keys, save
     from tribodyn.studies.identifiability import statements
@@ -77,21 +90,49 @@ def execute(args: Namespace) -> int:
         f"interrupted; finished runs are kept in {directory.path}, from which the same command goes on"
     )
     with directory.reserved(), announced_compilation(console.note):
-        run = simulate(case)
-        data = measured.read(args.data, run).outside_impacts(run)
-        fit = Calibration(case, keys, data, data.noise(0.01 * args.noise), directory.path, console.note)
+        experiments = [_experiment(case, typed(text)) for text in args.data]
+        noise = np.concatenate([one.data.noise(0.01 * args.noise) for one in experiments])
+        fit = Calibration(case, keys, experiments, noise, directory.path, console.note)
         found = fit.fitted(args.starts)
         profiles = None if args.no_profiles else [fit.profile(found, k) for k in range(len(keys))]
-        words, fitted = statements(fit, found), fitted_keys(fit, found, profiles)
-        save(fit, found, fitted, words, Path(args.data).name, directory.path)
+        samples = None if args.posterior is None else posterior.sample(fit, found, args.posterior)
+        words = statements(fit, found) + ([] if samples is None else samples.statements)
+        fitted = fitted_keys(fit, found, profiles, samples)
+        save(fit, found, fitted, words, directory.path)
+        if samples is not None:
+            write_text(directory.path / posterior.SAMPLES, samples.table())
     _tell(fit, fitted, words, console)
     console.say(f"fitted.toml, fit.md and residuals.csv are in {directory.path}/")
     if args.json:
-        show_json(as_json(fit, found, fitted, words, Path(args.data).name))
+        show_json(as_json(fit, found, fitted, words))
     return 0
 
 
+def _experiment(case: Case, text: str) -> Experiment:
+    """Return the data that ``FILE with PATH=VALUE,...`` names, outside the impacts of their run."""
+    from tribodyn.simulation import simulate
+    from tribodyn.studies import measured
+
+    file, _, given = text.partition(_WITH)
+    settings = dict(_setting(one) for one in _BETWEEN.split(given)) if given.strip() else {}
+    run = simulate(case.replace(settings))
+    return measured.Experiment(Path(file).name, settings, measured.read(file, run).outside_impacts(run))
+
+
+def _setting(text: str) -> tuple[str, object]:
+    path, equals, value = (part.strip() for part in text.partition("="))
+    if not equals or not value:
+        raise InputError(f"{as_given(text)}; allowed: FILE with PATH=VALUE,...", key="--data")
+    return path, value
+
+
 def _check(args: Namespace) -> None:
+    from tribodyn.studies.posterior import LEAST_STEPS, sampler_package
+
+    if args.posterior is not None:
+        sampler_package()
+        if args.posterior < LEAST_STEPS:
+            raise InputError(f"given {args.posterior}; allowed: {LEAST_STEPS} or more", key="--posterior")
     if not 0.0 < args.noise < 100.0:
         raise InputError(f"given {as_given(str(args.noise))}; allowed: above 0 and below 100", key="--noise")
     if args.starts < 1:
@@ -102,7 +143,7 @@ def _tell(fit: Calibration, keys: list[FittedKey], words: list[str], console: Co
     from tribodyn.studies.fit_report import interval_text
 
     for k, key in enumerate(keys):
-        interval = interval_text(fit, k, key.profile or key.interval)
+        interval = interval_text(fit, k, key.posterior or key.profile or key.interval)
         console.say(f"  {key.words}    95 %: {interval}")
     for sentence in words:
         console.say(sentence)

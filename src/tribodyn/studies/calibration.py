@@ -34,7 +34,7 @@ from tribodyn.studies.least_squares import (
     fit,
     starting_points,
 )
-from tribodyn.studies.measured import Measured
+from tribodyn.studies.measured import Experiment, MeasuredCurve, MeasuredNumber
 from tribodyn.studies.search import key_range
 from tribodyn.studies.variation import written
 
@@ -90,8 +90,8 @@ class Calibration:
 
     Attributes
     ----------
-    case, keys, data
-        What is simulated, what is fitted, and to what.
+    case, keys, experiments
+        What is simulated, what is fitted, and to what: one run for each experiment.
     noise
         Standard uncertainty of each value, shape (n,).
     directory
@@ -102,14 +102,21 @@ class Calibration:
 
     case: Case
     keys: Sequence[VariedKey]
-    data: Measured
+    experiments: Sequence[Experiment]
     noise: FloatArray
     directory: Path | None = None
     note: Callable[[str], None] = lambda text: None
     known: dict[str, list[float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Read the evaluations of an earlier fit."""
+        """Refuse settings of fitted keys, and read the evaluations of an earlier fit."""
+        fitted = {one.key.path for one in self.keys}
+        for experiment in self.experiments:
+            if both := fitted & experiment.settings.keys():
+                raise InputError(
+                    f"{experiment.file} sets {both.pop()}, which is fitted; leave out one of them",
+                    key="--data",
+                )
         if self.directory is not None and (self.directory / EVALUATIONS).exists():
             self._read(self.directory / EVALUATIONS)
 
@@ -118,11 +125,28 @@ class Calibration:
         """Hash of the case without the fitted keys, the names of these, and the data."""
         middle = self.case.replace({one.key.path: one.text(one.value(0.5)) for one in self.keys})
         names = ",".join(one.key.path for one in self.keys)
-        return hashlib.sha256(f"{middle.to_toml()}\n{names}\n{self.data.digest}".encode()).hexdigest()
+        data = "\n".join(f"{one.data.digest} {dict(one.settings)}" for one in self.experiments)
+        return hashlib.sha256(f"{middle.to_toml()}\n{names}\n{data}".encode()).hexdigest()
 
-    def run(self, values: Sequence[float]) -> xr.Dataset:
-        """Simulate the case with values of the keys [SI]."""
-        return simulate(self.changed(values))
+    @property
+    def values(self) -> FloatArray:
+        """All measured values, experiment by experiment, shape (n,)."""
+        return np.concatenate([one.data.values for one in self.experiments])
+
+    def of_parts(
+        self, values: FloatArray
+    ) -> list[tuple[Experiment, MeasuredCurve | MeasuredNumber, FloatArray]]:
+        """Return values in the order of all data, shape (n,), by experiment and part."""
+        ends = np.cumsum([one.data.values.size for one in self.experiments])[:-1]
+        return [
+            (experiment, part, of_part)
+            for experiment, some in zip(self.experiments, np.split(values, ends), strict=True)
+            for part, of_part in experiment.data.of_parts(some)
+        ]
+
+    def run(self, values: Sequence[float], which: int = 0) -> xr.Dataset:
+        """Simulate the case of an experiment with values of the keys [SI]."""
+        return simulate(self.changed(values).replace(dict(self.experiments[which].settings)))
 
     def changed(self, values: Sequence[float]) -> Case:
         """Return the case with values of the keys [SI]."""
@@ -142,7 +166,7 @@ class Calibration:
     def residuals(self, given: Mapping[str, float]) -> FloatArray:
         """Return differences over the noise at shares of the ranges, plus one, by path, shape (n,)."""
         computed = self.computed([given[one.key.path] - 1.0 for one in self.keys])
-        missed = (computed - self.data.values) / self.noise
+        missed = (computed - self.values) / self.noise
         return np.where(np.isfinite(missed), missed, _FAILED)
 
     def parameters(self) -> list[Parameter]:
@@ -152,7 +176,7 @@ class Calibration:
     def fitted(self, starts: int) -> LeastSquares:
         """Return the fit, from the best of several starts, with the noise scaled to the scatter."""
         parameters = self.parameters()
-        robust = self.data.values.size - len(parameters) >= _FEW
+        robust = self.values.size - len(parameters) >= _FEW
         loss: Loss = "soft_l1" if robust else "linear"
         best = min((self._from(start, loss) for start in self._screened(starts, loss)), key=_cost)
         if robust:
@@ -205,15 +229,22 @@ class Calibration:
             f"{one.key.path} = {one.text(value)}" for one, value in zip(self.keys, values, strict=True)
         )
         self.note(f"run {len(self.known) + 1}: {words}")
+        return [
+            value
+            for which, experiment in enumerate(self.experiments)
+            for value in self._of_run(values, which, experiment)
+        ]
+
+    def _of_run(self, values: list[float], which: int, experiment: Experiment) -> list[float]:
+        """Return the computed values of an experiment, NaN where its run fails."""
+        lost = [math.nan] * experiment.data.values.size
         try:
-            run = self.run(values)
+            run = self.run(values, which)
         except InputError:
             raise
         except TribodynError:
-            return [math.nan] * self.data.values.size
-        if run.attrs.get("failure"):
-            return [math.nan] * self.data.values.size
-        return [float(value) for value in self.data.computed(run)]
+            return lost
+        return lost if run.attrs.get("failure") else [float(value) for value in experiment.data.computed(run)]
 
     def _keep(self, name: str) -> None:
         if self.directory is None:

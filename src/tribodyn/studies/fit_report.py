@@ -15,6 +15,7 @@ from tribodyn.results.atomic import write_text
 from tribodyn.studies.calibration import Calibration
 from tribodyn.studies.least_squares import LeastSquares
 from tribodyn.studies.measured import MeasuredCurve
+from tribodyn.studies.posterior import Posterior
 
 CASE: Final = "fitted.toml"
 PAGE: Final = "fit.md"
@@ -32,8 +33,9 @@ class FittedKey:
         Its path, and the fitted value as in a case file.
     value, deviation
         Fitted value and standard deviation [SI].
-    interval, profile
-        95 % intervals by the covariance and by the profile of the cost [SI].
+    interval, profile, posterior
+        95 % intervals by the covariance, by the profile of the cost and by the posterior distribution [SI];
+        None where they were left out.
     scatter
         The distribution as a sweep takes it.
     """
@@ -45,6 +47,7 @@ class FittedKey:
     interval: tuple[float, float]
     profile: tuple[float, float] | None
     scatter: str
+    posterior: tuple[float, float] | None = None
 
     @property
     def words(self) -> str:
@@ -53,7 +56,10 @@ class FittedKey:
 
 
 def fitted_keys(
-    calibration: Calibration, found: LeastSquares, profiles: Sequence[tuple[float, float]] | None
+    calibration: Calibration,
+    found: LeastSquares,
+    profiles: Sequence[tuple[float, float]] | None,
+    posterior: Posterior | None = None,
 ) -> list[FittedKey]:
     """Return the fitted keys; an interval by the covariance ends at the range."""
     keys = []
@@ -72,6 +78,7 @@ def fitted_keys(
                 interval=(max(value - half, one.low), min(value + half, one.high)),
                 profile=None if profiles is None else profiles[k],
                 scatter=f"normal({ends[0]}, {ends[1]})",
+                posterior=None if posterior is None else posterior.interval(k),
             )
         )
     return keys
@@ -88,7 +95,6 @@ def save(
     found: LeastSquares,
     keys: Sequence[FittedKey],
     words: Sequence[str],
-    source: str,
     folder: Path,
 ) -> None:
     """Write all files of a fit.
@@ -99,23 +105,21 @@ def save(
         The fit.
     words
         What the data determine.
-    source
-        Name of the file of the data.
     folder
         Where files go.
     """
-    write_text(folder / CASE, fitted_case(calibration, keys, source))
-    write_text(folder / PAGE, page(calibration, found, keys, words, source))
-    document = json.dumps(as_json(calibration, found, keys, words, source), indent=2, ensure_ascii=False)
+    write_text(folder / CASE, fitted_case(calibration, keys))
+    write_text(folder / PAGE, page(calibration, found, keys, words))
+    document = json.dumps(as_json(calibration, found, keys, words), indent=2, ensure_ascii=False)
     write_text(folder / NUMBERS, document + "\n")
     write_text(folder / RESIDUALS, residuals_table(calibration, found))
 
 
-def fitted_case(calibration: Calibration, keys: Sequence[FittedKey], source: str) -> str:
+def fitted_case(calibration: Calibration, keys: Sequence[FittedKey]) -> str:
     """Return the case with fitted values; comments hold source and spread, as sweeps take it."""
-    digest, today = calibration.data.digest[:16], datetime.date.today().isoformat()
+    files = ", ".join(f"{one.file} (SHA-256 {one.data.digest[:16]})" for one in calibration.experiments)
     lines = [
-        f"# Fitted to {source} (SHA-256 {digest}), {today}.",
+        f"# Fitted to {files}, {datetime.date.today().isoformat()}.",
         "# tribodyn sweep THIS_FILE --samples 100 "
         + " ".join(f'--vary {key.path}="{key.scatter}"' for key in keys),
     ]
@@ -128,26 +132,25 @@ def page(
     found: LeastSquares,
     keys: Sequence[FittedKey],
     words: Sequence[str],
-    source: str,
 ) -> str:
     """Return the page of a fit."""
     lines = [
-        f"# Fit to {source}",
+        f"# Fit to {_files(calibration)}",
         "",
-        f"{calibration.data.values.size} values, {len(calibration.known)} runs, "
+        f"{calibration.values.size} values, {len(calibration.known)} sets of values of the keys tried, "
         f"{'robust' if found.loss != 'linear' else 'plain'} least squares.",
         "",
-        "| key | fitted | 95 % by covariance | 95 % by profile | for sweeps |",
-        "|---|---|---|---|---|",
+        "| key | fitted | 95 % by covariance | 95 % by profile | 95 % by posterior | for sweeps |",
+        "|---|---|---|---|---|---|",
     ]
     for k, key in enumerate(keys):
-        profile = "" if key.profile is None else interval_text(calibration, k, key.profile)
-        covariance = interval_text(calibration, k, key.interval)
-        lines.append(f"| `{key.path}` | {key.text} | {covariance} | {profile} | `{key.scatter}` |")
+        intervals = (key.interval, key.profile, key.posterior)
+        cells = ("" if ends is None else interval_text(calibration, k, ends) for ends in intervals)
+        lines.append(f"| `{key.path}` | {key.text} | {' | '.join(cells)} | `{key.scatter}` |")
     lines += ["", "## What the data determine", "", *(f"- {sentence}" for sentence in words)]
     lines += ["", "## Residuals", "", "| quantity | values | root mean square, over the noise | largest |"]
     lines.append("|---|---|---|---|")
-    for part, of_part in calibration.data.of_parts(found.residuals):
+    for _, part, of_part in calibration.of_parts(found.residuals):
         rms, largest = np.sqrt(np.mean(of_part**2)), np.abs(of_part).max()
         lines.append(f"| {part.name} | {of_part.size} | {rms:.3g} | {largest:.3g} |")
     return "\n".join(lines) + "\n"
@@ -158,15 +161,16 @@ def as_json(
     found: LeastSquares,
     keys: Sequence[FittedKey],
     words: Sequence[str],
-    source: str,
 ) -> dict[str, Any]:
     """Return the fit as JSON values, SI units."""
     deviations = np.sqrt(np.diag(found.covariance()))
     outer = np.outer(deviations, deviations)
     correlation = np.divide(found.covariance(), outer, out=np.eye(len(keys)), where=outer > 0.0)
     return {
-        "data": source,
-        "sha256": calibration.data.digest,
+        "data": [
+            {"file": one.file, "sha256": one.data.digest, "settings": dict(one.settings)}
+            for one in calibration.experiments
+        ],
         "runs": len(calibration.known),
         "keys": [
             {
@@ -176,6 +180,7 @@ def as_json(
                 "deviation": key.deviation,
                 "interval": list(key.interval),
                 "profile": None if key.profile is None else list(key.profile),
+                "posterior": None if key.posterior is None else list(key.posterior),
                 "distribution": key.scatter,
             }
             for key in keys
@@ -188,15 +193,19 @@ def as_json(
 
 def residuals_table(calibration: Calibration, found: LeastSquares) -> str:
     """Return measured values, computed values and residuals, as CSV."""
-    lines = ["quantity,time [s],measured,computed,residual over noise"]
-    computed = found.residuals * calibration.noise + calibration.data.values
-    for (part, of_part), (_, values) in zip(
-        calibration.data.of_parts(found.residuals), calibration.data.of_parts(computed), strict=True
+    lines = ["data,quantity,time [s],measured,computed,residual over noise"]
+    computed = found.residuals * calibration.noise + calibration.values
+    for (experiment, part, of_part), (*_, values) in zip(
+        calibration.of_parts(found.residuals), calibration.of_parts(computed), strict=True
     ):
         curve = isinstance(part, MeasuredCurve)
         times = part.times if isinstance(part, MeasuredCurve) else [float("nan")]
         measured = part.values if isinstance(part, MeasuredCurve) else [part.value]
         for time, one, value, missed in zip(times, measured, values, of_part, strict=True):
             place = f"{time:.9g}" if curve else ""
-            lines.append(f"{part.name},{place},{one:.9g},{value:.9g},{missed:.4g}")
+            lines.append(f"{experiment.file},{part.name},{place},{one:.9g},{value:.9g},{missed:.4g}")
     return "\n".join(lines) + "\n"
+
+
+def _files(calibration: Calibration) -> str:
+    return ", ".join(one.file for one in calibration.experiments)

@@ -55,7 +55,8 @@ class LeastSquares:
     residuals
         Residuals there, over the uncertainty of the data, shape (m,).
     jacobian
-        Derivatives of the residuals, shape (m, n).
+        Derivatives of the residuals, shape (m, n); of a robust fit times √ψ', so that JᵀJ is the Hessian of
+        the cost.
     cost
         Half the sum of the losses.
     loss
@@ -82,9 +83,16 @@ class LeastSquares:
 
     @property
     def scatter(self) -> float:
-        """Mean square of the residuals per degree of freedom; of a robust fit, of those within three."""
-        inside = np.clip(self.residuals, -3.0, 3.0) if self.loss != "linear" else self.residuals
-        return float(inside @ inside) / self.freedoms
+        """Mean square of the residuals per degree of freedom, or what takes its place under a robust loss.
+
+        With the slope ψ of the loss the covariance of an M-estimate is (Σψ²/(m - n))/⟨ψ'⟩² times the inverse
+        of JᵀJ (P. J. Huber, Robust Statistics, 1981, section 7.6); one ⟨ψ'⟩ is in :attr:`jacobian` already.
+        """
+        if self.loss == "linear":
+            return float(self.residuals @ self.residuals) / self.freedoms
+        steepness = 1.0 + self.residuals**2
+        squares = float(np.sum(self.residuals**2 / steepness))
+        return squares / self.freedoms / float(np.mean(steepness**-1.5))
 
     def covariance(self, *, known_noise: bool = False) -> FloatArray:
         """Return the covariance of the parameters, shape (n, n).

@@ -51,12 +51,15 @@ class MeasuredCurve:
         Variable of a result, with labels after points.
     unit
         Unit in the file.
+    scale
+        SI value of that unit.
     times, values
         SI units, shape (n,).
     """
 
     name: str
     unit: str
+    scale: float
     times: FloatArray
     values: FloatArray
 
@@ -140,6 +143,25 @@ class Measured:
         return replace(self, parts=tuple(_outside(part, windows) for part in self.parts))
 
 
+@dataclass(frozen=True)
+class Experiment:
+    """A file of data and the run that it belongs to.
+
+    Attributes
+    ----------
+    file
+        Name of the file.
+    settings
+        Keys of the case in which this run differs from the others, with their values as in a case file.
+    data
+        What was measured.
+    """
+
+    file: str
+    settings: Mapping[str, object]
+    data: Measured
+
+
 def variable(run: xr.Dataset, name: str) -> FloatArray:
     """Return a variable of a result over time, SI units, shape (n,), by a name with labels after points."""
     first, *labels = name.split(".")
@@ -206,7 +228,9 @@ def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Datase
     curves = []
     for k, (name, unit) in enumerate(columns[1:], 1):
         variable(run, name)
-        curves.append(MeasuredCurve(name, unit, times, _column(rows, k, unit, _unit_of(run, name))))
+        like = _unit_of(run, name)
+        values, (zero, one) = _column(rows, k, unit, like), _zero_and_one(k, unit, like)
+        curves.append(MeasuredCurve(name, unit, one - zero, times, values))
     return curves
 
 
@@ -233,13 +257,18 @@ def _column(rows: Sequence[Sequence[str]], k: int, unit: str, like: str) -> Floa
     values = np.array([_float(row[k]) if k < len(row) else math.nan for row in rows])
     if not np.isfinite(values).all():
         raise InputError(f"column {k + 1} has a cell without a finite number", key=OPTION)
+    zero, one = _zero_and_one(k, unit, like)
+    return zero + (one - zero) * values
+
+
+def _zero_and_one(k: int, unit: str, like: str) -> tuple[float, float]:
+    """Return 0 and 1 in the unit of a column, in SI units."""
     if like == "":
-        return values
+        return 0.0, 1.0
     try:
-        zero, one = (to_si(f"{number} {unit}", like) for number in (0, 1))
+        return to_si(f"0 {unit}", like), to_si(f"1 {unit}", like)
     except UnitProblem as problem:
         raise InputError(f"column {k + 1}: {problem}", key=OPTION) from None
-    return zero + (one - zero) * values
 
 
 def _float(text: str) -> float:

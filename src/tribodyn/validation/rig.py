@@ -7,6 +7,12 @@ The file has a row for each number, named as a key result of the case and in its
 
 ``accepted`` is a share of the measured value (``10 %``), a difference (``0.5``), an interval (``10..20``) or
 empty: then the number is reported only. It is to be written before the first run.
+
+A row whose ``measured`` names a CSV file beside it compares a column of that file, a curve over time, by the
+root mean square of its difference; ``half_width`` and ``accepted`` are in the unit of the column, or a share
+of the range of the measured curve::
+
+    acceleration.slider.x,run.csv,50,5 %,,"bench log, run 3",
 """
 
 from __future__ import annotations
@@ -14,12 +20,13 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import xarray as xr
 
 from tribodyn.cases.case import Case
 from tribodyn.cases.tables import value_at
@@ -30,8 +37,8 @@ from tribodyn.core.quoting import as_given
 from tribodyn.mechanisms.results import headlines_of_case
 from tribodyn.simulation import simulate
 from tribodyn.studies.calibration import VariedKey
-from tribodyn.studies.measured import MeasuredNumber
-from tribodyn.validation.base import Comparison, Outcome
+from tribodyn.studies.measured import Measured, MeasuredCurve, MeasuredNumber, read
+from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
 LARGEST: Final = 1_000_000
@@ -102,44 +109,83 @@ class Rig(ValidationSet):
 
     def run(self) -> Outcome:
         """Simulate the case, and again with tighter tolerance and at the ends of assumed inputs."""
-        values, half_widths = self._computed()
-        known = headlines_of_case(self.case)
-        return Outcome(
-            tuple(
-                Comparison(
-                    row["quantity"],
-                    known[row["quantity"]].unit if row["quantity"] in known else "",
-                    computed=float(values[k]),
-                    measured=_number(row, "measured"),
-                    u_computed=float(half_widths[k]),
-                    u_measured=_number(row, "half_width"),
-                    null=_number(row, "null") if row.get("null") else None,
-                    band=self.bands.get(row["quantity"]),
-                    note=row.get("source", ""),
-                )
-                for k, row in enumerate(self.numbers)
+        run = simulate(self.case)
+        parts = [self._part(row, run) for row in self.numbers]
+        data = Measured(tuple(parts), self.digest)
+        values = data.computed(run)
+        half_widths = self._half_widths(data, values)
+        rows, drawn = [], []
+        for row, (part, of_row), (_, half) in zip(
+            self.numbers, data.of_parts(values), data.of_parts(half_widths), strict=True
+        ):
+            if isinstance(part, MeasuredCurve):
+                rows.append(self._of_curve(row, part, of_row, half))
+                drawn.append((part, of_row))
+            else:
+                rows.append(self._of_number(row, float(of_row[0]), float(half[0])))
+        return Outcome(tuple(rows), _plot(drawn) if drawn else None)
+
+    def _part(self, row: Mapping[str, str], run: xr.Dataset) -> MeasuredCurve | MeasuredNumber:
+        """Return what a row measures: a number, or a column of the file that it names."""
+        if not _is_file(row["measured"]):
+            return MeasuredNumber(row["quantity"], 0.0, math.nan)
+        try:
+            parts = read(self.path.with_name(row["measured"]), run).parts
+        except InputError as error:
+            raise InputError(f"{row['measured']}: {error.reason}", key="NAME") from None
+        names = [part.name for part in parts]
+        if row["quantity"] not in names:
+            raise InputError(
+                f"{row['measured']} has no such column: {as_given(row['quantity'])}; "
+                f"allowed: {', '.join(names)}",
+                key="NAME",
             )
+        return parts[names.index(row["quantity"])]
+
+    def _of_number(self, row: Mapping[str, str], value: float, half_width: float) -> Comparison:
+        known = headlines_of_case(self.case)
+        return Comparison(
+            row["quantity"],
+            known[row["quantity"]].unit if row["quantity"] in known else "",
+            computed=value,
+            measured=_number(row, "measured"),
+            u_computed=half_width,
+            u_measured=_number(row, "half_width"),
+            null=_number(row, "null") if row.get("null") else None,
+            band=self.bands.get(row["quantity"]),
+            note=row.get("source", ""),
         )
 
-    def _computed(self) -> tuple[FloatArray, FloatArray]:
-        """Return computed numbers and their half widths, shapes (n,)."""
-        values = self._numbers_of(self.case)
+    def _of_curve(
+        self, row: Mapping[str, str], curve: MeasuredCurve, values: FloatArray, half_widths: FloatArray
+    ) -> Comparison:
+        """Return the root mean square of the difference; the null model is the mean of the measured curve."""
+        band = self.bands.get(row["quantity"])
+        return Comparison(
+            row["quantity"],
+            f"{curve.unit}, rms difference",
+            computed=_rms(values - curve.values) / curve.scale,
+            measured=0.0,
+            u_computed=_rms(half_widths) / curve.scale,
+            u_measured=_number(row, "half_width"),
+            null=float(np.std(curve.values)) / curve.scale,
+            band=None if band is None else _of_difference(band, float(np.ptp(curve.values)) / curve.scale),
+            note=row.get("source", ""),
+        )
+
+    def _half_widths(self, data: Measured, values: FloatArray) -> FloatArray:
+        """Return half widths of computed values by tolerance and assumed inputs, shape (n,)."""
         changes = []
         for variants in self._variants():
-            found = np.array([self._numbers_of(self.case.replace(change)) for change in variants])
+            found = np.array([data.computed(simulate(self.case.replace(change))) for change in variants])
             changes.append(np.abs(found - values).max(axis=0))
-        return values, np.asarray(np.sqrt(np.sum(np.square(changes), axis=0)))
+        return np.asarray(np.sqrt(np.sum(np.square(changes), axis=0)))
 
     def _variants(self) -> Iterator[list[dict[str, object]]]:
         """Yield changes of the case: the tolerance, then both ends of each assumed input."""
         yield [{"solver.rtol": max(TIGHTER * value_at(self.case, "solver.rtol"), LEAST_TOLERANCE)}]
         for one in self.assumed:
             yield [{one.key.path: one.text(end)} for end in (one.low, one.high)]
-
-    def _numbers_of(self, case: Case) -> FloatArray:
-        run = simulate(case)
-        numbers = (MeasuredNumber(row["quantity"], 0.0, math.nan) for row in self.numbers)
-        return np.concatenate([number.computed(run) for number in numbers])
 
 
 def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
@@ -161,7 +207,8 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     digest = hashlib.sha256(content).hexdigest()
     bands = {row["quantity"]: _band(row["accepted"], Path(path).name) for row in numbers if row["accepted"]}
     for row in numbers:
-        _number(row, "measured")
+        if not _is_file(row["measured"]):
+            _number(row, "measured")
         _number(row, "half_width")
     table = {
         "title": f"{Path(path).name} against {case.title or case.kind()}",
@@ -186,6 +233,34 @@ def write_template(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in TEMPLATE.items():
         (folder / name).write_text(text, encoding="utf-8")
+
+
+def _is_file(text: str) -> bool:
+    return text.lower().endswith(".csv")
+
+
+def _rms(values: FloatArray) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def _of_difference(band: Band, size: float) -> Band:
+    """Return the band of a root mean square difference from that of a row; ``size`` is the measured range."""
+    if band.relative is not None:
+        return replace(band, relative=None, at_most=band.relative * size)
+    return replace(band, absolute=None, at_most=band.absolute) if band.absolute is not None else band
+
+
+def _plot(drawn: Sequence[tuple[MeasuredCurve, FloatArray]]) -> Plot:
+    """Return measured and computed curves over time; those in the unit of the first."""
+    unit = drawn[0][0].unit
+    curves = []
+    for curve, values in drawn:
+        if curve.unit == unit:
+            times = curve.times.tolist()
+            measured, computed = (curve.values / curve.scale).tolist(), (values / curve.scale).tolist()
+            curves.append(Curve(f"{curve.name}, measured", "measured", times, measured))
+            curves.append(Curve(f"{curve.name}, computed", "computed", times, computed))
+    return Plot("time [s]", f"[{unit}]", tuple(curves))
 
 
 def _number(row: Mapping[str, str], column: str) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 import tribodyn as td
@@ -93,3 +94,46 @@ def test_a_file_needs_its_case(tmp_path, capsys):
     path.write_text(HEADER, encoding="utf-8")
     assert main(["validate", str(path)]) == 2
     assert "--against" in capsys.readouterr().err
+
+
+@pytest.fixture
+def curve(tmp_path):
+    """The computed path of the shaft [um], times 1.02: its range, and the rms of the difference."""
+    run = td.simulate(td.load_case("journal-dry").replace({"run.duration": "2 ms"}))
+    time, values = run["time"].values[::10], 1e6 * run["e_x"].values[::10]
+    rows = "".join(f"{1e3 * t!r},{1.02 * v!r}\n" for t, v in zip(time.tolist(), values.tolist(), strict=True))
+    (tmp_path / "run.csv").write_text(f"time [ms],e_x [um]\n{rows}", encoding="utf-8")
+    return 1.02 * np.ptp(values), 0.02 * np.sqrt(np.mean(values**2))
+
+
+def test_a_curve_is_judged_by_the_root_mean_square_of_its_difference(tmp_path, capsys, curve):
+    size, missed = curve
+    for band, verdict in (
+        (f"{101 * missed / size} %", "within the band"),
+        (f"{99 * missed / size} %", "outside"),
+        (f"{1.01 * missed}", "within the band"),
+        (f"{0.99 * missed}", "outside"),
+        ("", "reported only"),
+    ):
+        line = f"e_x,run.csv,0.1,{band},,bench,because\n"
+        status, told = _judged(tmp_path, capsys, [line], "-o", str(tmp_path))
+        assert status == 0
+        (row,) = json.loads(told.out)[0]["numbers"]
+        assert row["computed"] == pytest.approx(missed, rel=1e-6)
+        assert row["unit"] == "um, rms difference"
+        assert row["verdict"] == verdict
+    assert (tmp_path / "mine.png").stat().st_size > 5000
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("e_x,gone.csv,1,5 %,,,\n", "gone.csv"),
+        ("e_z,run.csv,1,5 %,,,\n", "run.csv has no such column"),
+    ],
+)
+@pytest.mark.usefixtures("curve")
+def test_curves_that_are_not_there_are_refused(line, message, tmp_path, capsys):
+    status, told = _judged(tmp_path, capsys, [line])
+    assert status == 2
+    assert message in told.err

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +13,10 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.studies import Sampling, calibration, fit_report
+from tribodyn.studies import Sampling, calibration, fit_report, posterior
 from tribodyn.studies.calibration import EVALUATIONS, Calibration, VariedKey
 from tribodyn.studies.identifiability import statements
-from tribodyn.studies.measured import Measured, read
+from tribodyn.studies.measured import Experiment, Measured, read
 
 TIMES: FloatArray = np.linspace(0.0, 2.0, 40)
 TRUTH = {"joint.clearance": 33e-6, "joint.friction_coefficient": 0.17}
@@ -64,7 +66,8 @@ def _text(key: str) -> str | float:
 
 def _fit(data: Measured, folder: Path | None = None, **options) -> Calibration:
     keys = [VariedKey.of(_case(), text) for text in RANGES]
-    return Calibration(_case(), keys, data, data.noise(0.01), folder, **options)
+    experiments = [Experiment("run.csv", {}, data)]
+    return Calibration(_case(), keys, experiments, data.noise(0.01), folder, **options)
 
 
 def _read(path: Path) -> Measured:
@@ -139,7 +142,7 @@ def test_evaluations_of_another_fit_are_refused(tmp_path: Path) -> None:
 def test_the_fitted_case_is_a_case_with_its_spread(tmp_path: Path) -> None:
     fit = _fit(_read(_file(tmp_path, "swing")))
     found = fit.fitted(2)
-    fit_report.save(fit, found, fit_report.fitted_keys(fit, found, None), ["words"], "run.csv", tmp_path)
+    fit_report.save(fit, found, fit_report.fitted_keys(fit, found, None), ["words"], tmp_path)
     text = (tmp_path / fit_report.CASE).read_text(encoding="utf-8")
     assert '--vary joint.clearance="normal(' in text
     case = td.load_case(tmp_path / fit_report.CASE)
@@ -168,3 +171,96 @@ def test_data_that_fit_no_run_are_refused(content: str, message: str, tmp_path: 
     path.write_text(content, encoding="utf-8")
     with pytest.raises(InputError, match=message):
         _read(path)
+
+
+def test_runs_with_settings_of_their_own_determine_what_one_does_not(tmp_path: Path) -> None:
+    case = _case()
+    experiments = [
+        Experiment("product.csv", {}, _read(_file(tmp_path, "product"))),
+        Experiment("swing.csv", {"run.duration": "3 ms"}, _read(_file(tmp_path, "swing", 1))),
+    ]
+    noise = np.concatenate([one.data.noise(0.01) for one in experiments])
+    keys = [VariedKey.of(case, text) for text in RANGES]
+    fit = Calibration(case, keys, experiments, noise, tmp_path)
+    found = fit.fitted(2)
+    for key in fit_report.fitted_keys(fit, found, None):
+        assert key.value == pytest.approx(TRUTH[key.path], rel=0.03)
+    table = fit_report.residuals_table(fit, found).splitlines()
+    assert [line.split(",")[0] for line in (table[1], table[-1])] == ["product.csv", "swing.csv"]
+    with pytest.raises(InputError, match="another fit"):
+        Calibration(case, keys, experiments[:1], noise[: TIMES.size], tmp_path)
+
+
+def test_each_run_has_its_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[float] = []
+
+    def noted(case):
+        seen.append(case.run.duration)
+        return _model(case)
+
+    monkeypatch.setattr(calibration, "simulate", noted)
+    data = _read(_file(tmp_path, "swing"))
+    settings = ({"run.duration": "3 ms"}, {"run.duration": "4 ms"})
+    experiments = [Experiment("swing.csv", one, data) for one in settings]
+    keys = [VariedKey.of(_case(), text) for text in RANGES]
+    fit = Calibration(_case(), keys, experiments, np.tile(data.noise(0.01), 2))
+    fit.computed([0.5, 0.5])
+    assert seen == [3e-3, 4e-3]
+
+
+def test_a_setting_of_a_fitted_key_is_refused(tmp_path: Path) -> None:
+    data = _read(_file(tmp_path, "swing"))
+    keys = [VariedKey.of(_case(), text) for text in RANGES]
+    experiments = [Experiment("swing.csv", {"joint.clearance": "20 um"}, data)]
+    with pytest.raises(InputError, match=r"sets joint\.clearance, which is fitted"):
+        Calibration(_case(), keys, experiments, data.noise(0.01))
+
+
+def test_the_posterior_of_a_linear_model_is_that_of_the_covariance(tmp_path: Path) -> None:
+    pytest.importorskip("emcee", reason="the extra posterior is not installed")
+    fit = _fit(_read(_file(tmp_path, "swing")))
+    found = dataclasses.replace(fit.fitted(1), loss="linear")
+
+    def linear(given: dict[str, float]) -> FloatArray:
+        moved = np.array([given[key.key.path] for key in fit.keys]) - found.values
+        return found.residuals + found.jacobian @ moved
+
+    # Of the residuals only the part that no key explains may stay: the fit is the minimum then.
+    explained = found.jacobian @ np.linalg.lstsq(found.jacobian, found.residuals, rcond=None)[0]
+    found = dataclasses.replace(found, residuals=found.residuals - explained)
+    fit.residuals = linear
+    samples = posterior.sample(fit, found, 4000)
+    assert samples.statements == []
+    for k, key in enumerate(fit_report.fitted_keys(fit, found, None, samples)):
+        assert key.posterior is not None
+        low, high = key.interval
+        np.testing.assert_allclose(key.posterior, (low, high), atol=0.1 * (high - low))
+        assert key.posterior == samples.interval(k)
+
+
+def test_an_interrupted_chain_goes_on_to_the_same_samples(tmp_path: Path) -> None:
+    pytest.importorskip("emcee", reason="the extra posterior is not installed")
+    data = _read(_file(tmp_path, "swing"))
+    whole = _fit(data)
+    expected = posterior.sample(whole, whole.fitted(1), 20)
+    assert "below 50 its intervals are rough" in expected.statements[0]
+    left = [len(whole.known) - 40]
+
+    def interrupt(text: str) -> None:
+        left[0] -= 1
+        if left[0] == 0:
+            raise KeyboardInterrupt
+
+    first = _fit(data, tmp_path, note=interrupt)
+    found = first.fitted(1)
+    with pytest.raises(KeyboardInterrupt):
+        posterior.sample(first, found, 20)
+    again = _fit(data, tmp_path)
+    resumed = posterior.sample(again, again.fitted(1), 20)
+    assert resumed.samples.tolist() == expected.samples.tolist()
+
+
+def test_without_the_sampler_the_option_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "emcee", None)
+    with pytest.raises(InputError, match=r"install tribodyn\[posterior\]"):
+        posterior.sampler_package()
