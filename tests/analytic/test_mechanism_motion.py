@@ -19,7 +19,7 @@ from tests.unit.mechanisms.general.drawings import (
     with_joints,
 )
 
-from tribodyn.cases.signals import AngleSignal, ForceSignal, TorqueSignal
+from tribodyn.cases.signals import AngleSignal, ForceMap, TorqueSignal
 from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.parts import SpringKeys
@@ -43,7 +43,7 @@ def load(frame: str, *force: float, name: str = "body", slip: float = 1e-3) -> d
     """Return a constant force on a body at its mass centre; one number is its size against the motion."""
     size = float(np.linalg.norm(force))
     direction = vector(np.array(force) / size) if len(force) == 3 else None
-    signal = ForceSignal(value=size)
+    signal = ForceMap(value=size)
     keys = LoadKeys(body=name, frame=frame, direction=direction, force=signal, slip_velocity=slip)
     return {"load": keys}
 

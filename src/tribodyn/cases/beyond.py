@@ -20,6 +20,7 @@ _ROUNDED: Final = 1.0e-4
 _SAME: Final = 1.0e-9
 """Share of a cycle, or of the length of a table, that counts as nothing."""
 _DIGITS: Final = 4
+_SHOWN: Final = {"times": "s", "angles": "deg", "positions": "mm", "speeds": "rad/s", "velocities": "m/s"}
 
 
 def whole_turns(angles: tuple[float, ...]) -> int:
@@ -101,7 +102,7 @@ class FollowedTable:
         return self.knots[0] - room, self.knots[-1] + room
 
     def _text(self, value: float) -> str:
-        unit = {"times": "s", "angles": "deg", "positions": "mm"}[self.over]
+        unit = _SHOWN[self.over]
         return f"{number_in(value, unit):.{_DIGITS}g} {unit}"
 
 

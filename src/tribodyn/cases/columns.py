@@ -40,7 +40,8 @@ MAP: Final = "map"
 """Name of a key that names the file of a map."""
 COLUMN: Final = "column"
 VALUES: Final = "values"
-KNOTS: Final = {"times": "s", "angles": "rad", "positions": "m"}
+TIMES: Final = "times"
+KNOTS: Final = {TIMES: "s", "angles": "rad", "positions": "m", "speeds": "rad/s", "velocities": "m/s"}
 """What the first column may hold, by the key that takes it, with its unit."""
 LARGEST: Final = 20_000_000
 MOST_ROWS: Final = 10_000

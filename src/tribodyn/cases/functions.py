@@ -28,7 +28,7 @@ class Doors:
     Attributes
     ----------
     drive
-        Table that a drive fills, such as ``drive.angle``, and its unit.
+        Table that a drive fills, such as ``drive.angle``, and its unit; None where there is not just one.
     loads
         Tables that loads fill, by the names of loads, and their units.
     silenced
@@ -37,13 +37,16 @@ class Doors:
         Names that arguments may have, with the key of what they stand for and its range in a case [s, rad].
     beside
         Keys of the table of the load that go with an argument.
+    around
+        Arguments that are angles over one turn, after which a function repeats.
     """
 
-    drive: tuple[str, str]
+    drive: tuple[str, str] | None
     loads: Mapping[str, tuple[str, str]]
     silenced: Mapping[str, tuple[str, str]]
     arguments: Mapping[str, tuple[str, tuple[float, float]]]
     beside: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    around: tuple[str, ...] = ()
 
 
 _Any = TypeVar("_Any", bound=Case)
@@ -73,6 +76,8 @@ def with_functions(case: _Any, drive: OwnFunction | None, loads: Mapping[str, Ow
         raise InputError(f'a case of the kind "{case.kind()}" takes no functions', key=key)
     doors: Doors = case.doors()
     if drive is not None:
+        if doors.drive is None:
+            raise InputError("a function can be the drive of a case with one drive alone", key="drive")
         if _arguments(drive, doors, "drive") != ["t"]:
             raise InputError("a drive is a function of the time t", key="drive")
         case = with_entries(case, _table(doors.drive, drive, ["t"], doors, "drive"), "function")
@@ -119,6 +124,7 @@ def _table(
         values = _called(function, arguments, ordered, places, key)
         missed = _missed(function, arguments, ordered, places, values, key)
         if missed <= _CLOSE[len(ordered)]:
+            _check_turns(ordered, values, doors, key)
             break
         if 2 * n - 1 > most:
             raise InputError(
@@ -131,6 +137,21 @@ def _table(
     path, unit = table
     written = {f"{path}.{name}": _written(of, KNOTS[name]) for name, of in knots.items()}
     return {**written, f"{path}.{VALUES}": _written(values.ravel(), unit)}
+
+
+def _check_turns(ordered: Sequence[str], values: Any, doors: Doors, key: str) -> None:
+    """Refuse a function of an angle of whole turns that does not repeat after them."""
+    import numpy as np
+
+    for axis, name in enumerate(ordered):
+        if name in doors.around:
+            jump = np.abs(np.take(values, -1, axis) - np.take(values, 0, axis)).max()
+            if jump > _CLOSE[len(ordered)] * np.abs(values).max():
+                raise InputError(
+                    f"as a function of {name} it must repeat after a whole turn, and it jumps by {jump:.3g} "
+                    "there; give a table over the angles that the joint reaches instead",
+                    key=key,
+                )
 
 
 def _called(

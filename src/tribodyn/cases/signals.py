@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 from tribodyn.cases.beyond import whole_turns
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.columns import KNOTS, MAP, TABLE, VALUES, TableProblem, check, check_map
+from tribodyn.cases.columns import KNOTS, MAP, TABLE, TIMES, VALUES, TableProblem, check, check_map
 from tribodyn.cases.fields import Numbers, choice, file, name, quantity, series
 from tribodyn.cases.units import unit_of
 
 if TYPE_CHECKING:
+    from tribodyn.core.arrays import FloatArray
     from tribodyn.core.signals import Signal
 
 _FORMULA: Final = ("value", "amplitude", "swing")
@@ -122,9 +123,14 @@ class _TableRows(NamedGroup):
             raise TableProblem(f"a smooth curve needs {_FEWEST_SMOOTH} rows, none of them twice")
 
     @property
+    def axes(self) -> dict[str, Numbers]:
+        """What a table or a map stands over, in the order of :data:`~tribodyn.cases.columns.KNOTS`."""
+        return {name: tuple(found) for name in KNOTS if (found := getattr(self, name, None))}
+
+    @property
     def over(self) -> str:
         """Which of :data:`~tribodyn.cases.columns.KNOTS` a table runs over; empty without one."""
-        return next((name for name in KNOTS if getattr(self, name, None)), "")
+        return next(iter(self.axes), "")
 
     @property
     def knots(self) -> Numbers:
@@ -234,6 +240,8 @@ class _Course(_Timed):
     phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
     angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 360 deg"')
     positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
+    speeds: Numbers | None = series("of values", "", unit="rad/s", example='"0, 10, 20 rad/s"')
+    velocities: Numbers | None = series("of values", "", unit="m/s", example='"0, 1, 2 m/s"')
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
         value: float | None
@@ -272,16 +280,23 @@ class _Course(_Timed):
         return constant(mean)
 
 
+_MAPPED: Final = (
+    *((TIMES, other) for other in KNOTS if other != TIMES),
+    ("angles", "speeds"),
+    ("positions", "velocities"),
+)
+"""Over what a map may stand: time and another quantity, or a coordinate and its rate."""
+
+
 class _Mapped(_Course):
-    """A signal that may follow time and an angle at once."""
+    """A signal that may follow time and another quantity at once, or a coordinate and its rate."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
         *itertools.product((*_FORMULA, TABLE), (MAP,)),
         *itertools.product((MAP,), (VALUES, *KNOTS)),
         *itertools.product(_FORMULA, (TABLE, VALUES, *KNOTS)),
         *itertools.product((TABLE,), (VALUES, *KNOTS)),
-        ("times", "positions"),
-        ("angles", "positions"),
+        *(pair for pair in itertools.combinations(KNOTS, 2) if pair not in _MAPPED),
         ("amplitude", "swing"),
     )
 
@@ -289,12 +304,12 @@ class _Mapped(_Course):
 
     @property
     def is_map(self) -> bool:
-        """Whether its values stand over times and angles."""
-        return bool(self.times and self.angles)
+        """Whether its values stand over two quantities."""
+        return len(self.axes) == 2
 
     def _check_rows(self) -> None:
         if self.is_map:
-            check_map({"times": self.times or (), "angles": self.angles or ()}, self.values or ())
+            check_map(self.axes, self.values or ())
         else:
             super()._check_rows()
 
@@ -304,21 +319,23 @@ class _Mapped(_Course):
         Of a map they are those of its singular vectors: the bicubic spline through it, as few as it takes.
         """
         if not self.is_map:
-            return [((self.signal(), self.over or "times"),)]
+            return [((self.signal(), self.over or TIMES),)]
         import numpy as np
 
-        from tribodyn.core.signals import spline, turning
-
-        times, angles = self.times or (), self.angles or ()
-        down, sizes, across = np.linalg.svd(np.reshape(self.values or (), (len(times), len(angles))))
+        (first, rows), (second, columns) = self.axes.items()
+        down, sizes, across = np.linalg.svd(np.reshape(self.values or (), (len(rows), len(columns))))
         return [
-            (
-                (spline(times, size * column), "times"),
-                (turning(spline(angles, row, closed=self.turns > 0), self.turns), "angles"),
-            )
+            ((self._along(first, size * column), first), (self._along(second, row), second))
             for size, column, row in zip(sizes, down.T, across, strict=False)
             if size > _ROUNDING * max(sizes[0], _TINY)
         ]
+
+    def _along(self, over: str, values: FloatArray) -> Signal:
+        """Return the curve of a singular vector over one of the two quantities."""
+        from tribodyn.core.signals import spline, turning
+
+        turns = self.turns if over == "angles" else 0
+        return turning(spline(self.axes[over], values, closed=turns > 0), turns)
 
 
 class AngleSignal(_Course, _Angle):

@@ -1,12 +1,15 @@
-"""Loads that follow time or coordinates, and the segments of a run between the instants at which they kink.
+"""Loads that follow time, coordinates or speeds: one evaluation for all mechanisms.
 
-A load is a sum of terms; a term is a signal, or a product of two: with one over each, products make a map
-over two coordinates. In each segment the mechanism moves one way and every coordinate stays between two
-kinks, so that trial states beyond them go on with the polynomial of this side.
+A load is a sum of terms; a term is a product of up to three signals. With a signal over each coordinate,
+products make a map over two of them; a sine or cosine of an angle makes a force that is fixed in a body that
+turns. A run is divided into segments at the instants at which loads kink. In each segment the mechanism moves
+in one direction and every coordinate stays between two kinks, so that trial states beyond them go on with the
+polynomial of this side.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray
@@ -16,13 +19,17 @@ from tribodyn.kernels.signals import Signals, evaluate
 
 NONE: Final = -1
 """Number of a signal that is not there."""
-N_OVER: Final = 3
+N_FACTORS: Final = 3
+"""Signals of a term at most."""
+N_OVER: Final = 5
 TIME: Final = 0
-"""Coordinates that signals may follow; the first is time."""
+"""Number of quantities that signals may follow at most; the first is time."""
 
-Term: Final = record_type(("target", "i8"), ("signals", "i8", (2,)), ("over", "i8", (2,)), ("against", "i8"))
-"""A term of a load: to which component it adds, numbers of its one or two signals and of the coordinates that
-they follow, and 1 where it opposes the motion."""
+Term: Final = record_type(
+    ("target", "i8"), ("signals", "i8", (N_FACTORS,)), ("over", "i8", (N_FACTORS,)), ("against", "i8")
+)
+"""A term of a load: the component that it adds to, numbers of its signals (``NONE`` after the last) and of
+the quantities that they follow, and 1 where it opposes the motion."""
 
 Segment: Final = record_type(
     ("begin", "f8"), ("direction", "f8"), ("low", "f8", (N_OVER,)), ("high", "f8", (N_OVER,))
@@ -54,58 +61,147 @@ def held(segment: Record, k: int, x: float) -> float:
 
 
 @kernel
-def add_terms(
-    actions: Actions, segment: Record, direction: float, over: FloatArray, loads: FloatArray
-) -> None:
-    """Add all terms to ``loads``.
-
-    Parameters
-    ----------
-    actions
-        Terms and signals.
-    segment
-        What holds now.
-    direction
-        Of the motion that some terms oppose.
-    over
-        Coordinates that signals follow, shape (N_OVER,).
-    loads
-        Components, as the mechanism counts them.
-    """
-    terms = actions.terms
-    for i in range(terms.size):
-        term = terms[i]
-        value = -direction if term.against == 1 else 1.0
-        for k in range(2):
-            if term.signals[k] != NONE:
-                x = over[term.over[k]]
-                found, _, _ = evaluate(actions.signals, term.signals[k], x, held(segment, term.over[k], x))
-                value *= found
-        loads[term.target] += value
+def follow(places: FloatArray, segment: Record, k: int, x: float) -> None:
+    """Fill in ``places`` that quantity ``k`` is ``x``, and the value whose piece holds there."""
+    places[k, 0], places[k, 1] = x, held(segment, k, x)
 
 
 @kernel
-def add_over_time(
-    actions: Actions, segment: Record, direction: float, over: FloatArray, loads: FloatArray
-) -> None:
-    """Add the terms that follow time to ``loads[0]`` and what time alone changes in them to ``loads[1]``.
+def product(signals: Signals, term: Record, places: FloatArray, along: int) -> tuple[float, float]:
+    """Return the product of the signals of a term, and its derivative in the quantity ``along``."""
+    value, rate = 1.0, 0.0
+    for k in range(N_FACTORS):
+        if term.signals[k] != NONE:
+            over = term.over[k]
+            found, slope, _ = evaluate(signals, term.signals[k], places[over, 0], places[over, 1])
+            rate = rate * found + (value * slope if over == along else 0.0)
+            value *= found
+    return value, rate
 
-    Arguments are those of :func:`add_terms`, but for ``loads`` of shape (2, n), the second row per second.
+
+@kernel
+def add_terms(
+    signals: Signals,
+    terms: Any,
+    first: int,
+    last: int,
+    direction: float,
+    places: FloatArray,
+    loads: FloatArray,
+) -> None:
+    """Add terms to ``loads``.
+
+    Parameters
+    ----------
+    signals
+        What they follow.
+    terms, first, last
+        Records named above, and which of them.
+    direction
+        Of the motion that some terms oppose.
+    places
+        Of each quantity that signals follow its value, and the value whose piece holds, shape (n, 2).
+    loads
+        Components, as the mechanism counts them.
     """
-    terms = actions.terms
-    for i in range(terms.size):
-        term = terms[i]
-        value, rate, follows = -direction if term.against == 1 else 1.0, 0.0, False
-        for k in range(2):
-            if term.signals[k] != NONE:
-                along = term.over[k]
-                x = over[along]
-                found, slope, _ = evaluate(actions.signals, term.signals[k], x, held(segment, along, x))
-                rate = rate * found + (value * slope if along == TIME else 0.0)
-                value, follows = value * found, follows or along == TIME
+    for i in range(first, last):
+        value, _ = product(signals, terms[i], places, NONE)
+        loads[terms[i].target] += -direction * value if terms[i].against == 1 else value
+
+
+@kernel
+def add_following(
+    signals: Signals,
+    terms: Any,
+    first: int,
+    last: int,
+    direction: float,
+    along: int,
+    places: FloatArray,
+    loads: FloatArray,
+) -> None:
+    """Add the terms that follow the quantity ``along`` to ``loads[0]`` and their derivatives to ``loads[1]``.
+
+    Arguments are those of :func:`add_terms`, but for ``loads`` of shape (2, n), the second row per unit of
+    ``along``.
+    """
+    for i in range(first, last):
+        term, follows = terms[i], False
+        for k in range(N_FACTORS):
+            follows = follows or (term.signals[k] != NONE and term.over[k] == along)
         if follows:
-            loads[0, term.target] += value
-            loads[1, term.target] += rate
+            value, rate = product(signals, term, places, along)
+            sign = -direction if term.against == 1 else 1.0
+            loads[0, term.target] += sign * value
+            loads[1, term.target] += sign * rate
+
+
+@kernel
+def oppose(
+    size: float, growth: float, u: FloatArray, slip: float, force: FloatArray, slope: FloatArray
+) -> None:
+    """Add a force of a given size against a velocity.
+
+    F = −size u/√(u² + slip²), which is smooth through rest.
+
+    Parameters
+    ----------
+    size, growth
+        Of the force [N], and its derivative in the speed [N s/m].
+    u, slip
+        Velocity [m/s], shape (n,), and the speed below which the force fades [m/s].
+    force, slope
+        What it is added to, shape (n,), with its derivative in ``u``, shape (n, n).
+    """
+    speed = norm(u)
+    square = speed * speed + slip * slip
+    if square == 0.0:
+        square = 1.0
+    root = math.sqrt(square)
+    ratio, steeper = size / root, 0.0 if speed == 0.0 else growth / (speed * root)
+    for i in range(u.size):
+        force[i] -= ratio * u[i]
+        for j in range(u.size):
+            slope[i, j] += ratio * u[i] * u[j] / square - steeper * u[i] * u[j]
+        slope[i, i] -= ratio
+
+
+@kernel
+def oppose_along(
+    size: float,
+    growth: float,
+    line: FloatArray,
+    u: FloatArray,
+    slip: float,
+    force: FloatArray,
+    slope: FloatArray,
+) -> None:
+    """Add a force along a line against the part of a velocity along it.
+
+    Arguments are those of :func:`oppose`; ``line`` is its unit vector, shape (n,).
+    """
+    speed = 0.0
+    for i in range(u.size):
+        speed += line[i] * u[i]
+    square = speed * speed + slip * slip
+    if square == 0.0:
+        square = 1.0
+    root = math.sqrt(square)
+    push = -size * speed / root
+    steepness = -size * slip * slip / square / root - growth * abs(speed) / root
+    for i in range(u.size):
+        force[i] += push * line[i]
+        for j in range(u.size):
+            slope[i, j] += steepness * line[i] * line[j]
+
+
+@kernel
+def norm(u: FloatArray) -> float:
+    """Return the length of a vector."""
+    square = 0.0
+    for i in range(u.size):
+        square += u[i] * u[i]
+    return math.sqrt(square)
 
 
 @kernel

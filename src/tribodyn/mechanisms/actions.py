@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import actions as kinds
 from tribodyn.kernels.actions import Actions
-from tribodyn.mechanisms.signals import SignalList, pieces_of
+from tribodyn.mechanisms.signals import NO_KINKS, SignalList, pieces_of
 
 TIME: Final = 0
 """The first of the coordinates that signals may follow."""
@@ -22,6 +22,9 @@ _SAME: Final = 1.0e-12
 _BEFORE: Final = 1.0e-9
 """Share of the way to a kink by which a segment ends before it."""
 _BISECTIONS: Final = 60
+
+Factors: TypeAlias = tuple[tuple[Signal, int], ...]
+"""Signals that are multiplied, each with the number of the quantity that it follows."""
 
 
 @dataclass(frozen=True)
@@ -33,13 +36,13 @@ class Term:
     target
         Number of the component that it adds to.
     factors
-        One signal or two, multiplied, each with the number of the coordinate that it follows.
+        Up to three signals.
     against
         Whether it opposes the motion.
     """
 
     target: int
-    factors: tuple[tuple[Signal, int], ...]
+    factors: Factors
     against: bool = False
 
 
@@ -69,13 +72,20 @@ def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Act
     segments
         From :func:`segments_of`.
     """
+    records = term_records(signals, terms)
+    return Actions(signals.records(), records, segments)
+
+
+def term_records(signals: SignalList, terms: Sequence[Term]) -> Any:
+    """Return terms as kernels read them, their signals numbered in the list, shape (n,)."""
     records = np.recarray(len(terms), dtype=kinds.Term)
     for record, term in zip(records, terms, strict=True):
         record.target, record.against = term.target, int(term.against)
         record.signals[:], record.over[:] = kinds.NONE, TIME
         for k, (signal, over) in enumerate(term.factors):
-            record.signals[k], record.over[k] = signals.add(pieces_of(signal)), over
-    return Actions(signals.records(), records, segments)
+            of_time = signal.kinks if over == TIME else NO_KINKS
+            record.signals[k], record.over[k] = signals.add(pieces_of(signal), of_time), over
+    return records
 
 
 def inside(times: FloatArray, duration: float) -> FloatArray:

@@ -61,8 +61,9 @@ def simulate(
     loads
         Functions by the names of the loads that they take the place of: ``force_x``, ``force_y``,
         ``force_z`` and ``moment`` on the vane, ``force_x``, ``force_y``, ``moment_x`` and ``moment_y`` on a
-        shaft, in N and N m. Their arguments are named ``t`` and ``theta_v`` or ``theta_a``, of a shaft
-        ``angle``. They are tabulated; the case in the result holds the tables.
+        shaft, in N and N m; in a user-defined mechanism the names of its loads. Their arguments are named
+        ``t`` and ``theta_v`` or ``theta_a``, of a shaft or of the joint that a load follows ``angle``. They
+        are tabulated; the case in the result holds the tables.
 
     Returns
     -------

@@ -18,6 +18,7 @@ Constants: Final = record_type(
     ("inertia", "f8", (4,)),
     ("spin_inertia", "f8"),
     ("load", "f8", (4,)),
+    ("slip_velocity", "f8"),
     ("deepest", "f8"),
 )
 """Constants of a journal under stated loads, SI units.
@@ -28,6 +29,8 @@ spin_inertia
     Moment of inertia about the axis of the journal [kg m²].
 load
     W_x, W_y and the moments about X and Y (left-handed), what of them is constant [N, N m].
+slip_velocity
+    Speed of the centre below which a load against its velocity fades [m/s].
 deepest
     Smallest separation that the contact law reaches [m]; negative.
 """
@@ -38,7 +41,14 @@ SPEED: Final = 1
 """Numbers of the signals that are angle [rad] and speed ω [rad/s] of the rotation about Z over time."""
 TIME: Final = 0
 TURNED: Final = 1
-"""What loads may follow, in the order of ``kernels/actions.py``: time and the angle of rotation."""
+TURNING: Final = 2
+SLIDING: Final = 3
+"""What loads may follow, in the order of ``kernels/actions.py``: time, angle and speed of the rotation, and
+the speed of the centre."""
+OPPOSED: Final = 4
+N_LOADS: Final = 5
+"""Loads: W_x, W_y, the moments about X and Y (left-handed), and the size of a force against the velocity of
+the centre, which W_x and W_y contain afterwards."""
 
 
 class JournalData(NamedTuple):
@@ -75,8 +85,10 @@ beyond
 
 Scratch: Final = record_type(
     ("state", "f8", (8,)),
-    ("over", "f8", (N_OVER,)),
-    ("load", "f8", (4,)),
+    ("places", "f8", (N_OVER, 2)),
+    ("load", "f8", (N_LOADS,)),
+    ("following", "f8", (2, N_LOADS)),
+    ("resistance", "f8", (2, 2)),
     ("turned", "f8"),
     ("speed", "f8"),
     ("total", "f8", (4,)),
@@ -91,10 +103,13 @@ Scratch: Final = record_type(
 
 state
     The eight states of the joint, tilts included.
-over
-    Coordinates that tables follow.
+places
+    Quantities that tables follow, see ``kernels/actions.py``.
 load
-    W_x, W_y and the moments about X and Y [N, N m].
+    See ``N_LOADS`` [N, N m].
+following, resistance
+    Loads that follow the speed of the centre, with their derivatives; derivative of a load against the
+    velocity of the centre in that velocity.
 turned, speed
     Angle and speed of rotation [rad, rad/s].
 total

@@ -15,14 +15,25 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.actions import add_terms, held
+from tribodyn.kernels.actions import add_following, add_terms, follow, held, norm, oppose
+from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.cylinder.data import BushingData
 from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
-from tribodyn.kernels.journal.data import ROTATION, SPEED, TIME, TURNED, JournalData, JournalMemory
+from tribodyn.kernels.journal.data import (
+    OPPOSED,
+    ROTATION,
+    SLIDING,
+    SPEED,
+    TIME,
+    TURNED,
+    TURNING,
+    JournalData,
+    JournalMemory,
+)
 from tribodyn.kernels.signals import evaluate
 
 
@@ -37,22 +48,41 @@ def spread(y: FloatArray, state: FloatArray) -> None:
 
 @kernel
 def act(data: JournalData, t: float, memory: JournalMemory) -> None:
-    """Fill the rotation and the loads at ``t`` [s]."""
-    scratch, segment, signals = memory.scratch, memory.segment, data.actions.signals
-    within = held(segment, TIME, t)
-    scratch.turned, _, _ = evaluate(signals, ROTATION, t, within)
-    scratch.speed, _, _ = evaluate(signals, SPEED, t, within)
-    scratch.over[TIME], scratch.over[TURNED] = t, scratch.turned
+    """Fill the rotation and the loads at ``t`` [s], where the states are filled."""
+    scratch, segment, actions = memory.scratch, memory.segment, data.actions
+    within, places, load = held(segment, TIME, t), scratch.places, scratch.load
+    scratch.turned, _, _ = evaluate(actions.signals, ROTATION, t, within)
+    scratch.speed, _, _ = evaluate(actions.signals, SPEED, t, within)
+    follow(places, segment, TIME, t)
+    follow(places, segment, TURNED, scratch.turned)
+    follow(places, segment, TURNING, scratch.speed)
+    follow(places, segment, SLIDING, norm(scratch.state[4:6]))
     for i in range(4):
-        scratch.load[i] = data.constants.load[i]
-    add_terms(data.actions, segment, segment.direction, scratch.over, scratch.load)
+        load[i] = data.constants.load[i]
+    load[OPPOSED] = 0.0
+    add_terms(actions.signals, actions.terms, 0, actions.terms.size, 1.0, places, load)
+    clear(scratch.resistance)
+    if load[OPPOSED] != 0.0:
+        resist(data, memory)
+
+
+@kernel
+def resist(data: JournalData, memory: JournalMemory) -> None:
+    """Add the load against the velocity of the centre, and fill its derivative."""
+    scratch, actions, following = memory.scratch, data.actions, memory.scratch.following
+    clear(following)
+    n = actions.terms.size
+    add_following(actions.signals, actions.terms, 0, n, 1.0, SLIDING, scratch.places, following)
+    size, growth = scratch.load[OPPOSED], following[1, OPPOSED]
+    slip = data.constants.slip_velocity
+    oppose(size, growth, scratch.state[4:6], slip, scratch.load[0:2], scratch.resistance)
 
 
 @kernel
 def place(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> None:
     """Fill rotation, loads, the eight states and the pose of the joint at ``t`` [s]."""
-    act(data, t, memory)
     spread(y, memory.scratch.state)
+    act(data, t, memory)
     pose = memory.joint.scratch.pose
     fill_pose(memory.scratch.state, memory.scratch.speed, memory.segment.direction, pose)
 
@@ -132,6 +162,9 @@ def forces_and_gradient(data: JournalData, t: float, y: FloatArray, memory: Jour
     from_jacobian(joint.jacobian, jacobian)
     film_force_and_gradient(data.film, memory.film, scratch.speed, scratch)
     gather(data, memory)
+    for i in range(2):
+        for k in range(2):
+            jacobian[i, 4 + k] += scratch.resistance[i, k]
     spin = data.constants.spin_inertia * scratch.speed
     for i in (2, 3):
         tangent = math.tan(scratch.state[i])

@@ -6,7 +6,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import entry
 from tribodyn.kernels.joints.cylinder.joint import stored
 from tribodyn.kernels.journal import ledger
-from tribodyn.kernels.journal.data import JournalData, JournalMemory
+from tribodyn.kernels.journal.data import OPPOSED, JournalData, JournalMemory
 from tribodyn.kernels.journal.quantities import Film, Forces, Loads, Row, States
 
 
@@ -19,7 +19,7 @@ def observe(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, r
     out.states = scratch.state.view(States)[0]
     out.joint = joint.report
     out.film = scratch.film.view(Film)[0]
-    out.loads = scratch.load.view(Loads)[0]
+    out.loads = scratch.load[:OPPOSED].view(Loads)[0]
     out.rotation.omega = scratch.speed
     out.energies.energy_kinetic = ledger.kinetic_energy(data.constants.inertia, scratch.state)
     out.works = memory.books.works[: memory.books.works.size - 1].view(Forces)[0]

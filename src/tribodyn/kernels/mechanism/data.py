@@ -44,6 +44,12 @@ LOAD_LINE: Final = 6
 CONTACT: Final = 7
 """Kinds of forces, see ``kernels/mechanism/forces.py``."""
 
+TIME: Final = 0
+FOLLOWED: Final = 1
+FOLLOWED_SPEED: Final = 2
+"""What terms of a load may follow, in the order of ``kernels/actions.py``: time, coordinate and speed of a
+joint; the latter is the speed that a load opposes where it follows no joint."""
+
 NONE: Final = -1
 """Number of a signal, node, block or coupling that is not there."""
 
@@ -105,7 +111,11 @@ Coupling: Final = record_type(
     ("damping", "f8", (6,)),
     ("length", "f8"),
     ("slip_velocity", "f8"),
-    ("signals", "i8", (6,)),
+    ("direction", "f8", (3,)),
+    ("first_term", "i8"),
+    ("last_term", "i8"),
+    ("opposes", "i8"),
+    ("own_speed", "i8"),
     ("follows", "i8"),
     ("follows_position", "i8"),
     ("follows_sign", "f8"),
@@ -141,9 +151,14 @@ stiffness, damping
     Along x, y, z of the socket and about x, y, z; of a spring the first.
 length, slip_velocity
     Of a spring without force [m]; of a load against the motion [m/s].
-signals
-    Of the six components of a load; of ``follows``, the coupling whose coordinate they follow (``NONE``:
-    time), its angle, or its position where ``follows_position`` is 1, times ``follows_sign``.
+first_term, last_term
+    Terms of a load: the first, and the one after the last.
+direction, opposes, own_speed
+    Of a load against the motion: its unit vector where it acts along a line; 0 for a force, 3 for a moment; 1
+    where its terms follow the speed that it opposes.
+follows, follows_position, follows_sign
+    Coupling whose coordinate and speed the terms of a load follow, ``NONE`` for none; 1 for its position
+    instead of its angle; sign of both.
 effort
     Signals of torque about and force along the axis.
 contact
@@ -333,8 +348,8 @@ class MechanismData(NamedTuple):
     ----------
     parts
         See :class:`Parts`.
-    signals
-        What drives and loads follow.
+    signals, terms
+        What drives and loads follow; terms of all loads, see ``kernels/actions.py``.
     mass, newton
         Patterns of the equations of motion and of the iteration matrix of implicit methods.
     contact
@@ -343,6 +358,7 @@ class MechanismData(NamedTuple):
 
     parts: Parts
     signals: Signals
+    terms: Any
     mass: Pattern
     newton: Pattern
     contact: SurfaceData

@@ -10,7 +10,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import add_following, add_terms, norm, oppose, oppose_along
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface import joint as surfaces
@@ -19,6 +21,8 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
     DAMPING,
+    FOLLOWED,
+    FOLLOWED_SPEED,
     FRICTION,
     LOAD_BODY,
     LOAD_GROUND,
@@ -29,11 +33,12 @@ from tribodyn.kernels.mechanism.data import (
     SLOPES,
     SPRING,
     SPRINGS,
+    TIME,
     WORK,
     MechanismData,
     MechanismMemory,
 )
-from tribodyn.kernels.signals import Signals, evaluate
+from tribodyn.kernels.signals import evaluate
 
 
 @inlined
@@ -54,7 +59,7 @@ def force(
     elif kind == SPRING:
         _spring(coupling, now)
     elif kind in (LOAD_GROUND, LOAD_BODY, LOAD_MOTION, LOAD_LINE):
-        _load(coupling, now, memory.now.couplings, data.signals, t, within)
+        _load(coupling, now, memory.now.couplings, data, t, within)
     elif kind == CONTACT:
         _contact(coupling.contact, now, data.contact, memory.contact, mode)
     for axis in range(2):
@@ -142,28 +147,64 @@ def _spring(coupling: Record, now: Record) -> None:
 
 
 @kernel
-def _load(coupling: Record, now: Record, couplings: Any, signals: Signals, t: float, within: float) -> None:
-    """Fill a load: its components are global, or turn with the body, or stand against the motion."""
-    x = t
+def _load(
+    coupling: Record, now: Record, couplings: Any, data: MechanismData, t: float, within: float
+) -> None:
+    """Fill a load: its components are global, or turn with the body, or oppose the motion."""
+    places = now.small
+    places[TIME, 0], places[TIME, 1] = t, within
     if coupling.follows != NONE:
-        followed = couplings[coupling.follows]
-        x = followed.pose.d[2] if coupling.follows_position == 1 else followed.angle
-        x *= coupling.follows_sign
-        within = x
-    for i in range(6):
-        if coupling.signals[i] != NONE:
-            value, _, _ = evaluate(signals, coupling.signals[i], x, within)
-            now.wrench[i] = value
+        _follow(coupling, couplings[coupling.follows], places)
+    if coupling.own_speed == 1:
+        places[FOLLOWED_SPEED, 0] = places[FOLLOWED_SPEED, 1] = _own_speed(coupling, now)
+    first, last = coupling.first_term, coupling.last_term
+    add_terms(data.signals, data.terms, first, last, 1.0, places, now.wrench)
     if coupling.force == LOAD_BODY:
         _turn_with_body(now)
-    elif coupling.force == LOAD_MOTION:
-        _oppose(now, now.wrench[0], 0, coupling.slip_velocity)
-        _oppose(now, now.wrench[3], 3, coupling.slip_velocity)
-    elif coupling.force == LOAD_LINE:
-        _oppose_along(now, 0, coupling.slip_velocity)
-        _oppose_along(now, 3, coupling.slip_velocity)
+    elif coupling.force != LOAD_GROUND:
+        _oppose(coupling, now, data, places)
     for i in range(6):
         now.powers[WORK] += now.wrench[i] * now.twist[i]
+
+
+@kernel
+def _follow(coupling: Record, joint: Record, places: FloatArray) -> None:
+    """Fill coordinate and speed of the joint that a load follows."""
+    x, speed = joint.angle, joint.twist[5]
+    if coupling.follows_position == 1:
+        x, speed = joint.pose.d[2], joint.twist[2]
+    places[FOLLOWED, 0] = places[FOLLOWED, 1] = coupling.follows_sign * x
+    places[FOLLOWED_SPEED, 0] = places[FOLLOWED_SPEED, 1] = coupling.follows_sign * speed
+
+
+@kernel
+def _own_speed(coupling: Record, now: Record) -> float:
+    """Return the speed that a load opposes [m/s, rad/s]."""
+    a = coupling.opposes
+    if coupling.force == LOAD_MOTION:
+        return norm(now.twist[a : a + 3])
+    speed = 0.0
+    for i in range(3):
+        speed += coupling.direction[i] * now.twist[a + i]
+    return abs(speed)
+
+
+@kernel
+def _oppose(coupling: Record, now: Record, data: MechanismData, places: FloatArray) -> None:
+    """Make the size of a force or moment, at its first component, one that opposes the motion."""
+    a, growth = coupling.opposes, 0.0
+    size, now.wrench[a] = now.wrench[a], 0.0
+    if coupling.own_speed == 1:
+        following = now.work[0:2]
+        clear(following)
+        first, last = coupling.first_term, coupling.last_term
+        add_following(data.signals, data.terms, first, last, 1.0, FOLLOWED_SPEED, places, following)
+        growth = following[1, a]
+    u, force, slope = now.twist[a : a + 3], now.wrench[a : a + 3], now.slope[a : a + 3, 6 + a : 9 + a]
+    if coupling.force == LOAD_MOTION:
+        oppose(size, growth, u, coupling.slip_velocity, force, slope)
+    else:
+        oppose_along(size, growth, coupling.direction, u, coupling.slip_velocity, force, slope)
 
 
 @kernel
@@ -178,38 +219,3 @@ def _turn_with_body(now: Record) -> None:
     now.slope[3, 1], now.slope[3, 2] = f_z, -f_y
     now.slope[4, 2], now.slope[4, 0] = f_x, -f_z
     now.slope[5, 0], now.slope[5, 1] = f_y, -f_x
-
-
-@kernel
-def _oppose(now: Record, size: float, first: int, slip: float) -> None:
-    """Make three components a force of a given size against the (angular) velocity."""
-    u = now.twist
-    square = u[first] ** 2 + u[first + 1] ** 2 + u[first + 2] ** 2 + slip * slip
-    if square == 0.0:
-        square = 1.0
-    slope = size / math.sqrt(square)
-    for i in range(3):
-        now.wrench[first + i] = -slope * u[first + i]
-        for j in range(3):
-            now.slope[first + i, 6 + first + j] = slope * u[first + i] * u[first + j] / square
-        now.slope[first + i, 6 + first + i] -= slope
-
-
-@kernel
-def _oppose_along(now: Record, first: int, slip: float) -> None:
-    """Turn three components, a force along a line, against the part of the (angular) velocity along it."""
-    w, u = now.wrench[first : first + 3], now.twist[first : first + 3]
-    size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
-    if size == 0.0:
-        return
-    n_x, n_y, n_z = w[0] / size, w[1] / size, w[2] / size
-    speed = n_x * u[0] + n_y * u[1] + n_z * u[2]
-    square = speed * speed + slip * slip
-    if square == 0.0:
-        square = 1.0
-    push, slope = -size * speed / math.sqrt(square), -size * slip * slip / square / math.sqrt(square)
-    n = (n_x, n_y, n_z)
-    for i in range(3):
-        w[i] = push * n[i]
-        for j in range(3):
-            now.slope[first + i, 6 + first + j] = slope * n[i] * n[j]

@@ -76,7 +76,9 @@ CRANK: Final = 0
 TIME: Final = 0
 VANE: Final = 1
 CRANK_ANGLE: Final = 2
-"""What loads may follow, in the order of ``kernels/actions.py``: time, θ_v and θ_a."""
+VANE_SPEED: Final = 3
+CRANK_SPEED: Final = 4
+"""What loads may follow, in the order of ``kernels/actions.py``: time, θ_v and θ_a, and their rates."""
 
 AIR_X: Final = 0
 AIR_Y: Final = 1
@@ -125,7 +127,7 @@ Scratch: Final = record_type(
     ("system", "f8", (N_UNKNOWNS, N_UNKNOWNS)),
     ("reactions", "f8", (N_UNKNOWNS, 1)),
     ("ideal", "f8", (N_ROWS, N_COLUMNS)),
-    ("over", "f8", (N_OVER,)),
+    ("places", "f8", (N_OVER, 2)),
     ("air", "f8", (N_AIR,)),
     ("air_over_time", "f8", (2, N_AIR)),
     ("f_cz", "f8"),

@@ -13,7 +13,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.actions import add_terms
+from tribodyn.kernels.actions import add_terms, follow
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints import collar as thrust
@@ -28,8 +28,10 @@ from tribodyn.kernels.vsv.data import (
     BEND_X,
     BEND_Y,
     CRANK_ANGLE,
+    CRANK_SPEED,
     TIME,
     VANE,
+    VANE_SPEED,
     VsvData,
     VsvMemory,
 )
@@ -113,16 +115,21 @@ def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, f
 @kernel
 def fill_air(data: VsvData, t: float, memory: VsvMemory) -> None:
     """Fill the loads on the vane: those of the paper's Table 3, and those from tables."""
-    mechanism, air, over = data.mechanism, memory.scratch.air, memory.scratch.over
-    theta_v, direction = memory.scratch.motion[THETA_V, VALUE], memory.regime[0]
+    mechanism, actions, segment = data.mechanism, data.actions, memory.segment
+    air, places, motion = memory.scratch.air, memory.scratch.places, memory.scratch.motion
+    theta_v, direction = motion[THETA_V, VALUE], memory.regime[0]
     for k in range(air.size):
         air[k] = 0.0
     past = (theta_v - mechanism.switch_angle) / mechanism.switch_width
     air[AIR_X] = mechanism.air_force_x * math.tanh(past)
     air[AIR_Y] = mechanism.air_force_y
     air[AIR_M] = -mechanism.air_moment * direction
-    over[TIME], over[VANE], over[CRANK_ANGLE] = t, theta_v, memory.scratch.motion[THETA_A, VALUE]
-    add_terms(data.actions, memory.segment, direction, over, air)
+    follow(places, segment, TIME, t)
+    follow(places, segment, VANE, theta_v)
+    follow(places, segment, CRANK_ANGLE, motion[THETA_A, VALUE])
+    follow(places, segment, VANE_SPEED, motion[THETA_V, VELOCITY])
+    follow(places, segment, CRANK_SPEED, motion[THETA_A, VELOCITY])
+    add_terms(actions.signals, actions.terms, 0, actions.terms.size, direction, places, air)
 
 
 @kernel

@@ -11,7 +11,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.actions import add_over_time
+from tribodyn.kernels.actions import TIME, add_following
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.collar import note_lift_off
@@ -136,10 +136,11 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
 @kernel
 def _fill_swing(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     """Move the loads that follow time from those of the clearance motion to where their rates are known."""
-    scratch, segment, books = memory.scratch, memory.segment, memory.books
+    scratch, actions, books = memory.scratch, data.actions, memory.books
     motion, air, swing = scratch.motion, scratch.air_over_time, books.swing[NOW]
     clear(air)
-    add_over_time(data.actions, segment, memory.regime[0], scratch.over, air)
+    n = actions.terms.size
+    add_following(actions.signals, actions.terms, 0, n, memory.regime[0], TIME, scratch.places, air)
     sec2 = (0.0, 0.0, 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2)
     for j in range(4):
         for k in (SWING, RATE):

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Final, Literal, TypeAlias
+from typing import Final, TypeAlias
 
 from tribodyn.cases.case import NamedGroup, demand
-from tribodyn.cases.fields import Vector, choice, name, quantity, vector
+from tribodyn.cases.columns import KNOTS
+from tribodyn.cases.directions import unit
+from tribodyn.cases.fields import Vector, name, vector
+from tribodyn.cases.loads import BodyLoad
 from tribodyn.cases.signals import (
     AngleSignal,
     ForceSignal,
@@ -15,7 +18,7 @@ from tribodyn.cases.signals import (
     TorqueSignal,
     VelocitySignal,
 )
-from tribodyn.mechanisms.general.parts import POINT, unit
+from tribodyn.mechanisms.general.parts import POINT
 
 AnySignal: TypeAlias = (
     AngleSignal | SpeedSignal | TorqueSignal | PositionSignal | VelocitySignal | ForceSignal
@@ -30,6 +33,23 @@ GIVEN: Final = {
     "force": ("position", 2),
 }
 """What a drive may give: a coordinate, and 0 for itself, 1 for its rate, 2 for what acts along it."""
+
+UNITS: Final = {
+    "angle": "rad",
+    "speed": "rad/s",
+    "torque": "N m",
+    "position": "m",
+    "velocity": "m/s",
+    "force": "N",
+}
+"""Units of what drives give."""
+COORDINATE_OF: Final = {
+    "angles": "angle",
+    "speeds": "angle",
+    "positions": "position",
+    "velocities": "position",
+}
+"""Coordinate of a joint that a table follows, by what it stands over."""
 
 
 class DriveKeys(NamedGroup):
@@ -70,48 +90,51 @@ class DriveKeys(NamedGroup):
         return signal.period
 
 
-class LoadKeys(NamedGroup):
+class LoadKeys(BodyLoad):
     """A force and a moment on a body."""
 
     body: str = name(None, "which body it acts on", "", example="slider", required=True)
     point: Vector | None = vector(
         None, "where the force acts, as drawn; the mass centre without it", "", unit="mm", example=POINT
     )
-    direction: Vector | None = vector(
-        None, "of force and moment; against the motion: only along it", "", example="[-1, 0, 0]"
+    span_axis: Vector | None = vector(
+        None, "direction of positions of a span, from the point, as drawn", "", example="[0, 0, 1]"
     )
-    frame: Literal["ground", "body", "motion"] = choice(
-        "ground", "direction stands still, turns with the body, or is always against the motion", "assumed"
-    )
-    force: ForceSignal | None = None
-    moment: TorqueSignal | None = None
     along: str | None = name(
-        None, "joint whose angle or position a table follows; time without it", "", example="main"
-    )
-    slip_velocity: float = quantity(
-        "1 mm/s", "speed below which a force against the motion fades", "assumed", gt=0
-    )
-    slip_rate: float = quantity(
-        "1 mrad/s", "angular speed below which a moment against the motion fades", "assumed", gt=0
+        None, "joint whose coordinate or speed a table follows; time without it", "", example="main"
     )
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
-        demand(bool(self.given), "body", 'a load needs a force or a moment, such as force = "100 N"')
-        against = self.frame == "motion"
-        words = "a load needs its direction in the drawing, such as direction = [-1, 0, 0]"
-        demand(against or self.direction is not None, "direction", words)
-        words = "against the motion acts a force or a moment; write two loads"
-        demand(not against or len(self.given) == 1, "frame", words)
-        if self.direction is not None:
-            unit(self.direction, "direction")
-        for signal in self.given.values():
-            words = "a load along a joint's coordinate is a table over angles or positions"
-            over = ("times", "") if self.along is None else ("angles", "positions")
-            demand(signal.over in over, "along", words)
+        self.check_given('force = "100 N"')
+        self.check_opposing()
+        words = "a load along a joint's coordinate is a table over angles or positions"
+        timed = any(signal.axes for signal in self.given.values())
+        demand(self.along is None or any(self.joint_axes) or not timed, "along", words)
+        over = ("times",) if self.along is None else KNOTS
+        words = "a table over angles, positions or speeds needs the joint that it follows: along"
+        self.check_followed(over, words)
+        words = "a span needs the direction of its positions, such as span_axis = [0, 0, 1]"
+        demand((self.span is None) == (self.span_axis is None), "span_axis", words)
+        if self.span_axis is not None:
+            unit(self.span_axis, "span_axis")
+        words = "a load against the motion of one body cannot follow a joint's speed as well: write two loads"
+        demand(self.along is None or not self.follows_own_speed, "along", words)
 
     @property
-    def given(self) -> dict[str, ForceSignal | TorqueSignal]:
-        """Its force and its moment, as far as it has them."""
-        found = {"force": self.force, "moment": self.moment}
-        return {key: signal for key, signal in found.items() if signal is not None}
+    def joint_axes(self) -> list[str]:
+        """Tables over a coordinate or a speed, by what they stand over."""
+        return [over for signal in self.given.values() for over in signal.axes if over != "times"]
+
+    @property
+    def follows_own_speed(self) -> bool:
+        """Whether a table follows the speed that the load opposes."""
+        return self.along is None and bool(self.joint_axes)
+
+    def acts_at(self, centre: Vector) -> Vector:
+        """Return where the force acts, as drawn [m], on a body with a mass centre there."""
+        x, y, z = self.point or centre
+        if self.span_axis is None:
+            return x, y, z
+        (a, b, c), s = unit(self.span_axis, "span_axis"), self.centroid
+        return x + s * a, y + s * b, z + s * c

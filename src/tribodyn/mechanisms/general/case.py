@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
@@ -12,6 +13,7 @@ from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
+from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.messages import Remarks
@@ -19,7 +21,7 @@ from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
-from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, UNITS, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
@@ -237,6 +239,23 @@ class MechanismCase(_WithElements):
         yield from followed(self, drives, self.duration)
         yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
 
+    def doors(self) -> Doors:
+        """Return where functions for the drive and for loads go: ``gas``, or ``gas.force`` of several."""
+        drives = [(f"drives.{name}.{drive.gives}", UNITS[drive.gives]) for name, drive in self.drives.items()]
+        paths = {
+            f"{name}.{key}": (f"loads.{name}.{key}", "N m" if key.startswith("moment") else "N")
+            for name, load in self.loads.items()
+            for key in load.given
+        }
+        single = {name: next(iter(load.given)) for name, load in self.loads.items() if len(load.given) == 1}
+        return Doors(
+            drive=drives[0] if len(drives) == 1 else None,
+            loads={name: paths[f"{name}.{key}"] for name, key in single.items()} | paths,
+            silenced={},
+            arguments={"t": ("times", (0.0, self.duration)), "angle": ("angles", (0.0, 2.0 * math.pi))},
+            around=("angle",),
+        )
+
     @property
     def period(self) -> float | None:
         """Time of one cycle [s]; None where nothing says it."""
@@ -322,9 +341,11 @@ class MechanismCase(_WithElements):
             key = f"loads.{name}.along"
             _known(load.along, self.joints, key, "joint")
             free = KINDS[self.joints[load.along].type].coordinates
-            for signal in load.given.values():
-                coordinate = signal.over.removesuffix("s")
+            for over in load.joint_axes:
+                coordinate = COORDINATE_OF[over]
                 demand(coordinate in free, key, f"this joint has no {coordinate} that a table could follow")
+            words = "its tables follow both the angle and the position of this joint: write two loads"
+            demand(len({COORDINATE_OF[over] for over in load.joint_axes}) < 2, key, words)
 
     def elements(self) -> Iterator[tuple[str, str, ElementKeys]]:
         """Yield table, name and keys of all elements."""

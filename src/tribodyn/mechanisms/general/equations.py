@@ -8,10 +8,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribodyn.cases.beyond import lasts_a_cycle
+from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.signals import Signal, constant, for_each_cycle, scaled
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
@@ -23,22 +22,18 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
 )
+from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
-from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.elements.base import Leg
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.loads import fill_load
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
-from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys, unit
+from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 
-_LOADS: Final = {
-    "ground": kinds.LOAD_GROUND,
-    "body": kinds.LOAD_BODY,
-    "motion": kinds.LOAD_MOTION,
-}
 _COORDINATES: Final = ("angle", "position")
 
 
@@ -53,7 +48,8 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
         Wear depth at the nodes of all joints [m], shape (n_nodes,); none by default.
     """
     signals = SignalList()
-    couplings = _couplings(model, signals)
+    terms: list[Term] = []
+    couplings = _couplings(model, signals, terms)
     mass, newton = _patterns(len(model.bodies), couplings)
     constants = new_record(kinds.Constants)
     constants.gravity[:] = model.case.gravity
@@ -63,7 +59,8 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     constants.size = _size(model)
     contact = surfaces(tuple(model.clearances.values()), worn)
     parts = Parts(constants, _bodies(model), couplings)
-    return MechanismData(parts, signals.records(), mass, newton, contact)
+    of_loads = term_records(signals, terms)
+    return MechanismData(parts, signals.records(), of_loads, mass, newton, contact)
 
 
 def new_memory(data: MechanismData) -> MechanismMemory:
@@ -124,15 +121,14 @@ def _inertia(body: BodyKeys) -> FloatArray:
     return np.asarray(0.5 * (inertia + inertia.T))
 
 
-def _couplings(model: Model, signals: SignalList) -> Any:
-    """Return the records of joints, springs, loads and legs of elements, in this order."""
+def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
+    """Return the records of joints, springs, loads and legs of elements, in this order; add the terms."""
     case = model.case
     records = np.recarray(model.first_leg + sum(len(e.legs) for e in model.elements), dtype=kinds.Coupling)
     records.view(np.uint8)[:] = 0
     for name in (
         "node",
         "row_signal",
-        "signals",
         "follows",
         "effort",
         "contact",
@@ -152,7 +148,9 @@ def _couplings(model: Model, signals: SignalList) -> Any:
     for spring in case.springs.values():
         _fill_spring(next(others), model, spring)
     for load in case.loads.values():
-        _fill_load(next(others), model, load, signals)
+        record = next(others)
+        _place_load(record, model, load)
+        fill_load(record, model, load, terms)
     _fill_elements(records, model)
     nodes, rows = len(model.bodies), 0
     for record in records:
@@ -244,34 +242,11 @@ def _fill_spring(record: Any, model: Model, spring: SpringKeys) -> None:
     record.stiffness[0], record.damping[0] = spring.stiffness, spring.damping
 
 
-def _fill_load(record: Any, model: Model, load: LoadKeys, signals: SignalList) -> None:
-    """Fill a load: on the shaft against the ground, or on the socket where it turns with the body."""
+def _place_load(record: Any, model: Model, load: LoadKeys) -> None:
+    """Place a load: on the shaft against the ground, or on the socket where it turns with the body."""
     bodies = (load.body, GROUND) if load.frame == "body" else (GROUND, load.body)
-    point = load.point or model.case.bodies[load.body].centre
+    point = load.acts_at(model.case.bodies[load.body].centre)
     _place(record, model, bodies, (point, point), (np.eye(3), np.eye(3)))
-    against = load.frame == "motion"
-    record.force = kinds.LOAD_LINE if against and load.direction is not None else _LOADS[load.frame]
-    record.slip_velocity = load.slip_rate if against and load.moment is not None else load.slip_velocity
-    if load.along is not None:
-        followed = model.case.joints[load.along]
-        record.follows = model.joints.index(load.along)
-        record.follows_position = int(KINDS[model.kind(load.along)].coordinates == ("position",))
-        record.follows_sign = followed.sign
-    for i, signal in enumerate(_components(model.case, load)):
-        kinks = signal.kinks if load.along is None else np.zeros(0)
-        record.signals[i] = signals.add(pieces_of(signal), kinks)
-
-
-def _components(case: MechanismCase, load: LoadKeys) -> list[Signal]:
-    """Return the six components of a load, which all follow its one force and its one moment."""
-    direction = (1.0, 0.0, 0.0) if load.direction is None else unit(load.direction, "direction")
-    found: list[Signal] = []
-    for keys in (load.force, load.moment):
-        signal = constant(0.0) if keys is None else keys.signal()
-        if keys is not None and lasts_a_cycle(keys.times or (), case.period):
-            signal = for_each_cycle(signal, case.period or 0.0, case.duration)
-        found += [scaled(signal, share) if share else constant(0.0) for share in direction]
-    return found
 
 
 def _fill_elements(records: Any, model: Model) -> None:

@@ -7,6 +7,7 @@ from itertools import combinations
 from typing import ClassVar, Final, Literal, Self
 
 from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import (
     Numbers,
     Vector,
@@ -377,14 +378,6 @@ class SpringKeys(NamedGroup):
     def drawn_length(self) -> float:
         """Length in the drawing [m]."""
         return math.dist(*self.points)
-
-
-def unit(direction: Vector, key: str) -> Vector:
-    """Return a direction as a unit vector; one of no length is refused."""
-    length = math.hypot(*direction)
-    demand(length > 0.0, key, "a direction has a length above zero")
-    x, y, z = direction
-    return x / length, y / length, z / length
 
 
 def _check_directions(axis: Vector | None, second: Vector | None) -> None:

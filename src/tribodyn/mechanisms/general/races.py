@@ -7,10 +7,11 @@ from typing import Final
 
 import numpy as np
 
+from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND
-from tribodyn.mechanisms.general.parts import JointKeys, unit
+from tribodyn.mechanisms.general.parts import JointKeys
 
 _PARALLEL: Final = 1e-3
 """Sine of an angle below which two directions are taken for one."""

@@ -9,12 +9,12 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from tribodyn.cases.directions import unit
 from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
-from tribodyn.mechanisms.general.parts import unit
 
 MM: Final = 1e3
 _FLAT: Final = 0.2

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.cases.beyond import FollowedTable
+from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
@@ -253,11 +254,28 @@ class MechanismSystem:
         ]
 
     def _followed(self, found: Observed, table: FollowedTable) -> FloatArray:
-        """Return the coordinate of a joint that a load follows, shape (n_t,)."""
+        """Return what a table of a load follows, shape (n_t,): coordinate or speed of a joint, or its own."""
+        couplings, z = found.couplings, 2
+        if not table.follows:
+            return self._opposed(found, table)
+        along = {
+            "angles": couplings["joint_angle"],
+            "positions": couplings["displacement"][..., z],
+            "speeds": couplings["relative_rate"][..., z],
+            "velocities": couplings["relative_velocity"][..., z],
+        }[table.over]
         number = self.model.joints.index(table.follows)
-        couplings, sign = found.couplings, self.case.joints[table.follows].sign
-        along = couplings["joint_angle"] if table.over == "angles" else couplings["displacement"][..., 2]
-        return np.asarray(sign * along[:, number])
+        return np.asarray(self.case.joints[table.follows].sign * along[:, number])
+
+    def _opposed(self, found: Observed, table: FollowedTable) -> FloatArray:
+        """Return the speed that a load opposes, shape (n_t,)."""
+        name = table.path.split(".")[1]
+        place = len(self.case.joints) + len(self.case.springs) + list(self.case.loads).index(name)
+        twist = found.couplings["relative_rate" if table.over == "speeds" else "relative_velocity"][:, place]
+        direction = self.case.loads[name].direction
+        if direction is None:
+            return np.asarray(np.linalg.norm(twist, axis=1))
+        return np.asarray(np.abs(twist @ np.array(unit(direction, "direction"))))
 
     def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import ClassVar, Final, Literal
 
 from tribodyn.cases.beyond import FollowedTable, followed
-from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.fields import choice, number, quantity, switch, tables, text
+from tribodyn.cases.case import Group, demand
+from tribodyn.cases.fields import Vector, choice, number, quantity, switch, tables, text, vector
 from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
@@ -18,8 +18,9 @@ from tribodyn.cases.groups import (
 )
 from tribodyn.cases.joint import FormKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.loads import ShaftLoad
 from tribodyn.cases.rough import BushingCase
-from tribodyn.cases.signals import ForceMap, SpeedTable, TorqueMap
+from tribodyn.cases.signals import SpeedTable
 
 SECTION_4 = "paper, section 4"
 _FRICTION = "joint.friction_coefficient"
@@ -69,32 +70,47 @@ class JournalLoadKeys(Group):
     force_y: float = quantity("100 N", "load W_y", SECTION_4)
     moment_x: float = quantity("0 N m", "moment about X, right-handed; used with tilt", SECTION_4)
     moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", SECTION_4)
-    more: Mapping[str, ShaftLoad] = tables("loads from tables, beside these")
+    more: Mapping[str, JournalLoad] = tables("loads from tables, beside these")
 
 
 _COMPONENTS: Final = {"force_x": "N", "force_y": "N", "moment_x": "N m", "moment_y": "N m"}
 
 
-class ShaftLoad(NamedGroup):
-    """A load on the centre of the journal from tables over time or the angle of rotation."""
+class JournalLoad(ShaftLoad):
+    """A load on the journal from tables over time, angle or speed of rotation; of no size along its axis."""
 
-    force_x: ForceMap | None = None
-    force_y: ForceMap | None = None
-    moment_x: TorqueMap | None = None
-    moment_y: TorqueMap | None = None
+    point: Vector | None = vector(
+        None,
+        "where forces act on the axis, from the centre; the centre without it",
+        ASSUMED,
+        unit="mm",
+        example='["0 mm", "0 mm", "5 mm"]',
+    )
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
-        demand(bool(self.given), "force_x", 'a load needs a force or a moment, such as force_x = "100 N"')
-        for key, signal in self.given.items():
-            words = "a load on the journal follows time or its angle"
-            demand(signal.over != "positions", f"{key}.positions", words)
+        self.check_given('force_x = "100 N"')
+        self.check_opposing()
+        self.check_followed(("times", "angles", "speeds"), "a load on the journal follows time or its angle")
+        for key in ("force_z", "moment_z"):
+            words = "bearing and drive hold the journal along Z: give loads across its axis"
+            demand(key not in self.given, key, words)
+        opposing = self.frame == "motion"
+        words = "against the motion acts a force on the centre of the journal"
+        demand(not opposing or "force" in self.given, "moment", words)
+        placed = self.direction is not None or self.point is not None or self.span is not None
+        demand(not opposing or not placed, "frame", f"{words}, with no direction, point or span")
+        words = "a force on the journal acts on its axis: the first two of three lengths are zero"
+        demand(self.point is None or self.point[:2] == (0.0, 0.0), "point", words)
+        words = "the spread along the span tells it"
+        demand(self.point is None or self.span is None, "point", words)
 
     @property
-    def given(self) -> dict[str, ForceMap | TorqueMap]:
-        """Its forces and moments, as far as it has them."""
-        found = {name: getattr(self, name) for name in _COMPONENTS}
-        return {key: signal for key, signal in found.items() if signal is not None}
+    def height(self) -> float:
+        """Where forces act along Z, from the centre [m]."""
+        if self.span is not None:
+            return self.centroid
+        return 0.0 if self.point is None else self.point[2]
 
 
 class TightTolerances(Tolerances):
@@ -196,7 +212,20 @@ class JournalCase(BushingCase):
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return what checks keys against each other."""
-        return (*super().checks(), self._check_run, self._check_form)
+        return (*super().checks(), self._check_run, self._check_form, self._check_loads)
+
+    def _check_loads(self) -> None:
+        """Check that loads against the motion fade at one speed."""
+        slips = {name: load.slip_velocity for name, load in self.loads.more.items() if load.frame == "motion"}
+        for name, slip in slips.items():
+            words = "loads against the motion of a journal share one slip_velocity"
+            demand(slip == self.slip_velocity, f"loads.more.{name}.slip_velocity", words)
+
+    @property
+    def slip_velocity(self) -> float:
+        """Speed of the centre below which loads against its motion fade [m/s]."""
+        opposing = (load.slip_velocity for load in self.loads.more.values() if load.frame == "motion")
+        return next(opposing, 0.0)
 
     def _check_form(self) -> None:
         demand(

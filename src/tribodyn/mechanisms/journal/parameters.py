@@ -69,6 +69,8 @@ class Journal:
         Loads from tables; targets and coordinates as in ``kernels/journal``.
     spin
         Speed over time [rad/s] in the place of ``speed``; none by default.
+    slip_velocity
+        Speed of the centre below which loads against its motion fade [m/s].
 
     Raises
     ------
@@ -86,6 +88,7 @@ class Journal:
     film: Film | None = None
     terms: tuple[Term, ...] = ()
     spin: Signal | None = None
+    slip_velocity: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse a film of another size than the bushing."""

@@ -53,6 +53,7 @@ def journal_data(journal: Journal, duration: float = math.inf) -> JournalData:
     constants.inertia[:] = np.repeat([journal.mass, journal.transverse_inertia], 2)
     constants.spin_inertia = journal.spin_inertia
     constants.load[:] = loads.force_x, loads.force_y, loads.moment_x, loads.moment_y
+    constants.slip_velocity = journal.slip_velocity
     constants.deepest = joint.table.h_first * joint.roughness
     speed = pieces_of(constant(journal.speed) if journal.spin is None else journal.spin)
     signals = SignalList()

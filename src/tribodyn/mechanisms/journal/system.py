@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Final
 
 import numpy as np
 
+from tribodyn.cases.beyond import FollowedTable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, Stopped
 from tribodyn.core.problem import Problem
@@ -52,6 +53,7 @@ def journal_of(case: JournalCase) -> Journal:
         speed=shaft.speed,
         spin=None if case.drive.speed is None else case.drive.speed.curve(),
         terms=tuple(terms_of(case)),
+        slip_velocity=case.slip_velocity,
         loads=Loads(loads.force_x, loads.force_y, loads.moment_x, loads.moment_y),
         joint=bushing_of(case),
         film=_film(case),
@@ -152,14 +154,22 @@ class JournalSystem:
                     statistics=run.cost,
                     when=instant(largest["pressure_peak_time"]),
                 ),
-                *of_tables(self.case.followed(), run.solution.t, lambda _: self._turned(run.solution.t)),
+                *of_tables(
+                    self.case.followed(), run.solution.t, partial(self._followed, rows, run.solution.t)
+                ),
             ],
             notes=of_temperature(self.case),
             failure=self._failure(run),
         )
 
-    def _turned(self, times: FloatArray) -> FloatArray:
-        """Return the angle of rotation [rad] at times [s]."""
+    def _followed(
+        self, rows: Mapping[str, FloatArray], times: FloatArray, table: FollowedTable
+    ) -> FloatArray:
+        """Return what a table follows at times [s]: angle [rad], speed [rad/s], or speed of the centre."""
+        if table.over == "speeds":
+            return np.asarray(rows["omega"])
+        if table.over == "velocities":
+            return np.asarray(np.hypot(rows["e_x_dot"], rows["e_y_dot"]))
         spin = self.journal.spin
         return angle(constant(self.journal.speed) if spin is None else spin, times)
 

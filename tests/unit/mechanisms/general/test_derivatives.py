@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.unit.mechanisms.general.drawings import body, joint, mechanism, vector
 
-from tribodyn.cases.signals import AngleSignal, ForceSignal, TorqueSignal, VelocitySignal
+from tribodyn.cases.signals import AngleSignal, ForceMap, ForceSignal, TorqueMap, VelocitySignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
@@ -15,7 +15,7 @@ from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.problem import mechanism_problem
 
-Signal = AngleSignal | ForceSignal | TorqueSignal | VelocitySignal
+Signal = AngleSignal | ForceSignal | ForceMap | TorqueMap | VelocitySignal
 T = 0.3
 FRAMES = ("ground", "body", "motion")
 WRENCH = ("force", "moment")
@@ -59,7 +59,7 @@ def _everything() -> Model:
     }
 
     def load(k: int, frame: str, kind: str, *, aimed: bool = True) -> LoadKeys:
-        what = {"force": ForceSignal, "moment": TorqueSignal}[kind]
+        what = {"force": ForceMap, "moment": TorqueMap}[kind]
         return LoadKeys(
             body=b[k],
             point=vector(rng.normal(size=3)),
@@ -70,8 +70,18 @@ def _everything() -> Model:
             **{kind: signal(what)},
         )
 
+    def over_speed(kind: str, *, aimed: bool) -> LoadKeys:
+        name, what = {"force": ("velocities", ForceMap), "moment": ("speeds", TorqueMap)}[kind]
+        table = what(values=tuple(rng.normal(size=4).tolist()), **{name: (0.0, 1.0, 2.0, 9.0)})
+        return load(1, "motion", kind, aimed=aimed).model_copy(update={kind: table})
+
     loads = {f"{frame} {kind}": load(k, frame, kind) for k, frame in enumerate(FRAMES) for kind in WRENCH}
     loads |= {f"against {kind}": load(3, "motion", kind, aimed=False) for kind in WRENCH}
+    loads |= {
+        f"over the speed {kind} {aimed}": over_speed(kind, aimed=aimed)
+        for kind in WRENCH
+        for aimed in (True, False)
+    }
     between = SpringKeys(
         between=(b[0], b[3]),
         first_point=vector(rng.normal(size=3)),

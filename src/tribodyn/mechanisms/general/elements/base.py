@@ -18,9 +18,10 @@ from typing import ClassVar, Final
 import numpy as np
 
 from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.joints import frame
-from tribodyn.mechanisms.general.parts import JointKeys, unit
+from tribodyn.mechanisms.general.parts import JointKeys
 
 PARALLEL: Final = 1.0e-6
 """Sine of the angle between two axes up to which they count as parallel."""

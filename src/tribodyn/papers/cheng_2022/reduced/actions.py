@@ -6,19 +6,16 @@ import itertools
 from typing import ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.fields import choice, number, quantity, switch
+from tribodyn.cases.fields import Vector, choice, number, quantity, switch, vector
 from tribodyn.cases.keys import ASSUMED
+from tribodyn.cases.loads import FORCES, ShaftLoad
 from tribodyn.cases.signals import (
     AngleTable,
-    ForceMap,
-    LineLoadTable,
     PositionTable,
     SpeedTable,
-    TorqueMap,
 )
 
 DRIVE: Final = "paper, section 5.1"
-_CANCELLED: Final = 1.0e-9
 DRIVE_TABLES: Final = ("angle", "speed", "stroke")
 
 
@@ -61,18 +58,35 @@ class CrankKeys(Group):
         )
 
 
-COMPONENTS: Final = ("force_x", "force_y", "force_z", "moment")
+COMPONENTS: Final = {
+    "force_x": "N",
+    "force_y": "N",
+    "force_z": "N",
+    "moment": "N m",
+    "moment_x": "N m",
+    "moment_y": "N m",
+}
+"""Names of loads that Python functions give, with their units."""
 
 
-class VaneLoad(NamedGroup):
-    """A load on the vane from tables, added to those of the paper."""
+class VaneLoad(ShaftLoad):
+    """A load on the vane, added to those of the paper."""
 
-    force_x: ForceMap | None = None
-    force_y: ForceMap | None = None
-    force_z: ForceMap | None = None
-    moment: TorqueMap | None = None
-    along: Literal["vane", "crank"] = choice("vane", "whose angle a table over angles follows", ASSUMED)
-    against_motion: bool = switch(False, "whether it opposes the motion of the vane", ASSUMED)
+    SPEED_OF: ClassVar = {}
+
+    along: Literal["vane", "crank"] = choice(
+        "vane", "whose angle or speed a table over angles or speeds follows", ASSUMED
+    )
+    against_motion: bool = switch(
+        False, "whether it opposes the motion of the vane, as with frame = motion", ASSUMED
+    )
+    point: Vector | None = vector(
+        None,
+        "where forces act, from the trunnion centre, X along the lever, Z up; the vane's centre without",
+        ASSUMED,
+        unit="mm",
+        example='["20 mm", "0 mm", "-85 mm"]',
+    )
     centre_of_pressure: float | None = quantity(
         None,
         "from the trunnion centre down to where force_x and force_y act; the vane's centre without",
@@ -80,44 +94,41 @@ class VaneLoad(NamedGroup):
         ge=0,
         example="85 mm",
     )
-    span: LineLoadTable | None = None
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
-        demand(bool(self.given), "moment", 'a load needs a force or a moment, such as moment = "1 N m"')
         demand(
             self.span is None or self.centre_of_pressure is None,
             "centre_of_pressure",
             "the spread along the span tells it",
         )
-        for key, signal in self.given.items():
-            demand(
-                signal.over != "positions", f"{key}.positions", "a load on the vane follows time or an angle"
-            )
+        places = (self.point, self.centre_of_pressure, self.span)
+        words = "give one of point, centre_of_pressure and span"
+        demand(self.point is None or sum(place is not None for place in places) == 1, "point", words)
+        self.check_given('moment = "1 N m"')
+        self.check_followed(("times", "angles", "speeds"), "a load on the vane follows time or an angle")
+
+    def shares(self, key: str) -> tuple[float, ...]:
+        """Return force and moment of one unit under a key; a moment without direction is about Z."""
+        return super().shares("moment_z" if self._is_about_z(key) else key)
+
+    def _needs_direction(self, key: str) -> bool:
+        return key == "force" or (key == "moment" and not self._is_about_z(key))
+
+    def _is_about_z(self, key: str) -> bool:
+        return key == "moment" and self.direction is None
 
     @property
-    def given(self) -> dict[str, ForceMap | TorqueMap]:
-        """Its forces and its moment, as far as it has them."""
-        found = {key: getattr(self, key) for key in COMPONENTS}
-        return {key: signal for key, signal in found.items() if signal is not None}
+    def opposes(self) -> bool:
+        """Whether it opposes the motion of the vane."""
+        return self.against_motion or self.frame == "motion"
 
     @property
     def arm(self) -> float | None:
         """From the trunnion centre down to where forces act [m]; None for the vane's centre."""
-        if self.span is None:
-            return self.centre_of_pressure
-        from scipy.interpolate import PPoly
-
-        curve = self.span.curve()
-        total = PPoly(curve.coefficients, curve.knots).antiderivative()
-        # ∫ z q dz = [z Q] − ∫ Q dz with Q' = q.
-        first, last = curve.knots[0], curve.knots[-1]
-        whole = float(total(last) - total(first))
-        moment = last * total(last) - first * total(first) - total.integrate(first, last)
-        largest = max(map(abs, self.span.values or (0.0,))) * float(last - first)
-        words = "its parts cancel: such a load has no centre of pressure"
-        demand(abs(whole) > _CANCELLED * largest, "span.values", words)
-        return float(moment) / whole
+        if self.point is not None:
+            return -self.point[2]
+        return self.centre_of_pressure if self.span is None else self.centroid
 
 
 class _Shaken(NamedGroup):
@@ -135,7 +146,7 @@ class _Shaken(NamedGroup):
     @property
     def given(self) -> dict[str, float]:
         """What is given of it [N, N m]."""
-        found = {key: getattr(self, key) for key in COMPONENTS}
+        found = {key: getattr(self, key) for key in (*FORCES, "moment")}
         return {key: size for key, size in found.items() if size is not None}
 
 

@@ -268,10 +268,7 @@ class VsvCase(BushingCase):
         span = self.period if self.run.cycles is not None else self.duration
         return Doors(
             drive=("drive.angle", "rad"),
-            loads={
-                name: (f"loads.more.function-{name}.{name}", "N m" if name == "moment" else "N")
-                for name in COMPONENTS
-            },
+            loads={name: (f"loads.more.function-{name}.{name}", unit) for name, unit in COMPONENTS.items()},
             silenced={
                 "force_x": ("loads.air_force_x", "0 N"),
                 "force_y": ("loads.air_force_y", "0 N"),
@@ -362,7 +359,8 @@ class VsvCase(BushingCase):
         """Check that forces act on the vane."""
         longest = self.mechanism.vane_length
         for name, load in self.loads.more.items():
-            arm, key = load.arm, "centre_of_pressure" if load.span is None else "span.positions"
+            place = "centre_of_pressure" if load.point is None else "point"
+            arm, key = load.arm, place if load.span is None else "span.positions"
             words = f"the vane is {longest * 1e3:g} mm long, the force would act at {(arm or 0) * 1e3:.4g} mm"
             demand(arm is None or 0.0 <= arm <= longest, f"loads.more.{name}.{key}", words)
 

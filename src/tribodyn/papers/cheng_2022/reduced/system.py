@@ -45,8 +45,13 @@ from tribodyn.papers.cheng_2022.reduced.times import following, output_times, sn
 from tribodyn.results.attributes import CARRIED
 from tribodyn.wear import loaded_depth
 
-_ANGLES: Final = {"the vane": "theta_v", "the crank": "theta_a"}
-"""What tables over angles follow."""
+_FOLLOWED: Final = {
+    ("the vane", "angles"): "theta_v",
+    ("the crank", "angles"): "theta_a",
+    ("the vane", "speeds"): "omega_v",
+    ("the crank", "speeds"): "omega_a",
+}
+"""What tables over angles and speeds follow."""
 
 
 def vsv_of(case: VsvCase) -> Vsv:
@@ -219,7 +224,11 @@ class VsvSystem:
             },
             warnings=[
                 *warnings(self.vsv, found, whole, of_clearance, t_end, run.cost, when),
-                *of_tables(self.case.followed(), run.solution.t, lambda table: rows[_ANGLES[table.follows]]),
+                *of_tables(
+                    self.case.followed(),
+                    run.solution.t,
+                    lambda table: rows[_FOLLOWED[table.follows, table.over]],
+                ),
             ],
             notes=[
                 *of_temperature(self.case, clearance),
