@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.cases import Case
+from tribodyn.cases.fields import choice
 from tribodyn.cases.functions import with_functions
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
@@ -78,7 +80,13 @@ def test_what_is_no_drive_or_load_is_refused(drive: Any, loads: Any, words: str)
         with_functions(CASE.replace({"run.duration": "2 s"}), drive, loads)
 
 
+class Plain(Case):
+    """A kind of case without drives and loads."""
+
+    case: Literal["plain"] = choice("plain", "the kind of system", "")
+
+
 def test_a_case_without_doors_says_so() -> None:
     function: Callable[..., Any] = np.sin
-    with pytest.raises(InputError, match="takes no functions"):
-        with_functions(td.load_case("slider-crank"), function, None)
+    with pytest.raises(InputError, match='of the kind "plain" takes no functions'):
+        with_functions(Plain(), function, None)
