@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, choice, name, vector
 from tribodyn.mechanisms.general.kinds import GROUND
-from tribodyn.mechanisms.general.parts import POINT, unit
+from tribodyn.mechanisms.general.parts import POINT
 
 UNITS: Final = {"position": "m", "distance": "m", "angle": "rad", "velocity": "m/s"}
 """Unit of each quantity."""

@@ -20,11 +20,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND
 from tribodyn.mechanisms.general.output_keys import UNITS, OutputKeys
-from tribodyn.mechanisms.general.parts import unit
 
 
 @dataclass(frozen=True)
