@@ -92,7 +92,7 @@ def _sets(args: Namespace) -> list[ValidationSet]:
 
 
 def _template(folder: str, console: Console) -> int:
-    from tribodyn.validation.rig import write_template
+    from tribodyn.validation.template import write_template
 
     write_template(Path(folder))
     console.say(f"README.md and numbers.csv are in {folder}/")

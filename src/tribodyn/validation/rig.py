@@ -40,39 +40,14 @@ from tribodyn.studies.calibration import VariedKey
 from tribodyn.studies.measured import Measured, MeasuredCurve, MeasuredNumber, read
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
+from tribodyn.validation.template import README
 
 LARGEST: Final = 1_000_000
 NEEDED: Final = ("quantity", "measured", "half_width", "accepted")
-README: Final = "README.md"
-NUMBERS: Final = "numbers.csv"
 TIGHTER: Final = 0.1
 """Factor on the tolerance of the integration for its share of the uncertainty."""
 LEAST_TOLERANCE: Final = 1e-12
 """The least tolerance that a case takes."""
-TEMPLATE: Final = {
-    README: """# Title: quantity, machine, conditions
-
-**Measured.** What was measured, over which range, how often.
-
-**Apparatus.** Machine, dimensions, materials, lubricant, sensors, temperature. What is not known.
-
-**Uncertainty.** Half widths of 95 % intervals: of the reading, from run to run, from unit to unit.
-
-**Source and licence.** Who measured it, when, where it is recorded, who may use it.
-
-**Inputs.** Which keys of the case are known, and which are assumed, with their ranges (given with --assume).
-
-**Known problems.** What may be wrong with the data.
-
-**Use.** Which numbers are judged, with which band and why. Write the bands before the first run.
-Never widen them.
-""",
-    NUMBERS: """quantity,measured,half_width,accepted,null,source,explanation
-force_mean_N_wrist,1460,20,10 %,,example: mean force of the case slider-crank,
-power_mean_W,226,5,,,example without a band: reported only,
-""",
-}
-"""Files of a new set, by name."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +87,10 @@ class Rig(ValidationSet):
         run = simulate(self.case)
         parts = [self._part(row, run) for row in self.numbers]
         data = Measured(tuple(parts), self.digest)
-        values = data.computed(run)
+        try:
+            values = data.computed(run)
+        except InputError as error:
+            raise InputError(error.reason, key="NAME") from None
         half_widths = self._half_widths(data, values)
         rows, drawn = [], []
         for row, (part, of_row), (_, half) in zip(
@@ -204,12 +182,17 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     if not rows or not set(NEEDED) <= rows[0].keys():
         raise InputError(f"{as_given(str(path))} needs the columns {', '.join(NEEDED)}", key="NAME")
     numbers = tuple({name: (cell or "").strip() for name, cell in row.items() if name} for row in rows)
+    _check_names([row["quantity"] for row in numbers])
     digest = hashlib.sha256(content).hexdigest()
     bands = {row["quantity"]: _band(row["accepted"], Path(path).name) for row in numbers if row["accepted"]}
     for row in numbers:
         if not _is_file(row["measured"]):
             _number(row, "measured")
-        _number(row, "half_width")
+        if _number(row, "half_width") < 0.0:
+            raise InputError(
+                f"{row['quantity']}: half_width is {as_given(row['half_width'])}; allowed: 0 or more",
+                key="NAME",
+            )
     table = {
         "title": f"{Path(path).name} against {case.title or case.kind()}",
         "compared": f"Numbers of {Path(path).name} (SHA-256 `{digest}`) against key results of the case.",
@@ -219,20 +202,13 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     return Rig(Path(path).stem, Path(path), case, assumed, digest, numbers, table)
 
 
-def write_template(folder: Path) -> None:
-    """Write README and table of a new set into a folder; files that are there already are kept.
-
-    Raises
-    ------
-    InputError
-        One of them is there already.
-    """
-    there = [name for name in TEMPLATE if (folder / name).exists()]
-    if there:
-        raise InputError(f"{folder} already has {', '.join(there)}; choose another folder", key="--template")
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in TEMPLATE.items():
-        (folder / name).write_text(text, encoding="utf-8")
+def _check_names(names: Sequence[str]) -> None:
+    """Refuse rows without a name, and two rows of one."""
+    for name in names:
+        if not name:
+            raise InputError("a row has no quantity; name a key result of the case", key="NAME")
+        if names.count(name) > 1:
+            raise InputError(f"two rows have the quantity {as_given(name)}; leave out one", key="NAME")
 
 
 def _is_file(text: str) -> bool:
@@ -277,16 +253,18 @@ def _band(text: str, file: str) -> dict[str, Any]:
     """Return an acceptance band as the table of a set has it."""
     source = f"accepted = {text} in {file}"
     try:
-        if text.endswith("%"):
-            return {"relative": float(text[:-1]) / 100.0, "source": source}
-        if ".." in text:
-            low, high = (float(end) for end in text.split(".."))
-            return {"at_least": low, "at_most": high, "source": source}
-        return {"absolute": float(text), "source": source}
+        low, high = (float(end) for end in (text.split("..") if ".." in text else ("0", text.rstrip("% "))))
     except ValueError:
+        low, high = 0.0, math.nan
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise InputError(
-            f"accepted is {as_given(text)}; allowed: 10 %, 0.5, 10..20 or empty", key="NAME"
-        ) from None
+            f"accepted is {as_given(text)}; allowed: 10 %, 0.5, 10..20 (rising) or empty", key="NAME"
+        )
+    if ".." in text:
+        return {"at_least": low, "at_most": high, "source": source}
+    if text.endswith("%"):
+        return {"relative": high / 100.0, "source": source}
+    return {"absolute": high, "source": source}
 
 
 def _assumed(case: Case, one: VariedKey) -> dict[str, Any]:

@@ -80,7 +80,12 @@ def test_the_template_is_a_set(tmp_path, capsys):
     [
         ("steps,many,1,10 %,,,\n", "no number"),
         ("steps,3,1,tenfold,,,\n", "10 %, 0.5, 10..20"),
-        ("stepz,3,1,10 %,,,\n", "steps"),
+        ("stepz,3,1,10 %,,,\n", "NAME: the run has no"),
+        ("steps,3,1,-5 %,,,\n", "10 %, 0.5, 10..20"),
+        ("steps,3,1,20..10,,,\n", "10 %, 0.5, 10..20"),
+        ("steps,3,-1,10 %,,,\n", "half_width"),
+        (",3,1,10 %,,,\n", "has no quantity"),
+        ("steps,3,1,10 %,,,\nsteps,4,1,1 %,,,\n", "two rows"),
     ],
 )
 def test_rows_that_cannot_be_judged_are_refused(line, message, tmp_path, capsys):
