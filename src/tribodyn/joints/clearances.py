@@ -22,6 +22,7 @@ from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.pose import Pose
+from tribodyn.lubrication import Film
 
 SPHERE: Final = "point-lankarani-nikravesh"
 """The point contact that a ball in a race can have."""
@@ -51,6 +52,8 @@ class Clearance:
         What the asperities stand on; None where that is rigid.
     slides
         Whether the shaft is meant to slide along its axis, however far.
+    film
+        Oil film in the bore of a cylinder; None where it is dry.
     """
 
     shape: Shape
@@ -66,6 +69,7 @@ class Clearance:
     contact: str
     liner: Liner | None = None
     slides: bool = False
+    film: Film | None = None
 
 
 @dataclass(frozen=True)

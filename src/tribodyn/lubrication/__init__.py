@@ -10,6 +10,7 @@ from __future__ import annotations
 from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
 from tribodyn.lubrication.factors import Roughness
 from tribodyn.lubrication.film import BOUNDARIES, CAVITATION, Film, FilmGrid
+from tribodyn.lubrication.several import stacked_data, stacked_memory
 from tribodyn.lubrication.state import FilmState, explain, film_state
 
 __all__ = [
@@ -23,4 +24,6 @@ __all__ = [
     "explain",
     "film_equilibrium",
     "film_state",
+    "stacked_data",
+    "stacked_memory",
 ]

@@ -166,20 +166,24 @@ class Film:
 
     def memory(self) -> FilmMemory:
         """Return the cache of one thread: cavitation of the last evaluation, and scratch."""
-        n, m = self.grid.theta, self.grid.z - 1
-        unknowns = (n - 1) * m if self.cavitation == "jfo" else 0
-        return FilmMemory(
-            active=np.ones((n, m), dtype=np.int8),
-            pressure=np.zeros((n, m)),
-            fill=np.ones((n, m)),
-            adjoint=np.zeros((5, n, m)),
-            gradient=np.zeros((5, 6, m + 1)),
-            fields=_fields(n, m),
-            system=_system(n, m),
-            transport=np.zeros((unknowns, 2 * m + 1)),
-            amount=np.zeros(unknowns),
-            work=new_record(Work),
-        )
+        return new_memory(self.grid.theta, self.grid.z - 1, conserves_mass=self.cavitation == "jfo")
+
+
+def new_memory(n: int, m: int, *, conserves_mass: bool) -> FilmMemory:
+    """Return the cache of a film of ``n`` columns of ``m`` nodes; ``jfo`` conserves mass."""
+    unknowns = (n - 1) * m if conserves_mass else 0
+    return FilmMemory(
+        active=np.ones((n, m), dtype=np.int8),
+        pressure=np.zeros((n, m)),
+        fill=np.ones((n, m)),
+        adjoint=np.zeros((5, n, m)),
+        gradient=np.zeros((5, 6, m + 1)),
+        fields=_fields(n, m),
+        system=_system(n, m),
+        transport=np.zeros((unknowns, 2 * m + 1)),
+        amount=np.zeros(unknowns),
+        work=new_record(Work),
+    )
 
 
 def _require(value: str, allowed: tuple[str, ...], key: str) -> None:

@@ -206,7 +206,11 @@ class BandSystem(NamedTuple):
 
 
 Work: Final = record_type(
-    ("state", "f8", (8,)), ("chart", "f8", (5, 9)), ("lean", "f8", (4,)), ("effort", "i8", (2,))
+    ("state", "f8", (8,)),
+    ("chart", "f8", (5, 9)),
+    ("lean", "f8", (4,)),
+    ("least", "f8"),
+    ("effort", "i8", (2,)),
 )
 """Of the last evaluation.
 
@@ -216,6 +220,8 @@ chart
     Derivatives of the wrench in these and ω.
 lean
     Second-order terms of one row of the chart, in t and w.
+least
+    Smallest gap [m].
 effort
     Factorisations, and the number of rows used.
 """

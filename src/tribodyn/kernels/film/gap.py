@@ -26,8 +26,8 @@ LEAST_RANGE = -4.0
 @kernel
 def evaluate_gap(
     film: FilmData, fields: FilmFields, u: FloatArray, omega: float, rows: int, half: bool
-) -> int:
-    """Fill ``fields`` for the chart ``u`` and return a status.
+) -> tuple[int, float]:
+    """Fill ``fields`` for the chart ``u``; return a status and the smallest gap [m].
 
     ``rows`` rows of nodes are filled; with ``half`` the last of them is the middle of a symmetric film.
     """
@@ -40,9 +40,9 @@ def evaluate_gap(
     lowest = min(lowest, _z_faces(film, fields, rows, half, alike))
     lowest = min(lowest, _nodes(film, fields, rows, alike))
     if not lowest > least:  # also when something is not a number
-        return OUT_OF_RANGE
+        return OUT_OF_RANGE, lowest
     _sources(film, fields, omega, rows)
-    return CONVERGED
+    return CONVERGED, lowest
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""What is told about the last evaluation of a film besides its wrench."""
+"""What is reported of the last evaluation of a film besides its wrench."""
 
 from __future__ import annotations
 
@@ -28,6 +28,16 @@ def film_pressure(film: FilmData, memory: FilmMemory, pressure: FloatArray) -> N
         for j in range(m):
             p = unit * memory.pressure[i, j]
             pressure[j + 1, i] = max(p, 0.0) if film.constants.cavitation == HALF_SOMMERFELD else p
+
+
+@kernel
+def film_peak(film: FilmData, memory: FilmMemory) -> float:
+    """Return the largest pressure of the last evaluation [Pa]."""
+    largest = 0.0
+    for i in range(memory.pressure.shape[0]):
+        for j in range(memory.pressure.shape[1]):
+            largest = max(largest, memory.pressure[i, j])
+    return pressure_unit(film) * largest
 
 
 @entry

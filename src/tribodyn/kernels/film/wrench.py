@@ -28,7 +28,7 @@ from tribodyn.kernels.jit import entry, kernel
 def film_wrench(film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray) -> int:
     """Fill ``out`` (5,) with (F_x, F_y, M_x, M_y, M_z) [N, N m] and return a status."""
     chart_of(y, memory.work.state)
-    return _solve(film, memory, omega, out)
+    return wrench_in_chart(film, memory, omega, out)
 
 
 @entry
@@ -38,22 +38,27 @@ def film_wrench_and_jacobian(
     """Fill ``out`` as :func:`film_wrench` and ``jacobian`` (5, 9) with its derivatives; return a status."""
     u = memory.work.state
     chart_of(y, u)
-    status = _solve(film, memory, omega, out)
-    if status != CONVERGED:
-        return status
+    status = wrench_in_chart(film, memory, omega, out)
+    if status == CONVERGED:
+        derivatives_in_chart(film, memory, omega, out)
+        from_chart(u, y, memory.work.chart, jacobian)
+    return status
+
+
+@kernel
+def derivatives_in_chart(film: FilmData, memory: FilmMemory, omega: float, out: FloatArray) -> None:
+    """Fill ``memory.work.chart`` with the derivatives of the wrench ``out`` that was found last."""
     rows = memory.work.effort[1]
     half = rows < memory.pressure.shape[1]
     solve_adjoints(film, memory, omega, rows, half)
     fill_chart(film, memory, omega, rows, half)
     if film.constants.groove == 1:
-        turn_with_groove(u, out, memory.work.chart)
-    from_chart(u, y, memory.work.chart, jacobian)
-    return CONVERGED
+        turn_with_groove(memory.work.state, out, memory.work.chart)
 
 
 @kernel
-def _solve(film: FilmData, memory: FilmMemory, omega: float, out: FloatArray) -> int:
-    """Solve for the pressure at ``memory.work.state`` and integrate it."""
+def wrench_in_chart(film: FilmData, memory: FilmMemory, omega: float, out: FloatArray) -> int:
+    """Solve for the pressure at ``memory.work.state``, fill ``out`` (5,) and return a status."""
     u = memory.work.state
     n_z = film.z_face.size
     half = (
@@ -66,7 +71,7 @@ def _solve(film: FilmData, memory: FilmMemory, omega: float, out: FloatArray) ->
     )
     rows = n_z // 2 if half else n_z - 1
     memory.work.effort[1] = rows
-    status = evaluate_gap(film, memory.fields, u, omega, rows, half)
+    status, memory.work.least = evaluate_gap(film, memory.fields, u, omega, rows, half)
     if status == CONVERGED:
         if film.constants.cavitation == JFO:
             status = solve_transport(film, memory, omega)

@@ -15,6 +15,7 @@ from typing import Any, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import Pose
@@ -71,7 +72,9 @@ Not integers: numba compiles a kernel again for each one that stands in a call.
 WORK: Final = 0
 DAMPING: Final = 1
 FRICTION: Final = 2
-"""Powers of a coupling."""
+FILM: Final = 3
+N_POWERS: Final = 4
+"""Powers of a coupling, and their number."""
 
 Constants: Final = record_type(
     ("gravity", "f8", (3,)),
@@ -121,6 +124,7 @@ Coupling: Final = record_type(
     ("follows_sign", "f8"),
     ("effort", "i8", (2,)),
     ("contact", "i8"),
+    ("film", "i8"),
     ("rows_block", "i8", (2, 2)),
     ("bodies_block", "i8", (2,)),
 )
@@ -161,8 +165,8 @@ follows, follows_position, follows_sign
     instead of its angle; sign of both.
 effort
     Signals of torque about and force along the axis.
-contact
-    Number among the joints with clearance.
+contact, film
+    Number among the joints with clearance, and among those with an oil film.
 rows_block
     Blocks (rows, body) and (body, rows) for socket and shaft.
 bodies_block
@@ -221,7 +225,7 @@ CouplingNow: Final = record_type(
     ("turned", "f8", (3, 3)),
     ("angle", "f8"),
     ("angle_mark", "f8"),
-    ("powers", "f8", (3,)),
+    ("powers", "f8", (N_POWERS,)),
     ("stored", "f8"),
 )
 """Of a coupling at one instant; wrenches act on the shaft at its origin, in the axes of the socket.
@@ -263,7 +267,7 @@ Kq, Kv, Gq, Gv
 angle, angle_mark
     Angle of the shaft about the axis with its whole turns, and the one that turns are counted from.
 powers, stored
-    What drives and loads put in, what damping and friction turn into heat [W]; stored energy [J].
+    What drives and loads put in, what damping, friction and oil film turn into heat [W]; stored energy [J].
 """
 
 Course: Final = record_type(
@@ -285,9 +289,8 @@ has become of a joint, ``INTACT`` or another of the kinds above, and the number 
 lie beyond a law: it goes on linearly."""
 
 
-Book: Final = record_type(("marks", "f8", (3, 3)), ("sums", "f8", (3,)))
-"""Three integrands at three marks, and their integrals: the powers of a coupling, the external force, its
-moment."""
+Book: Final = record_type(("marks", "f8", (3, N_POWERS)), ("sums", "f8", (N_POWERS,)))
+"""Integrands at three marks, and their integrals: powers of a coupling, external force, its moment."""
 
 
 class Pattern(NamedTuple):
@@ -354,6 +357,9 @@ class MechanismData(NamedTuple):
         Patterns of the equations of motion and of the iteration matrix of implicit methods.
     contact
         All joints with clearance.
+    films, film_force
+        The oil films of all joints that have one, see ``kernels/film/several.py``, and the function that
+        evaluates one, see ``kernels/mechanism/film.py``.
     """
 
     parts: Parts
@@ -362,6 +368,8 @@ class MechanismData(NamedTuple):
     mass: Pattern
     newton: Pattern
     contact: SurfaceData
+    films: FilmData
+    film_force: Any
 
 
 class MechanismMemory(NamedTuple):
@@ -381,6 +389,10 @@ class MechanismMemory(NamedTuple):
         Powers and works, see ``kernels/mechanism/ledger.py``.
     contact
         What the joints with clearance remember.
+    films
+        Caches of the films.
+    oil
+        What each film does to its joint, see ``kernels/joints/film.py``, shape (n_films,).
     """
 
     now: Now
@@ -389,3 +401,5 @@ class MechanismMemory(NamedTuple):
     settled: FloatArray
     books: Any
     contact: SurfaceMemory
+    films: FilmMemory
+    oil: Any

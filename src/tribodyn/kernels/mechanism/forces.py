@@ -28,6 +28,7 @@ from tribodyn.kernels.mechanism.data import (
     LOAD_GROUND,
     LOAD_LINE,
     LOAD_MOTION,
+    N_POWERS,
     NONE,
     REPORTS,
     SLOPES,
@@ -49,7 +50,7 @@ def force(
     coupling, now = data.parts.couplings[number], memory.now.couplings[number]
     for i in range(6):
         now.wrench[i] = 0.0
-    for i in range(3):
+    for i in range(N_POWERS):
         now.powers[i] = 0.0
     now.stored = 0.0
     clear(now.slope)
@@ -62,6 +63,9 @@ def force(
         _load(coupling, now, memory.now.couplings, data, t, within)
     elif kind == CONTACT:
         _contact(coupling.contact, now, data.contact, memory.contact, mode)
+    if coupling.film != NONE:
+        scratch, oil = memory.contact.scratch, memory.oil
+        data.film_force(mode, data.films, memory.films, coupling.film, now, scratch, oil)
     for axis in range(2):
         now.effort[axis] = 0.0
         if coupling.effort[axis] != NONE:

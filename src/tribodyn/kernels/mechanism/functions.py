@@ -8,6 +8,7 @@ from typing import Final
 from mebdf.kernels.arrays import copy
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import entry, inlined, kernel
+from tribodyn.kernels.joints.film import note_film_peaks
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.memory import note_peaks
 from tribodyn.kernels.mechanism import ledger
@@ -15,6 +16,7 @@ from tribodyn.kernels.mechanism.bodies import rates
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
     INTACT,
+    NONE,
     PLAIN,
     SLOPES,
     MechanismData,
@@ -129,6 +131,8 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: MechanismData, memory
     for k in range(data.parts.couplings.size):
         if data.parts.couplings[k].force == CONTACT:
             note_peaks(data.contact, memory.contact, data.parts.couplings[k].contact, t_b, h)
+        if data.parts.couplings[k].film != NONE:
+            note_film_peaks(memory.oil[data.parts.couplings[k].film], t_b)
 
 
 @entry

@@ -11,7 +11,7 @@ from typing import Any, Final
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.ledger import NEAR
 from tribodyn.kernels.mechanism.bodies import kinetic
-from tribodyn.kernels.mechanism.data import Now, Parts
+from tribodyn.kernels.mechanism.data import N_POWERS, Now, Parts
 from tribodyn.kernels.mechanism.vectors import cross, turn, turn_back
 
 NOW: Final = 0
@@ -73,7 +73,7 @@ def _fill_marks(memory: Now, books: Any) -> None:
     """Fill the integrands of now."""
     n = memory.couplings.size
     for k in range(n):
-        for i in range(3):
+        for i in range(N_POWERS):
             books[k].marks[NOW, i] = memory.couplings[k].powers[i]
     for i in range(3):
         books[n].marks[NOW, i] = memory.course.external[i]
@@ -92,7 +92,7 @@ def begin(data: Parts, memory: Now, books: Any, t: float) -> None:
 @kernel
 def _move(books: Any, source: int, target: int) -> None:
     for k in range(books.size):
-        for i in range(3):
+        for i in range(N_POWERS):
             books[k].marks[target, i] = books[k].marks[source, i]
 
 
@@ -106,7 +106,7 @@ def add_part(data: Parts, memory: Now, books: Any, t: float) -> None:
     known = back > NEAR * h
     for k in range(books.size):
         book = books[k]
-        for i in range(3):
+        for i in range(N_POWERS):
             now, last = book.marks[NOW, i], book.marks[LAST, i]
             bend = (
                 h * (now - last - h / back * (last - book.marks[EARLIER, i])) / (h + back) if known else 0.0

@@ -15,7 +15,9 @@ from tribodyn.kernels.mechanism.data import (
     ANGLE,
     CONTACT,
     DAMPING,
+    FILM,
     FRICTION,
+    NONE,
     POSITION,
     WORK,
     MechanismData,
@@ -39,6 +41,7 @@ def fill_row(data: MechanismData, memory: MechanismMemory, row: FloatArray) -> N
         coupling, out = data.parts.couplings[k], row[first : first + N_COUPLING].view(Coupling)[0]
         _coupling(coupling, memory.now.couplings[k], memory.books[k], out)
         _contact(data.contact, memory.contact, coupling, out)
+        _film(coupling.film, memory.oil, out)
         first += N_COUPLING
 
 
@@ -47,7 +50,7 @@ def _whole(data: Parts, memory: Now, books: Any, out: Record) -> None:
     """Energies, works, momenta and impulses of the whole, and how well constraints hold."""
     course, n = memory.course, data.couplings.size
     out.energy_kinetic, out.energy_gravity = course.kinetic, course.potential
-    out.energy_stored = out.work_in = out.heat_damping = out.heat_friction = 0.0
+    out.energy_stored = out.work_in = out.heat_damping = out.heat_friction = out.heat_film = 0.0
     out.gap = out.gap_rate = 0.0
     for k in range(n):
         now, book = memory.couplings[k], books[k]
@@ -55,6 +58,7 @@ def _whole(data: Parts, memory: Now, books: Any, out: Record) -> None:
         out.work_in += book.sums[WORK]
         out.heat_damping += book.sums[DAMPING]
         out.heat_friction += book.sums[FRICTION]
+        out.heat_film += book.sums[FILM]
         for m in range(data.couplings[k].n_rows):
             out.gap = max(out.gap, abs(now.residual[m]))
             out.gap_rate = max(out.gap_rate, abs(now.rate[m]))
@@ -95,6 +99,7 @@ def _coupling(coupling: Record, now: Record, book: Record, out: Record) -> None:
     out.joint_work, out.joint_damping = book.sums[WORK], book.sums[DAMPING]
     out.joint_friction, out.joint_energy = book.sums[FRICTION], now.stored
     out.friction_power, out.damping_power = now.powers[FRICTION], now.powers[DAMPING]
+    out.film_power, out.joint_film = now.powers[FILM], book.sums[FILM]
 
 
 @kernel
@@ -125,3 +130,18 @@ def _contact(joints: SurfaceData, memory: SurfaceMemory, coupling: Record, out: 
         out.contact_force[2] += report.F_cz
         out.pressure_max = max(out.pressure_max, report.p_max)
         out.gap_min = min(out.gap_min, report.separation_min)
+
+
+@kernel
+def _film(k: int, oil: Any, out: Record) -> None:
+    """Fill what the oil film of a joint does; without one there is nothing."""
+    for i in range(3):
+        out.film_force[i] = out.film_moment[i] = 0.0
+    out.film_pressure_max = out.film_thickness_min = out.film_leakage = 0.0
+    if k == NONE:
+        return
+    report = oil[k].report
+    copy(report.film_force, out.film_force)
+    copy(report.film_moment, out.film_moment)
+    out.film_pressure_max, out.film_thickness_min = report.film_pressure_max, report.film_thickness_min
+    out.film_leakage = report.film_leakage

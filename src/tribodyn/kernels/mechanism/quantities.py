@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table
+from tribodyn.kernels.film.quantities import FILM
 
 WHOLE: Final = (
     Quantity("energy_kinetic", "J", "kinetic energy"),
@@ -13,6 +14,7 @@ WHOLE: Final = (
     Quantity("work_in", "J", "work of drives and loads"),
     Quantity("heat_damping", "J", "heat of dampers and contact damping"),
     Quantity("heat_friction", "J", "heat of friction"),
+    Quantity("heat_film", "J", "heat of oil films"),
     Quantity("momentum_x", "kg m s-1", "momentum along x"),
     Quantity("momentum_y", "kg m s-1", "momentum along y"),
     Quantity("momentum_z", "kg m s-1", "momentum along z"),
@@ -79,6 +81,9 @@ COUPLING: Final = (
     Quantity("gap_min", "m", "smallest gap in the joint, negative where mean surfaces overlap"),
     Quantity("friction_power", "W", "power that friction turns into heat in the joint"),
     Quantity("damping_power", "W", "power that damping turns into heat in the joint"),
+    *FILM,
+    Quantity("film_power", "W", "power that the oil film turns into heat in the joint"),
+    Quantity("joint_film", "J", "heat of the oil film in the joint"),
 )
 """Of a joint, a spring or a load. Kernels observe them for the shaft; results, for the second body."""
 

@@ -152,9 +152,11 @@ def solve_rows(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> 
     for repeat in range(ROUNDS if parts.constants.n_rows > 0 else 1):
         for k in range(parts.couplings.size):
             coupling, state = parts.couplings[k], now.couplings[k]
-            for m in range(coupling.n_rows):
+            for m in range(6 if coupling.n_rows > 0 else 0):
                 before = x[coupling.node, m] if repeat > 0 else 0.0
-                x[coupling.node, m] = rest[coupling.node, m] + state.compliance[m] * before
+                wanted = rest[coupling.node, m] + state.compliance[m] * before
+                # Unknowns without a row are zero, whatever a state without an answer has left there.
+                x[coupling.node, m] = wanted if m < coupling.n_rows else 0.0
         for b in range(parts.bodies.size):
             for i in range(6):
                 x[b, i] = rest[b, i]

@@ -116,13 +116,11 @@ class Mechanism:
 
     def clearance(self, joint: str, **keys: object) -> Mechanism:
         """Make an ideal joint a real one: ``radius``, ``radial``, ``length``, ``axial``, ``pair``."""
-        if joint not in self._tables.get("joints", {}):
-            raise InputError(
-                "write the joint first, then its clearance", key=f"joints.{joint}", source=SOURCE
-            )
-        held = self._tables["joints"][joint]
-        held["clearance"] = _plain(keys)
-        return self
+        return self._of_joint(joint, "clearance", keys)
+
+    def film(self, joint: str, **keys: object) -> Mechanism:
+        """Let a joint with clearance run in oil: ``viscosity``, ``cavitation``, ``boundary``."""
+        return self._of_joint(joint, "film", keys)
 
     def drive(self, name: str, joint: str, **keys: object) -> Mechanism:
         """Move a joint: by one of ``angle``, ``speed``, ``torque``, ``position``, ``velocity``, ``force``."""
@@ -162,6 +160,13 @@ class Mechanism:
         """
         entries = {path: Entry(value, SOURCE) for path, value in flat(self._tables)}
         return build(MechanismCase, entries, SOURCE)
+
+    def _of_joint(self, joint: str, table: str, keys: Mapping[str, object]) -> Mechanism:
+        if joint not in self._tables.get("joints", {}):
+            raise InputError(f"write the joint first, then its {table}", key=f"joints.{joint}", source=SOURCE)
+        held = self._tables["joints"][joint]
+        held[table] = _plain(keys)
+        return self
 
     def _add(self, table: str, name: str, keys: Mapping[str, object]) -> Mechanism:
         tables = self._tables.setdefault(table, {})

@@ -10,7 +10,9 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
+from tribodyn.kernels.film.data import CONVERGED
 from tribodyn.kernels.mechanism.data import INTACT, OPENED, OVERLAPPED, Now
+from tribodyn.lubrication import explain
 from tribodyn.mechanisms.checks import ENERGY_LIMIT, beyond_law, of_steps
 from tribodyn.mechanisms.general.model import Model
 
@@ -76,7 +78,7 @@ def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: floa
     now: Now = problem.memory.now
     broken, at = int(now.course.broken), int(now.course.broken_at)
     if broken == INTACT:
-        return ""
+        return _of_films(problem.memory.oil["status"], model, t_end)
     if broken == OPENED:
         return f"stopped at t = {t_end:.6g} s: {_opened(now, model, at)}"
     joint, surface = surfaces[at].rsplit(":", 1)
@@ -84,6 +86,15 @@ def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: floa
         h_first = float(problem.data.contact.surfaces[at]["h_first"])
         return beyond_law(h_first, t_end, f"joint {joint} ({surface})")
     return f"stopped at t = {t_end:.6g} s: {_left(problem, model, joint, at)}"
+
+
+def _of_films(statuses: FloatArray, model: Model, t_end: float) -> str:
+    """Return which film had no answer at some trial state, and why."""
+    for number, status in zip(model.oiled, statuses, strict=True):
+        if status != CONVERGED:
+            words = f"the oil film of joint {model.joints[number]} had no answer: {explain(int(status))}"
+            return f"stopped at t = {t_end:.6g} s: {words}"
+    return ""
 
 
 def _opened(now: Now, model: Model, number: int) -> str:

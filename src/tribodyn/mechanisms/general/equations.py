@@ -11,8 +11,11 @@ from numpy.typing import ArrayLike
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector
 from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.film.data import FilmData
+from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
 from tribodyn.kernels.mechanism import data as kinds
 from tribodyn.kernels.mechanism.data import (
@@ -22,6 +25,8 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
 )
+from tribodyn.kernels.mechanism.film import by_address
+from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.elements.base import Leg
@@ -33,6 +38,7 @@ from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_p
 from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
+from tribodyn.wear import resampled
 
 _COORDINATES: Final = ("angle", "position")
 
@@ -57,10 +63,28 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     constants.n_nodes = len(model.bodies) + int(np.sum(couplings.n_rows > 0))
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
     constants.size = _size(model)
-    contact = surfaces(tuple(model.clearances.values()), worn)
+    clearances = tuple(model.clearances.values())
+    contact, films = surfaces(clearances, worn), _films(clearances, worn)
+    film_force = by_address(films, stacked_memory(films))
     parts = Parts(constants, _bodies(model), couplings)
     of_loads = term_records(signals, terms)
-    return MechanismData(parts, signals.records(), of_loads, mass, newton, contact)
+    return MechanismData(parts, signals.records(), of_loads, mass, newton, contact, films, film_force)
+
+
+def _films(clearances: Sequence[Clearance], worn: FloatArray | None) -> FilmData:
+    """Return the oil films of clearances that have one; ``worn`` as for :func:`mechanism_data`."""
+    oiled = [(j, clearance.film) for j, clearance in enumerate(clearances) if clearance.film is not None]
+    depths: list[FloatArray | None] = [None] * len(oiled)
+    if worn is not None and oiled:
+        barrels = {place.joint: place for place in reversed(places(clearances))}
+        depths = [_depth(film, barrels[j], worn) for j, film in oiled]
+    return stacked_data([film for _, film in oiled], depths)
+
+
+def _depth(film: Film, barrel: Place, worn: FloatArray) -> FloatArray:
+    """Return the wear depth at the nodes of a film [m]; the barrel is the first surface of a joint."""
+    depth = worn[barrel.nodes].reshape(barrel.surface.field_shape)
+    return resampled(depth, barrel.surface.axes["z"], film.z, film.grid.theta)
 
 
 def new_memory(data: MechanismData) -> MechanismMemory:
@@ -86,6 +110,8 @@ def new_memory(data: MechanismData) -> MechanismMemory:
         settled=np.zeros(kinds.N_STATES * n_bodies),
         books=books,
         contact=memory_of_surfaces(data.contact),
+        films=stacked_memory(data.films),
+        oil=new_oil(data.films.constants.size),
     )
 
 
@@ -132,6 +158,7 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
         "follows",
         "effort",
         "contact",
+        "film",
         "rows_block",
         "bodies_block",
         "first_leg",
@@ -142,6 +169,8 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
         _fill_joint(record, model, name, joint)
     for contact, number in enumerate(model.real):
         records[number].force, records[number].contact = kinds.CONTACT, contact
+    for film, number in enumerate(model.oiled):
+        records[number].film = film
     for drive in case.drives.values():
         _add_drive(records[model.joints.index(drive.joint)], case.joints[drive.joint], drive, signals)
     others = iter(records[len(case.joints) :])

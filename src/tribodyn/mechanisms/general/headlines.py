@@ -80,7 +80,7 @@ def _power(dataset: xr.Dataset) -> float:
     The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
     """
     time = column(dataset, "time")
-    gains = np.sum([column(dataset, name) for name in WHOLE.gained], axis=0)
+    gains = np.sum([column(dataset, name) for name in WHOLE.gained if name in dataset.variables], axis=0)
     works = np.ptp(column(dataset, "energy_in")) > _ROUNDING * np.ptp(column(dataset, "energy_kinetic"))
     return float((gains[-1] - gains[0]) / (time[-1] - time[0])) if works else math.nan
 
@@ -188,6 +188,27 @@ HEADLINES: Final[dict[str, Headline]] = {
         "What friction in all joints turned into heat.",
         lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
     ),
+    "film_pressure_max_MPa": Headline(
+        "Film pressure, peak",
+        "MPa",
+        "Oil film",
+        "Largest pressure in the oil film of any joint.",
+        lambda d: peak(settled(d, column(d, "film_pressure_max"))) * 1e-6,
+    ),
+    "film_thickness_min_um": Headline(
+        "Film thickness, smallest",
+        "µm",
+        "Oil film",
+        "Smallest gap of any oil film; within a few roughnesses asperities carry, too.",
+        lambda d: _least(settled(d, column(d, "film_thickness_min"))) * 1e6,
+    ),
+    "film_power_mean_W": Headline(
+        "Film friction power, mean",
+        "W",
+        "Oil film",
+        "Mean power that all oil films turn into heat.",
+        lambda d: time_mean(d, np.nansum(column(d, "film_power"), axis=1)),
+    ),
     "wear_depth_max_nm": Headline(
         "Wear depth, largest",
         "nm",
@@ -219,6 +240,12 @@ KEY_NUMBERS: Final = (
     "drive_moment_lasting_Nm",
     "energy_residual_percent",
 )
+
+
+def _least(values: FloatArray) -> float:
+    """Return the smallest finite value, NaN when there is none."""
+    finite = values[np.isfinite(values)]
+    return float(finite.min()) if finite.size else math.nan
 
 
 def _above_zero(value: float) -> float:
@@ -297,6 +324,20 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Joints",
         "What friction in this joint turned into heat.",
         lambda d, j: float(column(d, "joint_friction")[-1, j]) if of_surfaces(d, j).size else math.nan,
+    ),
+    "film_pressure_max_MPa": _named(
+        "Film pressure, peak",
+        "MPa",
+        "Joints",
+        "Largest pressure in the oil film of this joint.",
+        lambda d, j: peak(settled(d, column(d, "film_pressure_max")[:, j])) * 1e-6,
+    ),
+    "film_thickness_min_um": _named(
+        "Film thickness, smallest",
+        "µm",
+        "Joints",
+        "Smallest gap of the oil film of this joint.",
+        lambda d, j: _least(settled(d, column(d, "film_thickness_min")[:, j])) * 1e6,
     ),
     "wear_depth_nm": _named(
         "Wear depth",

@@ -79,5 +79,13 @@ KINDS: Final[dict[str, JointKind]] = {
 }
 """Every kind of joint by its name."""
 
+NEEDED: Final = {
+    "cylinder": {"radius": "its radius", "radial": "its clearance", "length": "the length of the bore"},
+    "sphere": {"radius": "its radius", "radial": "its clearance"},
+    "ball": {"radius": "its radius", "radial": "its clearance"},
+    "mesh": {"facets": 'triangles, such as mesh = "socket.stl"', "gap": "its gap"},
+}
+"""Keys that each shape needs, with what they are."""
+
 GROUND: Final = "ground"
 """Name of the body that never moves."""

@@ -17,6 +17,7 @@ WHOLE: Final = Ledger(
         "energy_stored": "stored in springs and contact",
         "energy_friction": "friction, out",
         "energy_damping": "damping, out",
+        "energy_film": "oil films, out",
     },
     residual="energy_residual",
     measure=("energy_in", "energy_kinetic", "energy_gravity", "energy_stored"),
@@ -31,9 +32,11 @@ TERMS: Final = {
     "energy_in": EnergyTerm("work_in"),
     "energy_friction": EnergyTerm("heat_friction"),
     "energy_damping": EnergyTerm("heat_damping"),
+    "energy_film": EnergyTerm("heat_film"),
 }
 
 
-def ledger_columns(whole: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+def ledger_columns(whole: Mapping[str, FloatArray], *, oiled: bool) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from what is observed of the whole."""
-    return energy_columns(whole, TERMS, LEDGERS)
+    terms = {name: term for name, term in TERMS.items() if oiled or name != "energy_film"}
+    return energy_columns(whole, terms, LEDGERS)

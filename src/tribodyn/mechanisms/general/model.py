@@ -5,7 +5,7 @@ Bodies and joints are counted from 0 in the order of the case.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
@@ -108,6 +108,12 @@ class Model:
         return [number for number, name in enumerate(self.joints) if name in self.clearances]
 
     @property
+    def oiled(self) -> list[int]:
+        """Numbers of the joints with an oil film."""
+        films = {name: clearance.film for name, clearance in self.clearances.items()}
+        return [number for number, name in enumerate(self.joints) if films.get(name) is not None]
+
+    @property
     def first_leg(self) -> int:
         """Number of the coupling that is the first leg of the first element: all legs come last."""
         return len(self.joints) + len(self.case.springs) + len(self.case.loads)
@@ -132,8 +138,18 @@ class Model:
     @property
     def counterpart(self) -> Model:
         """The mechanism as the clearances vanish: every joint is the ideal one that holds the same."""
-        held = {name: _held(self.case.joints[name]) for name in self.clearances}
-        return replace(self, clearances={}, held=held)
+        return self._with_ideal(self.joints)
+
+    @property
+    def without_films(self) -> Model:
+        """The mechanism in which joints with an oil film are the ideal ones that hold the same."""
+        return self._with_ideal([self.joints[number] for number in self.oiled])
+
+    def _with_ideal(self, names: Sequence[str]) -> Model:
+        """Return the mechanism with the ideal joints that hold the same in the place of some."""
+        real = {name: clearance for name, clearance in self.clearances.items() if name not in names}
+        held = {name: _held(self.case.joints[name]) for name in self.clearances if name in names}
+        return replace(self, clearances=real, held={**self.held, **held})
 
     @property
     def has_loops(self) -> bool:

@@ -22,17 +22,12 @@ from tribodyn.cases.fields import (
     switch,
     vector,
 )
+from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.joint import SURFACE, FormKeys, LinerKeys
 from tribodyn.cases.temperature import Temperatures
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.film import check_film
+from tribodyn.mechanisms.general.kinds import KINDS, NEEDED
 
-NEEDED: Final = {
-    "cylinder": {"radius": "its radius", "radial": "its clearance", "length": "the length of the bore"},
-    "sphere": {"radius": "its radius", "radial": "its clearance"},
-    "ball": {"radius": "its radius", "radial": "its clearance"},
-    "mesh": {"facets": 'triangles, such as mesh = "socket.stl"', "gap": "its gap"},
-}
-"""Keys that each shape needs, with what they are."""
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 FLANGE: Final = 1.5
 """Outer radius of end faces over the radius of the pin, where the case does not say it."""
@@ -266,6 +261,7 @@ class JointKeys(NamedGroup):
         example='["0 N m s/rad", "1 N m s/rad", "1 N m s/rad"]',
     )
     clearance: ClearanceKeys | None = None
+    film: FilmKeys | None = None
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
@@ -286,6 +282,9 @@ class JointKeys(NamedGroup):
             demand(getattr(self, key) is None or coordinate in kind.coordinates, key, words)
         self._check_spring()
         self._check_clearance()
+        if self.film is not None:
+            shape, keys = "" if self.clearance is None else self.shape, self.clearance or ClearanceKeys()
+            check_film(self.type, shape, keys.pin_length, keys.form)
 
     def _check_spring(self) -> None:
         keys = ("stiffness", "damping", "angular_stiffness", "angular_damping")

@@ -62,14 +62,15 @@ _TINY: Final = 1.0e-300
 def initial_state(assembly: Assembly) -> FloatArray | None:
     """Return the state in which the loads on all shafts balance, shape (13 n,); None if none is found.
 
-    Without clearance it is that of the assembly.
+    Without clearance it is that of the assembly. So it is of joints with an oil film, which carries by motion
+    alone: they begin in the middle of their bores.
 
     Raises
     ------
     Stopped
         If the caller wanted to stop before the end of the search.
     """
-    if not assembly.model.clearances:
+    if not assembly.model.without_films.clearances:
         return assembly.state
     ideal = System(assembly.model.counterpart)
     ideal.adopt(assembly.state)
@@ -138,7 +139,7 @@ class _Loads:
         self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE))
         parts = newton.N_PLACES + newton.N_BODY
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
-        self.ideal, self.real = ideal, System(assembly.model)
+        self.ideal, self.real = ideal, System(assembly.model.without_films)
         self.real.adopt(self.state)
         self.speeds, self.largest = speeds_of(assembly.model), 0.0
         self.ahead: FloatArray | None = None

@@ -8,12 +8,14 @@ from typing import Any, TypeVar
 import numpy as np
 
 from tribodyn.cases.case import demand
+from tribodyn.cases.groups import Surfaces
 from tribodyn.cases.temperature import Names
 from tribodyn.contact import Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import BushingGeometry, Friction
 from tribodyn.joints.clearances import Clearance, table_of
 from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
+from tribodyn.lubrication import Film
 from tribodyn.mechanisms.bushing import Bearing
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.joints import frame
@@ -80,7 +82,16 @@ def _clearance(case: MechanismCase, name: str, joint: JointKeys, keys: Clearance
         contact=keys.contact,
         liner=liner,
         slides="position" in KINDS[joint.type].coordinates,
+        film=_film(joint, shape, pair.surfaces),
     )
+
+
+def _film(joint: JointKeys, shape: Shape, surfaces: Surfaces) -> Film | None:
+    """Return the oil film of a joint at the temperatures of the run."""
+    if joint.film is None:
+        return None
+    assert isinstance(shape, Cylinder)
+    return joint.film.film(BushingGeometry(shape.clearance, shape.radius, shape.length), surfaces)
 
 
 def _liner(case: MechanismCase, name: str, keys: ClearanceKeys) -> Liner | None:

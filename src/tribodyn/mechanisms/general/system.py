@@ -26,6 +26,7 @@ from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
+from tribodyn.mechanisms.general.films import film_columns, film_peaks
 from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
@@ -37,6 +38,7 @@ from tribodyn.mechanisms.general.variables import (
     AXES,
     ENTRIES,
     JOINTS,
+    OIL,
     Observed,
     columns_of,
     observed,
@@ -142,6 +144,7 @@ class MechanismSystem:
         watched = (
             *(columns_of("reaction_force", k, n_bodies) for k in range(len(joints))),
             *(columns_of("pressure_max", k, n_bodies) for k in self.model.real),
+            *(columns_of("film_pressure_max", k, n_bodies) for k in self.model.oiled),
             *(columns_of(f"drive_{name}", k, n_bodies) for k in driven for name in ("moment", "force")),
         )
         n = min(max(round(duration / self.period), 1), self.output_times(duration).size)
@@ -201,7 +204,7 @@ class MechanismSystem:
         """Return what the mechanism knows about a run."""
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
-        ledger = ledger_columns(found.whole)
+        ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled))
         energy = WHOLE.fraction(ledger, self._least_energy(found))
         peaks = self._peaks(run)
         contacts = self._contacts
@@ -216,7 +219,13 @@ class MechanismSystem:
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
-            fields={"clearance": self._clearances(), **peaks, **of_contacts, **self._pressure(run)},
+            fields={
+                "clearance": self._clearances(),
+                **peaks,
+                **of_contacts,
+                **film_peaks(run.problem.memory.oil, self.model),
+                **self._pressure(run),
+            },
             attributes={
                 "energy_residual": energy,
                 **self._began(run),
@@ -311,10 +320,10 @@ class MechanismSystem:
         Kernels observe all of the shaft.
         """
         signs = np.array([joint.sign for joint in self.case.joints.values()])
-        columns = {name: found.couplings[name][:, : signs.size] for name in JOINTS}
+        columns = {name: found.couplings[name][:, : signs.size] for name in JOINTS if name not in OIL}
         for name in OF_SECOND:
             columns[name] = columns[name] * signs.reshape(-1, *(1,) * (columns[name].ndim - 2))
-        return columns
+        return columns | film_columns(found.couplings, self.model)
 
     def _of_elements(self, found: Observed) -> dict[str, FloatArray]:
         """Return what elements transmit, each of shape (n_t, n_elements); nothing without elements."""
@@ -383,7 +392,7 @@ class MechanismSystem:
         return {"pressure_cycle": self.maps(pictures)}
 
 
-_IN_LEDGER: Final = ("energy_gravity", "work_in", "heat_damping", "heat_friction")
+_IN_LEDGER: Final = ("energy_gravity", "work_in", "heat_damping", "heat_friction", "heat_film")
 """What reaches the user under the names of the ledger instead."""
 
 SYSTEM: Final = MechanismSystem

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import TIME, Table, names, slices
+from tribodyn.kernels.film.quantities import FILM, FILM_PEAKS
 from tribodyn.kernels.joints.surface.quantities import PEAKS
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
 from tribodyn.results.variables import FRAME, JUMP, STAGE, Variable, described
@@ -29,6 +30,8 @@ BODIES: Final = names(BODY)
 """Variables of each body."""
 JOINTS: Final = tuple(name for name in names(COUPLING) if name != "joint_work")
 """Variables of each joint; the works of all couplings together are the energy balance of the whole."""
+OIL: Final = (*names(FILM), "film_power", "joint_film")
+"""Those of its oil film, which results hold where a joint has one."""
 
 
 @dataclass(frozen=True)
@@ -125,6 +128,10 @@ VARIABLES: Final[dict[str, Variable]] = {
         quantity.name: Variable(quantity.unit, f"{quantity.meaning}, of each surface", ("surface",))
         for quantity in PEAKS
     },
+    **{
+        quantity.name: Variable(quantity.unit, f"{quantity.meaning}, of each joint", ("joint",))
+        for quantity in FILM_PEAKS
+    },
     "hardness_share": Variable("1", "largest contact pressure over the hardness", ("surface",)),
     "real_area_share": Variable("1", "real over nominal area of contact at the smallest gap", ("surface",)),
     "grid_force_error": Variable(
@@ -137,6 +144,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_in": Variable("J", "work of drives and loads since the start"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
     "energy_friction": Variable("J", "heat of friction since the start"),
+    "energy_film": Variable("J", "heat of oil films since the start"),
     "energy_residual": Variable("J", "what the energy ledger misses"),
     "pressure_cycle": Variable("Pa", "contact pressure over one cycle", (*FRAME, *_MAP)),
     "wear_depth": Variable("m", "wear depth, after the campaign or, estimated, after this run", _MAP),

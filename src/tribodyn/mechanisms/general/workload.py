@@ -28,6 +28,9 @@ _EDGES: Final = 2.0
 def workload(case: MechanismCase) -> Workload:
     """Return the counts of a case."""
     real = [joint.real for joint in case.joints.values() if joint.real is not None]
+    films = [
+        joint.film for joint in case.joints.values() if joint.real is not None and joint.film is not None
+    ]
     once = case.period if case.campaign_cycles else None
     duration = case.duration if once is None else once
     cycles = duration / _typical_time(case)
@@ -42,6 +45,8 @@ def workload(case: MechanismCase) -> Workload:
         states=float(N_STATES * len(case.bodies)),
         nodes=sum(map(float, _nodes(case))),
         joints=float(len(real)),
+        cells=sum(float(film.grid.theta * film.grid.z) for film in films),
+        band=max((film.grid.z for film in films), default=0) + 1.0 if films else 0.0,
         fields=(EVEN + 1.0) * min(2.0, windows) if real else 0.0,
         samples=duration / case.output_interval,
         followed=min(case.run.step_rows * windows, steps) if real else 0.0,

@@ -9,7 +9,7 @@ from typing import ClassVar, Final, Literal
 from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Vector, choice, number, quantity, switch, tables, text, vector
-from tribodyn.cases.film import FilmKeys
+from tribodyn.cases.film import OptionalFilmKeys
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
     Solver,
@@ -156,7 +156,7 @@ class JournalCase(BushingCase):
     journal: Shaft = Shaft()
     drive: JournalDriveKeys = JournalDriveKeys()
     loads: JournalLoadKeys = JournalLoadKeys()
-    film: FilmKeys = FilmKeys()
+    film: OptionalFilmKeys = OptionalFilmKeys()
     solver: Tight = Tight()
     run: JournalRunKeys = JournalRunKeys()
 

@@ -17,7 +17,7 @@ from tribodyn.core.quantities import names
 from tribodyn.core.signals import constant
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.kernels.journal.quantities import FILM, OBSERVED, WATCHED
-from tribodyn.lubrication import Film, FilmGrid, Roughness, explain
+from tribodyn.lubrication import explain
 from tribodyn.mechanisms.base import FinishedRun, ResultPart, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
@@ -44,7 +44,7 @@ SETTLED: Final = 0.01
 
 def journal_of(case: JournalCase) -> Journal:
     """Return the journal that a case describes."""
-    shaft, loads = case.journal, case.loads
+    shaft, loads, joint = case.journal, case.loads, bushing_of(case)
     return Journal(
         mass=shaft.mass,
         transverse_inertia=shaft.transverse_inertia,
@@ -55,26 +55,8 @@ def journal_of(case: JournalCase) -> Journal:
         terms=tuple(terms_of(case)),
         slip_velocity=case.slip_velocity,
         loads=Loads(loads.force_x, loads.force_y, loads.moment_x, loads.moment_y),
-        joint=bushing_of(case),
-        film=_film(case),
-    )
-
-
-def _film(case: JournalCase) -> Film | None:
-    """Return the oil film of a case, if there is oil."""
-    film, size, surfaces = case.film, case.joint, case.surfaces
-    if not film.lubricated:
-        return None
-    rms = (surfaces.trunnion.roughness, surfaces.bushing.roughness) if film.rough_flow else (0.0, 0.0)
-    return Film(
-        viscosity=film.viscosity,
-        clearance=size.clearance,
-        radius=size.radius,
-        length=size.length,
-        roughness=Roughness(rms, (film.peklenik_journal, film.peklenik_bushing)),
-        cavitation=film.cavitation,
-        boundary=film.boundary,
-        grid=FilmGrid(film.grid.theta, film.grid.z),
+        joint=joint,
+        film=case.film.film(joint.geometry, case.surfaces) if case.film.lubricated else None,
     )
 
 

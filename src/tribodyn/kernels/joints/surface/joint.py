@@ -79,7 +79,7 @@ def wrench_and_jacobian(
         if surface.slides > 0.0:
             derivatives_at_origin(memory.scratch, pose)
         _add_wrench(memory, out)
-        _add_derivatives(surface, memory.scratch, pose, jacobian)
+        add_derivatives(surface.tilt, memory.scratch, pose, jacobian)
 
 
 @kernel
@@ -93,11 +93,14 @@ def _add_turned(normal: FloatArray, tilt: Record, out: FloatArray) -> None:
 
 
 @kernel
-def _add_derivatives(surface: Record, scratch: Record, pose: Record, jacobian: FloatArray) -> None:
-    """Carry the derivatives of the scratch to ``jacobian``: dφ = G dϑ and dφ̇ = G dω + (∂φ̇/∂ϑ) dϑ."""
+def add_derivatives(kind: float, scratch: Record, pose: Record, jacobian: FloatArray) -> None:
+    """Carry the derivatives of the scratch to ``jacobian``: dφ = G dϑ and dφ̇ = G dω + (∂φ̇/∂ϑ) dϑ.
+
+    ``kind`` is that of the tilt.
+    """
     tilt, slip = scratch.tilt, scratch.friction_slip
     place, rate = scratch.friction_place, scratch.friction_rate
-    fill_derivatives(surface.tilt, pose.rotation, pose.w, scratch.normal[3:], tilt, jacobian[3:, TURN:V])
+    fill_derivatives(kind, pose.rotation, pose.w, scratch.normal[3:], tilt, jacobian[3:, TURN:V])
     _add_turned(scratch.normal_place, tilt, place)
     _add_turned(scratch.normal_rate, tilt, rate)
     for i in range(6):

@@ -8,7 +8,7 @@ from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Family
 from tribodyn.mechanisms.general.figures import joints, mechanism
 from tribodyn.mechanisms.general.ledger import LEDGERS
-from tribodyn.mechanisms.general.sections.charts import CLEARANCES, JOINT_FORCES, MOTION, OUTPUT_ERRORS
+from tribodyn.mechanisms.general.sections.charts import CLEARANCES, FILMS, JOINT_FORCES, MOTION, OUTPUT_ERRORS
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
@@ -19,6 +19,7 @@ FIGURES: Final[dict[str, Family]] = {
         chart.family(MOTION),
         joints.ORBITS,
         chart.family(CLEARANCES),
+        chart.family(FILMS),
         joints.PRESSURE,
         joints.WEAR,
         energy.family(LEDGERS),

@@ -11,6 +11,7 @@ from tribodyn.mechanisms.general.sections import mechanism
 from tribodyn.mechanisms.general.sections.charts import (
     CLEARANCES,
     ENERGY,
+    FILMS,
     JOINT_FORCES,
     MOTION,
     OUTPUT_ERRORS,
@@ -37,6 +38,7 @@ CHAPTERS: Final = (
             REACTIONS,
             JOINT_FORCES.section,
             CLEARANCES.section,
+            FILMS.section,
             MOTION.section,
             ENERGY.section,
         ),

@@ -83,6 +83,19 @@ OUTPUT_ERRORS: Final = Chart(
     needs=("output_error", "output_unit", "output"),
     panels=output_errors,
 )
+
+
+def films(dataset: xr.Dataset) -> list[Panel]:
+    """Return forces of oil films [N], their peak pressures [MPa] and least gaps [µm]."""
+    oiled = np.isfinite(dataset["film_pressure_peak"].values)
+    names = [name for name, wanted in zip(_names(dataset, "joint"), oiled, strict=True) if wanted]
+    return _panels(
+        ("film force [N]", curves(names, sizes(dataset, "film_force")[:, oiled])),
+        ("peak film pressure [MPa]", curves(names, 1e-6 * dataset["film_pressure_max"].values[:, oiled])),
+        ("least film [µm]", curves(names, 1e6 * dataset["film_thickness_min"].values[:, oiled])),
+    )
+
+
 MOTION: Final = Chart(
     name="motion",
     title="Motion",
@@ -106,6 +119,13 @@ CLEARANCES: Final = Chart(
     caption="How far shafts leave the middle of their bores, across the axis, and the highest pressures.",
     needs=("displacement", "clearance", "pressure_max", "joint"),
     panels=clearances,
+)
+FILMS: Final = Chart(
+    name="films",
+    title="Oil films",
+    caption="Forces of the oil films, their highest pressures and smallest gaps.",
+    needs=("film_force", "film_pressure_max", "film_thickness_min", "film_pressure_peak", "joint"),
+    panels=films,
 )
 ENERGY: Final = ledger_chart(
     WHOLE,
