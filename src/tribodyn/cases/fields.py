@@ -5,8 +5,7 @@ The helpers below make pydantic fields; :func:`tribodyn.cases.keys.keys_of` coll
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypedDict, Unpack
 
 from pydantic import Field
 
@@ -20,19 +19,25 @@ Numbers: TypeAlias = tuple[float, ...]
 _SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
 
+class Bounds(TypedDict, total=False):
+    """Bounds of a number: above, at least, below, at most; with a unit where the key has one."""
+
+    gt: Bound
+    ge: Bound
+    lt: Bound
+    le: Bound
+
+
 def quantity(
     default: str | None,
     description: str,
     source: str,
     *,
     unit: str | None = None,
-    gt: Bound = None,
-    ge: Bound = None,
-    lt: Bound = None,
-    le: Bound = None,
     example: str | None = None,
     required: bool = False,
     profile: bool = False,
+    **bounds: Unpack[Bounds],
 ) -> Any:
     """Declare a key that carries a unit; default and bounds are written with it.
 
@@ -40,20 +45,9 @@ def quantity(
     """
     shown = example or default or ""
     unit = unit or unit_of(shown)
-    bounds = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    numbers = {k: to_si(b, unit) if isinstance(b, str) else b for k, b in bounds.items()}
-    return _field(
-        None if default is None else to_si(default, unit),
-        description,
-        source,
-        bounds,
-        numbers,
-        kind="quantity",
-        required=required,
-        unit=unit,
-        example=shown,
-        profile=profile,
-    )
+    held = None if default is None else to_si(default, unit)
+    more: dict[str, Any] = {"unit": unit, "example": shown, "profile": profile}
+    return _field(held, description, source, bounds, kind="quantity", required=required, **more)
 
 
 def number(
@@ -61,29 +55,22 @@ def number(
     description: str,
     source: str,
     *,
-    gt: float | None = None,
-    ge: float | None = None,
-    lt: float | None = None,
-    le: float | None = None,
     example: str = "",
     required: bool = False,
+    **bounds: Unpack[Bounds],
 ) -> Any:
     """Declare a dimensionless key; its values are bare numbers."""
-    bounds: dict[str, Bound] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    return _field(
-        default, description, source, bounds, bounds, kind="number", required=required, example=example
-    )
+    return _field(default, description, source, bounds, kind="number", required=required, example=example)
 
 
 def count(default: int | None, description: str, source: str, *, ge: int, le: int, example: str = "") -> Any:
     """Declare a key that takes a whole number."""
-    bounds: dict[str, Bound] = {"ge": ge, "le": le}
-    return _field(default, description, source, bounds, bounds, kind="count", example=example)
+    return _field(default, description, source, {"ge": ge, "le": le}, kind="count", example=example)
 
 
 def switch(default: bool, description: str, source: str) -> Any:
     """Declare a key that is true or false."""
-    return _field(default, description, source, {}, {}, kind="switch")
+    return _field(default, description, source, kind="switch")
 
 
 def vector(
@@ -115,8 +102,6 @@ def vector(
         held,
         description,
         source,
-        {},
-        {},
         kind="vector",
         required=required,
         unit=unit,
@@ -127,14 +112,12 @@ def vector(
 
 def series(description: str, source: str, *, unit: str = "", example: str) -> Any:
     """Declare a key that takes any number of numbers, with a unit each, or bare; none by default."""
-    return _field(None, description, source, {}, {}, kind="series", unit=unit, example=example)
+    return _field(None, description, source, kind="series", unit=unit, example=example)
 
 
 def names(description: str, source: str, *, length: int, example: str) -> Any:
     """Declare a key that takes that many names, 0 for any number, and must be given."""
-    return _field(
-        None, description, source, {}, {}, kind="names", required=True, example=example, length=length
-    )
+    return _field(None, description, source, kind="names", required=True, example=example, length=length)
 
 
 def _numbers(texts: str, unit: str) -> tuple[float, ...]:
@@ -164,18 +147,19 @@ def choice(
     required
         Whether it must be given.
     """
-    extra = {"family": family, "example": example}
-    return _field(default, description, source, {}, {}, kind="choice", required=required, **extra)
+    return _field(
+        default, description, source, kind="choice", required=required, family=family, example=example
+    )
 
 
 def name(default: str | None, description: str, source: str, *, example: str, required: bool = False) -> Any:
     """Declare a key that takes the name of a table that the user named."""
-    return _field(default, description, source, {}, {}, kind="name", required=required, example=example)
+    return _field(default, description, source, kind="name", required=required, example=example)
 
 
 def file(description: str, example: str) -> Any:
     """Declare a key that names a file, relative to the case file; what it holds takes its place."""
-    return _field(None, description, "", {}, {}, kind="file", example=example)
+    return _field(None, description, "", kind="file", example=example)
 
 
 def text(default: str, description: str) -> Any:
@@ -193,20 +177,24 @@ def _field(
     default: object,
     description: str,
     source: str,
-    bounds: Mapping[str, Bound],
-    numbers: Mapping[str, Any],
+    bounds: Bounds | None = None,
     *,
     kind: str,
     required: bool = False,
     **extra: str | int,
 ) -> Any:
-    limits = " and ".join(f"{_SIGNS[k]} {b}" for k, b in bounds.items() if b is not None)
+    written: dict[str, Any] = dict(bounds or {})
+    given = {k: written[k] for k in _SIGNS if written.get(k) is not None}
+    limits = " and ".join(f"{_SIGNS[k]} {b}" for k, b in given.items())
+    numbers: dict[str, Any] = {
+        k: to_si(b, str(extra["unit"])) if isinstance(b, str) else b for k, b in given.items()
+    }
     return Field(
         ... if required else default,
         description=description,
         allow_inf_nan=False if kind in {"quantity", "number"} else None,
         json_schema_extra={"kind": kind, "source": source, "limits": limits, **extra},
-        **{k: b for k, b in numbers.items() if b is not None},
+        **numbers,
     )
 
 

@@ -134,7 +134,7 @@ def _check(args: Namespace) -> None:
         if args.posterior < LEAST_STEPS:
             raise InputError(f"given {args.posterior}; allowed: {LEAST_STEPS} or more", key="--posterior")
     if not 0.0 < args.noise < 100.0:
-        raise InputError(f"given {as_given(str(args.noise))}; allowed: above 0 and below 100", key="--noise")
+        raise InputError(f"{as_given(str(args.noise))}; allowed: above 0 and below 100", key="--noise")
     if args.starts < 1:
         raise InputError(f"given {args.starts}; allowed: 1 or more", key="--starts")
 
