@@ -21,11 +21,12 @@ from pydantic_core import PydanticCustomError
 from tribodyn.cases import scans
 from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.entry import Entry, read_entry
-from tribodyn.cases.fields import text
+from tribodyn.cases.fields import quantity, tables, text
 from tribodyn.cases.html import to_html
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.meshes import with_meshes_read
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, Remarks, located, problems, unknown
+from tribodyn.cases.parameters import read_all, scope_of
 from tribodyn.cases.tables import (
     FROZEN,
     Tables,
@@ -101,6 +102,14 @@ class NamedGroup(Group):
     KEYS_BEGIN_HERE: ClassVar[bool] = True
 
 
+class ParameterKeys(NamedGroup):
+    """A number with a name of its own."""
+
+    value: float = quantity(
+        None, "its value, or an expression of other parameters", "", unit="mm", example="50 mm", required=True
+    )
+
+
 class Case(Group):
     """A complete, validated description of one simulation; SI units throughout.
 
@@ -110,7 +119,10 @@ class Case(Group):
 
     case: str
     title: str = text("", "heading of figures and report")
+    parameters: Mapping[str, ParameterKeys] = tables("numbers that other values are computed from")
 
+    _units: dict[str, str] = PrivateAttr(default_factory=dict)
+    _linked: dict[str, Any] = PrivateAttr(default_factory=dict)
     _given: dict[str, Any] = PrivateAttr(default_factory=dict)
     _scans: dict[str, Any] = PrivateAttr(default_factory=dict)
 
@@ -198,7 +210,9 @@ class Case(Group):
         """
         given = {path: entry.origin for path, entry in self._given.items() if entry.origin}
         origins = {path: why for path, why in self.derived().items() if path not in self._given} | given
-        return to_toml(self, self.kind(), self._own(), self.idle(), origins, comments=comments)
+        return to_toml(
+            self, self.kind(), self._own(), self.idle(), origins, linked=self._linked, comments=comments
+        )
 
     def _own(self) -> set[str]:
         """Return the paths of what a user gave."""
@@ -263,13 +277,17 @@ def build(
     with faults.noted():
         entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
         entries = with_meshes_read(entries, keys)
-    values = _values(entries, keys, faults)
-    tables = {path: entry for path, entry in given.items() if is_empty_table(path, entry, keys)}
-    there = [path for path in given if path not in declared and (path in keys or path in tables)]
+    scope = scope_of(entries, faults)
+    keys = scope.keys(keys)
+    values, linked = read_all(entries, keys, scope, faults)
+    empty = {path: entry for path, entry in given.items() if is_empty_table(path, entry, keys)}
+    there = [path for path in given if path not in declared and (path in keys or path in empty)]
     named = [path.rpartition(".")[0] if path in keys else path for path in there]
     case = _validated(model, values, named, Asked(keys, entries, source), faults)
-    in_order = {path: entry for path, entry in given.items() if path in tables or path in entries}
+    in_order = {path: entry for path, entry in given.items() if path in empty or path in entries}
     case._given.update(in_order | entries)
+    case._units.update(scope.units)
+    case._linked.update(linked)
     case._scans.update(scanned)
     return case
 
@@ -283,15 +301,6 @@ def _known(
             with faults.noted():
                 raise unknown(path, keys, declared, entry.source, len(faults.found))
     return {path: entry for path, entry in entries.items() if path in keys}
-
-
-def _values(entries: Mapping[str, Entry], keys: Mapping[str, Key], faults: Faults) -> dict[str, Value]:
-    """Return the values that can be read, and note the others."""
-    values: dict[str, Value] = {}
-    for path, entry in entries.items():
-        with faults.noted():
-            values[path] = read_entry(keys[path], entry)
-    return values
 
 
 def _validated(

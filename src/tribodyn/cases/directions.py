@@ -14,3 +14,8 @@ def unit(direction: Vector, key: str) -> Vector:
     demand(length > 0.0, key, "a direction has a length above zero")
     x, y, z = direction
     return x / length, y / length, z / length
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Return the scalar product."""
+    return sum(x * y for x, y in zip(a, b, strict=True))

@@ -5,6 +5,7 @@ What pint makes of each is the same; a test compares them all.
 
 from __future__ import annotations
 
+import re
 from typing import Final
 
 SIZES: Final = {
@@ -49,5 +50,9 @@ SIZES: Final = {
     "second / meter": {"s/m": "1"},
 }
 """Sizes in base units, as decimals, by the base unit and then by the unit."""
+EVERYDAY: Final = frozenset(
+    name for units in SIZES.values() for unit in units for name in re.findall("[A-Za-z]+", unit)
+)
+"""Names in these units."""
 ZEROS: Final = {"degC": "273.15"}
 """Where units count from that do not count from zero, in base units."""

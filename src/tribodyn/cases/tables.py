@@ -18,6 +18,7 @@ from pydantic import BaseModel
 from tribodyn.cases.entry import Entry
 from tribodyn.cases.keys import ANY_NAME, Key, Value, groups_of, keys_of
 from tribodyn.cases.lists import AXES
+from tribodyn.cases.parameters import keys_with_units
 from tribodyn.cases.units import from_si
 
 VALUE: Final = "value"
@@ -71,7 +72,9 @@ def keys_in(case: BaseModel) -> dict[str, Key]:
     declared = keys_of(type(case))
     if not any(ANY_NAME in path for path in declared):
         return declared
-    return expanded(declared, list(_paths(case.model_dump())))
+    return keys_with_units(
+        expanded(declared, list(_paths(case.model_dump()))), getattr(case, "_units", None) or {}
+    )
 
 
 def value_at(case: BaseModel, path: str) -> Any:

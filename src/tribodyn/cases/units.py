@@ -36,6 +36,8 @@ _SPELLINGS: Final = str.maketrans(
 
 _DIMENSIONS: Final = {
     "m": "length",
+    "m^2": "area",
+    "m^3": "volume",
     "rad": "angle",
     "s": "time",
     "kg": "mass",
@@ -62,6 +64,7 @@ _DIMENSIONS: Final = {
     "W/(m K)": "thermal conductivity",
 }
 """The SI units that tribodyn works in, and what each of them measures."""
+SI_UNITS: Final = tuple(_DIMENSIONS)
 
 
 RZ_OVER_RA: Final = 5.6
@@ -136,6 +139,17 @@ def to_si(text: str, like: str) -> float:
     if not math.isfinite(value):
         raise UnitProblem("the number is too large")
     return value
+
+
+def base_of(unit: str) -> str:
+    """Return what a unit that a user wrote is in SI base units: ``kilogram * meter / second ** 2``."""
+    return _known(unit).base
+
+
+def to_si_base(text: str) -> float:
+    """Convert a quantity of any dimension to its value in SI base units."""
+    number, unit = _split(text)
+    return _known(unit).si(number)
 
 
 def rms_roughness(text: str) -> float:

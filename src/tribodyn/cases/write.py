@@ -6,11 +6,13 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from itertools import groupby
 from textwrap import wrap
+from types import MappingProxyType
 from typing import Any
 
 from pydantic import BaseModel
 
-from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of
+from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of, toml_string
+from tribodyn.cases.parameters import TABLE as PARAMETERS
 from tribodyn.cases.tables import VALUE, as_declared, keys_in, value_at
 
 _COMMENT_COLUMN = 38
@@ -25,18 +27,22 @@ def to_toml(
     idle: Collection[str],
     origins: Mapping[str, str],
     *,
+    linked: Mapping[str, Any] = MappingProxyType({}),
     comments: bool,
 ) -> str:
     """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`.
 
     Of the keys that are a user's ``own``, comments say what they would be without. ``idle`` keys are out of
-    force; ``origins`` tell where values come from that are neither.
+    force; ``origins`` tell where values come from that are neither. Values that are ``linked`` to expressions
+    are written as these, with what they are in a comment.
     """
     keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
     tables = {
         table: [
-            line for key in inside for line in _lines(_in_force(case, key, idle), key, own, origins, comments)
+            line
+            for key in inside
+            for line in _lines(_in_force(case, key, idle), key, linked.get(key.path), own, origins, comments)
         ]
         for table, inside in groupby(keys.values(), key=lambda key: key.table)
     }
@@ -53,8 +59,9 @@ def _shortened(tables: Mapping[str, list[str]]) -> dict[str, list[str]]:
     short: dict[str, list[str]] = {}
     for table, lines in tables.items():
         above, _, name = table.rpartition(".")
-        if above in short and len(lines) == 1 and lines[0].startswith(f"{VALUE} = "):
-            short[above].append(lines[0].replace(VALUE, name, 1))
+        alone = len(lines) == 1 and lines[0].startswith(f"{VALUE} = ")
+        if alone and (above in short or above == PARAMETERS):
+            short.setdefault(above, []).append(lines[0].replace(VALUE, name, 1))
         else:
             short[table] = lines
     return short
@@ -76,9 +83,20 @@ def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:
 
 
 def _lines(
-    value: Any, key: Key, own: Collection[str], origins: Mapping[str, str], comments: bool
+    value: Any,
+    key: Key,
+    expression: Any,
+    own: Collection[str],
+    origins: Mapping[str, str],
+    comments: bool,
 ) -> Iterator[str]:
-    line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
+    if value is not None and expression is not None and (written := _as_toml(expression)) != key.write(value):
+        key = replace(key, description=f"{key.write(value)}; {key.description}")
+        line = f"{key.name} = {written}"
+        if not comments:
+            line = f"{line}  # {key.write(value)}"
+    else:
+        line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
     if not comments:
         yield from [] if value is None else [line]
     else:
@@ -86,6 +104,13 @@ def _lines(
         changed = not told and key.default is not None and value != key.default
         sourced = replace(key, source=origins[key.path]) if told else key
         yield from _commented(line, sourced, own=changed or key.path in own)
+
+
+def _as_toml(expression: Any) -> str:
+    """Return an expression, or a list of them, as a file has it."""
+    if isinstance(expression, list | tuple):
+        return f"[{', '.join(map(_as_toml, expression))}]"
+    return toml_string(expression) if isinstance(expression, str) else repr(expression)
 
 
 def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator[str]:

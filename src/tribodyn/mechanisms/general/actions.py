@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Final, TypeAlias
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.columns import KNOTS
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, name, vector
+from tribodyn.cases.functions import Doors
 from tribodyn.cases.loads import BodyLoad
 from tribodyn.cases.signals import (
     AngleSignal,
@@ -138,3 +140,21 @@ class LoadKeys(BodyLoad):
             return x, y, z
         (a, b, c), s = unit(self.span_axis, "span_axis"), self.centroid
         return x + s * a, y + s * b, z + s * c
+
+
+def doors_of(drives: Mapping[str, DriveKeys], loads: Mapping[str, LoadKeys], duration: float) -> Doors:
+    """Return where functions for the drive and for loads go: ``gas``, or ``gas.force`` of several."""
+    paths = {
+        f"{name}.{key}": (f"loads.{name}.{key}", "N m" if key.startswith("moment") else "N")
+        for name, load in loads.items()
+        for key in load.given
+    }
+    single = {name: next(iter(load.given)) for name, load in loads.items() if len(load.given) == 1}
+    of_drives = [(f"drives.{name}.{drive.gives}", UNITS[drive.gives]) for name, drive in drives.items()]
+    return Doors(
+        drive=of_drives[0] if len(of_drives) == 1 else None,
+        loads={name: paths[f"{name}.{key}"] for name, key in single.items()} | paths,
+        silenced={},
+        arguments={"t": ("times", (0.0, duration)), "angle": ("angles", (0.0, 2.0 * math.pi))},
+        around=("angle",),
+    )

@@ -49,6 +49,14 @@ class Mechanism:
     def __init__(self, title: str = "Mechanism", **keys: object) -> None:
         self._tables: dict[str, Any] = {"case": MechanismCase.kind(), "title": title, **keys}
 
+    def parameter(self, name: str, value: str | float) -> Mechanism:
+        """Add a number that other values are computed from, such as ``"50 mm"``, or an expression."""
+        parameters = self._tables.setdefault("parameters", {})
+        if name in parameters:
+            raise InputError("this name is given twice", key=f"parameters.{name}", source=SOURCE)
+        parameters[name] = value
+        return self
+
     def body(self, name: str, **keys: object) -> Mechanism:
         """Add a rigid body: ``mass``, ``centre``, ``inertia``."""
         return self._add("bodies", name, keys)

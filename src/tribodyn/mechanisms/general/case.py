@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
@@ -21,12 +20,14 @@ from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
-from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, UNITS, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general import solids
+from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of
+from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.output_keys import OutputKeys
-from tribodyn.mechanisms.general.parts import BodyKeys, ClearanceKeys, JointKeys, SpringKeys
+from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 
 if TYPE_CHECKING:
     from tribodyn.contact import SurfacePair
@@ -165,8 +166,8 @@ class MechanismCase(_WithElements):
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the defaults that follow from materials and contact laws, also those of named pairs."""
-        found = super().resolve(given)
+        """Return the defaults that follow from shapes, materials and contact laws, also of named pairs."""
+        found = super().resolve(given) | solids.of_bodies(given)
         for name in {path.split(".")[1] for path in given if path.startswith(f"{_PAIRS}.")}:
             prefix = f"{_PAIRS}.{name}."
             own = {
@@ -239,22 +240,13 @@ class MechanismCase(_WithElements):
         yield from followed(self, drives, self.duration)
         yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
 
+    def idle(self) -> tuple[str, ...]:
+        """Return the keys that follow from the shapes of bodies."""
+        return solids.following(self._given)
+
     def doors(self) -> Doors:
-        """Return where functions for the drive and for loads go: ``gas``, or ``gas.force`` of several."""
-        drives = [(f"drives.{name}.{drive.gives}", UNITS[drive.gives]) for name, drive in self.drives.items()]
-        paths = {
-            f"{name}.{key}": (f"loads.{name}.{key}", "N m" if key.startswith("moment") else "N")
-            for name, load in self.loads.items()
-            for key in load.given
-        }
-        single = {name: next(iter(load.given)) for name, load in self.loads.items() if len(load.given) == 1}
-        return Doors(
-            drive=drives[0] if len(drives) == 1 else None,
-            loads={name: paths[f"{name}.{key}"] for name, key in single.items()} | paths,
-            silenced={},
-            arguments={"t": ("times", (0.0, self.duration)), "angle": ("angles", (0.0, 2.0 * math.pi))},
-            around=("angle",),
-        )
+        """Return where functions for the drive and for loads go."""
+        return doors_of(self.drives, self.loads, self.duration)
 
     @property
     def period(self) -> float | None:

@@ -29,13 +29,14 @@ from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
+from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements.base import Leg
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.loads import fill_load
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
-from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
+from tribodyn.mechanisms.general.parts import JointKeys, SpringKeys
 from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 from tribodyn.wear import resampled

@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import ClassVar, Final, Literal, Self
 
 from tribodyn.cases.case import NamedGroup, demand
-from tribodyn.cases.directions import unit
+from tribodyn.cases.directions import dot, unit
 from tribodyn.cases.fields import (
     Numbers,
     Vector,
@@ -31,47 +31,8 @@ from tribodyn.mechanisms.general.kinds import KINDS, NEEDED
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 FLANGE: Final = 1.5
 """Outer radius of end faces over the radius of the pin, where the case does not say it."""
-_ROUNDING: Final = 1e-6
-"""Share of an inertia by which rounded numbers of a drawing may break the triangle rule."""
 _LEAST_ANGLE: Final = 1e-3
 """Sine of the least angle between two axes that must not be parallel."""
-
-
-class BodyKeys(NamedGroup):
-    """A rigid body as drawn."""
-
-    mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
-    centre: Vector = vector(None, "mass centre in the drawing", "", unit="mm", example=POINT, required=True)
-    inertia: Vector = vector(
-        None,
-        "principal moments of inertia about the mass centre",
-        "",
-        unit="kg m^2",
-        example='["1e-4 kg m^2", "1e-4 kg m^2", "2e-4 kg m^2"]',
-        required=True,
-    )
-    first_axis: Vector = vector(
-        "1, 0, 0", "first principal axis in the drawing", "axes of the drawing", example="[1, 0, 0]"
-    )
-    second_axis: Vector = vector(
-        "0, 1, 0", "second principal axis in the drawing", "axes of the drawing", example="[0, 1, 0]"
-    )
-
-    def model_post_init(self, context: object, /) -> None:
-        """Check that a body of this inertia can exist."""
-        largest, others = max(self.inertia), sum(self.inertia) - max(self.inertia)
-        demand(min(self.inertia) > 0.0, "inertia", "moments of inertia are above zero")
-        demand(
-            largest <= others * (1.0 + _ROUNDING),
-            "inertia",
-            f"no body has these: the largest, {largest:.6g} kg m^2, exceeds the sum of the other two, "
-            f"{others:.6g} kg m^2",
-        )
-        demand(
-            abs(_dot(unit(self.first_axis, "first_axis"), unit(self.second_axis, "second_axis"))) < _ROUNDING,
-            "second_axis",
-            "principal axes stand at right angles",
-        )
 
 
 class ClearanceKeys(NamedGroup):
@@ -384,9 +345,5 @@ def _check_directions(axis: Vector | None, second: Vector | None) -> None:
         unit(axis, "axis")
     if axis is None or second is None:
         return
-    parallel = abs(_dot(unit(axis, "axis"), unit(second, "second_axis")))
+    parallel = abs(dot(unit(axis, "axis"), unit(second, "second_axis")))
     demand(parallel < math.sqrt(1.0 - _LEAST_ANGLE**2), "second_axis", "it must not be parallel to axis")
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))

@@ -11,8 +11,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.assembly import assemble
+from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.model import Model
-from tribodyn.mechanisms.general.parts import BodyKeys, JointKeys, SpringKeys
+from tribodyn.mechanisms.general.parts import JointKeys, SpringKeys
 from tribodyn.mechanisms.general.problem import mechanism_problem
 
 Signal = AngleSignal | ForceSignal | ForceMap | TorqueMap | VelocitySignal

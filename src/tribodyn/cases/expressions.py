@@ -1,0 +1,322 @@
+"""Expressions over quantities, such as ``"2 * crank + 20 mm"``: arithmetic, square roots, trigonometry.
+
+A text is turned into Python's syntax tree and that tree is walked: nothing but numbers, names of parameters,
+the operations and the functions listed here has a meaning, and nothing is ever executed. Units are followed
+through every operation; what they do not allow is refused.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import Final
+
+from tribodyn.cases.units import SI_UNITS, UnitProblem, base_of, to_si_base
+from tribodyn.core.quoting import brief, meant
+
+Dimensions = tuple[tuple[str, Fraction], ...]
+"""Powers of base units other than zero, by their names, sorted."""
+
+LONGEST: Final = 200
+"""Characters of an expression."""
+_DEEPEST: Final = 30
+_LARGEST_POWER: Final = 8.0
+_LARGEST_ROOT: Final = 8
+_PLAIN: Final[Dimensions] = ()
+_ANGLE: Final[Dimensions] = (("radian", Fraction(1)),)
+_NUMBER: Final = re.compile(
+    r"(?<![A-Za-z0-9_.])(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
+)
+_UNIT: Final = re.compile(r"\s*([A-Za-z%][A-Za-z_]*)(?:(?:\^|\*\*)(-?[1-9])(?![0-9]))?")
+_NEXT_UNIT: Final = re.compile(r"(\s*[*/]\s*|\s+)([A-Za-z%][A-Za-z_]*)(?:(?:\^|\*\*)(-?[1-9])(?![0-9]))?")
+_NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+class ExpressionProblem(ValueError):
+    """An expression has no value; the message says why."""
+
+
+@dataclass(frozen=True)
+class Dimensioned:
+    """A number with its dimensions.
+
+    Attributes
+    ----------
+    value
+        In SI units.
+    dimensions
+        Of it.
+    """
+
+    value: float
+    dimensions: Dimensions = _PLAIN
+
+
+Function = Callable[..., Dimensioned]
+
+
+def _times(a: Dimensions, b: Dimensions, sign: int = 1) -> Dimensions:
+    powers = dict(a)
+    for name, power in b:
+        powers[name] = powers.get(name, Fraction(0)) + sign * power
+    return tuple(sorted((name, power) for name, power in powers.items() if power))
+
+
+def _raised(a: Dimensions, power: Fraction) -> Dimensions:
+    return tuple((name, power * held) for name, held in a if power)
+
+
+@lru_cache(maxsize=256)
+def dimensions_of(unit: str) -> Dimensions:
+    """Return the dimensions of a unit; none for an empty one."""
+    if not unit:
+        return _PLAIN
+    found: Dimensions = _PLAIN
+    sign = 1
+    for token in re.split(r"\s+(?=[*/]\s)|(?<=\s[*/])\s+", base_of(unit)):
+        token = token.strip()
+        if token in ("*", "/"):
+            sign = 1 if token == "*" else -1
+        elif token not in ("1", "dimensionless"):
+            name, _, power = token.partition(" ** ")
+            found = _times(found, ((name, Fraction(power or "1")),), sign)
+    return found
+
+
+def unit_for(dimensions: Dimensions) -> str:
+    """Return the SI unit of a quantity that this package works with; empty for a plain number."""
+    if not dimensions:
+        return ""
+    for unit in SI_UNITS:
+        if dimensions_of(unit) == dimensions:
+            return unit
+    raise ExpressionProblem(f"it is {described(dimensions)}: write it where it is needed, not as a parameter")
+
+
+def described(dimensions: Dimensions) -> str:
+    """Return dimensions as a user reads them: ``meter^2/second``."""
+    parts = ["".join((name, f"^{power}" if power != 1 else "")) for name, power in dimensions]
+    return " ".join(parts) or "a plain number"
+
+
+def fits(found: Dimensions, wanted: Dimensions) -> bool:
+    """Return whether a quantity is of some dimensions; an arc, radius times angle, is a length."""
+    if found == wanted:
+        return True
+    names = dict(found)
+    arc = "meter" in names and "radian" in names
+    return arc and wanted == tuple((name, power) for name, power in found if name != "radian")
+
+
+def _same(a: Dimensioned, b: Dimensioned, what: str) -> Dimensions:
+    if a.dimensions == b.dimensions or (not b.value and not b.dimensions):
+        return a.dimensions
+    if not a.value and not a.dimensions:
+        return b.dimensions
+    raise ExpressionProblem(f"{what} of {described(a.dimensions)} and {described(b.dimensions)}")
+
+
+def _is_power(exponent: Dimensioned) -> Fraction:
+    if exponent.dimensions or abs(exponent.value) > _LARGEST_POWER:
+        raise ExpressionProblem(f"a power is a plain number of at most {_LARGEST_POWER:g}")
+    power = Fraction(exponent.value).limit_denominator(_LARGEST_ROOT)
+    return power if math.isclose(float(power), exponent.value) else Fraction(exponent.value)
+
+
+def _power(base: Dimensioned, exponent: Dimensioned) -> Dimensioned:
+    power = _is_power(exponent)
+    if base.dimensions and power.denominator > _LARGEST_ROOT:
+        raise ExpressionProblem("a quantity with a unit has a power such as 2 or 1/2")
+    return Dimensioned(math.pow(base.value, exponent.value), _raised(base.dimensions, power))
+
+
+def _of_angle(function: Callable[[float], float]) -> Function:
+    def call(x: Dimensioned) -> Dimensioned:
+        if x.dimensions not in (_ANGLE, _PLAIN):
+            raise ExpressionProblem(f"an angle is needed, given {described(x.dimensions)}")
+        return Dimensioned(function(x.value))
+
+    return call
+
+
+def _to_angle(function: Callable[[float], float]) -> Function:
+    def call(x: Dimensioned) -> Dimensioned:
+        if x.dimensions:
+            raise ExpressionProblem(f"a plain number is needed, given {described(x.dimensions)}")
+        return Dimensioned(function(x.value), _ANGLE)
+
+    return call
+
+
+def _arctangent(y: Dimensioned, x: Dimensioned) -> Dimensioned:
+    _same(y, x, "the angle of a triangle")
+    return Dimensioned(math.atan2(y.value, x.value), _ANGLE)
+
+
+def _extreme(choose: Callable[[float, float], float]) -> Function:
+    return lambda a, b: Dimensioned(choose(a.value, b.value), _same(a, b, "a comparison"))
+
+
+FUNCTIONS: Final[Mapping[str, tuple[int, Function]]] = {
+    "sqrt": (1, lambda x: Dimensioned(math.sqrt(x.value), _raised(x.dimensions, Fraction(1, 2)))),
+    "abs": (1, lambda x: Dimensioned(abs(x.value), x.dimensions)),
+    "hypot": (2, lambda a, b: Dimensioned(math.hypot(a.value, b.value), _same(a, b, "the hypotenuse"))),
+    "sin": (1, _of_angle(math.sin)),
+    "cos": (1, _of_angle(math.cos)),
+    "tan": (1, _of_angle(math.tan)),
+    "asin": (1, _to_angle(math.asin)),
+    "acos": (1, _to_angle(math.acos)),
+    "atan": (1, _to_angle(math.atan)),
+    "atan2": (2, _arctangent),
+    "min": (2, _extreme(min)),
+    "max": (2, _extreme(max)),
+}
+"""Functions of expressions, with the number of their arguments."""
+CONSTANTS: Final = {"pi": Dimensioned(math.pi)}
+_OPERATIONS: Final[Mapping[type[ast.operator], Function]] = {
+    ast.Add: lambda a, b: Dimensioned(a.value + b.value, _same(a, b, "a sum")),
+    ast.Sub: lambda a, b: Dimensioned(a.value - b.value, _same(a, b, "a difference")),
+    ast.Mult: lambda a, b: Dimensioned(a.value * b.value, _times(a.dimensions, b.dimensions)),
+    ast.Div: lambda a, b: Dimensioned(a.value / b.value, _times(a.dimensions, b.dimensions, -1)),
+    ast.Pow: _power,
+}
+_SIGNS: Final[Mapping[type[ast.unaryop], Callable[[float], float]]] = {
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+}
+
+
+def names_in(text: str) -> set[str]:
+    """Return the names in an expression: those of parameters, functions and units."""
+    return set(_NAME.findall(re.sub(_NUMBER, " ", text[:LONGEST])))
+
+
+def evaluate(text: str, scope: Mapping[str, Dimensioned]) -> Dimensioned:
+    """Return the value of an expression.
+
+    Parameters
+    ----------
+    text
+        As a user wrote it.
+    scope
+        Parameters by their names.
+
+    Raises
+    ------
+    ExpressionProblem
+        It is too long or too deep, no expression, or units and names do not allow it.
+
+    Examples
+    --------
+    >>> evaluate("sqrt(crank^2 + (30 mm)^2)", {"crank": Dimensioned(0.04, dimensions_of("m"))}).value
+    0.05
+    """
+    if len(text) > LONGEST:
+        raise ExpressionProblem(f"an expression has at most {LONGEST} characters")
+    if re.search(r"(?<![A-Za-z0-9])_", text):
+        raise ExpressionProblem("a name begins with a letter")
+    written, quantities = _without_units(text.replace("−", "-").replace("·", "*").replace("°", " deg"), scope)
+    try:
+        tree = ast.parse(written.replace("^", "**").strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ExpressionProblem('this is no expression, such as "2 * crank + 20 mm"') from None
+    try:
+        found = _walk(tree, quantities, scope, 0)
+    except (ZeroDivisionError, OverflowError):
+        raise ExpressionProblem("it divides by zero or is too large") from None
+    except ExpressionProblem:
+        raise
+    except ValueError:
+        raise ExpressionProblem("a function has no value there") from None
+    if not math.isfinite(found.value):
+        raise ExpressionProblem("it is too large")
+    return found
+
+
+def _without_units(text: str, scope: Mapping[str, Dimensioned]) -> tuple[str, dict[str, Dimensioned]]:
+    """Return an expression with names for numbers with units, and what these are."""
+    found: dict[str, Dimensioned] = {}
+    written, place = "", 0
+    for number in _NUMBER.finditer(text):
+        if number.start() < place:
+            continue
+        written += text[place : number.start()]
+        unit, end = _unit_at(text, number.end(), scope)
+        name = f"_{len(found)}_"
+        try:
+            value = to_si_base(f"{number[0]} {unit}") if unit else float(number[0])
+        except UnitProblem as problem:
+            raise ExpressionProblem(str(problem)) from None
+        found[name] = Dimensioned(value, dimensions_of(unit))
+        written, place = written + name, end
+    return written + text[place:], found
+
+
+def _unit_at(text: str, place: int, scope: Mapping[str, Dimensioned]) -> tuple[str, int]:
+    """Return the unit after a number and where it ends; empty for a plain number."""
+    first = _UNIT.match(text, place)
+    if first is None or first[1] in scope or first[1] in FUNCTIONS:
+        return "", place
+    unit, end = first[0].strip(), first.end()
+    while (more := _NEXT_UNIT.match(text, end)) and more[2] not in scope and is_unit(more[2]):
+        unit, end = unit + more[0], more.end()
+    return unit, end
+
+
+@lru_cache(maxsize=256)
+def is_unit(name: str) -> bool:
+    """Return whether a name is that of a unit."""
+    if name in FUNCTIONS or name in CONSTANTS:
+        return False
+    try:
+        base_of(name)
+    except UnitProblem:
+        return False
+    return True
+
+
+def _walk(
+    node: ast.expr, known: Mapping[str, Dimensioned], scope: Mapping[str, Dimensioned], depth: int
+) -> Dimensioned:
+    """Return the value of a node of the tree."""
+    if depth > _DEEPEST:
+        raise ExpressionProblem(f"it is nested more than {_DEEPEST} deep")
+
+    def inside(part: ast.expr) -> Dimensioned:
+        return _walk(part, known, scope, depth + 1)
+
+    if isinstance(node, ast.Name):
+        return _named(node.id, known, scope)
+    if isinstance(node, ast.UnaryOp) and type(node.op) in _SIGNS:
+        held = inside(node.operand)
+        return Dimensioned(_SIGNS[type(node.op)](held.value), held.dimensions)
+    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATIONS:
+        return _OPERATIONS[type(node.op)](inside(node.left), inside(node.right))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
+        return _called(node.func.id, [inside(part) for part in node.args])
+    raise ExpressionProblem(f"it may hold + - * / ^, parentheses, and {', '.join(FUNCTIONS)}")
+
+
+def _named(name: str, known: Mapping[str, Dimensioned], scope: Mapping[str, Dimensioned]) -> Dimensioned:
+    for there in (known, CONSTANTS, scope):
+        if name in there:
+            return there[name]
+    words = f"known: {', '.join(scope)}" if scope else "there are none"
+    raise ExpressionProblem(f"there is no parameter {brief(name)!r}; {words}{meant(name, scope)}")
+
+
+def _called(name: str, arguments: list[Dimensioned]) -> Dimensioned:
+    if name not in FUNCTIONS:
+        raise ExpressionProblem(
+            f"there is no function {brief(name)!r}; known: {', '.join(FUNCTIONS)}{meant(name, FUNCTIONS)}"
+        )
+    n, function = FUNCTIONS[name]
+    if len(arguments) != n:
+        raise ExpressionProblem(f"{name} takes {n} argument{'s' if n > 1 else ''}, given {len(arguments)}")
+    return function(*arguments)

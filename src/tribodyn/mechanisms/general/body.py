@@ -1,0 +1,75 @@
+"""Bodies of a mechanism: their keys and their cross-checks."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Final, Literal
+
+from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.directions import dot, unit
+from tribodyn.cases.fields import Vector, choice, quantity, vector
+from tribodyn.mechanisms.general.parts import POINT
+from tribodyn.mechanisms.general.solids import NEEDED, SIZES
+
+_ROUNDING: Final = 1e-6
+"""Share of an inertia by which rounded numbers of a drawing may break the triangle rule."""
+
+
+class BodyKeys(NamedGroup):
+    """A rigid body as drawn; of a simple solid mass, mass centre and inertia follow from its sizes."""
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
+        ("mass", "density"),
+        ("inertia", "shape"),
+        ("centre", "start"),
+    )
+
+    shape: Literal["rod", "cylinder", "box"] | None = choice(
+        None,
+        "solid of uniform density: a round rod from start to end, a cylinder about the first axis, a box",
+        "",
+        example="rod",
+    )
+    density: float | None = quantity(None, "of a shape", "", gt=0, example="7850 kg/m^3")
+    start: Vector | None = vector(None, "where a rod begins, as drawn", "", unit="mm", example=POINT)
+    end: Vector | None = vector(None, "where a rod ends, as drawn", "", unit="mm", example=POINT)
+    length: float | None = quantity(None, "of a cylinder", "", gt=0, example="20 mm")
+    radius: float | None = quantity(None, "of a rod or cylinder", "", gt=0, example="8 mm")
+    inner_radius: float | None = quantity(None, "of a hollow cylinder", "", gt=0, example="4 mm")
+    size: Vector | None = vector(
+        None, "of a box, along its three axes", "", unit="mm", example='["30 mm", "20 mm", "10 mm"]'
+    )
+    mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
+    centre: Vector = vector(None, "mass centre in the drawing", "", unit="mm", example=POINT, required=True)
+    inertia: Vector = vector(
+        None,
+        "principal moments of inertia about the mass centre",
+        "",
+        unit="kg m^2",
+        example='["1e-4 kg m^2", "1e-4 kg m^2", "2e-4 kg m^2"]',
+        required=True,
+    )
+    first_axis: Vector = vector(
+        "1, 0, 0", "first principal axis in the drawing", "axes of the drawing", example="[1, 0, 0]"
+    )
+    second_axis: Vector = vector(
+        "0, 1, 0", "second principal axis in the drawing", "axes of the drawing", example="[0, 1, 0]"
+    )
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that a body of this inertia can exist."""
+        sizes = [key for key in (*SIZES, "density") if key != "centre" and getattr(self, key) is not None]
+        words = f"this belongs to a shape: {', '.join(NEEDED)}"
+        demand(self.shape is not None or not sizes, next(iter(sizes), "shape"), words)
+        largest, others = max(self.inertia), sum(self.inertia) - max(self.inertia)
+        demand(min(self.inertia) > 0.0, "inertia", "moments of inertia are above zero")
+        demand(
+            largest <= others * (1.0 + _ROUNDING),
+            "inertia",
+            f"no body has these: the largest, {largest:.6g} kg m^2, exceeds the sum of the other two, "
+            f"{others:.6g} kg m^2",
+        )
+        demand(
+            abs(dot(unit(self.first_axis, "first_axis"), unit(self.second_axis, "second_axis"))) < _ROUNDING,
+            "second_axis",
+            "principal axes stand at right angles",
+        )
