@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
 
 from pydantic import create_model
@@ -386,10 +386,7 @@ class MechanismCase(_WithElements):
         demand(cycles == int(cycles), "run.cycles", words)
 
 
-def _known(given: str, names: Iterable[str], key: str, what: str) -> None:
+def _known(given: str, names: Collection[str], key: str, what: str) -> None:
     """Refuse a name that no table has."""
-    names = tuple(names)
-    if given in names:
-        return
     there = f"known: {', '.join(names)}" if names else "there is none"
-    demand(False, key, f'"{given}" is no {what}; {there}{meant(given, names)}')
+    demand(given in names, key, f'"{given}" is no {what}; {there}{meant(given, names)}')

@@ -1,4 +1,7 @@
-"""A mechanism while its drawing is closed, its rows as full matrices."""
+"""A mechanism while its drawing is closed, its rows as full matrices.
+
+One file because all that assembly asks of these matrices shares the bodies that it moves.
+"""
 
 from __future__ import annotations
 

@@ -68,9 +68,11 @@ def test_keys_fill_records_in_si_with_numbers_for_names() -> None:
     assert wrist.grid == (96, 16)
     spring, load = couplings[len(model.joints) :]
     assert spring.length == pytest.approx(0.1)
-    pieces = [data.signals.pieces.c[data.signals.signals[i].first] for i in load.signals]
-    assert list(pieces[0][:2]) == [-100.0, 0.0]
-    assert not np.any(pieces[1:])
+    (term,) = data.terms[load.first_term : load.last_term]
+    signal = data.signals.signals[term.signals[0]]
+    # Along x alone, and against it, as the direction says.
+    assert (int(term.target), list(signal.sine)) == (0, [-50.0, 10.0, 0.0])
+    assert list(data.signals.pieces.c[signal.first][:2]) == [-100.0, 0.0]
     # The force acts at the point as drawn, the mass centre of the slider.
     assert list(load.shaft_point) == [0.0, 0.0, 0.0]
 
