@@ -11,6 +11,7 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import MECHANISMS
+from tribodyn.mechanisms.journal.system import journal_of
 from tribodyn.mechanisms.results import read, summarise, write_run
 from tribodyn.results import VARIABLES
 
@@ -116,3 +117,11 @@ def test_a_tilting_journal_tilts(dry: xr.Dataset) -> None:
     tilted = simulate("journal-dry", **changes)
     assert float(tilted["phi_x"].max()) > 1e-5
     assert float(abs(dry["phi_x"]).max()) == 0.0
+
+
+def test_oil_is_in_the_clearance_at_the_temperatures_of_the_run() -> None:
+    expansion = {f"surfaces.{part}.thermal_expansion": "20e-6 1/K" for part in ("trunnion", "bushing")}
+    warm = {"temperature.trunnion": "40 degC", "temperature.bushing": "80 degC"}
+    journal = journal_of(td.load_case("journal-oil").replace({**expansion, **warm}))
+    assert journal.film is not None
+    assert journal.film.clearance == journal.joint.geometry.clearance != 20e-6
