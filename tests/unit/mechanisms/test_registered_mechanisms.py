@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mebdf.compiled.cache import folder
-from tribodyn.kernels.jit import SOURCES
+from tribodyn.kernels.jit import SOLVER, SOURCES
 from tribodyn.mechanisms.catalogue import MECHANISMS
 
 HERE = Path(__file__).parent
@@ -82,12 +82,13 @@ ALL = (
 def machine_code(package: Path) -> Path:
     """Return a place with a copy of the machine code: types of the disc mean nothing to other processes."""
     place = package / "cache"
-    known = folder(SOURCES)
-    if known is not None:
-        shutil.copytree(known, place / "tribodyn" / known.name)
-    for path in (place, place / "tribodyn"):
-        path.mkdir(exist_ok=True)
-        path.chmod(0o700)
+    for sources in (SOLVER, SOURCES):
+        own = place / sources.package.name
+        if (known := folder(sources)) is not None:
+            shutil.copytree(known, own / known.name)
+        own.mkdir(parents=True, exist_ok=True)
+        own.chmod(0o700)
+    place.chmod(0o700)
     return place
 
 
