@@ -16,7 +16,6 @@ import numpy as np
 
 from benchmarks.dae_problems import DaeBenchmark, andrews, caraxis, pendulum, transistor
 from benchmarks.work_precision import cost_at
-from mebdf.kernels.state import N_F, N_LU, REJECTED, STEPS
 from tribodyn.integrate import MEBDF
 
 COSTS: Final = ("steps", "rhs", "lu")
@@ -69,11 +68,11 @@ def solve(problem: DaeBenchmark, tolerance: float) -> dict[str, Any]:
     options: dict[str, Any] = {"mass": problem.mass, "index": problem.index, "jac": problem.jac}
     solver = MEBDF(problem.fun, 0.0, problem.y0, problem.t_end, rtol=tolerance, atol=tolerance, **options)
     message = None
-    counts = solver._state.counts
-    while solver.status == "running" and counts[STEPS] < MOST_STEPS:
+    number = solver._state.number
+    while solver.status == "running" and number("steps") < MOST_STEPS:
         message = solver.step()
-    places = {"steps": STEPS, "rhs": N_F, "lu": N_LU, "rejected": REJECTED}
-    costs = {name: int(counts[place]) for name, place in places.items()}
+    fields = {"steps": "steps", "rhs": "n_f", "lu": "n_lu", "rejected": "rejected"}
+    costs = {name: number(field) for name, field in fields.items()}
     done = solver.status == "finished"
     return {"failed": not done, "message": message, "digits": problem.digits(solver.y), **costs}
 

@@ -15,22 +15,7 @@ from mebdf.kernels.arrays import copy
 from mebdf.kernels.core import resume
 from mebdf.kernels.jit import kernel
 from mebdf.kernels.phases import FAILED, NEED_F, NEED_JACOBIAN
-from mebdf.kernels.state import (
-    HISTORY,
-    JACOBIAN,
-    N_F,
-    N_J,
-    N_LU,
-    N_SOLVES,
-    REJECTED,
-    STEPS,
-    T_END,
-    T_EVAL,
-    F,
-    T,
-    Y,
-    new_state,
-)
+from mebdf.kernels.state import HISTORY, JACOBIAN, F, Y, new_state
 
 LONG_ENOUGH = 0.01
 """Least time of a measured call [s]."""
@@ -39,17 +24,17 @@ LONG_ENOUGH = 0.01
 @kernel
 def _run(rhs, jac, state):  # type: ignore[no-untyped-def]
     """Integrate to the end."""
-    real, counts, rows, matrices, mass, places = state
-    y, f, jacobian = rows[Y], rows[F], matrices[JACOBIAN]
+    record, rows, matrices, pivots, mass, places = state
+    numbers, y, f, jacobian = record[0], rows[Y], rows[F], matrices[JACOBIAN]
     while True:
-        request = resume(real, counts, rows, matrices, mass, places)
+        request = resume(record, rows, matrices, pivots, mass, places)
         if request == NEED_F:
-            rhs(real[T_EVAL], y, f)
+            rhs(numbers.t_eval, y, f)
         elif request == NEED_JACOBIAN:
-            jac(real[T_EVAL], y, jacobian)
+            jac(numbers.t_eval, y, jacobian)
         elif request == FAILED:
             return True
-        elif real[T] == real[T_END]:
+        elif numbers.t == numbers.t_end:
             return False
 
 
@@ -58,9 +43,8 @@ def _repeated(rhs, jac, state, start, repeats):  # type: ignore[no-untyped-def]
     """Integrate again and again from the same start."""
     failed = False
     for _ in range(repeats):
-        copy(start[0], state.real)
-        copy(start[1], state.counts)
-        copy(start[2].reshape(-1), state.rows.reshape(-1))
+        copy(start[0], state.numbers)
+        copy(start[1].reshape(-1), state.rows.reshape(-1))
         failed = _run(rhs, jac, state)
     return failed
 
@@ -68,14 +52,14 @@ def _repeated(rhs, jac, state, start, repeats):  # type: ignore[no-untyped-def]
 @cache
 def _compiled() -> Any:
     state = new_state(0.0, np.zeros(1), 1.0, 1e-3, np.ones(1))
-    types = map(nb.typeof, (state, tuple(state)[:3]))
+    types = map(nb.typeof, (state, tuple(state)[:2]))
     return _repeated.compile((FunctionType(RHS), FunctionType(JAC), *types, nb.int64))
 
 
 def mebdf(
     problem: Benchmark,
     rtol: float,
-    settings: dict[int, float] | None = None,
+    settings: dict[str, float] | None = None,
     at_least: float = LONG_ENOUGH,
     differenced: bool = False,
 ) -> dict[str, Any]:
@@ -87,9 +71,9 @@ def mebdf(
     """
     loop = _compiled()
     state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol, differenced=int(differenced))
-    for place, value in (settings or {}).items():
-        state.real[place] = value
-    start = (state.real.copy(), state.counts.copy(), state.rows.copy())
+    for name, value in (settings or {}).items():
+        state.numbers["settings"][name] = value
+    start = (state.numbers.copy(), state.rows.copy())
     repeats, seconds = 1, 0.0
     while True:
         begin = time.thread_time()
@@ -99,8 +83,9 @@ def mebdf(
             break
         repeats = max(2 * repeats, min(100 * repeats, int(1.2 * repeats * at_least / seconds)))
     seconds /= repeats
-    names = {"steps": STEPS, "rhs": N_F, "jac": N_J, "lu": N_LU, "solves": N_SOLVES, "rejected": REJECTED}
-    counts = {name: int(state.counts[place]) for name, place in names.items()}
+    more = {"rhs": "n_f", "jac": "n_j", "lu": "n_lu", "solves": "n_solves"}
+    fields = {"steps": "steps", **more, "rejected": "rejected"}
+    counts = {name: state.number(field) for name, field in fields.items()}
     return {
         "failed": failed, "digits": problem.digits(state.rows[HISTORY]), **counts, "seconds": seconds,
         "y": state.rows[HISTORY].copy(),

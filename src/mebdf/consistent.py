@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lstsq
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from mebdf.algebra import is_sparse
@@ -34,7 +34,10 @@ SINGULAR: Final = 1.0e-7
 SOLVED: Final = 0.5
 """Share of the residual that a change may leave to first order."""
 UNCHANGED: Final = 1.0e-3
-"""Change, relative to the largest algebraic variable, that is left alone: differences are no better."""
+"""Change, relative to the largest algebraic variable, that is left alone at an index above 1: derivatives
+are differences."""
+ROUNDED: Final = 1.0e-10
+"""The same at index 1, relative to the terms of the equation that determines a variable best."""
 ITERATIONS: Final = 40
 MOST_HALVINGS: Final = 30
 
@@ -79,9 +82,8 @@ def consistent(
     if parts.free.shape[1] == 0 or not np.all(np.isfinite(f)):
         return y, parts.slope(f), ""
     start = _Start(fun, jacobian, t, y, t_end, parts, int(mass.index.max()) - 1, names)
-    found = start.solved(scale)
-    least = UNCHANGED * np.max(np.abs(parts.free.T @ found))
-    changed = np.abs(found - y) > np.maximum(scale, least)
+    found, least = start.solved(scale)
+    changed = np.abs(found - y) > least
     if not np.any(changed):
         return y, parts.slope(f), ""
     new = np.where(changed, found, y)
@@ -156,14 +158,23 @@ class _Start:
             orders.append(parts.along(rows) @ jacobian)
         return orders, levels
 
+    def _uncertain(self, y: FloatArray, slopes: Any, residual: FloatArray) -> FloatArray:
+        """Return how exactly each variable can be found from equations with these slopes, shape (n,)."""
+        free = self._parts.free
+        if self._highest > 0:
+            return np.full(y.size, UNCHANGED * np.max(np.abs(free.T @ y)))
+        terms = np.maximum(abs(slopes) @ np.abs(y) + np.abs(residual), np.finfo(np.float64).tiny)
+        determined = _largest((diags_array(1.0 / terms) @ (slopes @ free)).T)
+        return np.asarray(abs(free) @ (ROUNDED / np.maximum(determined, ROUNDED)))
+
     def _rounding(self, y: FloatArray, slopes: Any) -> FloatArray:
         """Return what rounding may leave of the slopes of equations along algebraic variables, shape (m,)."""
         terms = abs(slopes) @ np.abs(y) + np.abs(self.derivative(y, 0))
         largest = float(np.max(np.abs(self._parts.free.T @ y)))
         return np.asarray(ROUNDING * terms / max(1.0, largest))
 
-    def solved(self, scale: FloatArray) -> FloatArray:
-        """Return values with consistent algebraic variables, shape (n,)."""
+    def solved(self, scale: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return values with consistent algebraic variables and the least change that counts, shape (n,)."""
         y = self._y.copy()
         orders, levels = self.slopes(y)
         if not all(np.isfinite(_largest(order)).all() for order in orders):
@@ -182,24 +193,25 @@ class _Start:
             removed = _chosen([order @ change for order in orders], levels)
             if not np.linalg.norm(residual + removed) <= SOLVED * np.linalg.norm(residual):
                 break
-            size = np.max(np.abs(self._parts.free.T @ (y + change)))
-            if np.all(np.abs(change) <= np.maximum(0.1 * scale, 0.1 * UNCHANGED * size)):
-                return y + change
+            least = np.maximum(scale, self._uncertain(y + change, orders[0], residual))
+            if np.all(np.abs(change) <= 0.1 * least):
+                return y + change, least
             y, residual = self._improved(y, change, residual, levels)
             orders, _ = self.slopes(y)
             if not all(np.isfinite(_largest(order)).all() for order in orders):
                 break
-        return self._as_given(given, levels, scale, change)
+        self._require_given(given, levels, scale, change)
+        return self._y, scale
 
-    def _as_given(
+    def _require_given(
         self, residual: FloatArray, levels: NDArray[np.int64], scale: FloatArray, change: FloatArray
-    ) -> FloatArray:
-        """Return the values given if their residual is within the tolerances; refuse them otherwise."""
+    ) -> None:
+        """Refuse the values given if their residual is not within the tolerances."""
         orders, _ = self.slopes(self._y)
         allowed = _chosen([abs(order) @ scale for order in orders], levels)
         worst = int(np.argmax(np.abs(residual) - allowed))
         if np.abs(residual[worst]) <= allowed[worst]:
-            return self._y
+            return
         wrong = self._names[int(np.argmax(np.where(np.isfinite(change), np.abs(change) / scale, np.inf)))]
         raise ValueError(
             f"{self._broken}: {self._described(worst, int(levels[worst]))} leaves a residual of "

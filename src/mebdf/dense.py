@@ -29,8 +29,8 @@ class MebdfDenseOutput(DenseOutput):
 
     def __init__(self, t_old: float, t: float, state: entry.MebdfState) -> None:
         super().__init__(t_old, t)
-        degree = int(state.counts[entry.K_LAST]) + 1
-        self._step = float(state.real[entry.H_LAST])
+        degree = state.number("k_last") + 1
+        self._step = state.number("h_last")
         self._differences = state.rows[entry.HISTORY : entry.HISTORY + degree + 1].copy()
 
     def _call_impl(self, t: FloatArray) -> FloatArray:

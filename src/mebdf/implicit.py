@@ -155,17 +155,17 @@ class Residual:
 
     def move(self, state: MebdfState) -> None:
         """Take the slope at which the core wants an evaluation, or the Jacobian at the newest value."""
-        rows, real = state.rows, state.real
-        if state.counts[entry.PHASE] in (FIRST_F, SECOND_F):
+        rows = state.rows
+        if state.number("phase") in (FIRST_F, SECOND_F):
             self.slope = rows[entry.F_1].copy()
         else:
-            self.slope = (rows[entry.Y] - rows[entry.CONSTANT]) / real[entry.SCALED]
+            self.slope = (rows[entry.Y] - rows[entry.CONSTANT]) / state.number("scaled")
 
     def move_to_newest(self, state: MebdfState) -> None:
         """Take the slope of the polynomial through the history at its newest value."""
-        m = np.arange(1, int(state.counts[entry.K]) + 1)
+        m = np.arange(1, state.number("k") + 1)
         differences = state.rows[entry.HISTORY + m]
-        self.slope = np.sum(differences / m[:, None], axis=0) / state.real[entry.H]
+        self.slope = np.sum(differences / m[:, None], axis=0) / state.number("h")
 
     def consistent(
         self, t: float, y: FloatArray, h: float, tolerances: Pair, names: Sequence[str]

@@ -25,28 +25,28 @@ def reason(
     entry_not_finite
         Tells row and column of the first entry of the Jacobian that is not finite.
     """
-    if state.counts[entry.REASON] == phases.JACOBIAN_NOT_FINITE:
+    if state.number("reason") == phases.JACOBIAN_NOT_FINITE:
         row, column = entry_not_finite(state)
         return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
-    if state.counts[entry.CAUSE] == phases.SINGULAR and state.counts[entry.WORST] >= 0:
+    if state.number("cause") == phases.SINGULAR and state.number("worst") >= 0:
         return f"the matrix of Newton's iteration is singular{_undetermined(state, names)}"
-    if state.counts[entry.REASON] == phases.NO_PROGRESS:
-        name = names[int(state.counts[entry.WORST])]
+    if state.number("reason") == phases.NO_PROGRESS:
+        name = names[state.number("worst")]
         return (
             f"Newton's iteration fails again and again, worst in {name}, with hardly any progress: "
             "the rates jump there or the Jacobian is wrong"
         )
     text = "the step became shorter than the spacing between numbers"
-    if (bad := int(state.counts[entry.BAD])) >= 0:
-        return f"{text}; the rate of {names[bad]} was not finite at t = {state.real[entry.T_BAD]:.9g} s"
-    if (worst := int(state.counts[entry.WORST])) >= 0:
+    if (bad := state.number("bad")) >= 0:
+        return f"{text}; the rate of {names[bad]} was not finite at t = {state.number('t_bad'):.9g} s"
+    if (worst := state.number("worst")) >= 0:
         cause = (
             "Newton's iteration did not converge"
-            if state.counts[entry.CAUSE] == phases.NEWTON
+            if state.number("cause") == phases.NEWTON
             else "the error stayed above the tolerance"
         )
         return f"{text}; {cause}, worst in {names[worst]}"
-    newest = state.rows[entry.HISTORY + int(state.counts[entry.K_LAST]) + 1]
+    newest = state.rows[entry.HISTORY + state.number("k_last") + 1]
     fastest = int(np.argmax(np.abs(newest * state.rows[entry.WEIGHT])))
     return f"{text}; the solution changes fastest in {names[fastest]}"
 
@@ -56,7 +56,7 @@ def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
     if not state.matrices.size:
         return ": the equations do not determine all states"
     n = state.rows.shape[1]
-    matrix = -float(state.real[entry.SCALED]) * state.matrices[entry.LAST_JACOBIAN]
+    matrix = -state.number("scaled") * state.matrices[entry.LAST_JACOBIAN]
     if state.places.size:
         row, size = np.repeat(np.arange(n), np.diff(state.places[: n + 1])), state.places[n]
         matrix[row, state.places[n + 1 : n + 1 + size]] += state.mass[:size]

@@ -44,7 +44,7 @@ from mebdf.kernels.phases import (
     NEED_SOLUTION,
     STEP_ACCEPTED,
 )
-from mebdf.kernels.state import HISTORY, N_F, N_J, N_LU, T_EVAL, F, T, Y, new_state
+from mebdf.kernels.state import HISTORY, NUMBERS, F, Y, new_state
 from mebdf.mass import LARGEST, MassMatrix, read_mass, with_index
 from mebdf.reasons import reason
 
@@ -200,7 +200,7 @@ class MEBDF(OdeSolver):
         """Find consistent values; return the matrix with the right index, y', and what was changed."""
         t = float(self.t)
         # A step leaves variables of higher index as wrong as its weights allow.
-        step = 1.0 if self.t_old is None else min(abs(self._state.real.item(entry.H_LAST)), 1.0)
+        step = 1.0 if self.t_old is None else min(abs(self._state.number("h_last")), 1.0)
         scale = (self.atol + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
         self.y, slope, warning = consistent(fun, jacobian, t, self.y, self._ends[0], mass, scale, self._names)
         if self.t_old is None:
@@ -240,7 +240,7 @@ class MEBDF(OdeSolver):
 
         def pair(t: float, y: FloatArray) -> tuple[FloatArray, FloatArray]:
             residual.move_to_newest(self._state)
-            h = float(self._state.real[entry.H])
+            h = self._state.number("h")
             return residual.linearise(t, y, self.atol / self.rtol, h)
 
         def jacobian(t: float, y: FloatArray) -> FloatArray:
@@ -271,24 +271,24 @@ class MEBDF(OdeSolver):
             return True, None
         self._before_jump = None
         request = self._core_step()
-        while request == STEP_ACCEPTED and self.direction * (self._state.real.item(T) - self.t) <= 0.0:
+        while request == STEP_ACCEPTED and self.direction * (self._state.number("t") - self.t) <= 0.0:
             request = self._core_step()  # inside the jump that was the last step
-        counts, before = self._state.counts, self._before
-        self.nfev = before[0] + counts.item(N_F)
-        self.njev = before[1] + counts.item(N_J)
-        self.nlu = before[2] + counts.item(N_LU)
+        state, before = self._state, self._before
+        self.nfev = before[0] + state.number("n_f")
+        self.njev = before[1] + state.number("n_j")
+        self.nlu = before[2] + state.number("n_lu")
         if request == FAILED:
             return False, reason(self._state, self._names, self._entry_not_finite)
-        self.t, self.y = self._state.real.item(T), self._state.rows[HISTORY].copy()
+        self.t, self.y = state.number("t"), state.rows[HISTORY].copy()
         return True, None
 
     def _core_step(self) -> int:
         """Evaluate for the core until it has accepted a step or given up; return which."""
         state, core, fun = self._state, self._resume, self.fun_single
-        real, rows = state.real, state.rows
+        rows = state.rows
         kink = self._ends[0] if len(self._ends) > 1 else None
         while (request := core(*state)) not in ENDS_OF_STEP:
-            t, y = real.item(T_EVAL), rows[Y].copy()
+            t, y = state.number("t_eval"), rows[Y].copy()
             if t == kink:
                 t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
             if request != NEED_F:
@@ -316,8 +316,8 @@ class MEBDF(OdeSolver):
 
     def _in_trouble(self) -> bool:
         """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
-        counts = self._state.counts
-        return bool(counts[entry.N_LU] > RENEWED * counts[entry.STEPS])
+        state = self._state
+        return bool(state.number("n_lu") > RENEWED * state.number("steps"))
 
     def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
@@ -335,15 +335,15 @@ class MEBDF(OdeSolver):
 
 def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
     """Do what the core asks of who solves for it."""
-    scaled, rows = float(state.real[entry.SCALED]), state.rows
+    scaled, rows = state.number("scaled"), state.rows
     if request == NEED_JACOBIAN:
-        state.counts[entry.FINITE] = algebra.linearise(t, y)
+        state.numbers["finite"] = algebra.linearise(t, y)
     elif request == NEED_FACTORS:
-        back = state.counts.item(entry.BACK)
+        back = state.number("back")
         if back:
             algebra.go_back(to_zero=back == 2 and state.places.size == 0)
-        state.counts[entry.SIGN] = algebra.factorise(scaled)
-        state.real[entry.TRACE] = algebra.trace()
+        state.numbers["sign"] = algebra.factorise(scaled)
+        state.numbers["trace_of_j"] = algebra.trace()
     elif request == NEED_SOLUTION:
         rows[entry.DELTA] = algebra.solve(rows[entry.RESIDUAL])
     elif request == NEED_MAGNITUDE:
@@ -353,7 +353,8 @@ def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y:
 @cache
 def _machine_code() -> Callable[..., int]:
     """Return the core compiled for its only types: called directly it need not find them out each time."""
-    matrices = (nb.float64[:, ::1], nb.float64[:, :, ::1])
-    types = (nb.float64[::1], nb.int64[::1], *matrices, nb.float64[::1], nb.int64[::1])
-    code: Callable[..., int] = resume.compile(types)
+    matrices, vectors = (nb.float64[:, ::1], nb.float64[:, :, ::1]), (nb.float64[::1], nb.int64[::1])
+    code: Callable[..., int] = resume.compile(
+        (nb.from_dtype(NUMBERS)[::1], *matrices, nb.int64[::1], *vectors)
+    )
     return code

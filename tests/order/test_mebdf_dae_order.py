@@ -68,19 +68,21 @@ def global_error(name, k, n_steps):
     for m in range(k + 1):
         state.rows[entry.HISTORY + m] = values[0]
         values = [a - b for a, b in pairwise(values)]
-    state.counts[[entry.K, entry.FIXED, entry.PHASE]] = k, 1, phases.STEP
-    state.real[[entry.RENEW, entry.OLD_JACOBIAN]] = 0.0  # a new Jacobian each step: Newton reaches rounding
+    numbers = state.numbers[0]
+    numbers.k, numbers.fixed, numbers.phase = k, 1, phases.STEP
+    # A new Jacobian each step: Newton reaches rounding.
+    numbers.settings.renew = numbers.settings.old_jacobian = 0.0
     error = np.zeros(n)
-    while state.counts[entry.STEPS] < n_steps:
+    while numbers.steps < n_steps:
         request = resume(*state)
         assert request != phases.FAILED
         if request == phases.STEP_ACCEPTED:
-            error = np.maximum(error, np.abs(state.rows[entry.HISTORY] - exact(state.real[entry.T])))
+            error = np.maximum(error, np.abs(state.rows[entry.HISTORY] - exact(numbers.t)))
         elif request == phases.NEED_F:
-            state.rows[entry.F] = fun(state.real[entry.T_EVAL], state.rows[entry.Y])[0]
+            state.rows[entry.F] = fun(numbers.t_eval, state.rows[entry.Y])[0]
         else:
-            state.matrices[entry.JACOBIAN] = fun(state.real[entry.T_EVAL], state.rows[entry.Y])[1]
-    assert state.counts[entry.REJECTED] == 0
+            state.matrices[entry.JACOBIAN] = fun(numbers.t_eval, state.rows[entry.Y])[1]
+    assert numbers.rejected == 0
     return error
 
 

@@ -36,20 +36,22 @@ def global_error(k, n_steps):
     for m in range(k + 1):
         state.rows[entry.HISTORY + m] = values[0]
         values = [a - b for a, b in pairwise(values)]
-    state.counts[[entry.K, entry.FIXED, entry.PHASE]] = k, 1, phases.STEP
-    state.real[[entry.RENEW, entry.OLD_JACOBIAN]] = 0.0  # a new Jacobian each step: Newton reaches rounding
+    numbers = state.numbers[0]
+    numbers.k, numbers.fixed, numbers.phase = k, 1, phases.STEP
+    # A new Jacobian each step: Newton reaches rounding.
+    numbers.settings.renew = numbers.settings.old_jacobian = 0.0
     error = 0.0
-    while state.counts[entry.STEPS] < n_steps:
+    while numbers.steps < n_steps:
         request = resume(*state)
         assert request != phases.FAILED
         if request == phases.STEP_ACCEPTED:
-            error = max(error, np.abs(state.rows[entry.HISTORY] - exact(state.real[entry.T])).max())
-        t, y = state.real[entry.T_EVAL], state.rows[entry.Y]
+            error = max(error, np.abs(state.rows[entry.HISTORY] - exact(numbers.t)).max())
+        t, y = numbers.t_eval, state.rows[entry.Y]
         if request == phases.NEED_F:
             state.rows[entry.F] = rational(t, y)
         elif request == phases.NEED_JACOBIAN:
             state.matrices[entry.JACOBIAN] = rational_jacobian(t, y)
-    assert state.counts[entry.REJECTED] == 0
+    assert numbers.rejected == 0
     return error
 
 

@@ -18,6 +18,7 @@ from mebdf.arrays import FloatArray
 from mebdf.kernels import state as at
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.mass import is_algebraic
+from mebdf.kernels.state import Numbers
 
 SOLVED: Final = 1
 OPEN: Final = 0
@@ -44,38 +45,36 @@ ABOVE_NOISE: Final = 10.0
 
 
 @inlined
-def judge(
-    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64], size: float
-) -> int:
+def judge(state: Numbers, rows: FloatArray, places: NDArray[np.int64], size: float) -> int:
     """Return SOLVED, FALSE or IN_DOUBT for a stage whose correction, of norm ``size``, is small enough."""
-    before, overshot, left = real[at.UNSOLVED_BEFORE], real[at.OVERSHOT], _left(real, count)
-    if overshot > 0.0 and abs(real[at.UNSOLVED] / (overshot * before) - 1.0) > PROVED:
+    before, overshot, left = state.unsolved_before, state.overshot, _left(state)
+    if overshot > 0.0 and abs(state.unsolved / (overshot * before) - 1.0) > PROVED:
         return FALSE
     if left <= PROVED:
         # What curvature leaves, relative to the residual, grows with it.
-        real[at.TRUST] = max(real[at.TRUST], before * min(PROVED / left, TRUSTED))
-    if _is_doubtful(real, count, size) or (places.size > 0 and _has_unproved(rows, places)):
+        state.trust = max(state.trust, before * min(PROVED / left, TRUSTED))
+    if _is_doubtful(state, size) or (places.size > 0 and _has_unproved(rows, places)):
         return IN_DOUBT
     return SOLVED
 
 
 @kernel
-def _left(real: FloatArray, count: NDArray[np.int64]) -> float:
+def _left(state: Numbers) -> float:
     """Return what the last but one correction has left of the residual; 1 where that is not known."""
-    unsolved = real[at.UNSOLVED]
-    return unsolved / real[at.UNSOLVED_BEFORE] if count[at.ITERATION] > 1 and unsolved > 0.0 else 1.0
+    unsolved = state.unsolved
+    return unsolved / state.unsolved_before if state.iteration > 1 and unsolved > 0.0 else 1.0
 
 
 @kernel
-def _is_doubtful(real: FloatArray, count: NDArray[np.int64], size: float) -> bool:
+def _is_doubtful(state: Numbers, size: float) -> bool:
     """Tell whether a correction of norm ``size`` leaves more than may be left without a proof."""
-    unsolved = real[at.UNSOLVED]
-    if real[at.OVERSHOT] > 0.0 or _left(real, count) <= PROVED:
+    unsolved = state.unsolved
+    if state.overshot > 0.0 or _left(state) <= PROVED:
         return False
-    if count[at.WARY] > 0:
+    if state.wary > 0:
         return unsolved > NOTHING
-    small = real[at.TINY] * (1.0 if unsolved <= real[at.TRUST] else unsolved)
-    return unsolved > real[at.DOUBTFUL] and size <= small
+    small = state.settings.tiny * (1.0 if unsolved <= state.trust else unsolved)
+    return unsolved > state.settings.doubtful and size <= small
 
 
 @kernel
@@ -99,42 +98,38 @@ def note_removed(rows: FloatArray, i: int, residual: float) -> None:
 
 
 @kernel
-def judge_beside_rounding(
-    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64]
-) -> int:
+def judge_beside_rounding(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int:
     """Return SOLVED, OPEN or FALSE for a stage in doubt, with its row MAGNITUDE filled."""
     massive = places.size > 0
-    if _is_doubtful(real, count, real[at.LAST_NORM]):
+    if _is_doubtful(state, state.last_norm):
         noise = _noise(rows, at.ROW_WEIGHT if massive else at.WEIGHT)
-        verdict = _judge_differential(real, count, rows, massive, noise)
+        verdict = _judge_differential(state, rows, massive, noise)
         if verdict != SOLVED:
             return verdict
     for i in range(rows.shape[1] if massive else 0):
         residual = abs(rows[at.RESIDUAL, i])
         if is_algebraic(places, i) and residual > TRUSTED * rows[at.SEEN, i]:
-            if residual > NOISE * rows[at.MAGNITUDE, i] / abs(real[at.SCALED]):
+            if residual > NOISE * rows[at.MAGNITUDE, i] / abs(state.scaled):
                 return OPEN
             rows[at.SEEN, i] = residual
     return SOLVED
 
 
 @kernel
-def _judge_differential(
-    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool, noise: float
-) -> int:
+def _judge_differential(state: Numbers, rows: FloatArray, massive: bool, noise: float) -> int:
     """Return the verdict on the equations with derivatives, whose residual may have an error ``noise``."""
     # A stage that was predicted with its slope begins with a residual that was not evaluated.
-    predicted = count[at.STAGE] == 1 and count[at.CARRIED] == 1 and not massive
-    given = predicted or (count[at.STAGE] == 3 and count[at.HIGHER] == 0)
-    evaluated = count[at.ITERATION] - (1 if given else 0)
-    if real[at.UNSOLVED] > noise:
-        return FALSE if evaluated > 1 and _left(real, count) > REFUTED else OPEN
-    factor = ABOVE_NOISE * noise / real[at.UNSOLVED]
-    if real[at.UNSOLVED] <= HARMLESS or factor * real[at.LAST_NORM] > 1.0:
+    predicted = state.stage == 1 and state.carried == 1 and not massive
+    given = predicted or (state.stage == 3 and state.higher == 0)
+    evaluated = state.iteration - (1 if given else 0)
+    if state.unsolved > noise:
+        return FALSE if evaluated > 1 and _left(state) > REFUTED else OPEN
+    factor = ABOVE_NOISE * noise / state.unsolved
+    if state.unsolved <= HARMLESS or factor * state.last_norm > 1.0:
         return SOLVED
     if evaluated > 0:
         # A right Jacobian makes the next residual 1 − ``factor`` of this one, a wrong one leaves it.
-        real[at.OVERSHOT], real[at.LAST_NORM] = factor, 0.0
+        state.overshot, state.last_norm = factor, 0.0
         for i in range(rows.shape[1]):
             rows[at.Y, i] += (factor - 1.0) * rows[at.DELTA, i]
     return OPEN

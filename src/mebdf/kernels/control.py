@@ -14,6 +14,7 @@ from mebdf.kernels.history import rescale
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.mass import weigh
 from mebdf.kernels.phases import ERROR_TEST, NEWTON, STEP
+from mebdf.kernels.state import Numbers
 
 SMALLEST_SCALE = 1.0e-300
 """What stands for a tolerance of zero where the solution is zero too."""
@@ -45,107 +46,105 @@ def error_weight(places: NDArray[np.int64]) -> int:
 
 
 @inlined
-def set_weights(real: FloatArray, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
+def set_weights(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
     """Make the weights those of the newest value."""
     for i in range(rows.shape[1]):
-        scale = real[at.TIGHT] * (rows[at.ATOL, i] + rows[at.RTOL, i] * abs(rows[at.HISTORY, i]))
+        scale = state.settings.tight * (rows[at.ATOL, i] + rows[at.RTOL, i] * abs(rows[at.HISTORY, i]))
         rows[at.WEIGHT, i] = 1.0 / max(scale, SMALLEST_SCALE)
     if places.size > 0:
-        weigh(mass, places, rows, real[at.H])
+        weigh(mass, places, rows, state.h)
 
 
 @kernel
-def change_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float) -> None:
+def change_step(state: Numbers, rows: FloatArray, factor: float) -> None:
     """Multiply the step by ``factor`` and make the history fit it."""
-    rescale(rows, count[at.K], factor, 0.0)
-    real[at.H] *= factor
-    count[at.EQUAL_STEPS] = 0
-    count[at.CARRIED] = 0
+    rescale(rows, state.k, factor, 0.0)
+    state.h *= factor
+    state.equal_steps = 0
+    state.carried = 0
 
 
 @inlined
-def _not_too_short(real: FloatArray, factor: float) -> float:
+def _not_too_short(state: Numbers, factor: float) -> float:
     """Return a factor for the step that leads to the shortest one before it leads below it."""
-    least = 1.1 * LEAST_STEP * abs(real[at.T])  # rounding may take a twentieth of it
-    return max(factor, min(least / abs(real[at.H]), 1.0))
+    least = 1.1 * LEAST_STEP * abs(state.t)  # rounding may take a twentieth of it
+    return max(factor, min(least / abs(state.h), 1.0))
 
 
 @inlined
-def limit_step(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def limit_step(state: Numbers, rows: FloatArray) -> None:
     """Keep the step below its maximum; where nothing may be evaluated beyond the end, end there.
 
     Late in time the step is a multiple of the spacing of times. Otherwise equal steps, rounded equally, would
     add up to another time than the solution has reached.
     """
-    rounded = (real[at.T] + real[at.H]) - real[at.T]
-    if rounded != 0.0 and abs(rounded / real[at.H] - 1.0) > ROUNDED:
-        change_step(real, count, rows, rounded / real[at.H])
-    left = abs(real[at.T_END] - real[at.T])
-    h, largest = abs(real[at.H]), real[at.H_MAX]
-    count[at.LAST] = 0
-    if count[at.INSIDE] == 1:
+    rounded = (state.t + state.h) - state.t
+    if rounded != 0.0 and abs(rounded / state.h - 1.0) > ROUNDED:
+        change_step(state, rows, rounded / state.h)
+    left = abs(state.t_end - state.t)
+    h, largest = abs(state.h), state.h_max
+    state.last = 0
+    if state.inside == 1:
         largest = min(largest, left)
         if h < left * (1.0 - 1.0e-9) and 2.0 * h > left:
             # Two equal last steps rather than a long one and a sliver.
             largest = min(largest, 0.5 * left)
     if h > largest:
-        change_step(real, count, rows, largest / h)
-    if count[at.INSIDE] == 1 and 2.0 * abs(real[at.H]) > left * (1.0 + 1.0e-9):
-        count[at.LAST] = 1
+        change_step(state, rows, largest / h)
+    if state.inside == 1 and 2.0 * abs(state.h) > left * (1.0 + 1.0e-9):
+        state.last = 1
 
 
 @kernel
-def blame(count: NDArray[np.int64], rows: FloatArray, row: int, weight: int) -> None:
+def blame(state: Numbers, rows: FloatArray, row: int, weight: int) -> None:
     """Remember the component that contributes most to the norm of a row."""
-    count[at.CAUSE] = NEWTON if row == at.DELTA else ERROR_TEST
+    state.cause = NEWTON if row == at.DELTA else ERROR_TEST
     worst = -1.0
     for i in range(rows.shape[1]):
         size = abs(rows[row, i] * rows[weight, i])
         if size > worst:
             worst = size
-            count[at.WORST] = i
+            state.worst = i
 
 
 @kernel
-def reject(
-    real: FloatArray, count: NDArray[np.int64], rows: FloatArray, factor: float, row: int, weight: int
-) -> None:
+def reject(state: Numbers, rows: FloatArray, factor: float, row: int, weight: int) -> None:
     """Go back to the start of the step and try a smaller one; the largest entry of ``row`` is to blame."""
-    blame(count, rows, row, weight)
-    count[at.REJECTED] += 1
-    count[at.FAILURES] += 1
-    if count[at.FAILURES] >= 3 and count[at.K] > 1:
+    blame(state, rows, row, weight)
+    state.rejected += 1
+    state.failures += 1
+    if state.failures >= 3 and state.k > 1:
         # The history is of no use: begin again at the lowest order from the last slope.
-        count[at.K] = 1
+        state.k = 1
         for m in range(2, at.N_DIFFERENCES):
             for i in range(rows.shape[1]):
                 rows[at.HISTORY + m, i] = 0.0
-    if abs(real[at.H]) > 1.5 * LEAST_STEP * abs(real[at.T]):
-        factor = _not_too_short(real, factor)
-    change_step(real, count, rows, factor)
-    count[at.PHASE] = STEP
+    if abs(state.h) > 1.5 * LEAST_STEP * abs(state.t):
+        factor = _not_too_short(state, factor)
+    change_step(state, rows, factor)
+    state.phase = STEP
 
 
 @kernel
-def newton_failed(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, massive: bool) -> None:
+def newton_failed(state: Numbers, rows: FloatArray, massive: bool) -> None:
     """Try again with a new Jacobian, or with a shorter step where it was new already.
 
     However short the step, the values of algebraic equations may lie behind a kink. So with a mass matrix the
     Jacobian is by turns that of the newest value and that of the predicted one.
     """
-    if count[at.FRESH] == 0:
-        real[at.FACTORED] = 0.0
-        count[at.CARRIED] = 0
-        count[at.PHASE] = STEP
+    if state.fresh == 0:
+        state.factored = 0.0
+        state.carried = 0
+        state.phase = STEP
     else:
-        count[at.WARY] = min(2 * count[at.WARY] + CAUTION, MOST_CAUTION)
-        count[at.VAIN] += 1
-        reject(real, count, rows, FAILED_NEWTON, at.DELTA, at.WEIGHT)
+        state.wary = min(2 * state.wary + CAUTION, MOST_CAUTION)
+        state.vain += 1
+        reject(state, rows, FAILED_NEWTON, at.DELTA, at.WEIGHT)
         if not massive:
             return
-        count[at.AHEAD] = 1 - count[at.AHEAD]
-        count[at.FRESH] = 0
-    count[at.JACOBIAN_AGE] = int(real[at.OLD_JACOBIAN]) + 1
+        state.ahead = 1 - state.ahead
+        state.fresh = 0
+    state.jacobian_age = int(state.settings.old_jacobian) + 1
 
 
 @kernel
@@ -157,37 +156,36 @@ def growth(rows: FloatArray, weight: int, k: int, safety: float) -> float:
 
 @kernel
 def choose(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> None:
     """Choose order and step for the next step, once enough equal steps have been taken."""
-    k = count[at.K]
-    settled = count[at.EQUAL_STEPS] >= k + real[at.WAIT]
-    if count[at.FIXED] == 1 or not (settled or real[at.ERROR] > real[at.EARLY]):
+    k = state.k
+    settled = state.equal_steps >= k + state.settings.wait
+    if state.fixed == 1 or not (settled or state.error > state.settings.early):
         return
-    set_weights(real, rows, mass, places)
+    set_weights(state, rows, mass, places)
     weight = error_weight(places)
-    best, factor = k, growth(rows, weight, k, real[at.SAFETY])
+    best, factor = k, growth(rows, weight, k, state.settings.safety)
     if k > 1:
-        lower = growth(rows, weight, k - 1, real[at.SAFETY_LOWER])
+        lower = growth(rows, weight, k - 1, state.settings.safety_lower)
         if lower > factor:
             best, factor = k - 1, lower
-    if settled and k < count[at.LARGEST_K]:
-        higher = growth(rows, weight, k + 1, real[at.SAFETY_HIGHER])
+    if settled and k < state.largest_k:
+        higher = growth(rows, weight, k + 1, state.settings.safety_higher)
         if higher > factor:
             best, factor = k + 1, higher
-    if settled and factor < real[at.LEAST_GROWTH]:
+    if settled and factor < state.settings.least_growth:
         # Not worth a new matrix; look again after as many steps.
-        count[at.EQUAL_STEPS] = 1
+        state.equal_steps = 1
         return
     if not settled and factor >= 1.0:
         return
-    count[at.K] = best
-    largest = real[at.LARGEST_GROWTH]
+    state.k = best
+    largest = state.settings.largest_growth
     if k == 1:
         # Nothing higher than ∇² is rescaled: it is magnified less than ∇⁴ by the usual limit.
         largest *= largest
-    change_step(real, count, rows, _not_too_short(real, min(factor, largest)))
+    change_step(state, rows, _not_too_short(state, min(factor, largest)))

@@ -1,15 +1,15 @@
 """The MEBDF as a machine that asks its caller for evaluations.
 
 ``resume`` runs until it needs the right-hand side or the Jacobian, or until a step is accepted, and
-returns which. The caller evaluates at ``real[T_EVAL]`` and ``rows[Y]``, fills ``rows[F]`` or
+returns which. The caller evaluates at ``state.t_eval`` and ``rows[Y]``, fills ``rows[F]`` or
 ``matrices[JACOBIAN]`` and calls again. So one source serves compiled problems, where the loop around it
 never leaves compiled code, and Python callables.
 
-The iteration matrix is dense, or the caller's: with ``count[OUTSIDE]`` the machine holds no matrix and asks
+The iteration matrix is dense, or the caller's: with ``state.outside`` the machine holds no matrix and asks
 
-- NEED_JACOBIAN: evaluate the Jacobian; ``count[FINITE]`` = 0 where it is not and the last one stays;
-- NEED_FACTORS: prepare solutions with I − ``real[SCALED]`` J; fill ``count[SIGN]`` with the sign of the
-  determinant, 0 where it vanishes, and ``real[TRACE]`` with the trace of J. If ``count[BACK]`` is 1, J is
+- NEED_JACOBIAN: evaluate the Jacobian; ``state.finite`` = 0 where it is not and the last one stays;
+- NEED_FACTORS: prepare solutions with I − ``state.scaled`` J; fill ``state.sign`` with the sign of the
+  determinant, 0 where it vanishes, and ``state.trace_of_j`` with the trace of J. If ``state.back`` is 1, J is
   from now on the one before the newest; if it is 2 and there is no mass matrix, J is zero;
 - NEED_SOLUTION: fill ``rows[DELTA]`` with the solution for ``rows[RESIDUAL]``;
 - NEED_MAGNITUDE: fill ``rows[MAGNITUDE]``. Few steps need it.
@@ -57,6 +57,7 @@ from mebdf.kernels.phases import (
 )
 from mebdf.kernels.renewal import begin_stages, renew_matrix, take_over
 from mebdf.kernels.start import start
+from mebdf.kernels.state import Numbers
 
 MOST_VAIN: Final = 100
 """Failures of Newton's iteration with a new Jacobian after which the progress is looked at."""
@@ -68,136 +69,135 @@ ROUNDING: Final = 1.0e-10
 
 @entry
 def resume(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    numbers: NDArray[np.void],
     rows: FloatArray,
     matrices: FloatArray,
+    pivots: NDArray[np.int64],
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> int:
     """Go on until something is needed; return what: NEED_F …, STEP_ACCEPTED or FAILED.
 
-    After STEP_ACCEPTED the solution at ``real[T]`` is ``rows[HISTORY]``, and the polynomial of degree
-    ``count[K_LAST]`` + 1 through the history is the dense output between ``real[T_OLD]`` and ``real[T]``,
+    After STEP_ACCEPTED the solution at ``state.t`` is ``rows[HISTORY]``, and the polynomial of degree
+    ``state.k_last`` + 1 through the history is the dense output between ``state.t_old`` and ``state.t``,
     until the next call.
     """
-    request = 0
+    state, request = numbers[0], 0
     while request == 0:
-        phase = count[at.PHASE]
+        phase = state.phase
         if phase in (ITERATE, CORRECT, CONCLUDE):
-            request = iterate(real, count, rows, matrices, mass, places, phase)
+            request = iterate(state, rows, matrices, pivots, mass, places, phase)
         elif phase == START_STAGE:
-            request = start_stage(real, count, rows, mass, places)
+            request = start_stage(state, rows, mass, places)
         elif phase == STEP:
-            request = _begin_step(real, count, rows, mass, places)
+            request = _begin_step(state, rows, mass, places)
         elif phase == FACTORISE:
-            request = renew_matrix(real, count, matrices, mass, places)
+            request = renew_matrix(state, matrices, pivots, mass, places)
         elif phase == FACTORISED:
-            begin_stages(real, count, rows, matrices, places.size > 0)
+            begin_stages(state, rows, matrices, places.size > 0)
         elif phase == LINEARISED:
-            request = take_over(count, real, rows, matrices)
+            request = take_over(state, rows, matrices)
         elif phase == ACCEPT:
-            _accept(real, count, rows, places)
+            _accept(state, rows, places)
             request = STEP_ACCEPTED
         elif phase == AFTER:
-            count[at.PHASE] = STEP
-            choose(real, count, rows, mass, places)
+            state.phase = STEP
+            choose(state, rows, mass, places)
         else:
-            request = start(real, count, rows, mass, places)
+            request = start(state, rows, mass, places)
     return request
 
 
 @inlined
 def _begin_step(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> int:
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
-    limit_step(real, count, rows)
-    h = real[at.H]
+    limit_step(state, rows)
+    h = state.h
     # A whole integration that is as short as that is one step.
-    if not abs(h) > LEAST_STEP * abs(real[at.T]) and (count[at.LAST] == 0 or h == 0.0):
-        count[at.REASON] = STEP_TOO_SMALL
+    if not abs(h) > LEAST_STEP * abs(state.t) and (state.last == 0 or h == 0.0):
+        state.reason = STEP_TOO_SMALL
         return FAILED
-    if count[at.VAIN] >= MOST_VAIN and _stands_still(real, count):
-        count[at.REASON] = NO_PROGRESS
+    if state.vain >= MOST_VAIN and _stands_still(state):
+        state.reason = NO_PROGRESS
         return FAILED
-    set_weights(real, rows, mass, places)
-    scaled = h * SCALARS[count[at.K], 0]
-    real[at.SCALED] = scaled
-    if count[at.RATE_AGE] > real[at.UNSURE]:
-        real[at.RATE] = 1.0
+    set_weights(state, rows, mass, places)
+    scaled = h * SCALARS[state.k, 0]
+    state.scaled = scaled
+    if state.rate_age > state.settings.unsure:
+        state.rate = 1.0
     if (
-        real[at.FACTORED] != 0.0
-        and abs(scaled / real[at.FACTORED] - 1.0) <= real[at.SAME_MATRIX]
-        and count[at.MATRIX_AGE] < real[at.RENEW]
+        state.factored != 0.0
+        and abs(scaled / state.factored - 1.0) <= state.settings.same_matrix
+        and state.matrix_age < state.settings.renew
     ):
-        real[at.RELAXATION] = 2.0 / (1.0 + scaled / real[at.FACTORED])
-        count[at.STAGE] = 1
-        count[at.PHASE] = START_STAGE
+        state.relaxation = 2.0 / (1.0 + scaled / state.factored)
+        state.stage = 1
+        state.phase = START_STAGE
         return 0
-    count[at.PHASE] = FACTORISE
+    state.phase = FACTORISE
     # Where every stage took one iteration, RATE is 1 for unknown: a Jacobian that costs little is renewed.
-    slow = real[at.RATE] > real[at.SLOW] and (real[at.RATE] != 1.0 or count[at.DIFFERENCED] == 0)
-    old = count[at.JACOBIAN_AGE] >= real[at.OLD_JACOBIAN] or slow or count[at.N_J] == 0
-    if not old or count[at.FRESH] == 1:
+    slow = state.rate > state.settings.slow and (state.rate != 1.0 or state.differenced == 0)
+    old = state.jacobian_age >= state.settings.old_jacobian or slow or state.n_j == 0
+    if not old or state.fresh == 1:
         return 0
     # Its value ahead is that of the polynomial through the history: the sum of its differences.
-    ahead = count[at.AHEAD] == 1
+    ahead = state.ahead == 1
     for i in range(rows.shape[1]):
         rows[at.Y, i] = rows[at.HISTORY, i]
-        for m in range(1, count[at.K] + 1 if ahead else 0):
+        for m in range(1, state.k + 1 if ahead else 0):
             rows[at.Y, i] += rows[at.HISTORY + m, i]
-    real[at.T_EVAL] = real[at.T] + h if ahead else real[at.T]
-    count[at.PHASE] = LINEARISED
-    count[at.N_J] += 1
-    count[at.JACOBIAN_AGE] = 0
-    count[at.FRESH] = 1
+    state.t_eval = state.t + h if ahead else state.t
+    state.phase = LINEARISED
+    state.n_j += 1
+    state.jacobian_age = 0
+    state.fresh = 1
     return NEED_JACOBIAN
 
 
 @inlined
-def _stands_still(real: FloatArray, count: NDArray[np.int64]) -> bool:
+def _stands_still(state: Numbers) -> bool:
     """Tell whether the last failures have brought next to no progress, and count anew."""
-    progress, left = abs(real[at.T] - real[at.T_MARK]), abs(real[at.T_END] - real[at.T])
-    count[at.VAIN] = 0
-    real[at.T_MARK] = real[at.T]
+    progress, left = abs(state.t - state.t_mark), abs(state.t_end - state.t)
+    state.vain = 0
+    state.t_mark = state.t
     return progress < LEAST_PROGRESS * left
 
 
 @inlined
-def _accept(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64]) -> None:
+def _accept(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> None:
     """Make y_{n+1} the newest value."""
-    push(rows, at.Y, count[at.K] + 3, at.HISTORY)
-    real[at.T_OLD] = real[at.T]
-    real[at.T] += real[at.H]
-    real[at.H_LAST] = real[at.H]
-    beyond = real[at.T] - real[at.T_END]
+    push(rows, at.Y, state.k + 3, at.HISTORY)
+    state.t_old = state.t
+    state.t += state.h
+    state.h_last = state.h
+    beyond = state.t - state.t_end
     # What no step could cross is no distance either.
-    if abs(beyond) <= max(ROUNDING * abs(real[at.H]), LEAST_STEP * abs(real[at.T])):
-        real[at.T] = real[at.T_END]
-    elif beyond * real[at.H] > 0.0:
+    if abs(beyond) <= max(ROUNDING * abs(state.h), LEAST_STEP * abs(state.t)):
+        state.t = state.t_end
+    elif beyond * state.h > 0.0:
         # The dense output of this step is the solution at the end.
-        share = 1.0 - beyond / real[at.H]
-        rescale(rows, count[at.K] + 1, share, share - 1.0)
-        real[at.H_LAST] *= share
-        real[at.T] = real[at.T_END]
-    count[at.K_LAST] = count[at.K]
-    count[at.STEPS] += 1
-    count[at.EQUAL_STEPS] += 1
-    count[at.JACOBIAN_AGE] += 1 - count[at.DIFFERENCED]
-    count[at.MATRIX_AGE] += 1
-    count[at.RATE_AGE] += 1
-    count[at.FRESH] = 0
-    count[at.AHEAD] = 0
+        share = 1.0 - beyond / state.h
+        rescale(rows, state.k + 1, share, share - 1.0)
+        state.h_last *= share
+        state.t = state.t_end
+    state.k_last = state.k
+    state.steps += 1
+    state.equal_steps += 1
+    state.jacobian_age += 1 - state.differenced
+    state.matrix_age += 1
+    state.rate_age += 1
+    state.fresh = 0
+    state.ahead = 0
     # Algebraic variables do not heed the history: its noise can make each new step fail, however short.
-    if places.size == 0 or count[at.EQUAL_STEPS] > 1:
-        count[at.FAILURES] = 0
-    count[at.WARY] = max(count[at.WARY] - 1, 0)
-    count[at.BAD] = -1
-    count[at.WORST] = -1
-    count[at.CARRIED] = count[at.STAGE] > 3
-    count[at.PHASE] = AFTER
+    if places.size == 0 or state.equal_steps > 1:
+        state.failures = 0
+    state.wary = max(state.wary - 1, 0)
+    state.bad = -1
+    state.worst = -1
+    state.carried = state.stage > 3
+    state.phase = AFTER

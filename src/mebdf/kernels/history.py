@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mebdf.arrays import FloatArray
 from mebdf.kernels.jit import inlined, kernel
-from mebdf.kernels.state import H_LAST, HISTORY, K_LAST, N_DIFFERENCES, SCRATCH, T
+from mebdf.kernels.state import HISTORY, N_DIFFERENCES, SCRATCH, Numbers
 
 
 @kernel
@@ -46,22 +43,22 @@ def value_at(rows: FloatArray, first: int, degree: int, s: float, i: int) -> flo
 
 
 @inlined
-def push(rows: FloatArray, newest: int, count: int, first: int) -> None:
-    """Write ``count`` differences of the history after row ``newest`` has joined it, from row ``first``.
+def push(rows: FloatArray, newest: int, size: int, first: int) -> None:
+    """Write ``size`` differences of the history after row ``newest`` has joined it, from row ``first``.
 
     ``first`` may be HISTORY itself.
     """
     for i in range(rows.shape[1]):
         value = rows[newest, i]
-        for m in range(count):
+        for m in range(size):
             older = rows[HISTORY + m, i]
             rows[first + m, i] = value
             value -= older
 
 
 @kernel
-def state_at(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, t: float, y: FloatArray) -> None:
+def state_at(state: Numbers, rows: FloatArray, t: float, y: FloatArray) -> None:
     """Fill ``y`` with the solution at a time inside the last accepted step."""
-    s = (t - real[T]) / real[H_LAST]
+    s = (t - state.t) / state.h_last
     for i in range(y.size):
-        y[i] = value_at(rows, HISTORY, count[K_LAST] + 1, s, i)
+        y[i] = value_at(rows, HISTORY, state.k_last + 1, s, i)

@@ -18,7 +18,7 @@ LARGEST_INVERSE: Final = 24
 
 @kernel
 def factorise(
-    count: NDArray[np.int64],
+    pivots: NDArray[np.int64],
     matrices: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
@@ -36,8 +36,8 @@ def factorise(
     if places.size > 0:
         _add_mass(matrices, mass, places, transposed, scaled)
     if transposed:
-        return _invert(count, matrices)
-    return _decompose(count, matrices)
+        return _invert(pivots, matrices)
+    return _decompose(pivots, matrices)
 
 
 @kernel
@@ -62,14 +62,14 @@ def _add_mass(
 
 
 @kernel
-def _invert(count: NDArray[np.int64], matrices: FloatArray) -> int:
+def _invert(pivots: NDArray[np.int64], matrices: FloatArray) -> int:
     """Gauss-Jordan elimination in place, with row pivoting, in FACTORS.
 
     The matrix is the transposed one, so that products run along rows of its inverse.
     """
     n, sign = matrices.shape[1], 1
     for k in range(n):
-        sign *= _bring_pivot(count, matrices, k)
+        sign *= _bring_pivot(pivots, matrices, k)
         if sign == 0:
             return 0
         inverse = 1.0 / matrices[at.FACTORS, k, k]
@@ -83,7 +83,7 @@ def _invert(count: NDArray[np.int64], matrices: FloatArray) -> int:
                 for j in range(n):
                     matrices[at.FACTORS, i, j] -= factor * matrices[at.FACTORS, k, j]
     for k in range(n - 1, -1, -1):
-        pivot = count[at.PIVOTS + k]
+        pivot = pivots[k]
         if pivot != k:
             for i in range(n):
                 value = matrices[at.FACTORS, i, k]
@@ -93,13 +93,13 @@ def _invert(count: NDArray[np.int64], matrices: FloatArray) -> int:
 
 
 @kernel
-def _bring_pivot(count: NDArray[np.int64], matrices: FloatArray, k: int) -> int:
+def _bring_pivot(pivots: NDArray[np.int64], matrices: FloatArray, k: int) -> int:
     """Exchange rows of FACTORS for the largest pivot; return the sign it gives the determinant, 0 if none."""
     n, pivot = matrices.shape[1], k
     for i in range(k + 1, n):
         if abs(matrices[at.FACTORS, i, k]) > abs(matrices[at.FACTORS, pivot, k]):
             pivot = i
-    count[at.PIVOTS + k] = pivot
+    pivots[k] = pivot
     if not abs(matrices[at.FACTORS, pivot, k]) > 0.0:
         return 0
     sign = 1 if matrices[at.FACTORS, pivot, k] > 0.0 else -1
@@ -113,11 +113,11 @@ def _bring_pivot(count: NDArray[np.int64], matrices: FloatArray, k: int) -> int:
 
 
 @kernel
-def _decompose(count: NDArray[np.int64], matrices: FloatArray) -> int:
+def _decompose(pivots: NDArray[np.int64], matrices: FloatArray) -> int:
     """LU decomposition with row pivoting in FACTORS."""
     n, sign = matrices.shape[1], 1
     for k in range(n):
-        sign *= _bring_pivot(count, matrices, k)
+        sign *= _bring_pivot(pivots, matrices, k)
         if sign == 0:
             return 0
         inverse = 1.0 / matrices[at.FACTORS, k, k]
@@ -152,13 +152,13 @@ def magnify(
 
 
 @kernel
-def solve(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
+def solve(pivots: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
     """Fill the row DELTA with the solution for the row RESIDUAL."""
     n = rows.shape[1]
     if n > LARGEST_INVERSE:
         for i in range(n):
             rows[at.DELTA, i] = rows[at.RESIDUAL, i]
-        _substitute(count, rows, matrices)
+        _substitute(pivots, rows, matrices)
         return
     for i in range(n):
         rows[at.DELTA, i] = 0.0
@@ -169,11 +169,11 @@ def solve(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> N
 
 
 @kernel
-def _substitute(count: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
+def _substitute(pivots: NDArray[np.int64], rows: FloatArray, matrices: FloatArray) -> None:
     """Replace the row DELTA by the solution with it on the right, with the factors of :func:`_decompose`."""
     n = rows.shape[1]
     for k in range(n):
-        pivot = count[at.PIVOTS + k]
+        pivot = pivots[k]
         if pivot != k:
             value = rows[at.DELTA, k]
             rows[at.DELTA, k] = rows[at.DELTA, pivot]

@@ -40,6 +40,7 @@ from mebdf.kernels.phases import (
     START_STAGE,
 )
 from mebdf.kernels.start import remember_not_finite
+from mebdf.kernels.state import Numbers
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
@@ -55,33 +56,32 @@ NO_CHANGE: Final = 1.0e-3
 
 @inlined
 def start_stage(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> int:
     """Fill what the stage knows already, predict, and ask for f where it is not known."""
-    stage, h = count[at.STAGE], real[at.H]
-    _set_constant(real, count, rows)
-    count[at.ITERATION] = 0
-    real[at.OVERSHOT] = 0.0
-    count[at.PHASE] = ITERATE
-    real[at.T_EVAL] = real[at.T] + (2.0 * h if stage == 2 else h)
+    stage, h = state.stage, state.h
+    _set_constant(state, rows)
+    state.iteration = 0
+    state.overshot = 0.0
+    state.phase = ITERATE
+    state.t_eval = state.t + (2.0 * h if stage == 2 else h)
     massive = places.size > 0
     if stage == 3:
         _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
-        if massive and count[at.HIGHER] == 0:
+        if massive and state.higher == 0:
             multiply(mass, places, rows, at.F_1, at.F)
-        if count[at.HIGHER] == 0:
+        if state.higher == 0:
             return 0
-    elif stage == 1 and count[at.CARRIED] == 1:
+    elif stage == 1 and state.carried == 1:
         _copy(rows, at.Y_2, at.Y, at.F_2, at.F)
         if not massive:
             return 0
     else:
         _copy(rows, at.PREDICTED, at.Y, at.F, at.F)
-    count[at.N_F] += 1
+    state.n_f += 1
     return NEED_F
 
 
@@ -93,12 +93,12 @@ def _copy(rows: FloatArray, y: int, to_y: int, f: int, to_f: int) -> None:
 
 
 @inlined
-def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> None:
+def _set_constant(state: Numbers, rows: FloatArray) -> None:
     """Fill the part of the formula of a stage that does not depend on its value, and its extrapolation.
 
     What stage 3 takes from the history is gathered with stage 1, in one pass.
     """
-    k, stage, h = count[at.K], count[at.STAGE], real[at.H]
+    k, stage, h = state.k, state.stage, state.h
     if stage == 3:
         slope_1 = h * (SCALARS[k, 1] - SCALARS[k, 0])
         slope_2 = h * SCALARS[k, 2]
@@ -122,10 +122,10 @@ def _set_constant(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) 
 
 @inlined
 def iterate(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     matrices: FloatArray,
+    pivots: NDArray[np.int64],
     mass: FloatArray,
     places: NDArray[np.int64],
     phase: int,
@@ -137,86 +137,83 @@ def iterate(
     verdict = IN_DOUBT
     if phase == ITERATE:
         if places.size == 0:
-            _set_residual(real, rows)
+            _set_residual(state, rows)
         else:
-            _set_residual_with_mass(real, count, rows, mass, places)
-        count[at.N_SOLVES] += 1
-        if count[at.OUTSIDE] == 1:
-            count[at.PHASE] = CORRECT
+            _set_residual_with_mass(state, rows, mass, places)
+        state.n_solves += 1
+        if state.outside == 1:
+            state.phase = CORRECT
             return NEED_SOLUTION
-        solve(count, rows, matrices)
+        solve(pivots, rows, matrices)
     if phase != CONCLUDE:
-        verdict = _correct(real, count, rows, places)
+        verdict = _correct(state, rows, places)
     if verdict == IN_DOUBT:
-        if phase != CONCLUDE and count[at.OUTSIDE] == 1:
-            count[at.PHASE] = CONCLUDE
+        if phase != CONCLUDE and state.outside == 1:
+            state.phase = CONCLUDE
             return NEED_MAGNITUDE
-        if count[at.OUTSIDE] == 0:
-            magnify(rows, matrices, mass, places, real[at.SCALED])
-        verdict = judge_beside_rounding(real, count, rows, places)
+        if state.outside == 0:
+            magnify(rows, matrices, mass, places, state.scaled)
+        verdict = judge_beside_rounding(state, rows, places)
     if verdict == SOLVED:
-        finish_stage(real, count, rows, mass, places)
+        finish_stage(state, rows, mass, places)
         return 0
-    if verdict in (DIVERGED, FALSE) or count[at.ITERATION] >= MAX_ITERATIONS[count[at.STAGE]]:
+    if verdict in (DIVERGED, FALSE) or state.iteration >= MAX_ITERATIONS[state.stage]:
         if verdict == FALSE:
-            count[at.WARY] = max(count[at.WARY], CAUTION)
-            real[at.TRUST] = 0.0
-        newton_failed(real, count, rows, places.size > 0)
+            state.wary = max(state.wary, CAUTION)
+            state.trust = 0.0
+        newton_failed(state, rows, places.size > 0)
         return 0
-    count[at.N_F] += 1
-    count[at.JACOBIAN_AGE] += count[at.DIFFERENCED]
-    count[at.PHASE] = ITERATE
+    state.n_f += 1
+    state.jacobian_age += state.differenced
+    state.phase = ITERATE
     return NEED_F
 
 
 @inlined
-def _correct(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, places: NDArray[np.int64]) -> int:
+def _correct(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int:
     """Add the correction; return whether the stage solves its formula, as far as is known."""
-    size = _add_correction(real, rows)
-    if not _converging(real, count, size):
+    size = _add_correction(state, rows)
+    if not _converging(state, size):
         if not math.isfinite(size):
-            remember_not_finite(real, count, rows)
+            remember_not_finite(state, rows)
         return DIVERGED
-    count[at.ITERATION] += 1
-    rate = real[at.RATE]
+    state.iteration += 1
+    rate = state.rate
     left = size if rate >= 0.5 else size * rate / (1.0 - rate)
-    return judge(real, count, rows, places, size) if left <= real[at.KAPPA + count[at.STAGE]] else OPEN
+    return judge(state, rows, places, size) if left <= state.settings.kappa[state.stage - 1] else OPEN
 
 
 @inlined
-def _set_residual(real: FloatArray, rows: FloatArray) -> None:
+def _set_residual(state: Numbers, rows: FloatArray) -> None:
     """Fill the row RESIDUAL and note its norm."""
     n = rows.shape[1]
-    scaled, total = real[at.SCALED], 0.0
+    scaled, total = state.scaled, 0.0
     for i in range(n):
         residual = scaled * rows[at.F, i] + rows[at.CONSTANT, i] - rows[at.Y, i]
         rows[at.RESIDUAL, i] = residual
         total += (residual * rows[at.WEIGHT, i]) ** 2
-    real[at.UNSOLVED_BEFORE] = real[at.UNSOLVED]
-    real[at.UNSOLVED] = math.sqrt(total / n)
+    state.unsolved_before = state.unsolved
+    state.unsolved = math.sqrt(total / n)
 
 
 @kernel
 def _set_residual_with_mass(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> None:
     """Fill the row RESIDUAL and note its norm over the equations with derivatives."""
     n = rows.shape[1]
-    scaled, total = real[at.SCALED], 0.0
+    scaled, total = state.scaled, 0.0
     # What the caller has evaluated of an implicit equation is the whole of it.
-    whole = count[at.IMPLICIT] == 1 and (
-        count[at.STAGE] < 3 or count[at.ITERATION] > 0 or count[at.HIGHER] == 1
-    )
+    whole = state.implicit == 1 and (state.stage < 3 or state.iteration > 0 or state.higher == 1)
     for i in range(n):
         rows[at.SCRATCH, i] = rows[at.CONSTANT, i] - rows[at.Y, i]
     for i in range(n):
         if is_algebraic(places, i):
             residual = rows[at.F, i]
-            if count[at.ITERATION] > 0:
+            if state.iteration > 0:
                 note_removed(rows, i, residual)
         else:
             residual = scaled * rows[at.F, i]
@@ -224,14 +221,14 @@ def _set_residual_with_mass(
                 residual += product(mass, places, rows, at.SCRATCH, i)
         rows[at.RESIDUAL, i] = residual
         total += (residual * rows[at.ROW_WEIGHT, i]) ** 2
-    real[at.UNSOLVED_BEFORE] = real[at.UNSOLVED]
-    real[at.UNSOLVED] = math.sqrt(total / n)
+    state.unsolved_before = state.unsolved
+    state.unsolved = math.sqrt(total / n)
 
 
 @inlined
-def _add_correction(real: FloatArray, rows: FloatArray) -> float:
+def _add_correction(state: Numbers, rows: FloatArray) -> float:
     """Add the row DELTA, adapted to the present step, to Y; return its norm."""
-    relaxation, squares = real[at.RELAXATION], 0.0
+    relaxation, squares = state.relaxation, 0.0
     for i in range(rows.shape[1]):
         change = rows[at.DELTA, i] * relaxation
         rows[at.DELTA, i] = change
@@ -241,51 +238,50 @@ def _add_correction(real: FloatArray, rows: FloatArray) -> float:
 
 
 @inlined
-def _converging(real: FloatArray, count: NDArray[np.int64], size: float) -> bool:
+def _converging(state: Numbers, size: float) -> bool:
     """Update the convergence rate; return whether there is hope."""
     if not math.isfinite(size):
         return False
-    if count[at.ITERATION] > 0:
-        ratio = size / real[at.LAST_NORM] if real[at.LAST_NORM] > 0.0 else 0.0
+    if state.iteration > 0:
+        ratio = size / state.last_norm if state.last_norm > 0.0 else 0.0
         if ratio > DIVERGING:
             return False
-        real[at.RATE] = max(real[at.FORGET] * real[at.RATE], ratio)
-        count[at.RATE_AGE] = 0
-    real[at.LAST_NORM] = size
+        state.rate = max(state.settings.forget * state.rate, ratio)
+        state.rate_age = 0
+    state.last_norm = size
     return True
 
 
 @inlined
 def finish_stage(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
-    stage, weight = count[at.STAGE], error_weight(places)
-    count[at.PHASE] = START_STAGE
-    count[at.STAGE] = stage + 1
+    stage, weight = state.stage, error_weight(places)
+    state.phase = START_STAGE
+    state.stage = stage + 1
     if stage == 1:
-        _keep(real, rows, at.Y_1, at.F_1)
-        _test_error(real, count, rows, mass, places)
+        _keep(state, rows, at.Y_1, at.F_1)
+        _test_error(state, rows, mass, places)
     elif stage == 2:
-        _keep(real, rows, at.Y_2, at.F_2)
-        if count[at.FIXED] == 0 and not _goes_on(real, count, rows, weight):
+        _keep(state, rows, at.Y_2, at.F_2)
+        if state.fixed == 0 and not _goes_on(state, rows, weight):
             _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
-            count[at.PHASE] = ACCEPT
+            state.phase = ACCEPT
     else:
         for i in range(rows.shape[1]):
             rows[at.SCRATCH, i] = rows[at.Y, i] - rows[at.Y_1, i]
-        if count[at.FIXED] == 0 and norm(rows, at.SCRATCH, weight) > real[at.DISAGREEMENT]:
-            reject(real, count, rows, 0.5, at.SCRATCH, weight)
+        if state.fixed == 0 and norm(rows, at.SCRATCH, weight) > state.settings.disagreement:
+            reject(state, rows, 0.5, at.SCRATCH, weight)
         else:
-            count[at.PHASE] = ACCEPT
+            state.phase = ACCEPT
 
 
 @inlined
-def _goes_on(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weight: int) -> bool:
+def _goes_on(state: Numbers, rows: FloatArray, weight: int) -> bool:
     """Tell whether stage 2, which has no error test, goes on as stage 1 did.
 
     Beside a jump a stage may have a solution on either side. The extended formula would take the difference
@@ -293,14 +289,14 @@ def _goes_on(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, weigh
     """
     for i in range(rows.shape[1]):
         rows[at.SCRATCH, i] = rows[at.Y_2, i] - rows[at.PREDICTED, i]
-    change = SCALARS[count[at.K], 3] * norm(rows, at.SCRATCH, weight)
-    return change <= LARGER_CHANGE * max(real[at.ERROR], NO_CHANGE)
+    change = SCALARS[state.k, 3] * norm(rows, at.SCRATCH, weight)
+    return change <= LARGER_CHANGE * max(state.error, NO_CHANGE)
 
 
 @inlined
-def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
+def _keep(state: Numbers, rows: FloatArray, y: int, f: int) -> None:
     """Store a stage; its slope follows from the formula without another call."""
-    inverse = 1.0 / real[at.SCALED]
+    inverse = 1.0 / state.scaled
     for i in range(rows.shape[1]):
         rows[y, i] = rows[at.Y, i]
         rows[f, i] = (rows[at.Y, i] - rows[at.CONSTANT, i]) * inverse
@@ -308,27 +304,26 @@ def _keep(real: FloatArray, rows: FloatArray, y: int, f: int) -> None:
 
 @inlined
 def _test_error(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> None:
     """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
-    k, weight = count[at.K], error_weight(places)
+    k, weight = state.k, error_weight(places)
     push(rows, at.Y_1, k + 2, at.STAGE_HISTORY)
     error = SCALARS[k, 3] * norm(rows, at.STAGE_HISTORY + k + 1, weight)
-    real[at.ERROR] = error
-    if error > 1.0 and count[at.FIXED] == 0 and not _is_of_the_start(count, rows, mass, places, error):
-        shrink = 1.0 / (real[at.SHRINK] * error ** (1.0 / (k + 1)))
-        reject(real, count, rows, min(0.9, max(0.1, shrink)), at.STAGE_HISTORY + k + 1, weight)
-    elif count[at.LAST] == 1:
-        count[at.PHASE] = ACCEPT
+    state.error = error
+    if error > 1.0 and state.fixed == 0 and not _is_of_the_start(state, rows, mass, places, error):
+        shrink = 1.0 / (state.settings.shrink * error ** (1.0 / (k + 1)))
+        reject(state, rows, min(0.9, max(0.1, shrink)), at.STAGE_HISTORY + k + 1, weight)
+    elif state.last == 1:
+        state.phase = ACCEPT
 
 
 @inlined
 def _is_of_the_start(
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
@@ -339,8 +334,8 @@ def _is_of_the_start(
     They may have been left beside their equations by more than a tolerance. No step is so short that it
     would not lead back to them; M y, which has an error of its own, hardly changes in it.
     """
-    k = count[at.K]
-    if places.size == 0 or count[at.FAILURES] < LATE or k > 1 or error > FORGIVEN:
+    k = state.k
+    if places.size == 0 or state.failures < LATE or k > 1 or error > FORGIVEN:
         return False
     for i in range(rows.shape[1]):
         change = SCALARS[k, 3] * product(mass, places, rows, at.STAGE_HISTORY + k + 1, i)

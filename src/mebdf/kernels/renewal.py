@@ -33,68 +33,68 @@ from mebdf.kernels.phases import (
     SINGULAR,
     START_STAGE,
 )
+from mebdf.kernels.state import Numbers
 
 
 @kernel
-def take_over(count: NDArray[np.int64], real: FloatArray, rows: FloatArray, matrices: FloatArray) -> int:
+def take_over(state: Numbers, rows: FloatArray, matrices: FloatArray) -> int:
     """Keep a new Jacobian if it is finite, and the one before it."""
-    count[at.PHASE] = FACTORISE
-    real[at.TRUST] = 0.0
+    state.phase = FACTORISE
+    state.trust = 0.0
     for i in range(rows.shape[1]):
         rows[at.SEEN, i] = 0.0
-    if count[at.OUTSIDE] == 0:
+    if state.outside == 0:
         n, total = matrices.shape[1], 0.0
         for i in range(n):
             for j in range(n):
                 total += matrices[at.JACOBIAN, i, j]
-        count[at.FINITE] = math.isfinite(total)
-        for i in range(n if count[at.FINITE] == 1 else 0):
-            if count[at.BACK] == 0:
+        state.finite = math.isfinite(total)
+        for i in range(n if state.finite == 1 else 0):
+            if state.back == 0:
                 copy(matrices[at.LAST_JACOBIAN, i], matrices[at.PREVIOUS_JACOBIAN, i])
             copy(matrices[at.JACOBIAN, i], matrices[at.LAST_JACOBIAN, i])
-    count[at.BACK] = 0
-    if count[at.FINITE] == 0 and count[at.N_J] == 1:
-        count[at.REASON] = JACOBIAN_NOT_FINITE
+    state.back = 0
+    if state.finite == 0 and state.n_j == 1:
+        state.reason = JACOBIAN_NOT_FINITE
         return FAILED
     return 0
 
 
 @kernel
 def renew_matrix(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     matrices: FloatArray,
+    pivots: NDArray[np.int64],
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> int:
     """Factorise with the Jacobian in use."""
-    real[at.FACTORED] = real[at.SCALED]
-    real[at.RELAXATION] = 1.0
-    real[at.RATE] = 1.0
-    count[at.MATRIX_AGE] = 0
-    count[at.N_LU] += 1
-    count[at.PHASE] = FACTORISED
-    if count[at.OUTSIDE] == 1:
+    state.factored = state.scaled
+    state.relaxation = 1.0
+    state.rate = 1.0
+    state.matrix_age = 0
+    state.n_lu += 1
+    state.phase = FACTORISED
+    if state.outside == 1:
         return NEED_FACTORS
-    real[at.TRACE] = 0.0
+    state.trace_of_j = 0.0
     for i in range(matrices.shape[1]):
-        real[at.TRACE] += matrices[at.LAST_JACOBIAN, i, i]
-    count[at.SIGN] = factorise(count, matrices, mass, places, real[at.SCALED])
+        state.trace_of_j += matrices[at.LAST_JACOBIAN, i, i]
+    state.sign = factorise(pivots, matrices, mass, places, state.scaled)
     return 0
 
 
 @inlined
-def _is_outgrown(real: FloatArray, count: NDArray[np.int64], n: int, massive: bool) -> bool:
+def _is_outgrown(state: Numbers, n: int, massive: bool) -> bool:
     """Tell whether, by the Jacobian in use, something grows faster than the step."""
-    if count[at.REFERENCE] == 0:
-        count[at.REFERENCE] = count[at.SIGN]
-    return count[at.SIGN] != count[at.REFERENCE] or (not massive and real[at.SCALED] * real[at.TRACE] > n)
+    if state.reference == 0:
+        state.reference = state.sign
+    return state.sign != state.reference or (not massive and state.scaled * state.trace_of_j > n)
 
 
 @inlined
 def begin_stages(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     matrices: FloatArray,
     massive: bool,
@@ -103,19 +103,19 @@ def begin_stages(
 
     An old Jacobian is renewed first; where the newest one is outgrown the one before it follows, then none.
     """
-    count[at.STAGE] = 1
-    count[at.PHASE] = START_STAGE
-    if count[at.SIGN] == 0:
-        newton_failed(real, count, rows, massive)
-        count[at.CAUSE] = SINGULAR
-    elif count[at.BACK] < 2 and _is_outgrown(real, count, rows.shape[1], massive):
-        if count[at.FRESH] == 0:
-            newton_failed(real, count, rows, massive)
+    state.stage = 1
+    state.phase = START_STAGE
+    if state.sign == 0:
+        newton_failed(state, rows, massive)
+        state.cause = SINGULAR
+    elif state.back < 2 and _is_outgrown(state, rows.shape[1], massive):
+        if state.fresh == 0:
+            newton_failed(state, rows, massive)
             return
-        count[at.BACK] += 1
-        count[at.PHASE] = FACTORISE
+        state.back += 1
+        state.phase = FACTORISE
         for i in range(matrices.shape[1]):
             copy(matrices[at.PREVIOUS_JACOBIAN, i], matrices[at.LAST_JACOBIAN, i])
-            if count[at.BACK] == 2 and not massive:
+            if state.back == 2 and not massive:
                 for j in range(matrices.shape[1]):
                     matrices[at.LAST_JACOBIAN, i, j] = 0.0

@@ -13,6 +13,7 @@ from mebdf.kernels import state as at
 from mebdf.kernels.control import norm, set_weights
 from mebdf.kernels.jit import kernel
 from mebdf.kernels.phases import BEGIN, FAILED, FIRST_F, NEED_F, NOT_FINITE, SECOND_F, STEP
+from mebdf.kernels.state import Numbers
 
 SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
 """Shortest first step relative to the time: 16 or more spacings between numbers."""
@@ -20,77 +21,76 @@ SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
 
 @kernel
 def start(
-    real: FloatArray,
-    count: NDArray[np.int64],
+    state: Numbers,
     rows: FloatArray,
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> int:
     """Go through the phases before the first step; return what is needed, 0 when it can begin."""
-    if count[at.PHASE] == BEGIN:
-        set_weights(real, rows, mass, places)
-        return _ask(real, count, rows, 0.0, FIRST_F)
-    if count[at.PHASE] == FIRST_F:
-        if remember_not_finite(real, count, rows):
-            count[at.REASON] = NOT_FINITE
+    if state.phase == BEGIN:
+        set_weights(state, rows, mass, places)
+        return _ask(state, rows, 0.0, FIRST_F)
+    if state.phase == FIRST_F:
+        if remember_not_finite(state, rows):
+            state.reason = NOT_FINITE
             return FAILED
         first = at.F_2 if places.size > 0 else at.F_1
         for i in range(rows.shape[1]):
             rows[first, i] = rows[at.F, i]
-        if real[at.H] == 0.0:
-            real[at.H] = _trial_step(real, rows)
-            return _ask(real, count, rows, real[at.DIRECTION] * real[at.H], SECOND_F)
+        if state.h == 0.0:
+            state.h = _trial_step(state, rows)
+            return _ask(state, rows, state.direction * state.h, SECOND_F)
     else:
-        real[at.H] = _first_step(real, rows, places)
-    real[at.H] = max(real[at.H], _least(real)) * real[at.DIRECTION]
+        state.h = _first_step(state, rows, places)
+    state.h = max(state.h, _least(state)) * state.direction
     for i in range(rows.shape[1]):
-        rows[at.HISTORY + 1, i] = real[at.H] * rows[at.F_1, i]
-    count[at.PHASE] = STEP
+        rows[at.HISTORY + 1, i] = state.h * rows[at.F_1, i]
+    state.phase = STEP
     return 0
 
 
 @kernel
-def _ask(real: FloatArray, count: NDArray[np.int64], rows: FloatArray, h: float, phase: int) -> int:
+def _ask(state: Numbers, rows: FloatArray, h: float, phase: int) -> int:
     """Ask for f a distance ``h`` along the first slope."""
     for i in range(rows.shape[1]):
         rows[at.Y, i] = rows[at.HISTORY, i]
         if h != 0.0:
             rows[at.Y, i] += h * rows[at.F_1, i]
-    real[at.T_EVAL] = real[at.T] + h
-    count[at.PHASE] = phase
-    count[at.N_F] += 1
+    state.t_eval = state.t + h
+    state.phase = phase
+    state.n_f += 1
     return NEED_F
 
 
 @kernel
-def remember_not_finite(real: FloatArray, count: NDArray[np.int64], rows: FloatArray) -> bool:
+def remember_not_finite(state: Numbers, rows: FloatArray) -> bool:
     """Remember where f is not finite; tell whether there was such a place."""
     for i in range(rows.shape[1]):
         if not math.isfinite(rows[at.F, i]):
-            count[at.BAD] = i
-            real[at.T_BAD] = real[at.T_EVAL]
+            state.bad = i
+            state.t_bad = state.t_eval
             return True
     return False
 
 
 @kernel
-def _trial_step(real: FloatArray, rows: FloatArray) -> float:
+def _trial_step(state: Numbers, rows: FloatArray) -> float:
     """Return a step over which the solution changes by about a hundredth of itself."""
     value, slope = norm(rows, at.HISTORY, at.WEIGHT), norm(rows, at.F_1, at.WEIGHT)
     size = 1.0e-6 if value < 1.0e-5 or slope < 1.0e-5 else 0.01 * value / slope
-    return max(min(size, real[at.H_MAX], abs(real[at.T_END] - real[at.T])), _least(real))
+    return max(min(size, state.h_max, abs(state.t_end - state.t)), _least(state))
 
 
 @kernel
-def _least(real: FloatArray) -> float:
+def _least(state: Numbers) -> float:
     """Return the shortest first step: the times of its stages must differ."""
-    return min(SHORTEST * abs(real[at.T]), real[at.H_MAX], abs(real[at.T_END] - real[at.T]))
+    return min(SHORTEST * abs(state.t), state.h_max, abs(state.t_end - state.t))
 
 
 @kernel
-def _first_step(real: FloatArray, rows: FloatArray, places: NDArray[np.int64]) -> float:
+def _first_step(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> float:
     """Return the size of the first step from two slopes: Hairer, Nørsett and Wanner, II.4, for order one."""
-    trial = real[at.H]
+    trial = state.h
     slope = norm(rows, at.F_1, at.WEIGHT)
     first, weight = (at.F_2, at.ROW_WEIGHT) if places.size > 0 else (at.F_1, at.WEIGHT)
     for i in range(rows.shape[1]):
@@ -99,4 +99,4 @@ def _first_step(real: FloatArray, rows: FloatArray, places: NDArray[np.int64]) -
     if not math.isfinite(largest):
         return 1.0e-3 * trial
     size = max(1.0e-6, 1.0e-3 * trial) if largest <= 1.0e-15 else math.sqrt(0.01 / largest)
-    return min(100.0 * trial, size, real[at.H_MAX], abs(real[at.T_END] - real[at.T]))
+    return min(100.0 * trial, size, state.h_max, abs(state.t_end - state.t))

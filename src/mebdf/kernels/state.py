@@ -1,8 +1,8 @@
-"""State of an MEBDF integration: plain arrays, so that compiled code and Python drive the same core."""
+"""State of an MEBDF integration: a record and arrays, for compiled code and Python alike."""
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,89 +10,9 @@ from numpy.typing import NDArray
 from mebdf.arrays import FloatArray
 from mebdf.kernels.coefficients import MAX_K
 
-# Entries of ``MebdfState.real``.
-T: Final = 0
-T_END: Final = 1
-H: Final = 2
-H_MAX: Final = 3
-T_EVAL: Final = 4
-SCALED: Final = 5
-"""Step times β of the present step."""
-FACTORED: Final = 6
-"""Step times β that the factorised matrix belongs to; 0 when there is none."""
-RATE: Final = 7
-"""Estimate of the convergence rate of Newton's iteration."""
-LAST_NORM: Final = 8
-T_OLD: Final = 9
-H_LAST: Final = 10
-"""Signed size of the last accepted step; the differences belong to it."""
-ERROR: Final = 11
-DIRECTION: Final = 12
-RELAXATION: Final = 13
-"""What Newton corrections are multiplied by because the matrix belongs to another step."""
-T_BAD: Final = 14
-"""Time at which the right-hand side was not finite last."""
-UNSOLVED: Final = 15
-"""Norm of the residual of the formula, in units of the tolerance, where f was known last."""
-UNSOLVED_BEFORE: Final = 16
-"""The same one iteration earlier."""
-T_MARK: Final = 17
-"""Time at which failures began to be counted."""
-TRUST: Final = 18
-"""Largest residual, in units of the tolerance, that the present Jacobian is trusted to remove."""
-OVERSHOT: Final = 19
-"""What the last correction was magnified by to rise above rounding, 0 where it was not."""
-TRACE: Final = 20
-"""Trace of the Jacobian in use."""
-SETTINGS: Final = 21
-"""First of the entries that hold the settings of the controllers."""
-
-# Settings, in ``real[SETTINGS + ...]``; their values stand in ``DEFAULTS``.
-KAPPA: Final = SETTINGS - 1
-"""Share of the tolerance that Newton's iteration may leave in stages 1, 2, 3: entries KAPPA + stage."""
-SLOW: Final = SETTINGS + 3
-"""Convergence rate above which a new matrix takes a new Jacobian."""
-OLD_JACOBIAN: Final = SETTINGS + 4
-"""Age of the Jacobian at which a new matrix takes a new one."""
-SAME_MATRIX: Final = SETTINGS + 5
-"""Relative change of step times β up to which the matrix is kept."""
-SAFETY_LOWER: Final = SETTINGS + 6
-SAFETY: Final = SETTINGS + 7
-SAFETY_HIGHER: Final = SETTINGS + 8
-LEAST_GROWTH: Final = SETTINGS + 9
 LEAST_GROWTH_WITH_MASS: Final = 1.2
-"""Where algebraic equations converge by what the matrix knows of them, a longer step saves less."""
-LARGEST_GROWTH: Final = SETTINGS + 10
-"""Largest growth of the step at once; its square where there is one back value."""
-DISAGREEMENT: Final = SETTINGS + 11
-"""Largest distance of y_{n+1} from ȳ1 in units of the tolerance."""
-FORGET: Final = SETTINGS + 12
-"""How much of the estimated convergence rate the next stage inherits."""
-WAIT: Final = SETTINGS + 13
-"""Steps to wait, beyond k, before order and step are chosen anew."""
-SHRINK: Final = SETTINGS + 14
-"""Reluctance of the step after a failed error test."""
-RENEW: Final = SETTINGS + 15
-"""Steps after which the matrix is renewed although the step has not changed."""
-UNSURE: Final = SETTINGS + 16
-"""Steps after which a convergence rate that was not measured again is forgotten."""
-EARLY: Final = SETTINGS + 17
-"""Error, in units of the tolerance, above which the step is shortened before it fails."""
-TIGHT: Final = SETTINGS + 18
-"""Share of the tolerances that the method uses: errors of steps add up."""
-DOUBTFUL: Final = SETTINGS + 19
-"""Residual of the formula, in units of the tolerance, that a small correction may not leave."""
-TINY: Final = SETTINGS + 20
-"""Correction that is small, in units of the tolerance; without trust, over the residual."""
-DEFAULTS: Final = (
-    *(0.24, 0.42, 0.20),
-    *(0.05, 40.0, 0.05),
-    *(1.44, 1.54, 1.62, 1.05, 6.0),
-    *(1.9, 0.28, 2.0, 1.9, 20.0, 3.0, 0.9),
-    0.3,
-    *(10.0, 0.02),
-)
-N_REAL: Final = SETTINGS + len(DEFAULTS)
+"""``least_growth`` with a mass matrix: where algebraic equations converge by what the matrix knows of them, a
+longer step saves less."""
 
 # A Jacobian by many differences must be worse before it is renewed.
 EVALUATIONS: Final = 40
@@ -103,70 +23,6 @@ PRICE: Final = 4
 """Iterations beyond the first of stages, over the evaluations a Jacobian costs, until it is renewed."""
 LEAST_PRICE: Final = 10
 """Least number of these iterations."""
-
-# Entries of ``MebdfState.counts``.
-PHASE: Final = 0
-K: Final = 1
-EQUAL_STEPS: Final = 2
-ITERATION: Final = 3
-STAGE: Final = 4
-STEPS: Final = 5
-REJECTED: Final = 6
-N_F: Final = 7
-N_J: Final = 8
-N_LU: Final = 9
-JACOBIAN_AGE: Final = 10
-"""Steps since the Jacobian was evaluated; where it is differenced, iterations beyond the first of a stage."""
-CARRIED: Final = 11
-"""Whether stage 2 of the last step predicts stage 1 of this one, with its derivative."""
-FAILURES: Final = 12
-"""Failed error tests in a row."""
-K_LAST: Final = 13
-FRESH: Final = 14
-"""Whether the Jacobian was evaluated at the present point."""
-REASON: Final = 15
-LARGEST_K: Final = 16
-FIXED: Final = 17
-"""Whether step and order are held, for convergence tests."""
-INSIDE: Final = 18
-"""Whether the right-hand side may not be evaluated beyond the end."""
-BAD: Final = 19
-"""Component in which the right-hand side was not finite last, −1 if it never was."""
-N_SOLVES: Final = 20
-LAST: Final = 21
-"""Whether this is a last step that may not look beyond the end."""
-WORST: Final = 22
-"""Component to blame for the last rejected step, −1 if there was none since the last accepted one."""
-CAUSE: Final = 23
-"""Why the last step was rejected."""
-RATE_AGE: Final = 24
-"""Steps since the convergence rate was measured."""
-MATRIX_AGE: Final = 25
-"""Steps since the matrix was factorised."""
-DIFFERENCED: Final = 26
-"""Whether the Jacobian comes from differences: each costs as many evaluations as there are equations."""
-WARY: Final = 27
-"""Steps to come in which every stage must show by an evaluation that it solves its formula."""
-VAIN: Final = 28
-"""Failures of Newton's iteration with a new Jacobian since ``real[T_MARK]``."""
-OUTSIDE: Final = 29
-"""Whether the caller keeps the Jacobian and solves with the iteration matrix."""
-FINITE: Final = 30
-"""Whether the newest Jacobian is finite."""
-SIGN: Final = 31
-"""Sign of the determinant of the iteration matrix, 0 where it is singular."""
-BACK: Final = 32
-"""Which Jacobian is in use: 0 the newest, 1 the one before it, 2 zero (with a mass matrix still that)."""
-HIGHER: Final = 33
-"""Whether a variable has an index above 1: constraints must then hold better than the tolerance."""
-IMPLICIT: Final = 34
-"""Whether the caller evaluates the whole residual of an equation in t, y and y'."""
-AHEAD: Final = 35
-"""Whether the next Jacobian is that of the predicted value."""
-REFERENCE: Final = 36
-"""Sign of the determinant for short steps, 0 while it is unknown."""
-PIVOTS: Final = 37
-"""First of n row exchanges of the factorised matrix."""
 
 # Rows of ``MebdfState.rows``.
 ATOL: Final = 0
@@ -221,29 +77,185 @@ PREVIOUS_JACOBIAN: Final = 3
 """Finite Jacobian that was in use before the last one."""
 
 
+class Settings:
+    """Settings of the controllers, with their defaults."""
+
+    kappa: tuple[float, ...] = (0.24, 0.42, 0.20)
+    """Share of the tolerance that Newton's iteration may leave in stages 1, 2, 3."""
+    slow: float = 0.05
+    """Convergence rate above which a new matrix takes a new Jacobian."""
+    old_jacobian: float = 40.0
+    """Age of the Jacobian at which a new matrix takes a new one."""
+    same_matrix: float = 0.05
+    """Relative change of step times β up to which the matrix is kept."""
+    safety_lower: float = 1.44
+    safety: float = 1.54
+    safety_higher: float = 1.62
+    least_growth: float = 1.05
+    largest_growth: float = 6.0
+    """Largest growth of the step at once; its square where there is one back value."""
+    disagreement: float = 1.9
+    """Largest distance of y_{n+1} from ȳ1 in units of the tolerance."""
+    forget: float = 0.28
+    """How much of the estimated convergence rate the next stage inherits."""
+    wait: float = 2.0
+    """Steps to wait, beyond k, before order and step are chosen anew."""
+    shrink: float = 1.9
+    """Reluctance of the step after a failed error test."""
+    renew: float = 20.0
+    """Steps after which the matrix is renewed although the step has not changed."""
+    unsure: float = 3.0
+    """Steps after which a convergence rate that was not measured again is forgotten."""
+    early: float = 0.9
+    """Error, in units of the tolerance, above which the step is shortened before it fails."""
+    tight: float = 0.3
+    """Share of the tolerances that the method uses: errors of steps add up."""
+    doubtful: float = 10.0
+    """Residual of the formula, in units of the tolerance, that a small correction may not leave."""
+    tiny: float = 0.02
+    """Correction that is small, in units of the tolerance; without trust, over the residual."""
+
+
+class Numbers:
+    """Numbers of an integration, the fields of a record; whole numbers are also used for true and false."""
+
+    settings: Settings
+    t: float
+    t_end: float
+    h: float
+    h_max: float
+    t_eval: float
+    scaled: float
+    """Step times β of the present step."""
+    factored: float
+    """Step times β that the factorised matrix belongs to; 0 when there is none."""
+    rate: float
+    """Estimate of the convergence rate of Newton's iteration."""
+    last_norm: float
+    t_old: float
+    h_last: float
+    """Signed size of the last accepted step; the differences belong to it."""
+    error: float
+    direction: float
+    relaxation: float
+    """What Newton corrections are multiplied by because the matrix belongs to another step."""
+    t_bad: float
+    """Time at which the right-hand side was not finite last."""
+    unsolved: float
+    """Norm of the residual of the formula, in units of the tolerance, where f was known last."""
+    unsolved_before: float
+    """The same one iteration earlier."""
+    t_mark: float
+    """Time at which failures began to be counted."""
+    trust: float
+    """Largest residual, in units of the tolerance, that the present Jacobian is trusted to remove."""
+    overshot: float
+    """What the last correction was magnified by to rise above rounding, 0 where it was not."""
+    trace_of_j: float
+    """Trace of the Jacobian in use."""
+    phase: int
+    k: int
+    equal_steps: int
+    iteration: int
+    stage: int
+    steps: int
+    rejected: int
+    n_f: int
+    n_j: int
+    n_lu: int
+    jacobian_age: int
+    """Steps since the Jacobian was evaluated; if it is differenced, iterations beyond the first of stages."""
+    carried: int
+    """Whether stage 2 of the last step predicts stage 1 of this one, with its derivative."""
+    failures: int
+    """Failed error tests in a row."""
+    k_last: int
+    fresh: int
+    """Whether the Jacobian was evaluated at the present point."""
+    reason: int
+    largest_k: int
+    fixed: int
+    """Whether step and order are held, for convergence tests."""
+    inside: int
+    """Whether the right-hand side may not be evaluated beyond the end."""
+    bad: int
+    """Component in which the right-hand side was not finite last, −1 if it never was."""
+    n_solves: int
+    last: int
+    """Whether this is a last step that may not look beyond the end."""
+    worst: int
+    """Component to blame for the last rejected step, −1 if there was none since the last accepted one."""
+    cause: int
+    """Why the last step was rejected."""
+    rate_age: int
+    """Steps since the convergence rate was measured."""
+    matrix_age: int
+    """Steps since the matrix was factorised."""
+    differenced: int
+    """Whether the Jacobian comes from differences: each costs as many evaluations as there are equations."""
+    wary: int
+    """Steps to come in which every stage must show by an evaluation that it solves its formula."""
+    vain: int
+    """Failures of Newton's iteration with a new Jacobian since ``t_mark``."""
+    outside: int
+    """Whether the caller keeps the Jacobian and solves with the iteration matrix."""
+    finite: int
+    """Whether the newest Jacobian is finite."""
+    sign: int
+    """Sign of the determinant of the iteration matrix, 0 where it is singular."""
+    back: int
+    """Which Jacobian is in use: 0 the newest, 1 the one before it, 2 zero (with a mass matrix still that)."""
+    higher: int
+    """Whether a variable has an index above 1: constraints must then hold better than the tolerance."""
+    implicit: int
+    """Whether the caller evaluates the whole residual of an equation in t, y and y'."""
+    ahead: int
+    """Whether the next Jacobian is that of the predicted value."""
+    reference: int
+    """Sign of the determinant for short steps, 0 while it is unknown."""
+
+
+def _type_of(fields: type) -> np.dtype[np.void]:
+    """Return the type of a record with the annotated fields of a class."""
+    kinds: dict[str, Any] = {"float": (np.float64,), "int": (np.int64,), "tuple[float, ...]": (np.float64, 3)}
+    if fields is not Settings:
+        kinds["Settings"] = (_type_of(Settings),)
+    return np.dtype((np.record, [(name, *kinds[kind]) for name, kind in fields.__annotations__.items()]))
+
+
+NUMBERS: Final = _type_of(Numbers)
+"""Type of the record of :class:`Numbers`, which compiled code takes as one address."""
+
+
 class MebdfState(NamedTuple):
     """Everything an integration of ``n`` equations needs between two calls of ``resume``.
 
     Attributes
     ----------
-    real, counts
-        Numbers named above; ``counts`` ends with the row exchanges.
+    numbers
+        One record of :class:`Numbers`, shape (1,): compiled code is handed an array sooner than a record.
     rows
         Vectors named above, shape (N_ROWS, n).
     matrices
         Matrices named above, shape (4, n, n); of no size where the caller solves.
+    pivots
+        Row exchanges of the factorised matrix, shape (n,); of no size where the caller solves.
     mass
         Entries of the mass matrix, row by row; of no size where it is the unit matrix.
     places
         Where each row begins in ``mass``, n + 1 numbers, then the column of each entry.
     """
 
-    real: FloatArray
-    counts: NDArray[np.int64]
+    numbers: NDArray[np.void]
     rows: FloatArray
     matrices: FloatArray
+    pivots: NDArray[np.int64]
     mass: FloatArray
     places: NDArray[np.int64]
+
+    def number(self, name: str) -> Any:
+        """Return a number of the record."""
+        return self.numbers[name].item()
 
 
 class Mass(NamedTuple):
@@ -316,38 +328,38 @@ def new_state(
     """
     n = y.size
     size = 0 if outside else n
-    real = np.zeros(N_REAL)
-    real[[T, T_OLD, T_MARK]] = t
-    real[T_END] = t_end
-    real[DIRECTION] = 1.0 if t_end >= t else -1.0
-    real[H] = first_step
-    real[H_MAX] = max_step
-    real[[RATE, RELAXATION]] = 1.0
-    real[SETTINGS:] = DEFAULTS
-    count = np.zeros(PIVOTS + size, dtype=np.int64)
-    count[[K, K_LAST]] = 1
-    count[LARGEST_K] = largest_k
-    count[INSIDE] = inside
-    count[DIFFERENCED] = min(differenced, 1)
-    real[SLOW] = max(real[SLOW], min(differenced / EVALUATIONS, SLOWEST))
+    record = np.zeros(1, dtype=NUMBERS)
+    numbers: Any = record[0]
+    settings = numbers.settings
+    for name in Settings.__annotations__:
+        setattr(settings, name, getattr(Settings, name))
+    numbers.t = numbers.t_old = numbers.t_mark = t
+    numbers.t_end = t_end
+    numbers.direction = 1.0 if t_end >= t else -1.0
+    numbers.h, numbers.h_max = first_step, max_step
+    numbers.rate = numbers.relaxation = 1.0
+    numbers.k = numbers.k_last = 1
+    numbers.largest_k = largest_k
+    numbers.inside, numbers.outside = inside, outside
+    numbers.differenced = min(differenced, 1)
+    settings.slow = max(settings.slow, min(differenced / EVALUATIONS, SLOWEST))
     if differenced > 0:
-        real[OLD_JACOBIAN] = max(PRICE * differenced, LEAST_PRICE)
-    count[OUTSIDE] = outside
-    count[[BAD, WORST]] = -1
-    count[REFERENCE] = mass is None
+        settings.old_jacobian = max(PRICE * differenced, LEAST_PRICE)
+    numbers.bad = numbers.worst = -1
+    numbers.reference = mass is None
     rows = np.zeros((N_ROWS, n))
     rows[ATOL] = atol
     rows[RTOL] = rtol
     rows[[Y, HISTORY]] = y
-    matrices = np.zeros((4, size, size))
+    matrices, pivots = np.zeros((4, size, size)), np.zeros(size, dtype=np.int64)
     if mass is None:
-        return MebdfState(real, count, rows, matrices, np.zeros(0), np.zeros(0, dtype=np.int64))
+        return MebdfState(record, rows, matrices, pivots, np.zeros(0), np.zeros(0, dtype=np.int64))
     rows[F_1] = mass.slope
     rows[POWER] = np.maximum(mass.indices - 1, 0)
     rows[TESTED] = mass.tested
-    count[IMPLICIT] = mass.implicit
+    numbers.implicit = mass.implicit
     if np.any(mass.indices > 1):
-        count[HIGHER] = 1
-        real[SAME_MATRIX] = 0.0  # algebraic equations know no step that a correction could be adapted to
-    real[LEAST_GROWTH] = LEAST_GROWTH_WITH_MASS
-    return MebdfState(real, count, rows, matrices, mass.entries, mass.places)
+        numbers.higher = 1
+        settings.same_matrix = 0.0  # algebraic equations know no step that a correction could be adapted to
+    settings.least_growth = LEAST_GROWTH_WITH_MASS
+    return MebdfState(record, rows, matrices, pivots, mass.entries, mass.places)

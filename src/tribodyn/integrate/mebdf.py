@@ -214,17 +214,17 @@ class _CompiledWalk(Walk):
         self.window, self.skipped = more
         self.collect()
         position[N_STEPS] = 0
-        self.t = float(state.real[entry.T])
+        self.t = state.number("t")
         self.y = state.rows[entry.HISTORY].copy()
-        self.step_size = float(state.real[entry.H_LAST])
-        for name, place in (
-            ("steps", entry.STEPS),
-            ("rejected", entry.REJECTED),
-            ("rhs_evaluations", entry.N_F),
-            ("jacobian_evaluations", entry.N_J),
-            ("lu_decompositions", entry.N_LU),
+        self.step_size = state.number("h_last")
+        for name, field in (
+            ("steps", "steps"),
+            ("rejected", "rejected"),
+            ("rhs_evaluations", "n_f"),
+            ("jacobian_evaluations", "n_j"),
+            ("lu_decompositions", "n_lu"),
         ):
-            setattr(self.statistics, name, before[name] + int(state.counts[place]))
+            setattr(self.statistics, name, before[name] + state.number(field))
 
     def _reason(self, state: MebdfState) -> str:
         """Return why the core gave up, in words."""

@@ -336,3 +336,52 @@ def test_extra_arguments_of_an_implicit_equation_are_refused():
         ValueError, match=r"`args` are not passed on with `slope`; give .* `lambda t, y, slope"
     ):
         solve(lambda t, y, slope, rate: slope + rate * y, (0.0, 1.0), [1.0], slope=[0.0], args=(2.0,))
+
+
+def small_beside_large(t, y):
+    """Two algebraic variables, 1000 and e^−t."""
+    return [-y[0], y[1] - 1000.0, y[2] - y[0]]
+
+
+@pytest.mark.filterwarnings("ignore:The values at t")
+@pytest.mark.parametrize("given", [0.5, 1e-2, 1e-5])
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
+def test_a_small_value_beside_a_large_one_is_corrected(given, rtol):
+    start = [1.0, 1000.0, 1.0 + given]
+    solution = solve(small_beside_large, (0.0, 3.0), start, mass=[1.0, 0.0, 0.0], rtol=rtol, atol=1e-3 * rtol)
+    assert solution.success
+    # Beside it the error of the integration, of some tolerances.
+    np.testing.assert_allclose(solution.y[2, -1], np.exp(-3.0), rtol=10.0 * rtol)
+
+
+@pytest.mark.filterwarnings("ignore:The values at t")
+def test_a_current_of_nanoamperes_beside_a_kilovolt_is_corrected():
+    solution = solve(
+        lambda t, y: [-y[0], y[1] - 1000.0, y[2] - 1e-9 * y[0]],
+        (0.0, 3.0),
+        [1.0, 1000.0, 1.1e-9],
+        mass=[1.0, 0.0, 0.0],
+        rtol=1e-6,
+        atol=[1e-9, 1e-6, 1e-18],
+    )
+    assert solution.success
+    np.testing.assert_allclose(solution.y[2, -1], 1e-9 * np.exp(-3.0), rtol=1e-5)
+
+
+@pytest.mark.filterwarnings("ignore:The values at t")
+def test_a_small_value_beside_a_large_one_is_corrected_among_eight_hundred():
+    n = 800
+    pairs = np.kron(np.eye(n // 2), [[1.0, 0.0], [1.0, 1.0]])
+
+    def fun(t, y):
+        """Every second variable is algebraic: the first of them is 1000, the others e^−t."""
+        algebraic = y[1::2] - y[::2]
+        algebraic[0] = y[1] - 1000.0
+        return np.ravel(np.column_stack((-y[::2], algebraic)))
+
+    start = np.ones(n)
+    start[[1, 3]] = 1000.0, 1.5
+    mass = np.tile([1.0, 0.0], n // 2)
+    solution = solve(fun, (0.0, 3.0), start, mass=mass, jac_sparsity=csr_array(pairs), rtol=1e-6, atol=1e-9)
+    assert solution.success
+    np.testing.assert_allclose(solution.y[3, -1], np.exp(-3.0), rtol=1e-5)

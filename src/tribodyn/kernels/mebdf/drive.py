@@ -135,22 +135,23 @@ def run(
     Another thread may ask for the pause. Called again, the loop goes on to the same bits, for all that it
     needs stands in its arguments.
     """
-    real, count, rows, matrices, mass, places = state
+    record, rows, matrices, pivots, mass, places = state
+    numbers = record[0]
     y, f, newest = rows[at.Y], rows[at.F], rows[at.HISTORY]
     times, position, reached = marks.times, marks.position, marks.reached
     end, tolerance = marks.end, marks.tolerance[0]
     while True:
-        request = resume(real, count, rows, matrices, mass, places)
+        request = resume(record, rows, matrices, pivots, mass, places)
         if request == NEED_F:
-            rhs(real[at.T_EVAL], y, data, memory, f)
+            rhs(numbers.t_eval, y, data, memory, f)
             if pause[0] == AFTER_EVALUATION:
                 return PAUSED
             continue
         if request == NEED_JACOBIAN:
             jacobian.fill(0.0)
-            jac(real[at.T_EVAL], y, data, memory, f, jacobian)
+            jac(numbers.t_eval, y, data, memory, f, jacobian)
             if own is not None:
-                count[at.FINITE] = take_over(own, count[at.BACK])
+                numbers.finite = take_over(own, numbers.back)
             if pause[0] == AFTER_EVALUATION:
                 return PAUSED
             continue
@@ -158,19 +159,19 @@ def run(
             return FAILED
         if own is not None and factorise is not None and solve is not None:
             if request == NEED_FACTORS:
-                if count[at.BACK] > 0:
+                if numbers.back > 0:
                     copy(own.previous, own.last)
-                real[at.TRACE] = trace(own)
-                count[at.SIGN] = factorise(real[at.SCALED], data, own.last, own.factors, own.pivots)
+                numbers.trace_of_j = trace(own)
+                numbers.sign = factorise(numbers.scaled, data, own.last, own.factors, own.pivots)
                 continue
             if request == NEED_SOLUTION:
-                set_right_side(rows, places, real[at.SCALED])
+                set_right_side(rows, places, numbers.scaled)
                 solve(data, own.factors, own.pivots, rows[at.DELTA])
                 continue
             if request == NEED_MAGNITUDE:
-                magnify(own, rows, mass, places, real[at.SCALED])
+                magnify(own, rows, mass, places, numbers.scaled)
                 continue
-        t = real[at.T]
+        t = numbers.t
         ended = taken = False
         while not ended:
             mark = position[NEXT_MARK]
@@ -178,7 +179,7 @@ def run(
             ended = not inside
             t_part = times[mark] if inside else t
             if inside:
-                state_at(real, count, rows, t_part, end)
+                state_at(numbers, rows, t_part, end)
             else:
                 copy(newest, end)
             advance(reached[0], t_part, end, data, memory)
@@ -197,7 +198,7 @@ def run(
             marks.step_times[position[N_STEPS]] = t
             position[N_STEPS] += 1
         accept(t, newest, data, memory)
-        if t == real[at.T_END]:
+        if t == numbers.t_end:
             return ENDED
         if pause[0] != 0 or position[N_STEPS] == marks.step_times.size:
             return PAUSED

@@ -26,14 +26,14 @@ def integrate(t, t_end):
             state.matrices[entry.JACOBIAN] = [[0.0, 1.0], [-1.0, 0.0]]
         else:
             assert request == phases.STEP_ACCEPTED
-            steps.append(state.real[entry.H_LAST])
-            if state.real[entry.T] == t_end:
+            steps.append(state.number("h_last"))
+            if state.number("t") == t_end:
                 return state, np.array(steps)
 
 
 def error(state, t):
     y = np.empty(2)
-    state_at(state.real, state.counts, state.rows, t, y)
+    state_at(state.numbers[0], state.rows, t, y)
     return np.abs(y - [np.cos(t), -np.sin(t)]).max()
 
 
@@ -47,6 +47,6 @@ def test_the_solution_ends_at_the_end(t, t_end):
 
 def test_no_matrix_is_spent_on_the_end():
     ends = np.linspace(6.0, 6.5, 21)
-    matrices = {int(integrate(0.0, end)[0].counts[entry.N_LU]) for end in ends.tolist()}
+    matrices = {integrate(0.0, end)[0].number("n_lu") for end in ends.tolist()}
     # Nothing but the number of steps depends on the end: at most one change of step lies within it.
     assert len(matrices) <= 2
