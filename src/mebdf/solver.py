@@ -7,7 +7,6 @@ from functools import cache
 from typing import Any, Final
 from warnings import warn
 
-import numba as nb
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import DenseOutput, OdeSolver
@@ -44,7 +43,7 @@ from mebdf.kernels.phases import (
     NEED_SOLUTION,
     STEP_ACCEPTED,
 )
-from mebdf.kernels.state import HISTORY, NUMBERS, F, Y, new_state
+from mebdf.kernels.state import HISTORY, F, Y, new_state, state_type
 from mebdf.mass import LARGEST, MassMatrix, read_mass, with_index
 from mebdf.reasons import reason
 
@@ -353,8 +352,5 @@ def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y:
 @cache
 def _machine_code() -> Callable[..., int]:
     """Return the core compiled for its only types: called directly it need not find them out each time."""
-    matrices, vectors = (nb.float64[:, ::1], nb.float64[:, :, ::1]), (nb.float64[::1], nb.int64[::1])
-    code: Callable[..., int] = resume.compile(
-        (nb.from_dtype(NUMBERS)[::1], *matrices, nb.int64[::1], *vectors)
-    )
+    code: Callable[..., int] = resume.compile(state_type().types)
     return code

@@ -37,7 +37,7 @@ CONSTANTS: Final[dict[str, float]] = {
     "share left that proves": acceptance.PROVED,
     "share left that refutes": acceptance.REFUTED,
     "trusted growth": acceptance.TRUSTED,
-    "negligible residual": acceptance.HARMLESS,
+    "negligible residual": acceptance.NOTHING,
     "step after a refuted Jacobian": control.FAILED_NEWTON,
     "most cautious steps": control.MOST_CAUTION,
     "most failures": core.MOST_VAIN,

@@ -14,14 +14,13 @@ from numpy.typing import NDArray
 from mebdf.arrays import FloatArray
 from mebdf.kernels import state as at
 from mebdf.kernels.acceptance import (
-    DIVERGED,
     FALSE,
     IN_DOUBT,
     OPEN,
+    PROVED,
     SOLVED,
     judge,
     judge_beside_rounding,
-    note_removed,
 )
 from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from mebdf.kernels.control import CAUTION, error_weight, newton_failed, norm, reject
@@ -44,6 +43,8 @@ from mebdf.kernels.state import Numbers
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
+DIVERGED: Final = -2
+"""A verdict on a stage beside those of :mod:`.acceptance`."""
 LATE: Final = 5
 """Failures in a row after which an error may be that of the algebraic values which the step starts from."""
 FORGIVEN: Final = 10.0
@@ -64,7 +65,7 @@ def start_stage(
     """Fill what the stage knows already, predict, and ask for f where it is not known."""
     stage, h = state.stage, state.h
     _set_constant(state, rows)
-    state.iteration = 0
+    state.iteration = state.evaluated = 0
     state.overshot = 0.0
     state.phase = ITERATE
     state.t_eval = state.t + (2.0 * h if stage == 2 else h)
@@ -81,7 +82,14 @@ def start_stage(
             return 0
     else:
         _copy(rows, at.PREDICTED, at.Y, at.F, at.F)
+    return _ask(state)
+
+
+@inlined
+def _ask(state: Numbers) -> int:
+    """Ask for f at Y."""
     state.n_f += 1
+    state.evaluated += 1
     return NEED_F
 
 
@@ -163,10 +171,9 @@ def iterate(
             state.trust = 0.0
         newton_failed(state, rows, places.size > 0)
         return 0
-    state.n_f += 1
     state.jacobian_age += state.differenced
     state.phase = ITERATE
-    return NEED_F
+    return _ask(state)
 
 
 @inlined
@@ -180,7 +187,14 @@ def _correct(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int
     state.iteration += 1
     rate = state.rate
     left = size if rate >= 0.5 else size * rate / (1.0 - rate)
-    return judge(state, rows, places, size) if left <= state.settings.kappa[state.stage - 1] else OPEN
+    return judge(state, rows, places) if left <= state.settings.kappa[state.stage - 1] else OPEN
+
+
+@inlined
+def _note_residual(state: Numbers, size: float) -> None:
+    """Keep the norm of a residual, and what the last correction has left of the one before."""
+    state.left = size / state.unsolved if state.iteration > 0 and size > 0.0 else 1.0
+    state.unsolved = size
 
 
 @inlined
@@ -192,8 +206,7 @@ def _set_residual(state: Numbers, rows: FloatArray) -> None:
         residual = scaled * rows[at.F, i] + rows[at.CONSTANT, i] - rows[at.Y, i]
         rows[at.RESIDUAL, i] = residual
         total += (residual * rows[at.WEIGHT, i]) ** 2
-    state.unsolved_before = state.unsolved
-    state.unsolved = math.sqrt(total / n)
+    _note_residual(state, math.sqrt(total / n))
 
 
 @kernel
@@ -207,22 +220,23 @@ def _set_residual_with_mass(
     n = rows.shape[1]
     scaled, total = state.scaled, 0.0
     # What the caller has evaluated of an implicit equation is the whole of it.
-    whole = state.implicit == 1 and (state.stage < 3 or state.iteration > 0 or state.higher == 1)
+    whole = state.implicit == 1 and state.evaluated > 0
     for i in range(n):
         rows[at.SCRATCH, i] = rows[at.CONSTANT, i] - rows[at.Y, i]
     for i in range(n):
         if is_algebraic(places, i):
             residual = rows[at.F, i]
-            if state.iteration > 0:
-                note_removed(rows, i, residual)
+            before = abs(rows[at.RESIDUAL, i])
+            if state.iteration > 0 and abs(residual) <= PROVED * before:
+                # The Jacobian was seen to remove it.
+                rows[at.SEEN, i] = max(rows[at.SEEN, i], before)
         else:
             residual = scaled * rows[at.F, i]
             if not whole:
                 residual += product(mass, places, rows, at.SCRATCH, i)
         rows[at.RESIDUAL, i] = residual
         total += (residual * rows[at.ROW_WEIGHT, i]) ** 2
-    state.unsolved_before = state.unsolved
-    state.unsolved = math.sqrt(total / n)
+    _note_residual(state, math.sqrt(total / n))
 
 
 @inlined

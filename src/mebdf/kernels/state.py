@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
 from typing import Any, Final, NamedTuple
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -143,8 +146,8 @@ class Numbers:
     """Time at which the right-hand side was not finite last."""
     unsolved: float
     """Norm of the residual of the formula, in units of the tolerance, where f was known last."""
-    unsolved_before: float
-    """The same one iteration earlier."""
+    left: float
+    """What the last correction has left of the residual; 1 where that is not known."""
     t_mark: float
     """Time at which failures began to be counted."""
     trust: float
@@ -157,6 +160,8 @@ class Numbers:
     k: int
     equal_steps: int
     iteration: int
+    evaluated: int
+    """Evaluations for the present stage, whose first residual may follow from another one."""
     stage: int
     steps: int
     rejected: int
@@ -220,11 +225,26 @@ def _type_of(fields: type) -> np.dtype[np.void]:
     kinds: dict[str, Any] = {"float": (np.float64,), "int": (np.int64,), "tuple[float, ...]": (np.float64, 3)}
     if fields is not Settings:
         kinds["Settings"] = (_type_of(Settings),)
-    return np.dtype((np.record, [(name, *kinds[kind]) for name, kind in fields.__annotations__.items()]))
+    named = [(name, *kinds[kind]) for name, kind in fields.__annotations__.items()]
+    return np.dtype((np.record, np.dtype(named, align=True)))
 
 
 NUMBERS: Final = _type_of(Numbers)
 """Type of the record of :class:`Numbers`, which compiled code takes as one address."""
+
+
+def _defaults() -> NDArray[np.void]:
+    """Return the numbers that every integration begins with, shape (1,)."""
+    numbers = np.zeros(1, dtype=NUMBERS)
+    for name in Settings.__annotations__:
+        numbers["settings"][name] = getattr(Settings, name)
+    for name in ("rate", "relaxation", "k", "k_last"):
+        numbers[name] = 1
+    numbers["bad"] = numbers["worst"] = -1
+    return numbers
+
+
+_DEFAULTS: Final = _defaults()
 
 
 class MebdfState(NamedTuple):
@@ -328,38 +348,40 @@ def new_state(
     """
     n = y.size
     size = 0 if outside else n
-    record = np.zeros(1, dtype=NUMBERS)
-    numbers: Any = record[0]
-    settings = numbers.settings
-    for name in Settings.__annotations__:
-        setattr(settings, name, getattr(Settings, name))
-    numbers.t = numbers.t_old = numbers.t_mark = t
-    numbers.t_end = t_end
-    numbers.direction = 1.0 if t_end >= t else -1.0
-    numbers.h, numbers.h_max = first_step, max_step
-    numbers.rate = numbers.relaxation = 1.0
-    numbers.k = numbers.k_last = 1
-    numbers.largest_k = largest_k
-    numbers.inside, numbers.outside = inside, outside
-    numbers.differenced = min(differenced, 1)
-    settings.slow = max(settings.slow, min(differenced / EVALUATIONS, SLOWEST))
+    # Attributes of a record take ten times as long as fields of an array.
+    numbers = _DEFAULTS.copy()
+    settings = numbers["settings"]
+    numbers["t"] = numbers["t_old"] = numbers["t_mark"] = t
+    numbers["t_end"] = t_end
+    numbers["direction"] = 1.0 if t_end >= t else -1.0
+    numbers["h"], numbers["h_max"] = first_step, max_step
+    numbers["largest_k"], numbers["inside"], numbers["outside"] = largest_k, inside, outside
+    numbers["differenced"] = min(differenced, 1)
+    settings["slow"] = max(Settings.slow, min(differenced / EVALUATIONS, SLOWEST))
     if differenced > 0:
-        settings.old_jacobian = max(PRICE * differenced, LEAST_PRICE)
-    numbers.bad = numbers.worst = -1
-    numbers.reference = mass is None
+        settings["old_jacobian"] = max(PRICE * differenced, LEAST_PRICE)
+    numbers["reference"] = mass is None
     rows = np.zeros((N_ROWS, n))
     rows[ATOL] = atol
     rows[RTOL] = rtol
     rows[[Y, HISTORY]] = y
     matrices, pivots = np.zeros((4, size, size)), np.zeros(size, dtype=np.int64)
     if mass is None:
-        return MebdfState(record, rows, matrices, pivots, np.zeros(0), np.zeros(0, dtype=np.int64))
+        return MebdfState(numbers, rows, matrices, pivots, np.zeros(0), np.zeros(0, dtype=np.int64))
     rows[F_1] = mass.slope
     rows[POWER] = np.maximum(mass.indices - 1, 0)
     rows[TESTED] = mass.tested
-    numbers.implicit = mass.implicit
+    numbers["implicit"] = mass.implicit
     if np.any(mass.indices > 1):
-        numbers.higher = 1
-        settings.same_matrix = 0.0  # algebraic equations know no step that a correction could be adapted to
-    settings.least_growth = LEAST_GROWTH_WITH_MASS
-    return MebdfState(record, rows, matrices, pivots, mass.entries, mass.places)
+        numbers["higher"] = 1
+        # Algebraic equations contain no step that a correction could be adapted to.
+        settings["same_matrix"] = 0.0
+    settings["least_growth"] = LEAST_GROWTH_WITH_MASS
+    return MebdfState(numbers, rows, matrices, pivots, mass.entries, mass.places)
+
+
+@cache
+def state_type() -> Any:
+    """Return numba's type of every :class:`MebdfState`, which takes milliseconds to find out."""
+    typeof: Callable[[Any], Any] = numba.typeof
+    return typeof(new_state(0.0, np.zeros(1), 1.0, 1.0, np.ones(1)))

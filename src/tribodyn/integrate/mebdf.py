@@ -76,7 +76,7 @@ class _CompiledWalk(Walk):
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
             arrays = (self._jacobian(state), self._own, self._marks, self._pause)
-            self._loop = _compiled(run, resume, self.problem, self.types, state, *arrays)
+            self._loop = _compiled(run, resume, self.problem, self.types, *arrays)
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
 
@@ -265,7 +265,6 @@ def _compiled(
     resume: Any,
     problem: Problem,
     types: tuple[Any, Any],
-    state: Any,
     jacobian: Any,
     own: Any,
     *others: Any,
@@ -279,9 +278,11 @@ def _compiled(
     from numba import void
     from numba.core.types import FunctionType
 
+    from mebdf.kernels.state import state_type
+
     typeof: Callable[[Any], Any] = numba.typeof
     arguments = argument_types(problem, types)
-    parts = typeof(state).types
+    parts = state_type().types
     resume.compile(parts)  # else numba would, and keep it apart from what others call with these types
     core = FunctionType(numba.int64(*parts))
     handed = [FunctionType(void(*arguments[name])) for name in HANDED]
@@ -292,7 +293,7 @@ def _compiled(
         solve = void(types[0], entries, pivots, entries)
         solvers = FunctionType(factorise), FunctionType(solve)
     work = map(typeof, (jacobian, own, *others))
-    return run.compile((core, *handed, *solvers, typeof(state), *types, *work))
+    return run.compile((core, *handed, *solvers, state_type(), *types, *work))
 
 
 MEBDF = CompiledMebdf()
