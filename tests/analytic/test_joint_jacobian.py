@@ -13,7 +13,8 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.joints.bushing import joint_jacobian, joint_wrench, new_memory, pose_at
-from tribodyn.kernels.joints.cylinder.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.surface.data import COS, SIN, table_of
 
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
@@ -58,20 +59,17 @@ def pressures(table, h_star):
 def side_of_kinks(data, arguments, entry):
     """Return for each node in reach on which side of its kinks it is."""
     e_x, e_y, phi_x, phi_y, v_x, v_y, w_x, w_y, _ = arguments
+    surface, n_theta = data.surface.surfaces[0], data.wear.shape[1]
+    cos, sin = data.surface.angles[COS, :n_theta], data.surface.angles[SIN, :n_theta]
     z = data.z[:, None]
-    gap = (
-        data.clearance
-        + (e_x - z * np.tan(phi_y)) * data.cos_theta
-        + (e_y - z * np.tan(phi_x)) * data.sin_theta
-        + data.wear
-    )
+    gap = data.clearance + (e_x - z * np.tan(phi_y)) * cos + (e_y - z * np.tan(phi_x)) * sin + data.wear
     v_a, v_b = v_x - z * w_y / np.cos(phi_y) ** 2, v_y - z * w_x / np.cos(phi_x) ** 2
-    approach = -(v_a * data.cos_theta + v_b * data.sin_theta)
-    fresh = np.maximum(np.abs(approach), data.minimum_entry_velocity)
+    approach = -(v_a * cos + v_b * sin)
+    fresh = np.maximum(np.abs(approach), surface["minimum_entry_velocity"])
     reference = np.where(entry > 0.0, entry, fresh)
-    rigid, damping = pressures(data.table, gap / data.roughness)
+    rigid, damping = pressures(table_of.py_func(data.surface, surface), gap / data.roughness)
     tensile = rigid + damping * approach / reference <= 0.0
-    slower = (entry == 0.0) & (damping > 0.0) & (np.abs(approach) < data.minimum_entry_velocity)
+    slower = (entry == 0.0) & (damping > 0.0) & (np.abs(approach) < surface["minimum_entry_velocity"])
     # The outermost rows stand on the edges and carry no area.
     return np.stack([tensile & (damping > 0.0), slower])[:, 1:-1]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.joints.bushing import joint_wrench, new_memory, pose_at
-from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 from tribodyn.kernels.joints.pressure import node_pressure
 
 V_MIN = 1e-3

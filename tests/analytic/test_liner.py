@@ -5,6 +5,7 @@ It runs the solver of the script that draws the figure of the manual.
 
 from __future__ import annotations
 
+import dataclasses
 import importlib.util
 import math
 from pathlib import Path
@@ -73,7 +74,7 @@ def test_a_bushing_of_rigid_asperities_is_a_bed_of_springs(make_joint, table_1_p
     hard = law("linear", table_1_pair, penalty_stiffness=1e3 * liner.stiffness)
     joint = make_joint(grid=(384, 16), coefficient=0.0)
     table = contact_table("surface", hard, joint.geometry, onset=4.0, smoothing_width=1.0, liner=liner)
-    data = joint.data()._replace(table=table)
+    data = dataclasses.replace(joint, table=table).data()
     clearance, eccentricity = joint.geometry.clearance, 2.5 * joint.geometry.clearance
     half_arc = math.acos(clearance / eccentricity)
     arc = quad(lambda a: (eccentricity * math.cos(a) - clearance) * math.cos(a), -half_arc, half_arc)[0]

@@ -24,7 +24,7 @@ from tribodyn.joints.bushing import (
     pose_at,
 )
 from tribodyn.joints.point_contact import POINT_CONTACTS, johnson, lankarani_nikravesh
-from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 
 MakeJoint = Callable[..., BushingJoint]
 SCALE = np.array([1e-6, 1e-6, 1e-4, 1e-4, 1e-3, 1e-3, 0.1, 0.1, 0.17])
@@ -139,19 +139,20 @@ def test_a_point_has_no_pressure_field(joint: BushingJoint) -> None:
 def test_each_end_remembers_its_own_entry(joint: BushingJoint) -> None:
     data = joint.data()
     memory = new_memory(data)
-    entry = memory.entry_velocity
+    lower, upper = 0, 1  # places of the two ends among the nodes
+    entry = memory.entry_velocity.ravel()
     # The top leans outwards: it is 22 µm off the axis, the bottom 18 µm.
     y = np.array([20e-6, 0.0, 0.0, -2e-4, 5e-3, 0.0, 0.0, 0.0])
     update_entry_velocity(data, memory, pose_at(y), 0.0)
-    assert entry[-1, 0] == pytest.approx(5e-3)
-    assert entry[0, 0] == 0.0
+    assert entry[upper] == pytest.approx(5e-3)
+    assert entry[lower] == 0.0
     y[4] = 9e-3
     update_entry_velocity(data, memory, pose_at(y), 0.0)
-    assert entry[-1, 0] == pytest.approx(5e-3)  # kept
+    assert entry[upper] == pytest.approx(5e-3)  # kept
     update_entry_velocity(data, memory, pose_at(np.zeros(8)), 0.0)
     assert not entry.any()  # forgotten
     update_entry_velocity(data, memory, pose_at(y), 1.0)
-    assert entry[-1, 0] == pytest.approx(1e-3)  # v_min at the start
+    assert entry[upper] == pytest.approx(1e-3)  # v_min at the start
 
 
 def test_lankarani_and_nikravesh_is_the_sphere_of_hertz(joint: BushingJoint) -> None:

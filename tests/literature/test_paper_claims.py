@@ -12,7 +12,7 @@ import pytest
 
 from tribodyn.core.quantities import names
 from tribodyn.joints.bushing import new_memory, pose_at
-from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field
+from tribodyn.kernels.joints.bushing import pressure_field
 from tribodyn.kernels.joints.quantities import STATES
 
 

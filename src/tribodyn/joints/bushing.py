@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -12,17 +12,21 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record, names
 from tribodyn.core.tables import ContactTable
+from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.shapes.base import Points
+from tribodyn.joints.shapes.rings import Rings
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.joints.cylinder.data import BushingData
-from tribodyn.kernels.joints.cylinder.joint import report, stored, wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import BushingData, report, wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.memory import JointMemory
-from tribodyn.kernels.joints.memory import new_memory as memory_of_nodes
+from tribodyn.kernels.joints.memory import new_memory as memory_of_surface
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_report, from_wrench
 from tribodyn.kernels.joints.pose import Pose
 from tribodyn.kernels.joints.quantities import REPORTED
+from tribodyn.kernels.joints.surface.data import GAP
+from tribodyn.kernels.joints.surface.tilt import AXIS
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
@@ -150,9 +154,13 @@ class BushingJoint:
     @property
     def node_area(self) -> FloatArray:
         """Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges."""
+        return 2.0 * np.pi / self.grid.theta * self._strip
+
+    @property
+    def _strip(self) -> FloatArray:
+        """The same over angle [m²/rad]."""
         _, weights = self.form.quadrature(self.grid.z, self.geometry.length)
-        arc = 2.0 * np.pi / self.grid.theta * self.geometry.bore_radius
-        return np.concatenate([[0.0], weights * arc, [0.0]])
+        return np.concatenate([[0.0], weights * self.geometry.bore_radius, [0.0]])
 
     @property
     def form_gap(self) -> FloatArray:
@@ -182,25 +190,38 @@ class BushingJoint:
         depth = np.zeros(self.field_shape) if wear is None else np.ascontiguousarray(wear, dtype=np.float64)
         if depth.shape != self.field_shape:
             raise InputError(f"wear depth has shape {depth.shape}, the grid {self.field_shape}")
-        return BushingData(
-            clearance=float(self.geometry.clearance),
-            journal_radius=float(self.geometry.radius),
-            bore_radius=float(self.geometry.bore_radius),
-            roughness=float(self.roughness),
-            friction_coefficient=float(self.friction.coefficient),
-            slip_velocity=float(self.friction.slip_velocity),
-            tangential=1.0 if self.friction.model == "traction" else 0.0,
-            onset=float(self.entry.onset),
-            minimum_entry_velocity=float(self.entry.minimum_velocity),
-            clip=1.0 if self.entry.tensile_clip else 0.0,
+        entry, friction, size = self.entry, self.friction, self.geometry
+        law = SurfaceLaw(
+            roughness=self.roughness,
             table=self.table,
-            point=0.0 if self.contact == SURFACE else 1.0,
-            cos_theta=np.cos(self.theta),
-            sin_theta=np.sin(self.theta),
-            z=self.z,
-            area=self.node_area,
-            wear=depth + self.form_gap,
+            friction_coefficient=friction.coefficient,
+            slip_velocity=friction.slip_velocity,
+            onset=entry.onset,
+            minimum_velocity=entry.minimum_velocity,
+            tensile_clip=entry.tensile_clip,
         )
+        surface = join((self._place,), (law,), depth.ravel())
+        record = surface.surfaces[0]
+        record["along"] = 0.0
+        record["torque_radius"] = size.bore_radius if friction.model == "moment" else 0.0
+        if self.contact != SURFACE:
+            half = 0.5 * size.length
+            fill_points(record, Points(size.radius, 0.0, size.length, (-half, half)))
+        return BushingData(
+            clearance=float(size.clearance),
+            z=self.z,
+            wear=surface.nodes[GAP].reshape(self.field_shape),
+            surface=surface,
+        )
+
+    @property
+    def _place(self) -> Place:
+        """The nodes, at angles from which the bushing presses, see ``kernels/joints/bushing.py``."""
+        ones, radius = np.ones(self.z.size), self.geometry.radius
+        rings = Rings(-radius * ones, self.z, -ones, 0.0 * ones, self._strip)
+        surface = rings.surface("bushing", ("z", self.z), 0.0, self.grid.theta, AXIS)
+        surface = replace(surface, gap=self.form_gap.ravel(), lean=radius)
+        return Place(0, surface, slice(0, surface.area.size))
 
 
 def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> JointMemory:
@@ -213,8 +234,7 @@ def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> J
     entry_velocity
         Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
     """
-    n_rows, n_theta = data.wear.shape
-    memory = memory_of_nodes((n_rows, n_theta), data.clearance)
+    memory = memory_of_surface(data.surface, data.wear.shape, data.clearance)
     if entry_velocity is not None:
         memory.entry_velocity[:] = entry_velocity
     return memory
@@ -291,10 +311,9 @@ def joint_report(
     out = memory.scratch.report
     report(data, memory, pose)
     from_report(out)
-    out.energy_contact = stored(data, memory, pose)
     return {name: float(out[name]) for name in names(REPORTED)}
 
 
 def contact_energy(data: BushingData, y: FloatArray, entry_velocity: FloatArray | None = None) -> float:
     """Return the energy stored in the contact [J]; arguments as for :func:`joint_wrench`."""
-    return float(stored(data, new_memory(data, entry_velocity), pose_at(y)))
+    return joint_report(data, y, entry_velocity=entry_velocity)["energy_contact"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tribodyn.contact import Liner
 from tribodyn.contact.base import ContactLaw
@@ -17,7 +17,8 @@ from tribodyn.core.quantities import Record
 from tribodyn.core.stopping import ask
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
-from tribodyn.joints.shapes import Shape, Surface
+from tribodyn.joints.rows import angles_of, rows_of
+from tribodyn.joints.shapes import Points, Shape, Surface
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
@@ -28,8 +29,33 @@ SPHERE: Final = "point-lankarani-nikravesh"
 """The point contact that a ball in a race can have."""
 
 
-@dataclass(frozen=True)
-class Clearance:
+@dataclass(frozen=True, kw_only=True)
+class SurfaceLaw:
+    """How two surfaces touch.
+
+    Attributes
+    ----------
+    roughness
+        Combined rms roughness σ [m].
+    table
+        Contact law, tabulated.
+    friction_coefficient, slip_velocity
+        μ and its regularisation u_s [m/s].
+    onset, minimum_velocity, tensile_clip
+        See ``joints.EntryMemory``.
+    """
+
+    roughness: float
+    table: ContactTable
+    friction_coefficient: float
+    slip_velocity: float
+    onset: float
+    minimum_velocity: float
+    tensile_clip: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Clearance(SurfaceLaw):
     """What makes an ideal joint a real one: two surfaces and what acts between them.
 
     Attributes
@@ -38,14 +64,8 @@ class Clearance:
         Where the surfaces are, with their dimensions.
     grid
         Nodes along the two directions of the shape.
-    roughness
-        Combined rms roughness σ [m].
-    law, table
-        Contact law, and the same tabulated.
-    friction_coefficient, slip_velocity
-        μ and its regularisation u_s [m/s].
-    onset, minimum_velocity, tensile_clip
-        See ``joints.EntryMemory``.
+    law
+        Contact law that is tabulated.
     contact
         ``surface``, or a point contact of ``joints.CONTACTS``.
     liner
@@ -58,14 +78,7 @@ class Clearance:
 
     shape: Shape
     grid: tuple[int, int]
-    roughness: float
     law: ContactLaw
-    table: ContactTable
-    friction_coefficient: float
-    slip_velocity: float
-    onset: float
-    minimum_velocity: float
-    tensile_clip: bool
     contact: str
     liner: Liner | None = None
     slides: bool = False
@@ -141,27 +154,36 @@ def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) ->
     Stopped
         If the caller wants to stop.
     """
-    where, tables = places(clearances), _Tables()
-    surfaces = np.zeros(len(where), dtype=kernel.Surface)
-    first_row = 0
-    for record, place in zip(surfaces, where, strict=True):
+    where = places(clearances)
+    data = join(where, clearances, wear)
+    for record, place in zip(data.surfaces, where, strict=True):
         clearance = clearances[place.joint]
+        if clearance.contact != SURFACE:
+            fill_points(record, clearance.shape.points())
+        record["reach"] = _reach(clearance, data.nodes[:, place.nodes])
+    return data
+
+
+def join(where: Sequence[Place], laws: Sequence[SurfaceLaw], wear: FloatArray | None) -> SurfaceData:
+    """Return surfaces in the arrays that kernels read, with the laws of their joints and wear."""
+    tables, surfaces, first_row = _Tables(), np.zeros(len(where), dtype=kernel.Surface), 0
+    for record, place in zip(surfaces, where, strict=True):
         record["first_row"], record["last_row"] = first_row, first_row + place.surface.rows.size
         first_row = record["last_row"]
         record["first_node"], record["last_node"] = place.nodes.start, place.nodes.stop
         record["tilt"], record["area"] = place.surface.tilt, place.surface.area.sum()
         record["slides"] = 1.0 if place.surface.slides else 0.0
-        record["lean"] = place.surface.lean
-        tables.fill(record, clearance.table)
-        _fill_law(record, clearance)
+        record["lean"], record["along"] = place.surface.lean, 1.0
+        tables.fill(record, laws[place.joint].table)
+        _fill_law(record, laws[place.joint])
     nodes = _nodes(where, wear)
-    for record, place in zip(surfaces, where, strict=True):
-        record["reach"] = _reach(clearances[place.joint], nodes[:, place.nodes])
+    rows = rows_of([(place.surface.rows, place.nodes.start) for place in where], nodes)
     return SurfaceData(
-        joints=np.searchsorted([place.joint for place in where], np.arange(len(clearances) + 1)),
+        joints=np.searchsorted([place.joint for place in where], np.arange(len(laws) + 1)),
         surfaces=surfaces,
-        rows=_rows(where, nodes[kernel.GAP]),
+        rows=rows,
         nodes=nodes,
+        angles=angles_of(rows),
         table_nodes=tables.joined("nodes", 1, (0, 4)),
         energy=tables.joined("energy", 1, (0,)),
         cubics=tables.joined("cubics", 0, (0,)),
@@ -196,17 +218,19 @@ def _intervals(table: ContactTable) -> int:
     return int(table.nodes.shape[0]) + 1
 
 
-def _fill_law(record: Record, clearance: Clearance) -> None:
+def _fill_law(record: Record, law: SurfaceLaw) -> None:
     """Tell a surface how it touches."""
     for name in ("roughness", "friction_coefficient", "slip_velocity", "onset"):
-        record[name] = getattr(clearance, name)
-    record["minimum_entry_velocity"] = clearance.minimum_velocity
-    record["tensile_clip"] = 1.0 if clearance.tensile_clip else 0.0
-    if clearance.contact != SURFACE:
-        points = clearance.shape.points()
-        record["points"], record["radius"] = len(points.heights), points.radius
-        record["clearance"] = points.clearance
-        record["heights"][: len(points.heights)] = points.heights
+        record[name] = getattr(law, name)
+    record["minimum_entry_velocity"] = law.minimum_velocity
+    record["tensile_clip"] = 1.0 if law.tensile_clip else 0.0
+
+
+def fill_points(record: Record, points: Points) -> None:
+    """Let a surface touch at points."""
+    record["points"], record["radius"] = len(points.heights), points.radius
+    record["clearance"] = points.clearance
+    record["heights"][: len(points.heights)] = points.heights
 
 
 def _reach(clearance: Clearance, nodes: FloatArray) -> tuple[float, float]:
@@ -237,20 +261,6 @@ def _nodes(where: Sequence[Place], wear: FloatArray | None) -> FloatArray:
         here[kernel.GAP] = surface.gap
     nodes[kernel.GAP] += depth
     return nodes
-
-
-def _rows(where: Sequence[Place], gap: FloatArray) -> NDArray[np.void]:
-    """Return the rows of all surfaces, their nodes counted from the first of all."""
-    rows = np.zeros(sum(place.surface.rows.size for place in where), dtype=kernel.Row)
-    at = 0
-    for place in where:
-        own = rows[at : at + place.surface.rows.size]
-        own[:] = place.surface.rows
-        own["first"] += place.nodes.start
-        at += own.size
-    for row in rows:
-        row["least"] = gap[row["first"] : row["first"] + row["count"]].min()
-    return rows
 
 
 def pose_at(

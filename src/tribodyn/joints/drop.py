@@ -19,7 +19,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints.bushing import BushingJoint, contact_energy, new_memory
 from tribodyn.joints.point_contact import SURFACE
-from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity, wrench
+from tribodyn.kernels.joints.bushing import update_entry_velocity, wrench
 from tribodyn.kernels.joints.pose import F_X, N_WRENCH
 
 _MOST_STEPS: Final = 20_000

@@ -16,7 +16,7 @@ from typing import Any, Final
 import numba
 import numpy as np
 from llvmlite import ir
-from numba.core import types
+from numba.core import cgutils, types
 from numba.core.imputils import lower_builtin
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, models, register_model
@@ -66,6 +66,7 @@ for _symbol, _instruction in (
     (operator.sub, "fsub"),
     (operator.isub, "fsub"),
     (operator.mul, "fmul"),
+    (operator.truediv, "fdiv"),
 ):
     _define(_symbol, _instruction)
 
@@ -122,17 +123,86 @@ def _spread(typing: Any, number: Any) -> Any:
     return _lanes(types.float64), generate
 
 
+def _called(name: str, builder: Any, arguments: Any) -> Any:
+    """Return what an instruction of the compiler makes of each lane alone."""
+    kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(arguments))
+    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
+    return builder.call(function, arguments)
+
+
+def _of_one(name: str) -> Any:
+    """Return a function of lanes that is an instruction of the compiler."""
+
+    @intrinsic
+    def _function(typing: Any, lanes: Any) -> Any:
+        def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+            return _called(name, builder, arguments)
+
+        return _lanes(_lanes), generate
+
+    return _function
+
+
+def _of_two(name: str) -> Any:
+    """Return the same of two."""
+
+    @intrinsic
+    def _function(typing: Any, a: Any, b: Any) -> Any:
+        def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+            return _called(name, builder, arguments)
+
+        return _lanes(_lanes, _lanes), generate
+
+    return _function
+
+
+@intrinsic
+def _above(typing: Any, a: Any, b: Any, x: Any, y: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        is_above = builder.fcmp_ordered(">", arguments[0], arguments[1])
+        return builder.select(is_above, arguments[2], arguments[3])
+
+    return _lanes(_lanes, _lanes, _lanes, _lanes), generate
+
+
+@intrinsic
+def _entries(typing: Any, array: Any, numbers: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        data = context.make_array(called.args[0])(context, builder, arguments[0]).data
+        found = ir.Constant(_VECTOR, ir.Undefined)
+        for k, place in enumerate(_places(builder, arguments[1])):
+            found = builder.insert_element(found, builder.load(builder.gep(data, [place])), _INDEX(k))
+        return found
+
+    return _lanes(array, numbers), generate
+
+
+@intrinsic
+def _parts(typing: Any, lanes: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        numbers = [builder.extract_element(arguments[0], _INDEX(k)) for k in range(WIDTH)]
+        return context.make_tuple(builder, called.return_type, numbers)
+
+    return types.UniTuple(types.float64, WIDTH)(lanes), generate
+
+
 @intrinsic
 def _total(typing: Any, lanes: Any) -> Any:
     def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        parts = [builder.extract_element(arguments[0], _INDEX(k)) for k in range(WIDTH)]
-        return builder.fadd(builder.fadd(parts[0], parts[1]), builder.fadd(parts[2], parts[3]))
+        numbers = [builder.extract_element(arguments[0], _INDEX(k)) for k in range(WIDTH)]
+        return builder.fadd(builder.fadd(numbers[0], numbers[1]), builder.fadd(numbers[2], numbers[3]))
 
     return types.float64(lanes), generate
 
 
 def _shuffled(builder: Any, order: tuple[int, ...], a: Any, b: Any) -> Any:
     return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), list(order)))
+
+
+def _places(builder: Any, numbers: Any) -> list[Any]:
+    """Return the whole numbers in four lanes, none of them negative, as indices."""
+    whole = builder.fptosi(numbers, ir.VectorType(ir.IntType(32), WIDTH))
+    return [builder.zext(builder.extract_element(whole, _INDEX(k)), _INDEX) for k in range(WIDTH)]
 
 
 def _transposed(builder: Any, parts: list[Any]) -> list[Any]:
@@ -146,11 +216,7 @@ def _transposed(builder: Any, parts: list[Any]) -> list[Any]:
 @intrinsic
 def _rows(typing: Any, array: Any, numbers: Any) -> Any:
     def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        whole = builder.fptosi(arguments[1], ir.VectorType(ir.IntType(32), WIDTH))
-        starts = [
-            builder.mul(builder.zext(builder.extract_element(whole, _INDEX(k)), _INDEX), _INDEX(_ROW))
-            for k in range(WIDTH)
-        ]
+        starts = [builder.mul(place, _INDEX(_ROW)) for place in _places(builder, arguments[1])]
         columns: list[Any] = []
         for half in (0, WIDTH):
             places = [builder.add(start, _INDEX(half)) for start in starts]
@@ -173,6 +239,18 @@ zeros: Final = _either(_zeros, lambda: np.zeros(WIDTH))
 """Return four zeros, with which sums begin."""
 spread: Final = _either(_spread, lambda number: np.full(WIDTH, number))
 """Return a number in all lanes."""
+square_root: Final = _either(_of_one("sqrt"), np.sqrt)
+absolute: Final = _either(_of_one("fabs"), np.abs)
+floor: Final = _either(_of_one("floor"), np.floor)
+larger: Final = _either(_of_two("maximum"), np.maximum)
+smaller: Final = _either(_of_two("minimum"), np.minimum)
+"""Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none."""
+above: Final = _either(_above, lambda a, b, x, y: np.where(a > b, x, y))
+"""Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number."""
+entries: Final = _either(_entries, lambda array, numbers: array[numbers.astype(int)])
+"""Return the entries of an array that ``numbers`` name."""
+parts: Final = _either(_parts, tuple)
+"""Return the four numbers."""
 total: Final = _either(_total, lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 """Return the sum of the lanes."""
 rows: Final = _either(_rows, lambda array, numbers: tuple(array.reshape(-1, _ROW)[numbers.astype(int)].T))

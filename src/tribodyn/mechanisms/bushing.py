@@ -20,7 +20,7 @@ from tribodyn.core.stopping import skip
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_report, joint_wrench
 from tribodyn.joints.touch import Touch
-from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.wear import resampled
 
 _NOT_STORED: Final = ("work_", "heat_")

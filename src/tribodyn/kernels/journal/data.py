@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.actions import N_OVER, Actions
 from tribodyn.kernels.film.data import FilmData, FilmMemory
-from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.peaks import Peaks
 

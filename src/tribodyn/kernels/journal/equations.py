@@ -20,8 +20,7 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.cylinder.data import BushingData
-from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import BushingData, wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
 from tribodyn.kernels.journal.data import (
     OPPOSED,

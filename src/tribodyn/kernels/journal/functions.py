@@ -6,7 +6,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
-from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 from tribodyn.kernels.journal import ledger
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
 from tribodyn.kernels.journal.equations import forces, forces_and_gradient, least_gap, place

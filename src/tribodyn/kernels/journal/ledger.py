@@ -11,7 +11,7 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.cylinder.joint import report
+from tribodyn.kernels.joints.bushing import report
 from tribodyn.kernels.joints.memory import fill_watched, note_extremes
 from tribodyn.kernels.joints.paper import from_report
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
@@ -98,7 +98,8 @@ def count_rebound(data: JournalData, gap: float, memory: JournalMemory) -> None:
 
     ``gap`` is the smallest gap of the bushing [m].
     """
-    touching = gap < data.joint.onset * data.joint.roughness
+    surface = data.joint.surface.surfaces[0]
+    touching = gap < surface.onset * surface.roughness
     if memory.course.touching > 0.0 and not touching:
         memory.counts.rebounds += 1.0
     memory.course.touching = 1.0 if touching else 0.0

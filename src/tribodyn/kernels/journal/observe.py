@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import entry
-from tribodyn.kernels.joints.cylinder.joint import stored
 from tribodyn.kernels.journal import ledger
 from tribodyn.kernels.journal.data import OPPOSED, JournalData, JournalMemory
 from tribodyn.kernels.journal.quantities import Film, Forces, Loads, Row, States
@@ -15,7 +14,6 @@ def observe(t: float, y: FloatArray, data: JournalData, memory: JournalMemory, r
     """Fill ``row`` with the quantities of the journal, SI units."""
     scratch, joint, out = memory.scratch, memory.joint.scratch, row.view(Row)[0]
     ledger.evaluate(data, t, y, memory)
-    joint.report.energy_contact = stored(data.joint, memory.joint, joint.pose)
     out.states = scratch.state.view(States)[0]
     out.joint = joint.report
     out.film = scratch.film.view(Film)[0]

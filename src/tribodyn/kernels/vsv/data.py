@@ -8,7 +8,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity, Record, names, record_type
 from tribodyn.kernels.actions import N_OVER, Actions
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.peaks import Peaks
 from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS, N_UNKNOWNS

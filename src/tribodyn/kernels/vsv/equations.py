@@ -17,7 +17,7 @@ from tribodyn.kernels.actions import add_terms, follow
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints import collar as thrust
-from tribodyn.kernels.joints.cylinder.joint import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
 from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.data import (

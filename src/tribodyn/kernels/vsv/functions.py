@@ -9,15 +9,20 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
-from tribodyn.kernels.joints.cylinder.joint import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
+from tribodyn.kernels.vsv.layout import THETA_V, VALUE
 from tribodyn.kernels.vsv.place import place
 
 BEYOND: Final = 2
-"""Entry of the regime that tells whether the range of the contact law was left. From then on no force is a
+"""Entry of the regime that is above zero once a step was accepted beyond a limit. From then on no force is a
 number, which stops every integrator. Trial states may lie there: the law goes on linearly."""
+BEYOND_LAW: Final = 1.0
+BEYOND_REACH: Final = 2.0
+"""Its values: beyond the range of the contact law, and where the mechanism cannot be joined, without an angle
+of the vane."""
 
 
 @entry
@@ -60,11 +65,14 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: VsvData, memory: VsvM
 
 @entry
 def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
-    """Update entry velocities and watch the range of the law at the end of an accepted step."""
+    """Update entry velocities and watch both limits at the end of an accepted step, the last mark."""
     place(data, t, y, 0.0, 0.0, memory)
     update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 0.0)
-    if memory.joint.scratch.report.separation_min < data.joint.table.h_first * data.joint.roughness:
-        memory.regime[BEYOND] = 1.0
+    surface = data.joint.surface.surfaces[0]
+    if memory.joint.scratch.report.separation_min < surface.h_first * surface.roughness:
+        memory.regime[BEYOND] = BEYOND_LAW
+    if not math.isfinite(memory.scratch.motion[THETA_V, VALUE]):
+        memory.regime[BEYOND] = BEYOND_REACH
 
 
 @entry

@@ -14,9 +14,8 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import TIME, add_following
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.bushing import report, slide
 from tribodyn.kernels.joints.collar import note_lift_off
-from tribodyn.kernels.joints.cylinder.data import BushingData
-from tribodyn.kernels.joints.cylinder.joint import report, slide, squeeze
 from tribodyn.kernels.joints.memory import fill_watched, note_extremes
 from tribodyn.kernels.joints.paper import from_report
 from tribodyn.kernels.ledger import LAST, MOMENTUM, NOW, POSITION, RATE, SPEED, SWING, swings
@@ -72,7 +71,7 @@ def clearance_velocity(motion: FloatArray, row: int, y: FloatArray) -> float:
 
 
 @kernel
-def fill_powers(joint: BushingData, y: FloatArray, memory: VsvMemory, powers: Record) -> None:
+def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     """Fill what each contributor does to the whole mechanism [W] from the scratch arrays of this instant."""
     scratch = memory.scratch
     motion, collar = scratch.motion, scratch.collar
@@ -87,10 +86,8 @@ def fill_powers(joint: BushingData, y: FloatArray, memory: VsvMemory, powers: Re
     powers.work_friction = memory.joint.scratch.report.friction_power
     powers.work_collar_friction = f_cz * collar[THETA_V] * omega_v
     powers.work_collar_tilt = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
-    speed = memory.joint.scratch.pose.v_opening
-    powers.work_expansion = 0.0
-    if speed != 0.0:
-        powers.work_expansion = -speed * squeeze(joint, memory.joint, memory.joint.scratch.pose)
+    load, speed = memory.joint.surface.scratch.rigid_load, memory.joint.scratch.pose.v_opening
+    powers.work_expansion = -speed * load if speed != 0.0 else 0.0
 
 
 @kernel
@@ -177,7 +174,7 @@ def _evaluate_mark(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) ->
     """Enter the powers and forces of an instant, and what is watched, in the books."""
     scratch = memory.scratch
     scratch.f_cz = evaluate(data, t, y, memory)
-    fill_powers(data.joint, y, memory, memory.books.powers[NOW].view(Powers)[0])
+    fill_powers(y, memory, memory.books.powers[NOW].view(Powers)[0])
     fill_clearance(data.mechanism, y, memory)
     if swings(memory.books):
         _fill_swing(data, y, memory)

@@ -6,7 +6,6 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
-from tribodyn.kernels.joints.cylinder.joint import stored
 from tribodyn.kernels.ledger import is_at_mark
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv import newton_euler as ne
@@ -24,7 +23,6 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 from tribodyn.kernels.vsv.motion import fill_rods
-from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import Air, Reactions, Row, States, Works
 
 
@@ -53,10 +51,8 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     scratch, joint, out = memory.scratch, memory.joint.scratch, row.view(Row)[0]
     if not (scratch.marked > 0.0 and is_at_mark(memory.books, t, y)):
         scratch.f_cz = ledger.evaluate(data, t, y, memory)
-    motion, collar, f_cz = scratch.motion, scratch.collar, scratch.f_cz
+    collar, f_cz = scratch.collar, scratch.f_cz
     _fill_motion(data, t, y, memory, out.motion)
-    place(data, t, y, motion[THETA_V, VELOCITY], memory.regime[0], memory)
-    joint.report.energy_contact = stored(data.joint, memory.joint, joint.pose)
     out.states = y.view(States)[0]
     out.joint = joint.report
     out.collar.M_tcx, out.collar.M_tcy = f_cz * collar[PHI_X], f_cz * collar[PHI_Y]

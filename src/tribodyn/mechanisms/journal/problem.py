@@ -14,7 +14,7 @@ from tribodyn.core.quantities import names
 from tribodyn.core.signals import constant
 from tribodyn.joints.bushing import new_memory
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
+from tribodyn.kernels.joints.bushing import update_entry_velocity
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.journal import functions
 from tribodyn.kernels.journal.data import (

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.pressure import draw as draw_pictures
 from tribodyn.joints.bushing import new_memory, pose_at
-from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field
+from tribodyn.kernels.joints.bushing import pressure_field
 from tribodyn.papers.cheng_2022.layout import keep
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv

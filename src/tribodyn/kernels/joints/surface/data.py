@@ -16,6 +16,12 @@ GAP: Final = 7
 N_NODE: Final = 8
 """Rows of the array of nodes: x_k [m], n_k, A_k [m²], and h0_k with wear [m]."""
 
+COS: Final = 0
+SIN: Final = 1
+LIFT: Final = 2
+N_ANGLE: Final = 3
+"""Rows of the table of angles of rings: cos θ, sin θ, and what ``ring`` adds to the gap [m]."""
+
 N_POINTS: Final = 2
 """Most points of a point contact."""
 
@@ -25,7 +31,7 @@ Surface: Final = record_type(
     *((name, "f8") for name in ("h_first", "h_last", "inverse_step")),
     *((name, "f8") for name in ("roughness", "friction_coefficient", "slip_velocity")),
     *((name, "f8") for name in ("onset", "minimum_entry_velocity", "tensile_clip")),
-    *((name, "f8") for name in ("tilt", "slides", "lean", "area")),
+    *((name, "f8") for name in ("tilt", "slides", "lean", "along", "torque_radius", "area")),
     *((name, "f8") for name in ("points", "radius", "clearance")),
     ("heights", "f8", (N_POINTS,)),
     ("reach", "f8", (2,)),
@@ -42,7 +48,8 @@ roughness
 friction_coefficient, slip_velocity
     μ [1] and u_s [m/s].
 onset, minimum_entry_velocity, tensile_clip
-    As in ``BushingData``.
+    Separation in units of σ below which a node is in contact [1], least entry velocity v_min [m/s], and 1 if
+    the total pressure must not be tensile.
 tilt
     What turning does to its gaps, see ``tilt``.
 slides
@@ -50,6 +57,10 @@ slides
 lean
     Radius ρ of the second-order term of the tilt in the gap of a cylinder [m], see ``tilt``: the radius of
     the pin, positive where the nodes belong to the bore, negative where they belong to the pin; 0 otherwise.
+along
+    1 if friction opposes all slip, 0 if only that around the axis of a cylinder.
+torque_radius
+    Above zero if friction is a torque alone, of this arm, against ``direction`` of the station [m].
 area
     Of all nodes [m²].
 points, radius, clearance, heights
@@ -60,7 +71,7 @@ reach
 """
 
 Row: Final = record_type(
-    *((name, "i8") for name in ("first", "count")),
+    *((name, "i8") for name in ("first", "count", "angle")),
     *((name, "f8") for name in ("whole", "least", "area", "arm")),
     ("normal", "f8", (3,)),
     ("moment", "f8", (3,)),
@@ -69,9 +80,12 @@ Row: Final = record_type(
 """A row of nodes.
 
 first, count
-    Its nodes.
+    Its nodes; a ring has four at least.
+angle
+    First place of a ring in the table of angles.
 whole
-    0 for a ring, whose nodes lie at equal angles from angle zero on, 1 for a patch, looked at as a whole.
+    0 for a ring, 1 for a patch, looked at as a whole. Nodes of a ring lie at equal angles around the axis
+    from angle zero on, and share radius, height, area, and the components of their normals.
 least
     Least gap as drawn [m].
 area
@@ -97,6 +111,8 @@ class SurfaceData(NamedTuple):
         Records :data:`Row`, shape (n_rows,).
     nodes
         Shape (``N_NODE``, n_nodes).
+    angles
+        Cosines, sines and ``LIFT`` of the angles of rings, see ``ring``, shape (``N_ANGLE``, n_angles).
     table_nodes, energy, cubics
         The arrays of all contact tables, one after the other.
     """
@@ -105,9 +121,16 @@ class SurfaceData(NamedTuple):
     surfaces: Record
     rows: Record
     nodes: FloatArray
+    angles: FloatArray
     table_nodes: FloatArray
     energy: FloatArray
     cubics: FloatArray
+
+
+@inlined
+def is_ring(data: SurfaceData, surface: Record) -> bool:
+    """Return whether the rows of a surface are rings; those of a mesh are patches, and points have none."""
+    return surface.points == 0.0 and data.rows[surface.first_row].whole == 0.0
 
 
 @inlined

@@ -50,7 +50,10 @@ def wrench_and_derivatives(
         fill_pressures(cubics, v_min, clip, work, n)
         fill_slopes(cubics, scale, v_min, clip, work, n)
         fill_forces(surface, work, station, n)
-        _fill_weights(mu, slip_square(surface), work, n)
+        turns = surface.torque_radius > 0.0
+        if turns:
+            _fill_torque(surface.torque_radius * station.direction, work, n)
+        _fill_weights(0.0 if turns else mu, slip_square(surface), work, n)
         add_columns(work, FORCE, NORMAL, n, -1.0, scratch.normal)
         _add_outer(work, STIFFNESS, NORMAL, NORMAL, n, 1.0, scratch.normal_place)
         _add_outer(work, RESISTANCE, NORMAL, NORMAL, n, -1.0, scratch.normal_rate)
@@ -62,7 +65,7 @@ def wrench_and_derivatives(
             _add_outer(work, RESISTANCE, SLIP, NORMAL, n, -mu, scratch.friction_rate)
             _add_outer(work, TRACTION, NORMAL, NORMAL, n, 1.0, scratch.friction_slip)
             _add_outer(work, TRACTION, SLIP, SLIP, n, 1.0, scratch.friction_slip)
-            _add_motion(work, n, scratch.friction_slip)
+            _add_motion(work, n, surface.along, scratch.friction_slip)
         n = gather(data, surface, memory, station, 0.0)
 
 
@@ -89,6 +92,15 @@ def _fill_weights(mu: float, square: float, work: FloatArray, n: int) -> None:
 
 
 @kernel
+def _fill_torque(arm: float, work: FloatArray, n: int) -> None:
+    """Replace Ŝ of the ``n`` nodes in the list by a torque about the axis of a given arm [m]."""
+    for k in range(whole(n)):
+        for column in range(5):
+            work[SLIP + column * PITCH + k] = 0.0
+        work[SLIP + 5 * PITCH + k] = arm
+
+
+@kernel
 def _add_outer(
     work: FloatArray, weight: int, left: int, right: int, n: int, factor: float, out: FloatArray
 ) -> None:
@@ -110,8 +122,11 @@ def _add_outer(
 
 
 @kernel
-def _add_motion(work: FloatArray, n: int, out: FloatArray) -> None:
-    """Subtract Σ w Xᵀ X = Σ w (1, −[x]×; [x]×, x² 1 − x xᵀ) with the weights ``TRACTION``."""
+def _add_motion(work: FloatArray, n: int, along: float, out: FloatArray) -> None:
+    """Subtract Σ w Xᵀ X = Σ w (1, −[x]×; [x]×, x² 1 − x xᵀ) with the weights ``TRACTION``.
+
+    Without friction ``along`` a cylinder, the motion along its axis, (ẑ, x × ẑ)·(v, ω), is left out.
+    """
     sum_w, sum_x, sum_y, sum_z = zeros(), zeros(), zeros(), zeros()
     sum_xx, sum_yy, sum_zz, sum_xy, sum_xz, sum_yz = zeros(), zeros(), zeros(), zeros(), zeros(), zeros()
     for k in range(0, n, WIDTH):
@@ -139,3 +154,8 @@ def _add_motion(work: FloatArray, n: int, out: FloatArray) -> None:
             out[3 + i, k] -= arm[i][k]
             out[i, 3 + k] += arm[i][k]
             out[3 + i, 3 + k] -= inertia[i][k]
+    if along == 0.0:
+        left_out = ((w, w_y, -w_x), (w_y, yy, -xy), (-w_x, -xy, xx))
+        for i in range(3):
+            for k in range(3):
+                out[2 + i, 2 + k] += left_out[i][k]

@@ -11,9 +11,9 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.pose import V, W
-from tribodyn.kernels.joints.surface import entry, point
+from tribodyn.kernels.joints.surface import entry, point, ring_entry, ring_wrench
 from tribodyn.kernels.joints.surface import report as over_surface
-from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring
 from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import TURN
@@ -47,17 +47,69 @@ def _add_wrench(memory: SurfaceMemory, out: FloatArray) -> None:
 
 
 @kernel
+def fill_wrench(data: SurfaceData, s: int, memory: SurfaceMemory) -> None:
+    """Fill normal and friction of surface ``s`` in the scratch, whose tilt and station are filled."""
+    surface = data.surfaces[s]
+    if surface.points > 0.0:
+        point.add_points(data, s, memory, memory.scratch.station, 0.0, 0.0)
+    elif is_ring(data, surface):
+        ring_wrench.wrench(data, surface, memory, memory.scratch.station)
+    else:
+        surface_wrench(data, surface, memory, memory.scratch.station)
+
+
+@kernel
+def fill_wrench_and_derivatives(data: SurfaceData, s: int, memory: SurfaceMemory) -> None:
+    """Fill these with their derivatives."""
+    if data.surfaces[s].points > 0.0:
+        point.add_points(data, s, memory, memory.scratch.station, 1.0, 0.0)
+    else:
+        wrench_and_derivatives(data, data.surfaces[s], memory, memory.scratch.station)
+
+
+@kernel
+def fill_report(data: SurfaceData, s: int, memory: SurfaceMemory) -> None:
+    """Fill the report of surface ``s`` but for its forces, left in the scratch."""
+    memory.reports[s] = memory.scratch.blank
+    if data.surfaces[s].points > 0.0:
+        point.add_points(data, s, memory, memory.scratch.station, 0.0, 1.0)
+    else:
+        over_surface.report(data, s, memory, memory.scratch.station)
+
+
+@kernel
+def fill_pressure(data: SurfaceData, s: int, memory: SurfaceMemory, pressure: FloatArray) -> None:
+    """Fill the nodes of surface ``s`` in ``pressure`` (n_nodes,) with P_c [Pa]; points have none."""
+    surface = data.surfaces[s]
+    if surface.points > 0.0:
+        for i in range(surface.first_node, surface.last_node):
+            pressure[i] = 0.0
+    elif is_ring(data, surface):
+        ring_entry.pressure_field(data, surface, memory, memory.scratch.station, pressure)
+    else:
+        entry.pressure_field(data, surface, memory, memory.scratch.station, pressure)
+
+
+@kernel
+def fill_entry_velocity(data: SurfaceData, s: int, memory: SurfaceMemory, at_start: float) -> None:
+    """Let contact of surface ``s`` begin and end."""
+    surface = data.surfaces[s]
+    if surface.points > 0.0:
+        point.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
+    elif is_ring(data, surface):
+        ring_entry.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
+    else:
+        entry.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
+
+
+@kernel
 def wrench(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: FloatArray) -> None:
     """Fill ``out`` (6,) with the wrench on the shaft of joint ``j`` [N, N m]."""
     for k in range(6):
         out[k] = 0.0
     for s in range(data.joints[j], data.joints[j + 1]):
-        surface = data.surfaces[s]
-        _look(surface, memory.scratch, pose)
-        if surface.points > 0.0:
-            point.add_points(data, s, memory, memory.scratch.station, 0.0, 0.0)
-        else:
-            surface_wrench(data, surface, memory, memory.scratch.station)
+        _look(data.surfaces[s], memory.scratch, pose)
+        fill_wrench(data, s, memory)
         _add_wrench(memory, out)
 
 
@@ -72,10 +124,7 @@ def wrench_and_jacobian(
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
         _look(surface, memory.scratch, pose)
-        if surface.points > 0.0:
-            point.add_points(data, s, memory, memory.scratch.station, 1.0, 0.0)
-        else:
-            wrench_and_derivatives(data, surface, memory, memory.scratch.station)
+        fill_wrench_and_derivatives(data, s, memory)
         if surface.slides > 0.0:
             derivatives_at_origin(memory.scratch, pose)
         _add_wrench(memory, out)
@@ -149,13 +198,8 @@ def add_reported(report: Record, out: FloatArray) -> None:
 def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> None:
     """Fill the reports of the surfaces of joint ``j``."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        surface = data.surfaces[s]
-        memory.reports[s] = memory.scratch.blank
-        _look(surface, memory.scratch, pose)
-        if surface.points > 0.0:
-            point.add_points(data, s, memory, memory.scratch.station, 0.0, 1.0)
-        else:
-            over_surface.report(data, s, memory, memory.scratch.station)
+        _look(data.surfaces[s], memory.scratch, pose)
+        fill_report(data, s, memory)
         _fill_parts(memory, memory.reports[s])
 
 
@@ -172,13 +216,8 @@ def pressure_field(
 ) -> None:
     """Fill the nodes of joint ``j`` in ``pressure`` (n_nodes,) with P_c [Pa]; points have none."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        surface = data.surfaces[s]
-        _look(surface, memory.scratch, pose)
-        if surface.points > 0.0:
-            for i in range(surface.first_node, surface.last_node):
-                pressure[i] = 0.0
-        else:
-            entry.pressure_field(data, surface, memory, memory.scratch.station, pressure)
+        _look(data.surfaces[s], memory.scratch, pose)
+        fill_pressure(data, s, memory, pressure)
 
 
 @kernel
@@ -187,9 +226,5 @@ def update_entry_velocity(
 ) -> None:
     """Let contact of joint ``j`` begin and end at the end of an accepted step."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        surface = data.surfaces[s]
-        _look(surface, memory.scratch, pose)
-        if surface.points > 0.0:
-            point.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
-        else:
-            entry.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
+        _look(data.surfaces[s], memory.scratch, pose)
+        fill_entry_velocity(data, s, memory, at_start)

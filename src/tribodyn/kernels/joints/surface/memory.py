@@ -17,6 +17,7 @@ from tribodyn.kernels.joints.surface.pose import Pose
 from tribodyn.kernels.joints.surface.quantities import Peaks, Report
 from tribodyn.kernels.joints.surface.station import Maps, Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
+from tribodyn.kernels.lanes import WIDTH
 
 Scratch: Final = record_type(
     ("pose", Pose),
@@ -28,6 +29,7 @@ Scratch: Final = record_type(
     ("friction", "f8", (6,)),
     *((name, "f8", (6, 6)) for name in ("normal_place", "normal_rate", "friction_place", "friction_rate")),
     ("friction_slip", "f8", (6, 6)),
+    ("rigid_load", "f8"),
     ("moment", "f8", (3,)),
     ("rigid_moment", "f8", (3,)),
     ("listed", Listed),
@@ -40,6 +42,8 @@ pose
 normal, rigid, friction
     (F, m) of the pressure, of its rigid part, and (F, M) of friction, moments of pressure not yet turned by
     Gᵀ.
+rigid_load
+    ∫P_k dA of the last report [N]: an opening clearance does its work.
 normal_place, normal_rate, friction_place, friction_rate, friction_slip
     Derivatives of normal and friction in (d, φ), (v, φ̇), and (v, ω).
 moment, rigid_moment
@@ -59,9 +63,13 @@ class SurfaceMemory(NamedTuple):
         Whether any node of a row has one, shape (n_rows,).
     sliding_load
         ∫P_c |s| dt [N/m], shape (n_nodes,).
-    sliding, touched, n_touched
-        P_c |s| of the last report [W/m²] and the nodes it belongs to, each surface from its first node on,
-        shape (n_nodes,), and their number, shape (n_surfaces,).
+    sliding
+        P_c |s| of the last report [W/m²] at the nodes within reach, each surface from its first node on; of
+        rings as ``ring_report.first_kept`` says.
+    reached
+        First group and number of groups of each ring that it belongs to, shape (n_rows, 2).
+    touched, n_touched
+        Nodes of patches that it belongs to, shape (n_nodes,), and their number, shape (n_surfaces,).
     reports, peaks
         Of each surface, see ``quantities``, shape (n_surfaces,).
     scratch
@@ -72,6 +80,7 @@ class SurfaceMemory(NamedTuple):
     remembering: FloatArray
     sliding_load: FloatArray
     sliding: FloatArray
+    reached: IntArray
     touched: IntArray
     n_touched: IntArray
     reports: Record
@@ -88,7 +97,8 @@ def new_memory(data: SurfaceData) -> SurfaceMemory:
         entry_velocity=np.zeros(n_nodes),
         remembering=np.zeros(data.rows.size),
         sliding_load=np.zeros(n_nodes),
-        sliding=np.zeros(n_nodes),
+        sliding=np.zeros(n_nodes + (WIDTH - 1) * data.rows.size),
+        reached=np.zeros((data.rows.size, 2), dtype=np.int64),
         touched=np.zeros(n_nodes, dtype=np.int64),
         n_touched=np.zeros(n_surfaces, dtype=np.int64),
         reports=np.zeros(n_surfaces, dtype=Report),

@@ -23,46 +23,53 @@ from tribodyn.kernels.joints.columns import (
     PITCH,
     end_list,
 )
-from tribodyn.kernels.joints.cylinder.window import contact_window
 from tribodyn.kernels.joints.surface.data import AREA as NODE_AREA
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.data import NORMAL as NODE_NORMAL
 from tribodyn.kernels.joints.surface.data import POSITION as NODE_POSITION
 from tribodyn.kernels.joints.surface.listed import MOMENT, NORMAL, POSITION
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.window import contact_window
 from tribodyn.kernels.lookup import interval
 
 
-@kernel
-def window(row: Record, lean: float, d: FloatArray, phi: FloatArray, limit: float) -> tuple[int, int]:
-    """Return the first node and the number of nodes of a row that hold every gap below ``limit`` [m].
+@inlined
+def ring_window(row: Record, lean: float, station: Record, phi: FloatArray, limit: float) -> tuple[int, int]:
+    """Return the first node and the number of nodes of a ring that hold every gap below ``limit`` [m].
 
-    They count from the first node of the row; in a ring the window may go on at node 0. Of the second-order
-    term of the tilt its lower bound is used.
+    They count from the first node of the row; the window may go on at node 0. Of the second-order term of the
+    tilt its lower bound is used.
     """
-    if row.whole > 0.0:
-        near = row.normal[0] * d[0] + row.normal[1] * d[1] + row.normal[2] * d[2]
-        near += row.moment[0] * phi[0] + row.moment[1] * phi[1] + row.moment[2] * phi[2]
-        near += row.spread[0] * math.sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
-        near += row.spread[1] * math.sqrt(phi[0] ** 2 + phi[1] ** 2 + phi[2] ** 2)
-        return 0, 0 if row.least - near >= limit else row.count  # this way round for NaN
+    d = station.d
     a = -(row.normal[0] * d[0] + row.arm * phi[1])
     b = -(row.normal[0] * d[1] - row.arm * phi[0])
-    least = row.least - row.normal[2] * d[2]
+    least = row.least + station.opening - row.normal[2] * d[2]
     least -= 0.5 * max(lean, 0.0) * (phi[0] * phi[0] + phi[1] * phi[1])
     return contact_window(least, a, b, limit, row.count)
 
 
+@kernel
+def window(row: Record, lean: float, station: Record, phi: FloatArray, limit: float) -> tuple[int, int]:
+    """Return the same of any row; a patch is within reach as a whole or not at all."""
+    if row.whole == 0.0:
+        return ring_window(row, lean, station, phi, limit)
+    d = station.d
+    near = row.normal[0] * d[0] + row.normal[1] * d[1] + row.normal[2] * d[2]
+    near += row.moment[0] * phi[0] + row.moment[1] * phi[1] + row.moment[2] * phi[2]
+    near += row.spread[0] * math.sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
+    near += row.spread[1] * math.sqrt(phi[0] ** 2 + phi[1] ** 2 + phi[2] ** 2)
+    return 0, 0 if row.least - near >= limit else row.count  # this way round for NaN
+
+
 @inlined
-def node_gap(nodes: FloatArray, i: int, lean: float, d: FloatArray, phi: FloatArray) -> float:
-    """Return the gap at node ``i`` [m]."""
+def node_gap(nodes: FloatArray, i: int, d: FloatArray, phi: FloatArray) -> float:
+    """Return the gap at node ``i`` of a patch [m]."""
     x, y, z = nodes[NODE_POSITION, i], nodes[NODE_POSITION + 1, i], nodes[NODE_POSITION + 2, i]
     along_x = d[0] + phi[1] * z - phi[2] * y
     along_y = d[1] + phi[2] * x - phi[0] * z
     along_z = d[2] + phi[0] * y - phi[1] * x
     near = nodes[NODE_NORMAL, i] * along_x + nodes[NODE_NORMAL + 1, i] * along_y
-    leaning = nodes[NODE_NORMAL, i] * phi[1] - nodes[NODE_NORMAL + 1, i] * phi[0]
-    return nodes[GAP, i] - (near + nodes[NODE_NORMAL + 2, i] * along_z + 0.5 * lean * leaning * leaning)
+    return nodes[GAP, i] - (near + nodes[NODE_NORMAL + 2, i] * along_z)
 
 
 @inlined
@@ -83,7 +90,7 @@ def _load(
     work, node = scratch.listed.work, scratch.listed.node
     phi, rate = scratch.tilt.phi, scratch.tilt.rate
     d_x, d_y, d_z = station.d[0], station.d[1], station.d[2]
-    v_x, v_y, v_z = station.v[0], station.v[1], station.v[2]
+    v_x, v_y, v_z, v_opening = station.v[0], station.v[1], station.v[2], station.v_opening
     phi_x, phi_y, phi_z = phi[0], phi[1], phi[2]
     rate_x, rate_y, rate_z = rate[0], rate[1], rate[2]
     source = np.uint64(first)  # unsigned, so that no index is taken from the end
@@ -100,7 +107,8 @@ def _load(
         number, place = interval(shift + scale * (nodes[GAP, i] - near), last)
         work[INTERVAL + n] = number
         work[FRACTION + n] = place
-        work[APPROACH + n] = n_x * v_x + n_y * v_y + n_z * v_z + m_x * rate_x + m_y * rate_y + m_z * rate_z
+        nearing = n_x * v_x + n_y * v_y + n_z * v_z + m_x * rate_x + m_y * rate_y + m_z * rate_z
+        work[APPROACH + n] = nearing - v_opening
         work[ENTRY + n] = entry_velocity[i]
         work[AREA + n] = nodes[NODE_AREA, i]
         work[POSITION + n] = x
@@ -113,6 +121,13 @@ def _load(
         work[MOMENT + PITCH + n] = m_y
         work[MOMENT + 2 * PITCH + n] = m_z
         node[n] = i
+
+
+@kernel
+def forget(first: int, until: int, entry_velocity: FloatArray) -> None:
+    """Clear the entry velocities of nodes ``first`` to ``until``."""
+    for i in range(np.uint64(first), np.uint64(until)):
+        entry_velocity[i] = 0.0
 
 
 @kernel
@@ -140,12 +155,12 @@ def gather(
     limit = surface.h_last * surface.roughness
     last = float(surface.last_interval - surface.first_interval - 1)
     scale = surface.inverse_step / surface.roughness
-    shift = 1.0 - surface.h_first * surface.inverse_step
+    shift = 1.0 - surface.h_first * surface.inverse_step + scale * station.opening
     r, taken, n = cursor[0], cursor[1], 0
     while r < surface.last_row and n < PART:
         row, left = data.rows[r], 0
         if with_edges > 0.0 or row.area > 0.0:
-            first, count = window(row, surface.lean, station.d, phi, limit)
+            first, count = window(row, surface.lean, station, phi, limit)
             left = count - taken
             while left > 0 and n < PART:
                 start = first + taken if first + taken < row.count else first + taken - row.count

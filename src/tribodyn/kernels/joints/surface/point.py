@@ -58,6 +58,12 @@ def _offset(surface: Record, z: float, d: Vector, phi: Vector) -> Vector:
     return d[0] + z * phi[1], d[1] - z * phi[0], along
 
 
+@inlined
+def _rubbing(surface: Record, slip: Vector) -> Vector:
+    """Return the part of a slip that friction opposes: all, or that around the axis of a cylinder."""
+    return slip[0], slip[1], surface.along * slip[2]
+
+
 @kernel
 def add_points(
     data: SurfaceData, s: int, memory: SurfaceMemory, station: Record, derivatives: float, told: float
@@ -65,17 +71,18 @@ def add_points(
     """Fill ``normal`` and ``friction`` of the scratch; their derivatives, the report where these are 1."""
     surface, scratch = data.surfaces[s], memory.scratch
     clear_sums(scratch)
+    clearance = surface.clearance + station.opening
     if told > 0.0:
-        memory.n_touched[s] = 0
-        memory.reports[s].separation_min = surface.clearance
+        memory.n_touched[s], scratch.rigid_load = 0, 0.0
+        memory.reports[s].separation_min = clearance
     for k in range(int(surface.points)):
         z = surface.heights[k]
         e = _offset(surface, z, _vector(station.d), _vector(scratch.tilt.phi))
         rho = math.sqrt(_dot(e, e))
         if told > 0.0:
             out = memory.reports[s]
-            out.separation_min = min(out.separation_min, surface.clearance - rho)
-        if rho > surface.clearance:
+            out.separation_min = min(out.separation_min, clearance - rho)
+        if rho > clearance:
             _add_point(data, s, memory, station, k, e, rho, derivatives, told)
     if told > 0.0:
         out = memory.reports[s]
@@ -115,15 +122,19 @@ def _add_point(
     surface, scratch, z = data.surfaces[s], memory.scratch, data.surfaces[s].heights[k]
     n = (e[0] / rho, e[1] / rho, e[2] / rho)
     e_dot = _offset(surface, z, _vector(station.v), _vector(scratch.tilt.rate))
-    approach = _dot(n, e_dot)
-    rigid, force, d_gap, d_approach = _force(data, surface, memory, k, surface.clearance - rho, approach)
+    approach, depth = _dot(n, e_dot) - station.v_opening, surface.clearance + station.opening - rho
+    rigid, force, d_gap, d_approach = _force(data, surface, memory, k, depth, approach)
     height = (0.0, 0.0, z)
     x = _sum(height, surface.radius, n)
     moving = _sum(_vector(station.slip), 1.0, _cross(_vector(station.w), x))
-    slip = _sum(moving, -_dot(n, moving), n)
+    slip = _rubbing(surface, _sum(moving, -_dot(n, moving), n))
     norm = math.sqrt(_dot(slip, slip) + slip_square(surface))
     unit = (slip[0] / norm, slip[1] / norm, slip[2] / norm)
     arm, lever, drag = _cross(x, n), _cross(x, unit), surface.friction_coefficient * force
+    power = _dot(unit, slip)
+    if surface.torque_radius > 0.0:
+        turn = surface.torque_radius * station.direction
+        unit, lever, power = (0.0, 0.0, 0.0), (0.0, 0.0, turn), turn * station.w[2]
     for i in range(3):
         scratch.normal[i] -= force * n[i]
         scratch.normal[3 + i] -= force * arm[i]
@@ -134,10 +145,11 @@ def _add_point(
         for i in range(3):
             scratch.rigid[i] -= rigid * n[i]
             scratch.rigid[3 + i] -= rigid * arm[i]
-        gap = (surface.clearance - rho) / surface.roughness
-        out.energy_contact += surface.roughness * stored_energy(table_of(data, surface), gap)
+        scratch.rigid_load += rigid
+        stored = stored_energy(table_of(data, surface), depth / surface.roughness)
+        out.energy_contact += surface.roughness * stored
         out.damping_power += (force - rigid) * approach
-        out.friction_power -= drag * _dot(unit, slip)
+        out.friction_power -= drag * power
         out.contact_fraction += 1.0
         out.tensile_clip_share += 1.0 if force <= 0.0 else 0.0
     if derivatives > 0.0:
@@ -176,11 +188,13 @@ def _add_column(
     own = _sum(first, 1.0, _cross(second, x))
     d_moving = _sum(_cross(_vector(station.w), d_x), slipped, own)
     d_slip = _sum(d_moving, -(_dot(d_n, moving) + _dot(n, d_moving)), n)
-    d_slip = _sum(d_slip, -_dot(n, moving), d_n)
+    d_slip = _rubbing(surface, _sum(d_slip, -_dot(n, moving), d_n))
     d_unit = _sum(zero, 1.0 / norm, _sum(d_slip, -_dot(unit, d_slip), unit))
     push, pull = _sum(_sum(zero, d_force, n), force, d_n), _sum(_sum(zero, d_force, unit), force, d_unit)
     arm = _sum(_cross(x, push), force, _cross(d_x, n))
     lever = _sum(_cross(x, pull), force, _cross(d_x, unit))
+    if surface.torque_radius > 0.0:
+        pull, lever = zero, (0.0, 0.0, surface.torque_radius * station.direction * d_force)
     column = m % 6
     for i in range(3):
         if part == 0:
@@ -204,13 +218,14 @@ def update_entry_velocity(
 ) -> None:
     """Let points enter and leave contact at the end of an accepted step, where the surfaces meet."""
     entry_velocity, tilt = memory.entry_velocity, memory.scratch.tilt
+    clearance = surface.clearance + station.opening
     for k in range(int(surface.points)):
         z, i = surface.heights[k], surface.first_node + k
         e = _offset(surface, z, _vector(station.d), _vector(tilt.phi))
         rho = math.sqrt(_dot(e, e))
-        if rho <= surface.clearance:
+        if rho <= clearance:
             entry_velocity[i] = 0.0
         elif entry_velocity[i] == 0.0:
-            closing = _dot(e, _offset(surface, z, _vector(station.v), _vector(tilt.rate))) / rho
-            heed = 0.0 if at_start > 0.0 else closing
+            e_dot = _offset(surface, z, _vector(station.v), _vector(tilt.rate))
+            heed = 0.0 if at_start > 0.0 else _dot(e, e_dot) / rho - station.v_opening
             entry_velocity[i] = reference_velocity(0.0, heed, surface.minimum_entry_velocity)

@@ -19,7 +19,8 @@ from tribodyn.kernels.joints.columns import (
     RIGID,
 )
 from tribodyn.kernels.joints.pressures import fill_pressures, weighted_sum
-from tribodyn.kernels.joints.surface.data import SurfaceData, table_of
+from tribodyn.kernels.joints.surface import ring_report
+from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring, table_of
 from tribodyn.kernels.joints.surface.listed import (
     CLIPPED,
     FORCE,
@@ -46,6 +47,26 @@ def report(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) ->
     surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
     for k in range(6):
         scratch.normal[k] = scratch.rigid[k] = scratch.friction[k] = 0.0
+    scratch.rigid_load = 0.0
+    if is_ring(data, surface):
+        nearest = ring_report.add_rows(data, s, memory, station)
+    else:
+        nearest = _add_patches(data, s, memory, station)
+    if nearest < float(surface.last_interval - surface.first_interval - 1):
+        h_star = surface.h_first + (nearest - 1.0) / surface.inverse_step
+        out.separation_min = surface.roughness * h_star
+    else:
+        out.separation_min = _far_separation(data, surface, station, scratch.tilt.phi)
+    contact = out.contact_fraction
+    out.contact_fraction = contact / surface.area
+    if contact > 0.0:
+        out.tensile_clip_share /= contact
+
+
+@kernel
+def _add_patches(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) -> float:
+    """Add the sums over the nodes of patches to the report; return the nearest place in the table."""
+    surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
     table, work, kept = table_of(data, surface), scratch.listed.work, 0
     v_min, clip = surface.minimum_entry_velocity, surface.tensile_clip
     nearest, out.p_max = math.inf, 0.0
@@ -61,15 +82,7 @@ def report(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) ->
         kept += n
         n = gather(data, surface, memory, station, 1.0)
     memory.n_touched[s] = kept
-    if nearest < float(surface.last_interval - surface.first_interval - 1):
-        h_star = surface.h_first + (nearest - 1.0) / surface.inverse_step
-        out.separation_min = surface.roughness * h_star
-    else:
-        out.separation_min = _far_separation(data, surface, station.d, scratch.tilt.phi)
-    contact = out.contact_fraction
-    out.contact_fraction = contact / surface.area
-    if contact > 0.0:
-        out.tensile_clip_share /= contact
+    return nearest
 
 
 @kernel
@@ -84,29 +97,32 @@ def _keep(memory: SurfaceMemory, at: int, n: int) -> None:
 @kernel
 def slide(data: SurfaceData, s: int, memory: SurfaceMemory, h: float) -> None:
     """Let surface ``s`` slide for ``h`` [s] as it did at the last report: add to the sliding load."""
+    if is_ring(data, data.surfaces[s]):
+        ring_report.slide(data, data.surfaces[s], memory, h)
+        return
     first = data.surfaces[s].first_node
     for k in range(first, first + memory.n_touched[s]):
         memory.sliding_load[memory.touched[k]] += h * memory.sliding[k]
 
 
 @kernel
-def _far_separation(data: SurfaceData, surface: Record, d: FloatArray, phi: FloatArray) -> float:
+def _far_separation(data: SurfaceData, surface: Record, station: Record, phi: FloatArray) -> float:
     """Return the least gap [m] of a shaft out of reach of contact: around rings, and at nodes of patches.
 
     Around a ring the second-order term of the tilt is taken where the gap is least without it.
     """
-    least = math.inf
+    least, d = math.inf, station.d
     for r in range(surface.first_row, surface.last_row):
         row = data.rows[r]
         if row.whole > 0.0:
             for i in range(row.first, row.first + row.count):
-                least = min(least, node_gap(data.nodes, i, 0.0, d, phi))
+                least = min(least, node_gap(data.nodes, i, station.d, phi))
         else:
             a, b = row.normal[0] * d[0] + row.arm * phi[1], row.normal[0] * d[1] - row.arm * phi[0]
             square = a * a + b * b
             along = (a * phi[1] - b * phi[0]) ** 2 / max(square, LEAST_SQUARE)
             off = math.sqrt(square) + 0.5 * surface.lean * along
-            least = min(least, row.least - row.normal[2] * d[2] - off)
+            least = min(least, row.least + station.opening - row.normal[2] * d[2] - off)
     return least
 
 

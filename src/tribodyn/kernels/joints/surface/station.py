@@ -23,9 +23,11 @@ from tribodyn.kernels.jit import kernel
 
 Station: Final = record_type(
     *((name, "f8", (3,)) for name in ("d", "v", "slip", "w", "axis")),
-    ("height", "f8"),
+    *((name, "f8") for name in ("height", "opening", "v_opening", "direction")),
 )
-"""d_Q [m], its rate, v_Q [m/s], ω [rad/s], u, z [m]; without sliding those of P, and nothing."""
+"""d_Q [m], its rate, v_Q [m/s], ω [rad/s], u, z [m]; without sliding those of P, and nothing. ``opening`` is
+what gaps and clearances have more than as drawn [m], where a bore follows its temperature, then its rate;
+``direction`` is that of the rotation which a friction torque opposes."""
 
 Maps: Final = record_type(
     *((name, "f8", (6, 6)) for name in ("place", "slip", "rate_place", "slip_place", "product"))

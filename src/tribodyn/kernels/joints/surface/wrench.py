@@ -59,7 +59,7 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
 @kernel
 def fill_forces(surface: Record, work: FloatArray, station: Record, n: int) -> None:
     """Fill forces and slips of the ``n`` nodes in the list, whose pressures are filled."""
-    square = slip_square(surface)
+    square, both = slip_square(surface), surface.along
     v_x, v_y, v_z = station.slip[0], station.slip[1], station.slip[2]
     w_x, w_y, w_z = station.w[0], station.w[1], station.w[2]
     for k in range(whole(n)):
@@ -67,7 +67,7 @@ def fill_forces(surface: Record, work: FloatArray, station: Record, n: int) -> N
         n_x, n_y, n_z = work[NORMAL + k], work[NORMAL + PITCH + k], work[NORMAL + 2 * PITCH + k]
         s_x, s_y, s_z = v_x + w_y * z - w_z * y, v_y + w_z * x - w_x * z, v_z + w_x * y - w_y * x
         along = n_x * s_x + n_y * s_y + n_z * s_z
-        s_x, s_y, s_z = s_x - along * n_x, s_y - along * n_y, s_z - along * n_z
+        s_x, s_y, s_z = s_x - along * n_x, s_y - along * n_y, both * (s_z - along * n_z)
         slip_2 = s_x * s_x + s_y * s_y + s_z * s_z
         per_speed = 1.0 / math.sqrt(slip_2 + square)
         s_x, s_y, s_z = per_speed * s_x, per_speed * s_y, per_speed * s_z

@@ -14,9 +14,9 @@ from tribodyn.core.quantities import names
 from tribodyn.joints.bushing import new_memory
 from tribodyn.kernels.actions import NONE, TIME
 from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.bushing import update_entry_velocity
 from tribodyn.kernels.joints.collar import Collar
 from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
-from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity
 from tribodyn.kernels.joints.quantities import SHARP, STATES
 from tribodyn.kernels.ledger import NO_SWING, new_books
 from tribodyn.kernels.peaks import new_peaks

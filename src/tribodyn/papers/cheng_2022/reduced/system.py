@@ -17,7 +17,7 @@ from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
-from tribodyn.kernels.vsv.functions import BEYOND
+from tribodyn.kernels.vsv.functions import BEYOND, BEYOND_LAW
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
 from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
 from tribodyn.mechanisms.bushing import (
@@ -284,7 +284,7 @@ class VsvSystem:
     def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
-        if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] > 0.0:
+        if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] == BEYOND_LAW:
             cause = () if self.vsv.exact else (GAINS_ENERGY,)
             return beyond_law(self.bushing.table.h_first, t, "trunnion and bushing", *cause)
         angle = float(self.vsv.drive.angle(np.array([t]))[0])

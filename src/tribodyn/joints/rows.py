@@ -1,0 +1,83 @@
+"""Rows of the nodes of all surfaces, and the angles of those that are rings, as kernels read them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.joints.surface.data import AREA, GAP, LIFT, N_ANGLE, NORMAL, POSITION, Row
+from tribodyn.kernels.lanes import WIDTH
+
+OUT_OF_REACH: Final = 1.0e3
+"""What a repeated node of a ring is lifted by [m]."""
+CLOSE: Final = 1.0e-12
+"""Distance by which a node may miss its ring [m], and errors of its normal and its relative area [1]."""
+
+Rows = NDArray[np.void]
+"""Records :data:`~tribodyn.kernels.joints.surface.data.Row`."""
+
+
+def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
+    """Return the rows of all surfaces, their nodes counted from the first of all.
+
+    Parameters
+    ----------
+    surfaces
+        Of each surface the rows, and its first node.
+    nodes
+        All nodes, see ``kernels/joints/surface/data.py``.
+    """
+    rows = np.concatenate([np.zeros(0, dtype=Row), *(own for own, _ in surfaces)])
+    rows["first"] += np.repeat([first for _, first in surfaces], [own.size for own, _ in surfaces])
+    for row in rows:
+        here = nodes[:, row["first"] : row["first"] + row["count"]]
+        row["least"] = here[GAP].min()
+        if row["whole"] == 0.0:
+            _check_ring(row, here)
+    return rows
+
+
+def _check_ring(row: Record, nodes: FloatArray) -> None:
+    """Refuse a row of nodes (``N_NODE``, n) that kernels would take for a ring."""
+    cos, sin, _ = _around(np.arange(row["count"]), int(row["count"]))
+    radius, _, height = nodes[POSITION : POSITION + 3, 0]
+    radial, _, axial = row["normal"]
+    expected = np.stack(
+        [radius * cos, radius * sin, height + 0.0 * cos, radial * cos, radial * sin, axial + 0.0 * cos]
+    )
+    if np.abs(nodes[POSITION : NORMAL + 3] - expected).max() > CLOSE:
+        raise InputError("nodes of a row must lie at equal angles around the axis", key="shape")
+    if np.ptp(nodes[AREA]) > CLOSE * nodes[AREA, 0]:
+        raise InputError("nodes of a row around the axis must have equal areas", key="shape")
+
+
+def _around(node: NDArray[np.int64], count: int) -> FloatArray:
+    """Return cosine and sine of the angles of nodes in a ring of ``count``, and zeros, shape (3, n)."""
+    theta = 2.0 * np.pi * node / count
+    return np.stack([np.cos(theta), np.sin(theta), np.zeros(theta.size)])
+
+
+def angles_of(rows: Rows) -> FloatArray:
+    """Return the table of angles of rings, each number of nodes once; set where those of a ring begin."""
+    ring, parts = rows["whole"] == 0.0, [np.zeros((N_ANGLE, 0))]
+    for count in np.unique(rows["count"][ring]):
+        rows["angle"][ring & (rows["count"] == count)] = sum(part.shape[1] for part in parts)
+        parts.append(_groups(int(count)))
+    return np.concatenate(parts, axis=1)
+
+
+def _groups(count: int) -> FloatArray:
+    """Return the angles of the groups of four in a ring of ``count`` nodes; the last one may repeat some."""
+    if count < WIDTH:
+        raise InputError(f"a ring needs at least {WIDTH} nodes, not {count}", key="grid")
+    begin = np.arange(0, count, WIDTH)
+    node = (np.minimum(begin, count - WIDTH)[:, None] + np.arange(WIDTH)).ravel()
+    angles = _around(node, count)
+    angles[LIFT] = np.where(node < np.repeat(begin, WIDTH), OUT_OF_REACH, 0.0)
+    return angles

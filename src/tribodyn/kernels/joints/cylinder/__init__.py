@@ -1,1 +1,0 @@
-"""Kernels of a rigid shaft in a cylindrical bushing."""
