@@ -33,8 +33,11 @@ def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
     nodes
         All nodes, see ``kernels/joints/surface/data.py``.
     """
-    rows = np.concatenate([np.zeros(0, dtype=Row), *(own for own, _ in surfaces)])
-    rows["first"] += np.repeat([first for _, first in surfaces], [own.size for own, _ in surfaces])
+    rows, at = np.zeros(sum(own.size for own, _ in surfaces), dtype=Row), 0
+    for own, first in surfaces:
+        rows[at : at + own.size] = own
+        rows["first"][at : at + own.size] += first
+        at += own.size
     for row in rows:
         here = nodes[:, row["first"] : row["first"] + row["count"]]
         row["least"] = here[GAP].min()

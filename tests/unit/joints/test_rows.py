@@ -8,7 +8,7 @@ import pytest
 from tribodyn.core.errors import InputError
 from tribodyn.joints.rows import angles_of, rows_of
 from tribodyn.joints.shapes import Cylinder
-from tribodyn.kernels.joints.surface.data import AREA, COS, LIFT, N_NODE, NORMAL, POSITION, SIN
+from tribodyn.kernels.joints.surface.data import AREA, COS, LIFT, N_ANGLE, N_NODE, NORMAL, POSITION, SIN
 
 
 def nodes_and_rows(n_theta=12):
@@ -46,3 +46,9 @@ def test_a_ring_has_four_nodes():
     nodes, own = nodes_and_rows(3)
     with pytest.raises(InputError, match="at least 4"):
         angles_of(rows_of([(own, 0)], nodes))
+
+
+def test_a_mechanism_of_ideal_joints_has_no_rows():
+    rows = rows_of([], np.zeros((N_NODE, 0)))
+    assert rows.size == 0
+    assert angles_of(rows).shape == (N_ANGLE, 0)
