@@ -71,7 +71,7 @@ class JointSizes(Tables):
 
 
 class Elements(Directive):
-    """What gears, racks and screws need and transmit, from the list of all kinds."""
+    """What elements need and transmit, from the list of all kinds."""
 
     def run(self) -> list[nodes.Node]:
         """Return the table."""

@@ -15,7 +15,13 @@ A *coordinate* row is the equation of an element, such as a gear pair: over its 
 
     Φ = Σ (b·d + a θ) − c,   Φ̇ = Σ (b·v + a g·ω),   Φ̈ = Σ (b·v̇ + a (g·ω̇ + ġ·ω)),
 
-with the angle θ of the shaft and its gradient g; see ``kernels/mechanism/angle.py``.
+with the angle θ of the shaft and its gradient g; see ``kernels/mechanism/angle.py``. A *distance* row counts
+the distance between the two origins from a length L, and a *path* row the length of the path of the origin,
+of which only the rate matters: with e = d/|d|, or v/|v|,
+
+    Φ = |d| − L,   Φ̇ = e·v,   Φ̈ = e·v̇ + (v² − (e·v)²)/|d|,   or   Φ̇ = |v|.
+
+Of an element with a force law F the equation is λ = F(Φ, Φ̇) instead.
 """
 
 from __future__ import annotations
@@ -26,7 +32,15 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.angle import angle_gradient, angle_hessian, angle_rate
-from tribodyn.kernels.mechanism.data import ANGLE, COORDINATE, NONE, POINT, POSITION
+from tribodyn.kernels.mechanism.data import (
+    ANGLE,
+    COORDINATE,
+    DISTANCE,
+    NONE,
+    PATH,
+    POINT,
+    POSITION,
+)
 from tribodyn.kernels.mechanism.vectors import cross, multiply
 from tribodyn.kernels.signals import Signals, evaluate
 
@@ -78,7 +92,7 @@ def fill_rows(coupling: Record, now: Record) -> None:
             now.rate[m] = twist[i] - now.prescribed[m, 1]
             now.gamma[m] = now.prescribed[m, 2] - now.bias[i]
             continue
-        if kind == COORDINATE:
+        if kind in (COORDINATE, DISTANCE, PATH):
             _fill_term(coupling, now)
             continue
         _direction(coupling, now, m, w, w_rate, w_second)
@@ -102,6 +116,9 @@ def fill_rows(coupling: Record, now: Record) -> None:
 def _fill_term(coupling: Record, now: Record) -> None:
     """Fill what a leg adds to the equation of its element."""
     q, w, row = now.pose.rotation[:, 0], now.pose.w, now.N[0]
+    if coupling.row_kind[0] != COORDINATE:
+        _fill_distance(coupling, now)
+        return
     angle_gradient(q, row[3:6])
     residual, rate = coupling.about * now.angle - now.offset, 0.0
     acceleration = coupling.about * angle_rate(q, w)
@@ -116,24 +133,109 @@ def _fill_term(coupling: Record, now: Record) -> None:
 
 
 @kernel
-def _term_gradient(coupling: Record, now: Record, rate: FloatArray) -> None:
-    """Add what turning does to the term of a leg, and to its moment."""
-    q, turned, turning, of_gradient = now.pose.rotation[:, 0], now.work[0, :3], now.work[1, :3], now.small
-    angle_hessian(q, now.pose.w, rate[3:6], turned, turning, of_gradient)
-    for k in range(3):
-        for j in range(12):
-            way, spin = coupling.about * now.H[3 + k, j], coupling.about * turning[k]
-            now.Gq[0, j] += turned[k] * way + spin * now.Vq[3 + k, j]
-            now.Gv[0, j] += turning[k] * way
-        for j in range(3):
-            now.slope[3 + k, 3 + j] += now.multiplier[0] * coupling.about * of_gradient[k, j]
+def _length(vector: FloatArray) -> float:
+    return math.sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
 
 
 @kernel
-def row_gradient(coupling: Record, now: Record, rate: FloatArray) -> None:
+def _fill_distance(coupling: Record, now: Record) -> None:
+    """Fill the term of a distance or a path."""
+    v = now.pose.v
+    along = now.pose.d if coupling.row_kind[0] == DISTANCE else v
+    size, square = _length(along), 0.0
+    rate = acceleration = 0.0
+    for i in range(3):
+        # A point at rest has no direction.
+        now.N[0, i] = along[i] / size if size > 0.0 else 0.0
+        rate += now.N[0, i] * v[i]
+        square += v[i] * v[i]
+        acceleration += now.N[0, i] * now.bias[i]
+    now.rate[0] = rate
+    now.residual[0] = now.gamma[0] = 0.0
+    if coupling.row_kind[0] == DISTANCE:
+        now.residual[0] = size - coupling.length
+        now.gamma[0] = -acceleration - (square - rate * rate) / size
+
+
+@kernel
+def _across(direction: FloatArray, size: float, matrix: FloatArray) -> None:
+    """Fill ``matrix`` (3, 3) with (1 − e eᵀ)/size: how a direction e turns with its vector."""
+    for i in range(3):
+        for j in range(3):
+            unit = 1.0 if i == j else 0.0
+            matrix[i, j] = (unit - direction[i] * direction[j]) / size if size > 0.0 else 0.0
+
+
+@kernel
+def _bend(coupling: Record, now: Record, rate: FloatArray, bent: FloatArray, swung: FloatArray) -> None:
+    """Fill how the direction of a term turns, and, of all but paths, what its second rate changes by.
+
+    ``now.small`` (3, 3) takes the derivative of the direction; ``bent`` and ``swung`` (3,) take those of the
+    second rate in angle or displacement, and in angular or linear velocity.
+    """
+    kind, v, turning = coupling.row_kind[0], now.pose.v, now.small
+    if kind == COORDINATE:
+        angle_hessian(now.pose.rotation[:, 0], now.pose.w, rate[3:6], bent, swung, turning)
+        return
+    n = now.N[0, :3]
+    if kind == PATH:
+        _across(n, _length(v), turning)
+        return
+    size, speed, square = _length(now.pose.d), 0.0, 0.0
+    _across(n, size, turning)
+    for i in range(3):
+        speed += n[i] * v[i]
+        square += v[i] * v[i]
+    for i in range(3):
+        bent[i], swung[i] = -(square - speed * speed) / (size * size) * n[i], 0.0
+        for j in range(3):
+            bent[i] += turning[i, j] * (rate[j] - 2.0 * speed / size * v[j])
+            swung[i] += 2.0 * turning[i, j] * v[j]
+
+
+@kernel
+def _term_gradient(coupling: Record, now: Record, rate: FloatArray, law: Record) -> None:
+    """Add what motion does to the term of a leg, and to the force along it."""
+    bent, swung = now.work[0, :3], now.work[1, :3]
+    _bend(coupling, now, rate, bent, swung)
+    turns = coupling.row_kind[0] == COORDINATE
+    scale, first = (coupling.about, 3) if turns else (1.0, 0)
+    column = 6 if coupling.row_kind[0] == PATH else first
+    for k in range(3):
+        for j in range(3):
+            now.slope[first + k, column + j] += now.multiplier[0] * scale * now.small[k, j]
+    if coupling.law != 0:
+        _law_gradient(now, law, scale, first, column)
+        return
+    for k in range(3):
+        for j in range(12):
+            way, spin = scale * now.H[first + k, j], scale * swung[k]
+            now.Gq[0, j] += bent[k] * way + spin * now.Vq[first + k, j]
+            now.Gv[0, j] += swung[k] * way
+
+
+@kernel
+def _law_gradient(now: Record, law: Record, scale: float, first: int, column: int) -> None:
+    """Fill what motion does to the equation λ − F = 0 by way of one leg."""
+    for j in range(12):
+        rate = 0.0
+        for i in range(6):
+            rate += now.N[0, i] * now.Vq[i, j]
+        # The speed along a path does not change with its direction.
+        if column < 6:
+            for i in range(3):
+                for k in range(3):
+                    rate += now.twist[first + i] * scale * now.small[i, k] * now.H[column + k, j]
+        now.Gq[0, j] = -law.in_position * now.G[0, j] - law.in_rate * rate
+        now.Gv[0, j] = -law.in_rate * now.G[0, j]
+
+
+@kernel
+def row_gradient(coupling: Record, now: Record, rate: FloatArray, law: Record) -> None:
     """Fill Gq and Gv, and add what turning does to the constraint moments to ``now.slope``.
 
-    ``rate`` (6,) is the rate of the twist with the accelerations of the bodies.
+    ``rate`` (6,) is the rate of the twist with the accelerations of the bodies, ``law`` the force law of the
+    element whose leg the coupling is.
     """
     multiply(now.N, now.Aq, now.Gq)
     multiply(now.N, now.Av, now.Gv)
@@ -144,8 +246,8 @@ def row_gradient(coupling: Record, now: Record, rate: FloatArray) -> None:
     for m in range(coupling.n_terms):
         if coupling.row_kind[m] in (POINT, POSITION):
             continue
-        if coupling.row_kind[m] == COORDINATE:
-            _term_gradient(coupling, now, rate)
+        if coupling.row_kind[m] in (COORDINATE, DISTANCE, PATH):
+            _term_gradient(coupling, now, rate, law)
             continue
         _direction(coupling, now, m, w, w_rate, w_second)
         for k in range(3):

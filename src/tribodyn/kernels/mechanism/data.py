@@ -6,7 +6,10 @@ rows; the ground is the body after the last. The *nodes* of the linear systems a
 couplings that have rows, six unknowns each.
 
 The constraint equation of an *element*, such as a gear pair, is a sum over its legs. Each leg is a coupling
-whose only row is one term of the sum. The first leg counts the equation, and all legs share its node.
+whose only row is one term of the sum. The first leg counts the equation, and all legs share its node. With a
+*force law*, the equation says what its multiplier is and not that the sum vanishes: it counts no constraint.
+
+One file because these records hold each other.
 """
 
 from __future__ import annotations
@@ -33,6 +36,8 @@ DIRECTION: Final = 1
 ANGLE: Final = 2
 POSITION: Final = 3
 COORDINATE: Final = 4
+DISTANCE: Final = 5
+PATH: Final = 6
 """Kinds of constraint rows, see ``kernels/mechanism/constraints.py``."""
 
 NOTHING: Final = 0
@@ -90,6 +95,35 @@ Body: Final = record_type(
 """Mass [kg]; mass centre as drawn [m]; inertia about the mass centre in the axes of the body, which are those
 of the drawing at first; its inverse."""
 
+N_PARAMETERS: Final = 16
+Parameters: Final = record_type(("values", "f8", (N_PARAMETERS,)))
+"""Parameters of a force law, which reads them by the names of its own record."""
+
+Law: Final = record_type(
+    *((name, "f8") for name in ("position", "rate", "entry_rate")),
+    ("table", "f8", (2,)),
+    ("table_slope", "f8"),
+    *((name, "f8") for name in ("force", "in_position", "in_rate")),
+    *((name, "f8") for name in ("stored", "damping", "friction", "touching")),
+)
+"""A force law at one instant.
+
+position, rate
+    Coordinate of its element, zero as drawn (a distance: from its length), and rate of it: [m], or [rad].
+entry_rate
+    Rate with which contact began, kept while ``touching`` is not 0; 0 without contact.
+table, table_slope
+    Value of its table at the position and integral from zero; slope of the value.
+force
+    Force along the coordinate [N], or moment [N m]: positive where it makes the coordinate grow.
+in_position, in_rate
+    Derivatives of the force.
+stored, damping, friction
+    Stored energy [J]; powers that damping and friction turn into heat [W].
+touching
+    1 where a contact of one side is closed.
+"""
+
 Coupling: Final = record_type(
     ("socket", "i8"),
     ("shaft", "i8"),
@@ -104,6 +138,9 @@ Coupling: Final = record_type(
     ("next_leg", "i8"),
     ("along", "f8", (3,)),
     ("about", "f8"),
+    ("law", "i8"),
+    ("parameters", Parameters),
+    ("table", "i8", (2,)),
     ("first_row", "i8"),
     ("row_kind", "i8", (6,)),
     ("row_axis", "i8", (6,)),
@@ -147,6 +184,9 @@ first_leg, next_leg
     Of a leg of an element: the coupling that is its first leg, ``NONE`` for that one itself; the next leg.
 along, about
     Of a leg: coefficients of the displacement [1] and of the angle [m/rad] in the equation of its element.
+law, parameters, table
+    Of the legs of an element with a force law: its address (0 without one), its parameters, and the signals
+    of its table and of the integral of it.
 row_kind, row_axis, row_other, row_signal
     Of each row: its kind, axis of the socket, axis of the shaft, number of the signal it follows.
 force
@@ -154,7 +194,7 @@ force
 stiffness, damping
     Along x, y, z of the socket and about x, y, z; of a spring the first.
 length, slip_velocity
-    Of a spring without force [m]; of a load against the motion [m/s].
+    Of a spring without force, or from which a distance counts [m]; of a load against the motion [m/s].
 first_term, last_term
     Terms of a load: the first, and the one after the last.
 direction, opposes, own_speed
@@ -227,6 +267,7 @@ CouplingNow: Final = record_type(
     ("angle_mark", "f8"),
     ("powers", "f8", (N_POWERS,)),
     ("stored", "f8"),
+    ("law", Law),
 )
 """Of a coupling at one instant; wrenches act on the shaft at its origin, in the axes of the socket.
 
@@ -268,6 +309,8 @@ angle, angle_mark
     Angle of the shaft about the axis with its whole turns, and the one that turns are counted from.
 powers, stored
     What drives and loads put in, what damping, friction and oil film turn into heat [W]; stored energy [J].
+law
+    Of the first leg of an element with a force law.
 """
 
 Course: Final = record_type(

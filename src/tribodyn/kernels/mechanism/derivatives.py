@@ -12,7 +12,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.constraints import row_gradient
-from tribodyn.kernels.mechanism.data import Now, Parts
+from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.relative import rate_gradient, twist_gradient
 from tribodyn.kernels.mechanism.vectors import (
     cross_put,
@@ -31,12 +31,13 @@ def fill_derivatives(data: Parts, memory: Now) -> None:
         twist_gradient(coupling, now, memory.bodies)
         if coupling.n_terms > 0:
             rate_gradient(coupling, now, memory.bodies)
-            _fill_rows(coupling, now, memory)
+            lead = memory.couplings[k if coupling.first_leg == NONE else coupling.first_leg]
+            _fill_rows(coupling, now, memory, lead.law)
         _fill_forces(coupling, now)
 
 
 @kernel
-def _fill_rows(coupling: Record, now: Record, memory: Now) -> None:
+def _fill_rows(coupling: Record, now: Record, memory: Now, law: Record) -> None:
     """Fill Gq and Gv, and the slope of the constraint wrench."""
     rate = memory.rest[0]
     socket, shaft = memory.bodies[coupling.socket], memory.bodies[coupling.shaft]
@@ -44,7 +45,7 @@ def _fill_rows(coupling: Record, now: Record, memory: Now) -> None:
         rate[i] = now.bias[i]
         for j in range(6):
             rate[i] += now.H[i, j] * socket.acceleration[j] + now.H[i, 6 + j] * shaft.acceleration[j]
-    row_gradient(coupling, now, rate)
+    row_gradient(coupling, now, rate, law)
 
 
 @kernel

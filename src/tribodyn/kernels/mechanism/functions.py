@@ -26,10 +26,11 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.kernels.mechanism.derivatives import fill_derivatives
 from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
+from tribodyn.kernels.mechanism.law import remember_entry
 from tribodyn.kernels.mechanism.newton import fill_entries
 from tribodyn.kernels.mechanism.observe import fill_row
 from tribodyn.kernels.mechanism.redundancy import choose_rows
-from tribodyn.kernels.mechanism.solution import accelerations, mark_angles, settle
+from tribodyn.kernels.mechanism.solution import accelerations, has_law, mark_angles, settle
 from tribodyn.kernels.mechanism.watch import watch
 
 BEFORE_KINK: Final = 1.0e-9
@@ -153,13 +154,15 @@ def accept(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory
 
 @kernel
 def touch(data: MechanismData, memory: MechanismMemory, at_start: float) -> None:
-    """Let contact of all joints begin and end."""
+    """Let contact of all joints and in all force laws begin and end."""
     for k in range(data.parts.couplings.size):
         if data.parts.couplings[k].force == CONTACT:
             pose = memory.now.couplings[k].pose
             surfaces.update_entry_velocity(
                 data.contact, memory.contact, data.parts.couplings[k].contact, pose, at_start
             )
+        if has_law(data.parts.couplings[k]):
+            remember_entry(memory.now.couplings[k].law)
 
 
 @entry

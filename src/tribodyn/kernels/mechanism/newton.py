@@ -11,6 +11,9 @@ multipliers:
     [M + γ (C + K_v + K_q S)] δV − Gᵀ δλ = M r_V − γ K_q s,
     [G + γ (Γ_v + Γ_q S)] δV + ε δλ = G r_V − γ Γ_q s.
 
+Of an element with a force law, λ = F, both G of the second line are left out, ε is 1, and Γ are the
+derivatives of −F.
+
 The ``entries`` that ``jac`` leaves are all that is in it but γ: ``N_BODY`` numbers of each body,
 ``N_COUPLING`` of each coupling. ``factorise`` puts γ and the entries before the blocks, so that ``solve``
 finds them.
@@ -95,6 +98,8 @@ def _fill_bound(data: Parts, memory: Now, entries: FloatArray) -> None:
                 inverse = 1.0 / body.mass if i < 3 else body.inverse[i - 3, i - 3]
                 for j in range(3):
                     stiffness = now.Kq[6 * side + i, 6 * side + j]
+                    if coupling.law != 0:
+                        stiffness += now.G[0, 6 * side + i] * now.Gq[0, 6 * side + j]
                     entries[N_PLACES * b + 3 * i + j] += inverse * abs(stiffness)
 
 
@@ -213,10 +218,11 @@ def _coupling_blocks(
         for m in range(coupling.n_terms):
             for j in range(6):
                 value = entries[G + 12 * m + 6 * side + j]
-                below[m, j] += value
+                if coupling.law == 0:
+                    below[m, j] += value
                 beside[j, m] -= value
         _add(entries, GQ + 6 * side, GV + 6 * side, gamma, turn, below, coupling.n_terms)
-    if coupling.n_rows > 0:
+    if coupling.node != NONE and coupling.first_leg == NONE:
         diagonal = blocks[coupling.node]
         for m in range(6):
             diagonal[m, m] += entries[COMPLIANCE + m] if m < coupling.n_rows else 1.0
@@ -316,6 +322,7 @@ def _load_coupling(
     still: FloatArray,
 ) -> None:
     """Add −γ K_q s, and G r_V − γ Γ_q s, of a coupling."""
+    held = 1.0 if coupling.law == 0 else 0.0
     for side in range(2):
         body = coupling.socket if side == 0 else coupling.shaft
         if body == n_bodies:
@@ -336,7 +343,7 @@ def _load_coupling(
             at = 12 * m + 6 * side
             total = 0.0
             for j in range(6):
-                total += entries[G + at + j] * r[j] - gamma * entries[GQ + at + j] * way[j]
+                total += held * entries[G + at + j] * r[j] - gamma * entries[GQ + at + j] * way[j]
             nodes[coupling.node, m] += total
 
 

@@ -2,7 +2,7 @@
 
 With accelerations a, multipliers λ and the compliances ε of the rows,
 
-    M a − Gᵀ λ = Q,   G a + ε λ = γ + ε λ₀,
+    M a − Gᵀ λ = Q,   G a + ε λ = γ + ε λ₀   (of an element with a force law: λ = F),
 
 first from λ₀ = 0, then from the λ found: the method of multipliers, which after three rounds leaves an error
 (ε/(ε + σ²))³ where the rows resist with σ². Independent rows have a small compliance, which where a mechanism
@@ -38,6 +38,7 @@ from tribodyn.kernels.mechanism.data import (
     Pattern,
 )
 from tribodyn.kernels.mechanism.forces import force
+from tribodyn.kernels.mechanism.law import fill_law
 from tribodyn.kernels.mechanism.relative import relative_motion
 from tribodyn.kernels.signals import Signals
 
@@ -73,6 +74,13 @@ def _add_term(leg: Record, first: Record) -> None:
 
 
 @kernel
+def has_law(coupling: Record) -> bool:
+    """Tell whether a coupling is the first leg of an element with a force law."""
+    found: bool = coupling.law != 0 and coupling.first_leg == NONE
+    return found
+
+
+@kernel
 def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: float) -> None:
     """Fill the forces of all couplings, and what else ``mode`` asks for, and sum them up at the bodies."""
     parts, now = data.parts, memory.now
@@ -83,6 +91,8 @@ def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: float) 
         force(data, memory, k, t, within, mode)
         coupling = parts.couplings[k]
         _apply(now.couplings[k], now.bodies[coupling.socket], now.bodies[coupling.shaft])
+        if has_law(coupling):
+            fill_law(coupling, now.couplings[k], data.signals)
 
 
 @kernel
@@ -119,6 +129,9 @@ def assemble(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> No
 def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
     """Fill the blocks of the rows of a coupling, or add those of a later leg of an element."""
     if coupling.n_rows == 0:
+        if has_law(coupling):
+            for m in range(6):
+                blocks[coupling.node, m, m] = 1.0
         _add_leg(coupling, state, blocks)
         return
     for m in range(6):
@@ -135,19 +148,26 @@ def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
 
 @kernel
 def _add_leg(coupling: Record, state: Record, blocks: FloatArray) -> None:
-    """Add the only row of a leg to the blocks that it shares with the first leg of its element."""
+    """Add the only row of a leg to the blocks that it shares with the first leg of its element.
+
+    The row of a force law holds no motion.
+    """
     for side in range(2):
         block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
         if block == NONE:
             continue
         for j in range(6):
-            blocks[block, 0, j] += state.G[0, 6 * side + j]
+            if coupling.law == 0:
+                blocks[block, 0, j] += state.G[0, 6 * side + j]
             blocks[transposed, j, 0] -= state.G[0, 6 * side + j]
 
 
 @kernel
-def solve_rows(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
-    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers."""
+def solve_rows(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float) -> None:
+    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers.
+
+    Force laws act where ``forced`` is 1, and not where it is 0.
+    """
     x, rest = now.x, now.rest
     for repeat in range(ROUNDS if parts.constants.n_rows > 0 else 1):
         for k in range(parts.couplings.size):
@@ -157,6 +177,9 @@ def solve_rows(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> 
                 wanted = rest[coupling.node, m] + state.compliance[m] * before
                 # Unknowns without a row are zero, whatever a state without an answer has left there.
                 x[coupling.node, m] = wanted if m < coupling.n_rows else 0.0
+            if has_law(coupling):
+                for m in range(6):
+                    x[coupling.node, m] = state.law.force if forced == 1.0 and m == 0 else 0.0
         for b in range(parts.bodies.size):
             for i in range(6):
                 x[b, i] = rest[b, i]
@@ -173,7 +196,7 @@ def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatAr
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
             now.rest[coupling.node, m] = now.couplings[k].gamma[m]
-    solve_rows(parts, now, pattern, blocks)
+    solve_rows(parts, now, pattern, blocks, 1.0)
     for b in range(parts.bodies.size):
         for i in range(6):
             now.bodies[b].acceleration[i] = now.x[b, i]
@@ -236,7 +259,7 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
         if gap <= CLOSED * parts.constants.size:
             break
         assemble(parts, now, pattern, blocks)
-        solve_rows(parts, now, pattern, blocks)
+        solve_rows(parts, now, pattern, blocks, 0.0)
         for b in range(parts.bodies.size):
             move(now.bodies[b], now.x[b], now.rest[b, :4])
         kinematics(parts, now, signals, t)
@@ -260,7 +283,7 @@ def correct_velocities(
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
             now.rest[coupling.node, m] = -now.couplings[k].rate[m]
-    solve_rows(parts, now, pattern, blocks)
+    solve_rows(parts, now, pattern, blocks, 0.0)
     for b in range(parts.bodies.size):
         body = now.bodies[b]
         for i in range(3):
@@ -296,8 +319,9 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
         set_compliance(parts, now)
     for k in range(parts.couplings.size):
         state = now.couplings[k]
-        for i in range(6):
-            state.powers[WORK] += state.constraint[i] * state.twist[i]
+        if parts.couplings[k].law == 0:
+            for i in range(6):
+                state.powers[WORK] += state.constraint[i] * state.twist[i]
 
 
 @kernel

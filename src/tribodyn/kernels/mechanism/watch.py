@@ -13,6 +13,7 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
     COORDINATE,
+    DISTANCE,
     INTACT,
     LEFT,
     OPENED,
@@ -36,7 +37,7 @@ def watch(data: MechanismData, memory: MechanismMemory) -> None:
             return
         coupling, now = data.parts.couplings[k], memory.now.couplings[k]
         for m in range(coupling.n_rows):
-            is_length = coupling.row_kind[m] in (POINT, POSITION, COORDINATE)
+            is_length = coupling.row_kind[m] in (POINT, POSITION, COORDINATE, DISTANCE)
             if not abs(now.residual[m]) <= OPEN * (size if is_length else 1.0):
                 course.broken, course.broken_at = OPENED, k
         if coupling.force == CONTACT:

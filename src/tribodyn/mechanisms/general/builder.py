@@ -187,13 +187,13 @@ class Mechanism:
 def _adding(kind: type[ElementKeys]) -> Callable[..., Mechanism]:
     """Return the method that adds an element of a kind."""
 
-    def add(self: Mechanism, name: str, *, joints: Sequence[str], **keys: object) -> Mechanism:
-        return self._add(kind.TABLE, name, {"joints": joints, **keys})
+    def add(self: Mechanism, name: str, **keys: object) -> Mechanism:
+        return self._add(kind.TABLE, name, keys)
 
     add.__name__, add.__qualname__ = kind.METHOD, f"{Mechanism.__name__}.{kind.METHOD}"
-    others = ", ".join(f"``{key}``" for key in kind.model_fields if key != "joints")
+    keys = ", ".join(f"``{key}``" for key in kind.model_fields)
     first = str(kind.__doc__).splitlines()[0]
-    add.__doc__ = f"Add {first[0].lower()}{first[1:].rstrip('.')}: ``joints``, {others}."
+    add.__doc__ = f"Add {first[0].lower()}{first[1:].rstrip('.')}: {keys}."
     return add
 
 

@@ -10,7 +10,7 @@ from pydantic import create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import Group, NamedGroup, demand
+from tribodyn.cases.case import Group, NamedGroup, demand, demand_known
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, Wear, check_output_interval
@@ -19,7 +19,6 @@ from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.core.errors import InputError
-from tribodyn.core.quoting import meant
 from tribodyn.mechanisms.general import solids
 from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of
 from tribodyn.mechanisms.general.body import BodyKeys
@@ -301,18 +300,18 @@ class MechanismCase(_WithElements):
         for table in ("joints", "springs"):
             for name, part in getattr(self, table).items():
                 for body in part.between:
-                    _known(body, bodies, f"{table}.{name}.between", "body")
+                    demand_known(body, bodies, f"{table}.{name}.between", "body")
         for name, output in self.outputs.items():
-            _known(output.body, bodies, f"outputs.{name}.body", "body")
-            _known(output.reference, bodies, f"outputs.{name}.reference", "body")
+            demand_known(output.body, bodies, f"outputs.{name}.body", "body")
+            demand_known(output.reference, bodies, f"outputs.{name}.reference", "body")
         for name, joint in self.joints.items():
             if joint.clearance is not None and joint.clearance.pair is not None:
-                _known(joint.clearance.pair, self.pairs, f"joints.{name}.clearance.pair", "pair")
+                demand_known(joint.clearance.pair, self.pairs, f"joints.{name}.clearance.pair", "pair")
 
     def _check_drives(self) -> None:
         driven: dict[tuple[str, str], str] = {}
         for name, drive in self.drives.items():
-            _known(drive.joint, self.joints, f"drives.{name}.joint", "joint")
+            demand_known(drive.joint, self.joints, f"drives.{name}.joint", "joint")
             joint, (coordinate, level) = self.joints[drive.joint], GIVEN[drive.gives]
             free = KINDS[joint.type].coordinates
             can = f"it has the {' and the '.join(free)}" if free else "it has nothing to drive"
@@ -327,11 +326,11 @@ class MechanismCase(_WithElements):
         for name, load in self.loads.items():
             words = f"{GROUND} never moves, no load does anything to it; bodies: {', '.join(self.bodies)}"
             demand(load.body != GROUND, f"loads.{name}.body", words)
-            _known(load.body, tuple(self.bodies), f"loads.{name}.body", "body")
+            demand_known(load.body, tuple(self.bodies), f"loads.{name}.body", "body")
             if load.along is None:
                 continue
             key = f"loads.{name}.along"
-            _known(load.along, self.joints, key, "joint")
+            demand_known(load.along, self.joints, key, "joint")
             free = KINDS[self.joints[load.along].type].coordinates
             for over in load.joint_axes:
                 coordinate = COORDINATE_OF[over]
@@ -352,12 +351,19 @@ class MechanismCase(_WithElements):
             other = tables_of.setdefault(name, table)
             words = f"{other}.{name} has this name already; results name elements, so give each its own"
             demand(other == table, path, words)
-            for joint in keys.joints:
-                _known(joint, self.joints, f"{path}.joints", "joint")
+            for key, joints in keys.named_joints.items():
+                for joint in joints:
+                    demand_known(joint, self.joints, f"{path}.{key}", "joint")
+            for key, bodies in keys.named_bodies.items():
+                for body in bodies:
+                    demand_known(body, (GROUND, *self.bodies), f"{path}.{key}", "body")
             try:
-                keys.legs(self.joints)
+                equations = keys.equations(self.joints)
             except InputError as error:
                 raise InputError(error.reason, key=f"{path}.{error.key}") from None
+            words = "a wear campaign counts angles anew in each cycle; leave out gears with backlash"
+            coupled = any(len(one.legs) > 1 and one.law is not None for one in equations)
+            demand(not coupled or self.wear.cycles == 0, path, words)
 
     def _check_run(self) -> None:
         run = self.run
@@ -384,9 +390,3 @@ class MechanismCase(_WithElements):
         cycles = self.run.cycles or 0.5
         words = "a wear campaign needs whole cycles here: the last of them is the first whose wear counts"
         demand(cycles == int(cycles), "run.cycles", words)
-
-
-def _known(given: str, names: Collection[str], key: str, what: str) -> None:
-    """Refuse a name that no table has."""
-    there = f"known: {', '.join(names)}" if names else "there is none"
-    demand(given in names, key, f'"{given}" is no {what}; {there}{meant(given, names)}')

@@ -76,7 +76,7 @@ class System:
         self._later_legs = [
             (self.rows.index((int(c.first_leg), 0)), k)
             for k, c in enumerate(self.parts.couplings)
-            if c.first_leg != NONE
+            if c.first_leg != NONE and c.law == 0
         ]
         self._places = tuple(np.array(self.rows, dtype=np.int64).reshape(-1, 2).T)
         self.row_units = np.array([1.0 if row_is_turn(self.parts, *row) else self.size for row in self.rows])

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels.arrays import new_record
@@ -26,11 +27,13 @@ from tribodyn.kernels.mechanism.data import (
     Parts,
 )
 from tribodyn.kernels.mechanism.film import by_address
+from tribodyn.kernels.mechanism.law import address_of
+from tribodyn.kernels.mechanism.solution import has_law
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.body import BodyKeys
-from tribodyn.mechanisms.general.elements.base import Leg
+from tribodyn.mechanisms.general.elements.base import ForceLaw, Leg
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.loads import fill_load
@@ -41,6 +44,7 @@ from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 from tribodyn.wear import resampled
 
+_MEASURES: Final = {"coordinate": kinds.COORDINATE, "distance": kinds.DISTANCE, "path": kinds.PATH}
 _COORDINATES: Final = ("angle", "position")
 
 
@@ -61,7 +65,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     constants = new_record(kinds.Constants)
     constants.gravity[:] = model.case.gravity
     constants.n_rows = constants.rank = int(np.sum(couplings.n_rows))
-    constants.n_nodes = len(model.bodies) + int(np.sum(couplings.n_rows > 0))
+    constants.n_nodes = max(len(model.bodies), 1 + int(np.max(couplings.node, initial=NONE)))
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
     constants.size = _size(model)
     clearances = tuple(model.clearances.values())
@@ -160,6 +164,7 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
         "effort",
         "contact",
         "film",
+        "table",
         "rows_block",
         "bodies_block",
         "first_leg",
@@ -181,10 +186,10 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
         record = next(others)
         _place_load(record, model, load)
         fill_load(record, model, load, terms)
-    _fill_elements(records, model)
+    _fill_elements(records, model, signals)
     nodes, rows = len(model.bodies), 0
     for record in records:
-        if record.n_rows > 0:
+        if record.n_rows > 0 or has_law(record):
             record.node, record.first_row = nodes, rows
             nodes, rows = nodes + 1, rows + record.n_rows
         elif record.first_leg != NONE:
@@ -279,14 +284,16 @@ def _place_load(record: Any, model: Model, load: LoadKeys) -> None:
     _place(record, model, bodies, (point, point), (np.eye(3), np.eye(3)))
 
 
-def _fill_elements(records: Any, model: Model) -> None:
-    """Fill the legs of all elements; only the first of each counts the equation."""
+def _fill_elements(records: Any, model: Model, signals: SignalList) -> None:
+    """Fill the legs of all elements; only the first of each counts the equation, and only where it holds."""
     number = model.first_leg
-    for element in model.elements:
+    for equation in (equation for element in model.elements for equation in element.equations):
         first = number
-        for leg in element.legs:
+        for leg in equation.legs:
             record = records[number]
             _fill_leg(record, model, leg)
+            if equation.law is not None:
+                _fill_law(record, equation.law, signals)
             if number > first:
                 record.n_rows, record.first_leg, records[number - 1].next_leg = 0, first, number
             number += 1
@@ -295,15 +302,26 @@ def _fill_elements(records: Any, model: Model) -> None:
 def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
     """Fill one term of the equation of an element."""
     _place(record, model, leg.bodies, leg.points, (leg.axes, leg.axes))
-    record.along[:], record.about = leg.along, leg.about
-    _add_row(record, kinds.COORDINATE, 2, 0)
+    record.along[:], record.about, record.length = leg.along, leg.about, leg.length
+    _add_row(record, _MEASURES[leg.measure], 2, 0)
+
+
+def _fill_law(record: Any, law: ForceLaw, signals: SignalList) -> None:
+    """Fill the force law of an element; its equation is no constraint."""
+    fields = record_type(*((name, "f8") for name in law.parameters))
+    record.law, record.n_rows = address_of(law.function, fields), 0
+    record.parameters.values[: len(law.parameters)] = list(law.parameters.values())
+    if law.table is not None:
+        pieces = pieces_of(law.table)
+        record.table[:] = signals.add(pieces), signals.add(integral_of(pieces))
 
 
 def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Pattern]:
     """Return the patterns of the equations of motion and of the iteration matrix; number the blocks."""
-    n_nodes = n_bodies + int(np.sum(couplings.n_rows > 0))
+    n_nodes = max(n_bodies, 1 + int(np.max(couplings.node, initial=NONE)))
     block_of = {(k, k): k for k in range(n_nodes)}
     of_node: dict[int, list[int]] = {}
+    laws = set(couplings.node[couplings.law != 0].tolist())
 
     def block(row: int, column: int) -> int:
         return block_of.setdefault((row, column), len(block_of))
@@ -318,6 +336,7 @@ def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Patte
     rows = [
         Rows(node, tuple(b for b in dict.fromkeys(bodies) if b != NONE), NONE in bodies)
         for node, bodies in of_node.items()
+        if node not in laws
     ]
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
     mass = make_pattern(order, dict(block_of))

@@ -13,7 +13,7 @@ from typing import Final
 
 from tribodyn.joints.clearances import Clearance
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.elements.base import ElementKeys, Leg
+from tribodyn.mechanisms.general.elements.base import ElementKeys, Equation, Leg
 from tribodyn.mechanisms.general.parts import JointKeys
 from tribodyn.mechanisms.general.surfaces import clearances_of
 
@@ -39,7 +39,7 @@ class ModelError:
 
 @dataclass(frozen=True)
 class Element:
-    """A gear pair or another element whose constraint equation couples coordinates of joints.
+    """A gear pair or another element: a constraint equation or a force law over coordinates of its legs.
 
     Attributes
     ----------
@@ -47,13 +47,18 @@ class Element:
         Its name, unique among all elements.
     keys
         Its table; its class is a member of ``elements.ELEMENTS``.
-    legs
-        Terms of its equation.
+    equations
+        Its equations, one for most.
     """
 
     name: str
     keys: ElementKeys
-    legs: tuple[Leg, ...]
+    equations: tuple[Equation, ...]
+
+    @property
+    def legs(self) -> tuple[Leg, ...]:
+        """The legs of all its equations."""
+        return tuple(leg for equation in self.equations for leg in equation.legs)
 
 
 @dataclass(frozen=True)
@@ -88,7 +93,7 @@ class Model:
     def elements(self) -> tuple[Element, ...]:
         """All elements."""
         joints = self.case.joints
-        return tuple(Element(name, keys, keys.legs(joints)) for _, name, keys in self.case.elements())
+        return tuple(Element(name, keys, keys.equations(joints)) for _, name, keys in self.case.elements())
 
     def number(self, body: str) -> int:
         """Return the number of a body; −1 for the ground."""
@@ -154,7 +159,7 @@ class Model:
     @property
     def has_loops(self) -> bool:
         """Whether joints close a loop, through the ground or not, or elements do; else all can close."""
-        if self.elements:
+        if any(equation.law is None for element in self.elements for equation in element.equations):
             return True
         group = list(range(-1, len(self.bodies)))
 
@@ -172,13 +177,14 @@ class Model:
         return False
 
     def loose(self) -> Iterator[ModelError]:
-        """Yield the bodies that no joint and no spring names."""
+        """Yield the bodies that no joint, spring or element names."""
         between = [joint.between for joint in self.case.joints.values()]
         between += [spring.between for spring in self.case.springs.values()]
+        between += [leg.bodies for element in self.elements for leg in element.legs]
         held = set(chain.from_iterable(between))
         for body in self.bodies:
             if body not in held:
-                text = f"nothing holds body {body}: no joint and no spring names it"
+                text = f"nothing holds body {body}: no joint, spring or element names it"
                 yield ModelError(f"bodies.{body}", text)
 
 

@@ -5,7 +5,8 @@ equation of an element over up to four bodies, are eliminated only after one of 
 the bodies eliminated with it, held together by joints eliminated before, touch no more than one other body
 (or the ground). Then their relative motion is free but for constraints among themselves, and the pivot is
 what the rows see of it: regular unless the rows are truly dependent. For a tree that is elimination from the
-leaves to the root; a loop is closed before the body it hangs on.
+leaves to the root; a loop is closed before the body it hangs on. The nodes of force laws, whose pivot is 1,
+come before all others.
 """
 
 from __future__ import annotations
@@ -88,7 +89,7 @@ def elimination_order(
     n_nodes, n_bodies
         Nodes; the first of them are the bodies.
     rows
-        Nodes with constraint rows.
+        Nodes with constraint rows. Other nodes that are no bodies belong to force laws.
     edges
         Pairs of nodes with a block.
     """
@@ -99,13 +100,14 @@ def elimination_order(
     of_node = {r.node: r for r in rows}
     anchors, order, left = _Anchors(n_bodies), [], set(range(n_nodes))
     while left:
-        allowed = [k for k in left if k < n_bodies or anchors.allows(of_node[k])]
+        laws = [k for k in left if k >= n_bodies and k not in of_node]
+        allowed = laws or [k for k in left if k < n_bodies or anchors.allows(of_node[k])]
         node = min(allowed, key=lambda k: (len(neighbours[k]), k < n_bodies, k))
         order.append(node)
         left.discard(node)
         if node < n_bodies:
             anchors.eliminate(node)
-        else:
+        elif node in of_node:
             anchors.tie(of_node[node])
         around = neighbours[node]
         for k in around:

@@ -70,15 +70,15 @@ class Skeleton:
     marks
         The joints.
     outlines
-        Lines that show elements: number of the body that carries one, −1 for the ground, and its points in
-        the drawing [m], shape (n, 3).
+        Lines that show elements: numbers of the bodies that carry one, −1 for the ground, and the points of
+        each in the drawing [m], shape (n, 3).
     """
 
     bodies: tuple[str, ...]
     centres: FloatArray
     points: tuple[FloatArray, ...]
     marks: tuple[Mark, ...]
-    outlines: tuple[tuple[int, FloatArray], ...] = ()
+    outlines: tuple[tuple[tuple[int, FloatArray], ...], ...] = ()
 
     def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
         """Return the ends of the lines of a body [mm], shape (..., n, 3).
@@ -112,6 +112,20 @@ class Skeleton:
         return MM * (position[..., None, :] + rotated(orientation[..., None, :], arms))
 
 
+def outline_at(
+    drawn: Skeleton,
+    outline: tuple[tuple[int, FloatArray], ...],
+    position: FloatArray,
+    orientation: FloatArray,
+) -> FloatArray:
+    """Return where a line is [mm], shape (..., n, 3), from what all bodies do, (..., n_bodies, 3 or 4)."""
+    parts = [
+        drawn.moved(points, body, position[..., body, :], orientation[..., body, :])
+        for body, points in outline
+    ]
+    return np.concatenate(parts, axis=-2)
+
+
 def skeleton(case: MechanismCase) -> Skeleton:
     """Return what is drawn of the mechanism of a case."""
     names = tuple(case.bodies)
@@ -128,11 +142,11 @@ def skeleton(case: MechanismCase) -> Skeleton:
     return Skeleton(names, centres, points, marks, tuple(_outlines(case, names)))
 
 
-def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[tuple[int, FloatArray]]:
+def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[tuple[tuple[int, FloatArray], ...]]:
     """Yield the lines that show elements."""
     for _, _, keys in case.elements():
-        for body, points in keys.outlines(case.joints):
-            yield -1 if body == GROUND else bodies.index(body), points
+        for outline in keys.outlines(case.joints):
+            yield tuple((-1 if body == GROUND else bodies.index(body), points) for body, points in outline)
 
 
 def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:

@@ -26,7 +26,7 @@ from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceD
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
-from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NOTHING, VELOCITY
+from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NONE, NOTHING, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.speeds import speeds_of, start
@@ -138,6 +138,7 @@ class _Loads:
         self.contacts = _contacts(self.data.contact, np.flatnonzero(couplings.force == CONTACT))
         self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE))
         parts = newton.N_PLACES + newton.N_BODY
+        self.laws = np.flatnonzero(couplings.law)
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
         self.ideal, self.real = ideal, System(assembly.model.without_films)
         self.real.adopt(self.state)
@@ -187,13 +188,18 @@ class _Loads:
         y = self.state.copy()
         y.reshape(-1, N_STATES)[:, VELOCITY:] = velocity
         functions.jac_entries(0.0, y, self.data, self.memory, np.zeros(y.size), self.entries)
-        return np.array(self.memory.now.bodies.force[: self.n]).ravel()
+        forces = np.array(self.memory.now.bodies.force[: self.n]).ravel()
+        return forces + self._pushes("constraint", self.laws)
 
     def _of_slip(self) -> FloatArray:
         """Return the part of that force that slip decides."""
+        return self._pushes("wrench", np.flatnonzero(self.by_slip))
+
+    def _pushes(self, wrench: str, couplings: IntArray) -> FloatArray:
+        """Return what a wrench of some couplings does to the bodies, shape (6 n,)."""
         parts, force = self.data.parts.couplings, np.zeros((self.n + 1, 6))
-        for k in np.flatnonzero(self.by_slip):
-            push = self.couplings[k].wrench @ self.couplings[k].H
+        for k in couplings:
+            push = self.couplings[k][wrench] @ self.couplings[k].H
             force[parts[k].socket] += push[:6]
             force[parts[k].shaft] += push[6:]
         return force[: self.n].ravel()
@@ -229,10 +235,19 @@ class _Loads:
         for k in np.flatnonzero(self.data.parts.couplings.force != NOTHING).tolist():
             way = self._way(k, self.motions)
             total -= way.T @ self.couplings[k].slope[:, :6] @ way
+        for first in self.laws[self.data.parts.couplings.first_leg[self.laws] == NONE].tolist():
+            row = self._row(first)
+            total -= self.couplings[first].law.in_position * np.outer(row, row)
         for contact in self.contacts:
             way = contact.root @ self._way(contact.coupling, self.motions)
             even += way.T @ way
         return total, even
+
+    def _row(self, leg: int) -> FloatArray:
+        """Return what the motions do to the coordinate of an element from a leg on, shape (m,)."""
+        row = np.asarray(self.couplings[leg].N[0] @ self._way(leg, self.motions))
+        following = int(self.data.parts.couplings[leg].next_leg)
+        return row if following == NONE else np.asarray(row + self._row(following))
 
     def _way(self, coupling: int, motions: FloatArray) -> FloatArray:
         """Return what motions of all bodies (6 n, ...) do to the shaft of a coupling, shape (6, ...)."""

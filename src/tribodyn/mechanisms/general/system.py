@@ -26,6 +26,7 @@ from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
+from tribodyn.mechanisms.general.element_numbers import transmitted
 from tribodyn.mechanisms.general.films import film_columns, film_peaks
 from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
@@ -214,7 +215,7 @@ class MechanismSystem:
             columns={
                 **found.bodies,
                 **self._of_joints(found),
-                **self._of_elements(found),
+                **transmitted(self.model, found.couplings),
                 **of_outputs,
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
@@ -324,21 +325,6 @@ class MechanismSystem:
         for name in OF_SECOND:
             columns[name] = columns[name] * signs.reshape(-1, *(1,) * (columns[name].ndim - 2))
         return columns | film_columns(found.couplings, self.model)
-
-    def _of_elements(self, found: Observed) -> dict[str, FloatArray]:
-        """Return what elements transmit, each of shape (n_t, n_elements); nothing without elements."""
-        elements, first = self.model.elements, self.model.first_leg
-        if not elements:
-            return {}
-        forces, moments = [], []
-        for element in elements:
-            last, of = first + len(element.legs) - 1, first + element.keys.MOMENT_OF
-            along = element.legs[-1].along
-            force = found.couplings["reaction_force"][:, last] @ along
-            forces.append(force if np.any(along) else np.full_like(force, np.nan))
-            moments.append(found.couplings["reaction_moment"][:, of, 2])
-            first = last + 1
-        return {"element_force": np.stack(forces, axis=-1), "element_moment": np.stack(moments, axis=-1)}
 
     def _of_outputs(self, found: Observed, run: FinishedRun) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""

@@ -84,9 +84,9 @@ def _variables(table: Table, part: str) -> dict[str, Variable]:
 
 
 OF_ELEMENTS: Final[dict[str, Variable]] = {
-    "element_force": Variable("N", "force that an element transmits: of the teeth, of the thread", _ELEMENT),
+    "element_force": Variable("N", "force of an element, such as teeth, thread, rod, spring", _ELEMENT),
     "element_moment": Variable(
-        "N m", "moment that an element transmits: on the second wheel, pinion or nut", _ELEMENT
+        "N m", "moment of an element: on the second wheel, pinion, nut, or body of the joint", _ELEMENT
     ),
 }
 """What an element transmits; see its kind for sign and place."""

@@ -37,7 +37,7 @@ def workload(case: MechanismCase) -> Workload:
     steps = _STEPS[0] + cycles * (_STEPS[1] + _STEPS[2] * math.sqrt(len(real)))
     steps *= (case.solver.rtol / 1.0e-5) ** _TOLERANCE_POWER
     windows = max(1.0, duration / (case.period or duration))
-    legs = sum(len(keys.legs(case.joints)) for _, _, keys in case.elements())
+    legs = sum(len(one.legs) for _, _, keys in case.elements() for one in keys.equations(case.joints))
     couplings = len(case.joints) + len(case.loads) + len(case.springs) + legs
     compiled = case.solver.name == "mebdf"
     return Workload(

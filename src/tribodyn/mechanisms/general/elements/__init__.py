@@ -1,4 +1,4 @@
-"""Elements whose constraint equation couples the coordinates of joints: gear pair, rack and pinion, screw.
+"""Elements: constraint equations and force laws over coordinates of joints and distances of points.
 
 An element is one file with one class, and its name in the list below. Keys of case files, their table in the
 manual, methods of the builder, messages, constraint equations and results follow from the list.
@@ -15,10 +15,16 @@ NAMES: Final = (
     "gear",
     "rack",
     "screw",
+    "distance",
+    "nonlinear_spring",
+    "torsion_spring",
+    "stop",
+    "drag",
+    "joint_friction",
 )
 """Modules of this package; each holds the class of its name."""
 
 ELEMENTS: Final[tuple[type[ElementKeys], ...]] = tuple(
-    getattr(import_module(f"{__name__}.{name}"), name.title()) for name in NAMES
+    getattr(import_module(f"{__name__}.{name}"), name.title().replace("_", "")) for name in NAMES
 )
 """Every kind of element."""

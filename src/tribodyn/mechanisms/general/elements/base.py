@@ -6,22 +6,28 @@ The equation of an element is a sum over *legs*,
 
 A leg is the motion of one body against another: the displacement d of its origin and the angle θ about its z
 axis. The multiplier of the equation is a force λ [N]: a leg applies the force λ b and the moment λ a about z
-to its second body, and the opposite to its first.
+to its second body, and the opposite to its first. A leg may also count the distance |d|, or the length of the
+path of its origin; the force then acts along d, or along the velocity.
+
+An element with a force law says what λ is, as a function of the sum q and its rate, and holds nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import unit
+from tribodyn.cases.fields import Vector, name, names, quantity, vector
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal
 from tribodyn.mechanisms.general.joints import frame
-from tribodyn.mechanisms.general.parts import JointKeys
+from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.parts import POINT, JointKeys
 
 PARALLEL: Final = 1.0e-6
 """Sine of the angle between two axes up to which they count as parallel."""
@@ -30,6 +36,8 @@ _SIZE: Final = 0.1
 
 Joints = Mapping[str, JointKeys]
 """The joints of a case by their names."""
+Outline = tuple[tuple[str, FloatArray], ...]
+"""A line: bodies, with the points as drawn that each carries [m], shape (n, 3)."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +55,13 @@ class Leg:
     along
         Coefficients b of the displacement [1], in these axes, shape (3,).
     about
-        Coefficient a of the angle about z [m/rad].
+        Coefficient a of the angle about z [m/rad], or [1] where λ is a moment.
+    measure
+        ``coordinate`` for b·d + a θ, ``distance``, or ``path`` (for force laws).
+    length
+        Distance that counts as zero [m].
+    reported
+        Direction of the force that results hold, in the same axes, shape (3,); None for that of ``along``.
     """
 
     bodies: tuple[str, str]
@@ -55,6 +69,36 @@ class Leg:
     axes: FloatArray
     along: FloatArray
     about: float
+    measure: Literal["coordinate", "distance", "path"] = "coordinate"
+    length: float = 0.0
+    reported: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class ForceLaw:
+    """What the multiplier of an element is.
+
+    Attributes
+    ----------
+    function
+        Function of two records, parameters and ``kernels.mechanism.data.Law``, in Python that numba compiles.
+    parameters
+        Their names and values, at most ``N_PARAMETERS``.
+    table
+        A function of the coordinate, which the law finds evaluated.
+    """
+
+    function: Callable[[Any, Any], None]
+    parameters: Mapping[str, float]
+    table: Signal | None = None
+
+
+@dataclass(frozen=True)
+class Equation:
+    """What an element says of the sum over some legs: that it is constant, or what force acts along it."""
+
+    legs: tuple[Leg, ...]
+    law: ForceLaw | None
 
 
 def leg(
@@ -63,6 +107,13 @@ def leg(
     """Return a leg about an axis; ``axis`` and ``along`` in the drawing, shape (3,)."""
     axes = frame(axis, np.zeros(3))
     return Leg(bodies, points, axes, axes.T @ along, about)
+
+
+def of_points(
+    bodies: tuple[str, str], points: FloatArray, measure: Literal["distance", "path"], length: float = 0.0
+) -> Leg:
+    """Return a leg that counts the distance between points as drawn (2, 3), or the path of the second."""
+    return Leg(bodies, points, np.eye(3), np.zeros(3), 0.0, measure, length)
 
 
 class ElementKeys(NamedGroup):
@@ -80,16 +131,27 @@ class ElementKeys(NamedGroup):
         Leg whose moment that is.
     EXAMPLE
         A complete case file with one element of this kind, which holds for tests of all kinds.
+    LAW
+        Force law, see :class:`ForceLaw`; None for a constraint.
     """
 
     TABLE: ClassVar[str]
     METHOD: ClassVar[str]
     FORCE: ClassVar[str]
     MOMENT: ClassVar[str]
-    MOMENT_OF: ClassVar[int]
+    MOMENT_OF: ClassVar[int] = 0
     EXAMPLE: ClassVar[str]
+    LAW: ClassVar[Callable[[Any, Any], None] | None] = None
 
-    joints: tuple[str, ...]
+    @property
+    def named_joints(self) -> dict[str, tuple[str, ...]]:
+        """The joints that it names, by key."""
+        return _named(self, ("joints", "joint"))
+
+    @property
+    def named_bodies(self) -> dict[str, tuple[str, ...]]:
+        """The bodies that it names, by key."""
+        return _named(self, ("between", "body"))
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return the legs of the equation; refuse joints that do not fit.
@@ -101,9 +163,76 @@ class ElementKeys(NamedGroup):
         """
         raise NotImplementedError
 
-    def outlines(self, joints: Joints) -> Iterable[tuple[str, FloatArray]]:
-        """Return lines that show the element: a body, and points as drawn that it carries [m], (n, 3)."""
+    def force_law(self, joints: Joints) -> ForceLaw | None:
+        """Return the force law, whose parameters are the keys that are numbers; None for a constraint."""
+        law = type(self).LAW
+        if law is None:
+            return None
+        return ForceLaw(law, {key: value for key, value in self if isinstance(value, float)})
+
+    def equations(self, joints: Joints) -> tuple[Equation, ...]:
+        """Return the equations: one, unless a member says otherwise."""
+        return (Equation(self.legs(joints), self.force_law(joints)),)
+
+    def outlines(self, joints: Joints) -> Iterable[Outline]:
+        """Return lines that show the element."""
         return ()
+
+
+class PointsKeys(ElementKeys):
+    """Base of the keys of an element between two points."""
+
+    between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "rod"]')
+    first_point: Vector = vector(
+        None, "its end on the first body, as drawn", "", unit="mm", example=POINT, required=True
+    )
+    second_point: Vector = vector(
+        None, "its end on the second body, as drawn", "", unit="mm", example=POINT, required=True
+    )
+    length: float | None = quantity(
+        None, "its length, without force of a spring; as drawn without it", "", gt=0, example="80 mm"
+    )
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the leg from the first point to the second."""
+        demand(self.between[0] != self.between[1], "between", "this is twice the same body; name two bodies")
+        points = np.array([self.first_point, self.second_point])
+        drawn = float(np.linalg.norm(points[1] - points[0]))
+        demand(drawn > 0.0, "second_point", "both ends are at one point; draw them apart")
+        return (of_points(self.between, points, "distance", self.length or drawn),)
+
+    def outlines(self, joints: Joints) -> Iterable[Outline]:
+        """Return the line between its ends."""
+        (first, second), ends = self.between, np.array([self.first_point, self.second_point])
+        yield (first, ends[:1]), (second, ends[1:])
+
+
+class OfJointKeys(ElementKeys):
+    """Base of the keys of an element at the coordinate of one joint: of its second body against the first."""
+
+    joint: str = name(None, "the joint it acts in", "", example="hinge", required=True)
+
+    def leg_of(self, joints: Joints, coordinate: str, member: str, scale: float = 1.0) -> Leg:
+        """Return the leg of an angle, times a scale, or of a position, as drawn zero."""
+        joint = joints[self.joint]
+        free = KINDS[joint.type].coordinates
+        words = f"{self.joint} is a {joint.type} joint; {member} takes a joint with {article(coordinate)}"
+        demand(coordinate in free, "joint", words)
+        axis, turns = axis_of(joint), coordinate == "angle"
+        points = origin(joint, joint.between[0])
+        along = np.zeros(3) if turns else scale * axis
+        return leg(joint.between, points, axis, along, scale if turns else 0.0)
+
+
+def article(coordinate: str) -> str:
+    """Return the name of a coordinate with its article."""
+    return {"angle": "an angle", "position": "a position"}[coordinate]
+
+
+def _named(keys: ElementKeys, fields: Iterable[str]) -> dict[str, tuple[str, ...]]:
+    """Return the names that these keys hold, as far as there are such keys."""
+    found = {key: getattr(keys, key, None) for key in fields}
+    return {key: (name,) if isinstance(name, str) else tuple(name) for key, name in found.items() if name}
 
 
 def require_type(name: str, joint: JointKeys, kinds: Iterable[str], member: str) -> None:

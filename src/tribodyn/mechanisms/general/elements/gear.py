@@ -7,22 +7,32 @@ the displacements d of the wheels in their bearings at O,
     n·(d_2 + θ_2 × (P − O_2)) − n·(d_1 + θ_1 × (P − O_1)) = 0.
 
 The multiplier is the tangential tooth force. Nothing acts on the carrier but the bearings.
+
+With backlash j the sum is no constraint but the path of the teeth along the pitch circles, zero in the middle
+of the gap. Beyond ±j/2 a flank is in contact, by the law of a limit stop. Its normal is turned by the
+pressure angle α: the tooth force F pushes the wheels apart with F tan α; nearer to each other they have less
+play.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
 
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import names, number
+from tribodyn.cases.fields import choice, names, number, quantity
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.elements.base import (
     ElementKeys,
+    Equation,
+    ForceLaw,
     Joints,
     Leg,
+    Outline,
     are_parallel,
     axis_of,
     carrier,
@@ -33,6 +43,7 @@ from tribodyn.mechanisms.general.elements.base import (
     require_type,
     size_of,
 )
+from tribodyn.mechanisms.general.elements.stop import LEAST_RATE, damping_of, one_sided
 
 _OFFSET = 1.0e-9
 """Distance between parallel axes, over that between all joints, up to which they are one axis."""
@@ -77,6 +88,55 @@ torque = "0.2 N m"
         required=True,
     )
 
+    backlash: float | None = quantity(
+        None, "play j of the teeth along the pitch circles; none without it", "", ge=0, example="0.1 mm"
+    )
+    mesh_stiffness: float | None = quantity(
+        None, "tooth force over indentation, of teeth with backlash", "", gt=0, example="100 N/um"
+    )
+    damping_factor: str = choice(
+        "calibrated",
+        "how damping of teeth with backlash follows from restitution",
+        "assumed",
+        family="tribodyn.contact:DAMPING_FACTORS",
+    )
+    restitution: float = number(1.0, "restitution meant, of teeth with backlash", "assumed", gt=0, le=1)
+
+    pressure_angle: float = quantity(
+        "20 deg", "pressure angle, of teeth with backlash", "assumed", ge=0, lt="60 deg"
+    )
+
+    def equations(self, joints: Joints) -> tuple[Equation, ...]:
+        """Return the constraint, or one contact for each flank of teeth with backlash."""
+        if self.backlash is None:
+            return super().equations(joints)
+        demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")
+        words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
+        demand(self._pitch(joints) is not None, "backlash", words)
+        law = ForceLaw(
+            one_sided,
+            {
+                "at": 0.5 * self.backlash,
+                "side": 1.0,
+                "exponent": 1.0,
+                "scale": self.mesh_stiffness or 0.0,
+                "damping": damping_of(self.damping_factor, self.restitution),
+                "least_rate": LEAST_RATE,
+            },
+        )
+        return tuple(Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
+
+    def _flank(self, legs: tuple[Leg, ...], side: float) -> tuple[Leg, ...]:
+        """Return the legs of one flank: its contact pushes the wheels apart as well."""
+        towards = [np.cross(wheel.along, [0.0, 0.0, wheel.about]) for wheel in legs]
+        apart = min(towards, key=lambda arm: float(np.linalg.norm(arm)))
+        apart = apart / np.linalg.norm(apart) * (1.0 if apart is towards[0] else -1.0)
+        shares = (math.tan(self.pressure_angle) * apart, -math.tan(self.pressure_angle) * apart)
+        return tuple(
+            replace(wheel, along=side * wheel.along + share, about=side * wheel.about, reported=wheel.along)
+            for wheel, share in zip(legs, shares, strict=True)
+        )
+
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return one leg for each wheel."""
         base = self._carrier(joints)
@@ -104,11 +164,11 @@ torque = "0.2 N m"
             leg((base, wheels[1]), points[1], axis, teeth, lever[1]),
         )
 
-    def outlines(self, joints: Joints) -> Iterable[tuple[str, FloatArray]]:
+    def outlines(self, joints: Joints) -> Iterable[Outline]:
         """Return the pitch circles, where axes are parallel."""
         pitch = self._pitch(joints)
         for one in self.legs(joints) if pitch is not None else ():
-            yield one.bodies[1], circle(one.points[1], one.axes[:, 2], abs(one.about))
+            yield ((one.bodies[1], circle(one.points[1], one.axes[:, 2], abs(one.about))),)
 
     def _carrier(self, joints: Joints) -> str:
         """Return the body that carries both wheels, after checks of joints and ratio."""

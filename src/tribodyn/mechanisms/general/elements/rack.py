@@ -17,12 +17,12 @@ import numpy as np
 
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, quantity
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.elements.base import (
     PARALLEL,
     ElementKeys,
     Joints,
     Leg,
+    Outline,
     axis_of,
     carrier,
     circle,
@@ -94,9 +94,9 @@ torque = "0.2 N m"
             leg((base, other_body(guide, base)), teeth + gap, axis, along, 0.0),
         )
 
-    def outlines(self, joints: Joints) -> Iterable[tuple[str, FloatArray]]:
+    def outlines(self, joints: Joints) -> Iterable[Outline]:
         """Return the pitch circle and a turn of it on the pitch line of the rack."""
         pinion, rack = self.legs(joints)
-        yield pinion.bodies[1], circle(pinion.points[1], pinion.axes[:, 2], abs(self.radius))
+        yield ((pinion.bodies[1], circle(pinion.points[1], pinion.axes[:, 2], abs(self.radius))),)
         half = np.pi * abs(self.radius) * axis_of(joints[self.joints[1]])
-        yield rack.bodies[1], rack.points[1] + np.array([-half, half])
+        yield ((rack.bodies[1], rack.points[1] + np.array([-half, half])),)

@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import GREY, INK, PALE, SMALL, VERMILION, finish, note, sheet
 from tribodyn.mechanisms.general.sections.mechanism import at_frames
-from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, skeleton, view
+from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 
 TITLE: Final = "The mechanism in its cycle"
 _MOMENTS: Final = 8
@@ -58,8 +58,8 @@ def _direction(row: FloatArray) -> str:
 def _draw_at(
     axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray, colour: str
 ) -> None:
-    for body, outline in drawn.outlines:
-        x, y = (drawn.moved(outline, body, position[body], orientation[body]) @ plane.T).T
+    for outline in drawn.outlines:
+        x, y = (outline_at(drawn, outline, position, orientation) @ plane.T).T
         axes.plot(x, y, color=GREY if colour == INK else PALE, linewidth=0.7)
     for body in range(len(drawn.bodies)):
         points = drawn.lines(body, position[body], orientation[body]) @ plane.T

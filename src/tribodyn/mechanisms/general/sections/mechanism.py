@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.general.skeleton import Mark, Skeleton, case_of, skeleton, view
+from tribodyn.mechanisms.general.skeleton import Mark, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.encode import packed
 from tribodyn.views.playback import playback_times
@@ -50,9 +50,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
     drawn, (position, orientation) = skeleton(case), motion
     bodies = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
     marks = [_mark(drawn, mark, position, orientation) for mark in drawn.marks]
-    outlines = [
-        drawn.moved(points, body, position[:, body], orientation[:, body]) for body, points in drawn.outlines
-    ]
+    outlines = [outline_at(drawn, outline, position, orientation) for outline in drawn.outlines]
     shown = (*bodies, *(mark[:, 0] for mark in marks), *outlines)
     everywhere = np.concatenate([part.reshape(-1, 3) for part in shown])
     low, high = everywhere.min(axis=0), everywhere.max(axis=0)
@@ -73,8 +71,8 @@ def data(dataset: xr.Dataset) -> Payload | None:
             for mark, points in zip(drawn.marks, marks, strict=True)
         ],
         "outlines": [
-            {"colour": _colour(body), "n": points.shape[1], "points": packed(points)}
-            for (body, _), points in zip(drawn.outlines, outlines, strict=True)
+            {"colour": _colour(outline[0][0]), "n": points.shape[1], "points": packed(points)}
+            for outline, points in zip(drawn.outlines, outlines, strict=True)
         ],
     }
 
@@ -107,7 +105,7 @@ SECTION: Final = Section(
     name="mechanism",
     title="The mechanism",
     caption=(
-        "Bodies as rods between their joints; joints with clearance stand out; pitch circles of gears show. "
+        "Bodies as rods between their joints; joints with clearance stand out; elements show as thin lines. "
         "Drag to turn it, or use the arrow keys."
     ),
     needs=("position", "orientation", "body", "joint"),

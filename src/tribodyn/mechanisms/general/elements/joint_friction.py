@@ -1,0 +1,101 @@
+"""Friction in an ideal joint: Coulomb, Stribeck and viscous parts under a stated normal load.
+
+With the sliding speed v, at a radius where the joint turns, and the normal load N,
+
+    F = N (μ + (μ_s − μ) exp(−(v/v_s)²)) v/√(v² + u_s²) + c v
+
+against the motion. It is the law of ``tribodyn.friction`` with the regularisation of joints with clearance:
+what sticks creeps, by less than the slip velocity u_s.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar
+
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import number, quantity
+from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
+from tribodyn.mechanisms.general.kinds import KINDS
+
+
+def regularised(joint: Any, law: Any) -> None:
+    """Fill the friction force at a sliding speed."""
+    v, slip = law.rate, joint.slip_velocity
+    square = v * v + slip * slip
+    direction = v / math.sqrt(square)
+    share = math.exp(-((v / joint.stribeck_velocity) ** 2))
+    limit = joint.moving + joint.sticking * share
+    fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * joint.sticking * share
+    law.force = -limit * direction - joint.viscous * v
+    law.in_rate = -fall * direction - limit * slip * slip / (square * math.sqrt(square)) - joint.viscous
+    law.friction = limit * direction * v
+    law.damping = joint.viscous * v * v
+
+
+class JointFriction(OfJointKeys):
+    """Friction in an ideal joint under a stated normal load: Coulomb, Stribeck and viscous parts."""
+
+    TABLE: ClassVar[str] = "frictions"
+    METHOD: ClassVar[str] = "friction"
+    FORCE: ClassVar[str] = "friction force on the second body along the axis; none where the joint turns"
+    MOMENT: ClassVar[str] = "friction torque on the second body about the axis; none where it slides"
+    LAW: ClassVar = regularised
+    EXAMPLE: ClassVar[str] = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
+[joints]
+input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+[frictions.bearing]
+joint = "input"
+radius = "10 mm"
+normal_load = "40 N"
+friction_coefficient = 0.1
+static_coefficient = 0.15
+viscous = "5 N s/m"
+[drives.motor]
+joint = "input"
+torque = "0.2 N m"
+"""
+
+    normal_load: float = quantity(
+        None, "load N on the sliding surfaces", "", ge=0, example="40 N", required=True
+    )
+    radius: float | None = quantity(
+        None, "radius at which a turning joint slides; a sliding joint has none", "", gt=0, example="10 mm"
+    )
+    friction_coefficient: float = number(0.1, "of sliding, mu", "assumed", ge=0, le=2)
+    static_coefficient: float | None = number(
+        None, "of breakaway, mu_s; that of sliding without it", "", ge=0, le=2, example="0.15"
+    )
+    stribeck_velocity: float = quantity("10 mm/s", "speed at which it has fallen by 63 %", "assumed", gt=0)
+    viscous: float = quantity("0 N s/m", "force over sliding speed", "assumed", ge=0, example="5 N s/m")
+    slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the leg of the sliding distance: radius times angle, or position."""
+        static = self.static_coefficient
+        words = "the static coefficient is below that of sliding; friction cannot grow with speed here"
+        demand(static is None or static >= self.friction_coefficient, "static_coefficient", words)
+        turns = "angle" in KINDS[joints[self.joint].type].coordinates
+        if self.radius is None:
+            words = "a joint that turns needs the radius at which it slides"
+            demand(not turns, "radius", words)
+            return (self.leg_of(joints, "position", "friction without a radius"),)
+        return (self.leg_of(joints, "angle", "friction at a radius", self.radius),)
+
+    def force_law(self, joints: Joints) -> ForceLaw:
+        """Return the law with both limits of friction [N]."""
+        static = self.friction_coefficient if self.static_coefficient is None else self.static_coefficient
+        return ForceLaw(
+            regularised,
+            {
+                "moving": self.friction_coefficient * self.normal_load,
+                "sticking": (static - self.friction_coefficient) * self.normal_load,
+                "stribeck_velocity": self.stribeck_velocity,
+                "slip_velocity": self.slip_velocity,
+                "viscous": self.viscous,
+            },
+        )

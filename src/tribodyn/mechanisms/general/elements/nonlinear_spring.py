@@ -1,0 +1,75 @@
+"""Nonlinear spring and damper between two points.
+
+With the elongation x over its length without force, its rate, and a table T of forces over elongation,
+
+    tension = F₀ + k x + T(x) + c ẋ,   energy = F₀ x + ½ k x² + ∫₀ˣ T.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import quantity
+from tribodyn.cases.signals import ForceSignal
+from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, PointsKeys
+
+
+def elastic(spring: Any, law: Any) -> None:
+    """Fill the force of a spring with preload, stiffness, table and damper."""
+    x, v = law.position, law.rate
+    law.force = -(spring.preload + spring.stiffness * x + law.table[0] + spring.damping * v)
+    law.in_position, law.in_rate = -(spring.stiffness + law.table_slope), -spring.damping
+    law.stored = spring.preload * x + 0.5 * spring.stiffness * x * x + law.table[1]
+    law.damping = spring.damping * v * v
+
+
+class NonlinearSpring(PointsKeys):
+    """A nonlinear spring and damper between two points: preload, stiffness and a table of its force."""
+
+    TABLE: ClassVar[str] = "nonlinear_springs"
+    METHOD: ClassVar[str] = "nonlinear_spring"
+    FORCE: ClassVar[str] = "force that pushes the two points apart"
+    MOMENT: ClassVar[str] = "none"
+    LAW: ClassVar = elastic
+    EXAMPLE: ClassVar[str] = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
+[joints]
+input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+[nonlinear_springs.rubber]
+between = ["arm", "ground"]
+first_point = "0, 60, 0 mm"
+second_point = "100, 70, 20 mm"
+preload = "2 N"
+stiffness = "0.1 N/mm"
+damping = "0.5 N s/m"
+force = { positions = "-30, -10, 10, 30 mm", values = "-20, -2, 2, 20 N" }
+[drives.motor]
+joint = "input"
+torque = "0.2 N m"
+"""
+
+    preload: float = quantity("0 N", "tension at its length", "assumed", example="20 N")
+    stiffness: float = quantity("0 N/mm", "tension over elongation", "assumed", ge=0, example="2 N/mm")
+    damping: float = quantity("0 N s/m", "tension over its rate", "assumed", ge=0, example="5 N s/m")
+    force: ForceSignal | None = None
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the leg between its ends."""
+        words = "a spring needs a stiffness, a preload or a table of its force over positions"
+        demand(bool(self.stiffness or self.preload or self.force), "stiffness", words)
+        over = None if self.force is None else self.force.over
+        demand(
+            over in (None, "positions"),
+            "force",
+            "the table of a spring is one over positions: its elongation",
+        )
+        return super().legs(joints)
+
+    def force_law(self, joints: Joints) -> ForceLaw:
+        """Return the law with its table."""
+        held = {"preload": self.preload, "stiffness": self.stiffness, "damping": self.damping}
+        return ForceLaw(elastic, held, None if self.force is None else self.force.curve())
