@@ -42,7 +42,6 @@ from tribodyn.cases.tables import (
 )
 from tribodyn.cases.write import to_toml
 from tribodyn.core.errors import Faults, InputError, together
-from tribodyn.core.quoting import meant
 
 _T = TypeVar("_T")
 AnyCase = TypeVar("AnyCase", bound="Case")
@@ -236,15 +235,6 @@ def demand(condition: bool, key: str, message: str) -> None:
     """Raise an :class:`InputError` about `key` unless `condition` holds."""
     if not condition:
         raise InputError(message, key=key)
-
-
-def demand_known(given: str, names: Iterable[str], key: str, what: str) -> None:
-    """Refuse a name that no table has."""
-    names = tuple(names)
-    if given in names:
-        return
-    there = f"known: {', '.join(names)}" if names else "there is none"
-    demand(False, key, f'"{given}" is no {what}; {there}{meant(given, names)}')
 
 
 def check_all(*checks: Callable[[], object]) -> None:

@@ -10,11 +10,12 @@ from pydantic import create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import Group, NamedGroup, demand, demand_known
+from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
+from tribodyn.cases.known import demand_known
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
