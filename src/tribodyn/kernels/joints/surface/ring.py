@@ -58,7 +58,7 @@ class Law(NamedTuple):
     square: Any
 
 
-class Motion(NamedTuple):
+class RingMotion(NamedTuple):
     """What the nodes of a row share: see above; ``lean`` is ρ n_r² [m], ``slope`` that of the axis."""
 
     gap: Wave
@@ -111,14 +111,14 @@ def wave(numbers: Wave, c: Any, s: Any) -> Any:
 
 
 @inlined
-def motion_of(data: SurfaceData, surface: Record, row: Record, station: Record, tilt: Record) -> Motion:
+def motion_of(data: SurfaceData, surface: Record, row: Record, station: Record, tilt: Record) -> RingMotion:
     """Return what the motion of the shaft is to the nodes of a row."""
     n_r, n_z, arm = row.normal[0], row.normal[2], row.arm
     radius, z = data.nodes[POSITION, row.first], data.nodes[POSITION + 2, row.first]
     d, v, phi, rate, w = station.d, station.v, tilt.phi, tilt.rate, station.w
     slip_x, slip_y = station.slip[0] + w[1] * z, station.slip[1] - w[0] * z
     both = surface.along
-    return Motion(
+    return RingMotion(
         _spread(station.opening - n_z * d[2], -(n_r * d[0] + arm * phi[1]), -(n_r * d[1] - arm * phi[0])),
         _spread(n_z * v[2] - station.v_opening, n_r * v[0] + arm * rate[1], n_r * v[1] - arm * rate[0]),
         _spread(w[2] * radius, slip_y, -slip_x),
@@ -162,7 +162,7 @@ def place_of(row: Record, group: int) -> tuple[int, int]:
 
 
 @inlined
-def gap_and_approach(motion: Motion, gap: Any, c: Any, s: Any) -> tuple[Any, Any]:
+def gap_and_approach(motion: RingMotion, gap: Any, c: Any, s: Any) -> tuple[Any, Any]:
     """Return the gap [m] and the approach speed [m/s] from the gap as drawn, with wear."""
     w = motion.slope[0] * c + motion.slope[1] * s
     rate = motion.slope_rate[0] * c + motion.slope_rate[1] * s
@@ -203,7 +203,7 @@ def energy_of(law: Law, energy: FloatArray, node: Node) -> Any:
 
 
 @inlined
-def slip_of(motion: Motion, c: Any, s: Any) -> tuple[Any, Any, Any]:
+def slip_of(motion: RingMotion, c: Any, s: Any) -> tuple[Any, Any, Any]:
     """Return the slip around the axis and along the profile [m/s], and its square."""
     around, along = wave(motion.around, c, s), wave(motion.along, c, s)
     return around, along, around * around + along * along
