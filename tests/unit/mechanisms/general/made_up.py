@@ -44,6 +44,11 @@ def result(failure: str = "") -> xr.Dataset:
     columns["reaction_force"][:, :, 0] = np.outer(np.cos(turn), [900.0, 2000.0, 2700.0, 40.0])
     columns["drive_moment"][:, 0] = 100.0 * np.sin(2.0 * turn)
     columns["pressure_max"][:, 2] = 4e7 * np.cos(turn) ** 2
+    columns |= {name: np.full((N, 4), np.nan) for name in ("film_pressure_max", "film_thickness_min")}
+    columns["film_force"] = np.full((N, 4, 3), np.nan)
+    columns["film_force"][:, 2] = columns["reaction_force"][:, 2]
+    columns["film_pressure_max"][:, 2] = 2e7 * np.cos(turn) ** 2
+    columns["film_thickness_min"][:, 2] = 3e-6
     theta = 2.0 * np.pi * np.arange(12) / 12
     barrel = 4e7 * np.clip(np.cos(theta[None] - turn[:, None]), 0.0, None)
     pressure = np.zeros((N, 2, 4, 12))
@@ -78,6 +83,7 @@ def result(failure: str = "") -> xr.Dataset:
             "clearance": np.array([np.nan, np.nan, 20e-6, np.nan]),
             "pressure_cycle": pressure,
             "pressure_peak": np.array([4e7, np.nan]),
+            "film_pressure_peak": np.array([np.nan, np.nan, 2e7, np.nan]),
             "wear_depth": 1e-9 * pressure.max(axis=0) / 4e7,
         },
         attributes={
