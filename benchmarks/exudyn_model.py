@@ -25,7 +25,7 @@ from benchmarks.vsv_case import constants
 from tribodyn.core.problem import Problem
 from tribodyn.joints.bushing import pose_at
 from tribodyn.joints.point_contact import point_damping
-from tribodyn.kernels.joints.cylinder.joint import update_entry_velocity, wrench
+from tribodyn.kernels.joints.bushing import update_entry_velocity, wrench
 from tribodyn.kernels.joints.pose import N_WRENCH
 from tribodyn.kernels.vsv import layout
 from tribodyn.kernels.vsv.closure import sinusoid
@@ -216,8 +216,9 @@ class ExudynModel:
 
     def _points(self) -> None:
         """Add a sphere in a hollow sphere at each end, F = (4/3) E √(r_j r_b/c) δ^1.5 for both together."""
-        joint, pair = self.data.joint, self.case.surface_pair
-        radius = joint.journal_radius * joint.bore_radius / joint.clearance
+        joint, pair = self.vsv.joint, self.case.surface_pair
+        size = joint.geometry
+        radius = size.radius * size.bore_radius / size.clearance
         damping = point_damping(self.case.contact.law_of(pair))
         for z in (-self.data.half_length, self.data.half_length):
             data = items.NodeGenericData(initialCoordinates=[0.0] * 4, numberOfDataCoordinates=4)
@@ -225,14 +226,14 @@ class ExudynModel:
             contact = items.ObjectContactSphereSphere(
                 markerNumbers=[trunnion, self._marker(self.ground, z=self.height + z)],
                 nodeNumber=self.mbs.AddNode(data),
-                spheresRadii=[joint.journal_radius, joint.bore_radius],
+                spheresRadii=[size.radius, size.bore_radius],
                 isHollowSphere1=True,
-                dynamicFriction=joint.friction_coefficient,
-                frictionProportionalZone=joint.slip_velocity,
+                dynamicFriction=joint.friction.coefficient,
+                frictionProportionalZone=joint.friction.slip_velocity,
                 contactStiffness=0.5 * 4.0 / 3.0 * pair.composite_modulus * math.sqrt(radius),
                 contactStiffnessExponent=1.5,
                 restitutionCoefficient=1.0 - damping / 1.5,  # its damping ratio is 3/2 (1 − e)
-                minimumImpactVelocity=joint.minimum_entry_velocity,
+                minimumImpactVelocity=joint.entry.minimum_velocity,
                 impactModel=1,
             )
             self.mbs.AddObject(contact)

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.numpy_joint import numpy_wrench
+from benchmarks.numpy_joint import arrays_of, numpy_wrench
 from benchmarks.repeated import many_jacobians, many_wrenches
 from tribodyn.joints import BushingJoint, Grid
 from tribodyn.joints.bushing import joint_wrench, new_memory, pose_at
-from tribodyn.kernels.joints.cylinder.entry_velocity import pressure_field, update_entry_velocity
+from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 from tribodyn.kernels.joints.pose import N_MOTION, N_WRENCH
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
@@ -39,6 +39,7 @@ def microseconds(call: Callable[[], object], calls: int = CALLS) -> float:
 def measure(joint: BushingJoint) -> dict[str, float]:
     """Return nodes in contact and times of a call on one grid, medians of alternated runs."""
     data, field = joint.data(), np.empty(joint.field_shape)
+    arrays = arrays_of(joint)
     memory, pose = new_memory(data), pose_at(STATE, omega=OMEGA)
     update_entry_velocity(data, memory, pose, 1.0)
     pressure_field(data, memory, pose, field)
@@ -47,14 +48,14 @@ def measure(joint: BushingJoint) -> dict[str, float]:
     many_wrenches(data, memory, pose, out, 1)
     many_jacobians(data, memory, pose, out, jacobian, 1)
     alone = joint_wrench(data, STATE, omega=OMEGA, entry_velocity=entry)
-    np.testing.assert_allclose(numpy_wrench(data, entry, STATE, OMEGA)[0], alone, rtol=1e-9)
+    np.testing.assert_allclose(numpy_wrench(arrays, entry, STATE, OMEGA)[0], alone, rtol=1e-9)
     times: dict[str, list[float]] = {"wrench": [], "with Jacobian": [], "numpy": []}
     for _ in range(PAIRS):
         once = microseconds(lambda: many_wrenches(data, memory, pose, out, 200), 1)
         times["wrench"].append(once / 200)
         once = microseconds(lambda: many_jacobians(data, memory, pose, out, jacobian, 200), 1)
         times["with Jacobian"].append(once / 200)
-        times["numpy"].append(microseconds(lambda: numpy_wrench(data, entry, STATE, OMEGA)))
+        times["numpy"].append(microseconds(lambda: numpy_wrench(arrays, entry, STATE, OMEGA)))
     result = {name: float(np.median(values)) for name, values in times.items()}
     nodes = int(np.count_nonzero(field[1:-1]))
     return {"all nodes": float(field[1:-1].size), "nodes in contact": float(nodes), **result}

@@ -46,7 +46,7 @@ def _frozen(problem: Problem, entry_velocity: float) -> Problem:
 
 
 def _one_entry_velocity(problem: Problem) -> Problem:
-    return _frozen(problem, problem.data.joint.minimum_entry_velocity)
+    return _frozen(problem, float(problem.data.joint.surface.surfaces[0]["minimum_entry_velocity"]))
 
 
 def _no_memory(problem: Problem) -> Problem:

@@ -2,16 +2,37 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.kernels.joints.cylinder.data import BushingData
+from tribodyn.joints import BushingJoint
 
 FloatArray = NDArray[np.float64]
 
 
+def arrays_of(joint: BushingJoint) -> SimpleNamespace:
+    """Return the constants of a bushing that is not worn as NumPy takes them."""
+    return SimpleNamespace(
+        clearance=joint.geometry.clearance,
+        journal_radius=joint.geometry.radius,
+        z=joint.z,
+        cos_theta=np.cos(joint.theta),
+        sin_theta=np.sin(joint.theta),
+        wear=joint.form_gap,
+        area=joint.node_area,
+        table=joint.table,
+        roughness=joint.roughness,
+        friction_coefficient=joint.friction.coefficient,
+        slip_velocity=joint.friction.slip_velocity,
+        minimum_entry_velocity=joint.entry.minimum_velocity,
+        onset=joint.entry.onset,
+    )
+
+
 def gap_and_approach(
-    joint: BushingData, y: FloatArray
+    joint: SimpleNamespace, y: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return gap [m], approach speed [m/s], and the velocities v_a, v_b of the axis at each row [m/s]."""
     tan_x, tan_y = np.tan(y[2:4])
@@ -30,7 +51,7 @@ def leaning(y: FloatArray, c: FloatArray, s: FloatArray) -> tuple[FloatArray, Fl
 
 
 def numpy_wrench(
-    joint: BushingData, entry: FloatArray, y: FloatArray, omega: float
+    joint: SimpleNamespace, entry: FloatArray, y: FloatArray, omega: float
 ) -> tuple[FloatArray, FloatArray]:
     """Return the wrench (5,) with friction as traction, and the normal force (2,) alone."""
     z, c, s = joint.z[:, None], joint.cos_theta, joint.sin_theta
@@ -56,7 +77,7 @@ def numpy_wrench(
     return np.array([(p_x + tau_x).sum(), (p_y + tau_y).sum(), m_x, m_y, torque]), normal
 
 
-def numpy_update(joint: BushingData, y: FloatArray, entry: FloatArray) -> None:
+def numpy_update(joint: SimpleNamespace, y: FloatArray, entry: FloatArray) -> None:
     """Let nodes enter and leave contact at the end of an accepted step."""
     gap, approach, _, _ = gap_and_approach(joint, y)
     fresh = np.maximum(np.abs(approach), joint.minimum_entry_velocity)

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import BDF
 
-from benchmarks.numpy_joint import numpy_update, numpy_wrench
+from benchmarks.numpy_joint import arrays_of, numpy_update, numpy_wrench
 from benchmarks.vsv_case import constants
 from tribodyn.core.problem import Problem
+from tribodyn.joints import BushingJoint
 from tribodyn.kernels.vsv.data import VsvData
 from tribodyn.kernels.vsv.layout import O2_X, O3_Z, OV_X, OV_Y, PHI_X, PHI_Y, THETA_B, THETA_V
 
@@ -55,12 +56,14 @@ class NumpyVsv:
     ----------
     data
         The constants, as the kernels have them.
+    joint
+        The bushing.
     entry
         Entry velocities at the nodes [m/s]: the memory, shape (n_z + 2, n_theta).
     """
 
-    def __init__(self, data: VsvData, entry: FloatArray) -> None:
-        self.data = constants(data)
+    def __init__(self, data: VsvData, joint: BushingJoint, entry: FloatArray) -> None:
+        self.data, self.joint = constants(data), arrays_of(joint)
         self.entry = entry
         self.direction = 1.0
         self.theta_v = float(self.data.ideal[0, 0])
@@ -105,7 +108,7 @@ class NumpyVsv:
         d = self.data
         m = self.motion(t, y)
         jacobian, sec = m.rows[:, 1:], 1.0 + np.tan(y[2:4]) ** 2
-        wrench, normal = numpy_wrench(d.joint, self.entry, y, m.omega_v)
+        wrench, normal = numpy_wrench(self.joint, self.entry, y, m.omega_v)
         air_x = d.air_force_x * np.tanh((m.theta_v - d.switch_angle) / d.switch_width)
         force = self.force.copy()
         force[10] = wrench[4] - self.direction * d.air_moment
@@ -117,7 +120,7 @@ class NumpyVsv:
 
         # The thrust collar, whose force depends on the acceleration of the vane centre.
         tilt = np.sqrt(y[2] ** 2 + y[3] ** 2 + 1e-12)
-        share = -self.direction * d.joint.friction_coefficient * d.collar_radius * jacobian[10]
+        share = -self.direction * self.joint.friction_coefficient * d.collar_radius * jacobian[10]
         share[2:] -= d.collar_radius * y[2:4] / tilt
         slope = np.tan(m.theta_b)
         at_rest = d.vane_weight + slope * (wrench[0] + air_x - d.m_v * m.bias[11])
@@ -192,9 +195,11 @@ class NumpyVsv:
         return Motion(theta_v, theta_b, omega_v, rows, bias)
 
 
-def integrate_with_scipy(problem: Problem, rtol: float, output_times: FloatArray) -> dict[str, Any]:
+def integrate_with_scipy(
+    problem: Problem, joint: BushingJoint, rtol: float, output_times: FloatArray
+) -> dict[str, Any]:
     """Step SciPy's BDF over all segments; return vane angle and contact force at the output times."""
-    model = NumpyVsv(problem.data, problem.memory.joint.entry_velocity)
+    model = NumpyVsv(problem.data, joint, problem.memory.joint.entry_velocity)
     y, rows, steps, calls = problem.y0, [], 0, 0
     edges = [problem.t_span[0], *problem.breakpoints, problem.t_span[1]]
     for start, end in pairwise(edges):
@@ -208,7 +213,7 @@ def integrate_with_scipy(problem: Problem, rtol: float, output_times: FloatArray
                 for t in inside:
                     _, theta_v, force = model.accelerations(t, dense(t))
                     rows.append((t, theta_v, *force))
-            numpy_update(problem.data.joint, solver.y, model.entry)
+            numpy_update(model.joint, solver.y, model.entry)
             steps += 1
         y, calls = solver.y, calls + solver.nfev
     t, theta_v, f_x, f_y = np.array(rows).T

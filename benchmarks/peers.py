@@ -61,7 +61,7 @@ def with_numpy(rtol: float, tighter: float, cycles: float) -> dict[str, Any]:
     problem = problem_of(case, vsv, tighter)
     times = output_times(case, vsv, case.duration)
     begin = time.thread_time()
-    found = integrate_with_scipy(problem, rtol, times)
+    found = integrate_with_scipy(problem, vsv.joint, rtol, times)
     return {**found, "seconds": time.thread_time() - begin}
 
 

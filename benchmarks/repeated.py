@@ -5,8 +5,7 @@ from __future__ import annotations
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.joints.cylinder.data import BushingData
-from tribodyn.kernels.joints.cylinder.wrench import wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import BushingData, wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.memory import JointMemory
 
 

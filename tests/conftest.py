@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -16,7 +17,7 @@ from tribodyn.contact import SurfacePair, law, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 from tribodyn.integrate import integrate
-from tribodyn.integrate.driver import Stepwise
+from tribodyn.integrate.driver import IntegrationTask, Stepwise
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.shapes import SHAPES
@@ -63,8 +64,8 @@ def scale_tolerances(factor: float) -> None:
     def scaled_state(t: float, y: FloatArray, t_end: float, rtol: Any, *others: Any, **options: Any) -> Any:
         return new_state(t, y, t_end, factor * np.asarray(rtol), *others, **options)
 
-    def scaled_call(self: Stepwise, problem: Any, schedule: Any, rtol: float, *others: Any) -> Any:
-        return integrated(self, problem, schedule, factor * rtol, *others)
+    def scaled_call(self: Stepwise, task: IntegrationTask) -> Any:
+        return integrated(self, replace(task, rtol=factor * task.rtol))
 
     state.new_state = solver.new_state = scaled_state
     Stepwise.__call__ = scaled_call  # type: ignore[method-assign]

@@ -82,7 +82,6 @@ VALUES = [
     ('[loads]\nswitch_angle = "90 percent"', "loads.switch_angle", "deg"),
     ('[mechanism]\ngravity = "9.81 N"', "mechanism.gravity", "m/s^2"),
     ('[joint]\nfriction_coefficient = "0.1 m"', "joint.friction_coefficient", "bare number"),
-    ('[surfaces.bushing]\npoisson_ratio = "0.34"', "surfaces.bushing.poisson_ratio", "bare number"),
     # another kind of value
     ("[joint]\nclearance = true", "joint.clearance", "20 um"),
     ("[joint]\nclearance = [20]", "joint.clearance", "20 um"),

@@ -78,7 +78,8 @@ def test_the_assemblies_merge_at_the_limit_of_reach(make_vsv):
 
 def test_kinetostatic_attitude_at_2_5_seconds(make_vsv):
     # Traction sees the actual vane speed, which at rest in the clearance is the ideal one.
-    data = vsv_data(make_vsv())
+    vsv = make_vsv()
+    data = vsv_data(vsv)
     memory = vsv_memory(data)
     first = equilibrium(data, memory, 2.5, direction=1.0)
     speed = memory.scratch.motion[THETA_V, VELOCITY]
@@ -86,6 +87,6 @@ def test_kinetostatic_attitude_at_2_5_seconds(make_vsv):
     assert np.degrees(memory.scratch.motion[THETA_V, VALUE]) == pytest.approx(115.0, abs=10.0)
     # The reference has the linear gap of Eq. 48. The second-order term of the tilt closes each edge by
     # ½ r tan²φ, 7 nm; the ends touch in different directions, so the centre may move by up to twice that.
-    second = 0.5e6 * data.joint.journal_radius * float(np.sum(np.tan(q[2:4]) ** 2))
+    second = 0.5e6 * vsv.joint.geometry.radius * float(np.sum(np.tan(q[2:4]) ** 2))
     assert second < 0.01
     np.testing.assert_allclose(1e6 * q[:2], [-3.35, 6.13], atol=0.005 + 2.0 * second)

@@ -10,5 +10,7 @@ from tribodyn.core.quoting import meant
 
 def demand_known(given: str, names: Collection[str], key: str, what: str) -> None:
     """Refuse a name that no table has."""
+    if given in names:
+        return
     there = f"known: {', '.join(names)}" if names else "there is none"
-    demand(given in names, key, f'"{given}" is no {what}; {there}{meant(given, names)}')
+    demand(False, key, f'"{given}" is no {what}; {there}{meant(given, names)}')

@@ -129,7 +129,7 @@ class BodyLoad(NamedGroup):
 
 
 class ShaftLoad(BodyLoad):
-    """A force and a moment on a shaft that turns about Z and tilts little, as a vane and a journal do."""
+    """A force and a moment on a shaft that turns about Z and tilts little."""
 
     def shares(self, key: str) -> tuple[float, ...]:
         """Return force and moment of one unit under a key; ``moment_y`` is left-handed, as tilts are."""

@@ -252,8 +252,9 @@ def _nodes(where: Sequence[Place], wear: FloatArray | None) -> FloatArray:
     if depth.shape != (n,):
         raise InputError(f"wear depth has shape {depth.shape}, the joints have {n} nodes")
     nodes = np.zeros((kernel.N_NODE, n))
-    for place in where:
-        ask()
+    for number, place in enumerate(where):
+        if number > 0:
+            ask()
         surface, here = place.surface, nodes[:, place.nodes]
         here[kernel.POSITION : kernel.NORMAL] = surface.position.T
         here[kernel.NORMAL : kernel.AREA] = surface.normal.T

@@ -13,8 +13,9 @@ from benchmarks.vsv_case import NATIVE, one, problem_of, vsv_case
 @pytest.mark.parametrize("speed", [1e-7, 1e-5, 1e-3])
 def test_the_right_hand_side_in_numpy_is_that_of_the_kernels(t: float, speed: float) -> None:
     rng = np.random.default_rng(3)
-    problem = problem_of(*vsv_case(1.0))
-    model = NumpyVsv(problem.data, problem.memory.joint.entry_velocity)
+    case, vsv = vsv_case(1.0)
+    problem = problem_of(case, vsv)
+    model = NumpyVsv(problem.data, vsv.joint, problem.memory.joint.entry_velocity)
     y = problem.y0 * (1.0 + 0.1 * rng.standard_normal(8))
     y[4:] = speed * rng.standard_normal(4) * np.array([1.0, 1.0, 100.0, 100.0])
     problem.functions.enter(t, y, problem.data, problem.memory)

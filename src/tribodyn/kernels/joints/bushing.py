@@ -1,4 +1,4 @@
-"""The bushing of ``vsv`` and ``journal``: a surface of ``kernels/joints/surface`` in coordinates of its own.
+"""A bushing and its trunnion: a surface of ``kernels/joints/surface`` in coordinates of its own.
 
 A pose counts the tilts of the trunnion as angles, and as the source paper has it, friction opposes the slip
 around the axis alone, with rates of the tilts for angular velocities, and moments do work on the slope of the

@@ -74,6 +74,8 @@ def add_points(
     clearance = surface.clearance + station.opening
     if told > 0.0:
         memory.n_touched[s], scratch.rigid_load = 0, 0.0
+        for i in range(6):
+            scratch.rigid[i] = 0.0
         memory.reports[s].separation_min = clearance
     for k in range(int(surface.points)):
         z = surface.heights[k]
