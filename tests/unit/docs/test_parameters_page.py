@@ -17,6 +17,7 @@ def test_the_crank_is_swept_as_shown(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")  # as wide as the table of the page
     model, command, answer = (
         re.search(pattern, PAGE, re.DOTALL)[1]  # type: ignore[index]
         for pattern in (r"```toml\n(.*?)```", r"\n    tribodyn (sweep .*?)\n", r"```text\n(.*?)```")

@@ -70,7 +70,7 @@ def numbers(content: bytes) -> dict[str, Any]:
 def test_a_worker_killed_in_mid_run_goes_unnoticed_but_for_the_time(with_pool: Test) -> None:
     async def test(made: WorkerPool) -> None:
         first = await made.do(job())
-        again = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "4"}))))
+        again = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "12"}))))
         victim = await at_work(made)
         os.kill(victim, signal.SIGKILL)
         assert frame.header(await again)["failure"] == ""
@@ -100,7 +100,7 @@ def test_a_run_that_takes_too_long_is_stopped_and_one_that_hangs_is_killed(with_
 
 def test_what_nobody_waits_for_makes_room_and_is_done_later(with_pool: Test) -> None:
     async def test(made: WorkerPool) -> None:
-        later = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "4"}), background=True)))
+        later = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "12"}), background=True)))
         await at_work(made)
         assert await made.do(job())
         assert not later.done()
@@ -116,10 +116,10 @@ def test_what_is_too_large_or_wrong_is_told_in_words() -> None:
         with pytest.raises(Failed, match="not valid TOML"):
             await made.do(Job({"work": "picture", "case": "?", "header": {}}, SOON))
         if sys.platform == "linux":
-            # 300,000 rows of some sixty numbers.
-            rows = {"run.output_interval": "1 us", "run.duration": "0.3 s"}
+            # 600,000 rows of some sixty numbers.
+            rows = {"run.output_interval": "1 us", "run.duration": "0.6 s"}
             with pytest.raises(Failed, match="more memory than a worker may have"):
                 await made.do(job(load_case("vsv").replace(rows)))
 
-    with worker_pool(memory=100_000_000, result=1000) as run:
+    with worker_pool(memory=200_000_000, result=1000) as run:
         run(test)
