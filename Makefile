@@ -51,6 +51,7 @@ test-long: ready
 golden: $(VENV)/.dev
 	$(BIN)/python tests/golden/test_headlines.py
 	$(BIN)/python tests/golden/test_messages.py
+	$(BIN)/python tests/golden/test_signatures.py
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

@@ -1,12 +1,16 @@
-"""What a family of figures is."""
+"""What a family of figures is, and what moving pictures show."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import xarray as xr
 from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.gltf import Solid
 
 
 @dataclass(frozen=True)
@@ -36,3 +40,28 @@ class Family:
     def drawable(self, dataset: xr.Dataset) -> bool:
         """Whether the result holds the variables this figure needs."""
         return all(name in dataset.variables for name in self.needs)
+
+
+class Film(Protocol):
+    """A figure that changes with time."""
+
+    figure: Figure
+
+    def show(self, frame: int) -> None:
+        """Draw what holds at one of the times."""
+
+
+@dataclass(frozen=True)
+class Animation:
+    """How a mechanism moves, as a film and as solids in space.
+
+    Attributes
+    ----------
+    film
+        From a result and times [s], shape (n_t,).
+    solids
+        Likewise the bodies with their motion, and the axis of the drawing that points upwards.
+    """
+
+    film: Callable[[xr.Dataset, FloatArray], Film]
+    solids: Callable[[xr.Dataset, FloatArray], tuple[list[Solid], str]]

@@ -26,7 +26,7 @@ from tribodyn.results.summary import Headline
 from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:
-    from tribodyn.figures.base import Family
+    from tribodyn.figures.base import Animation, Family
     from tribodyn.mechanisms.bushing import Bearing
     from tribodyn.views.overlay import Overlay
     from tribodyn.views.section import Chapter
@@ -357,6 +357,11 @@ class MechanismDescriptor:
     def figures(self) -> Mapping[str, Family]:
         """``FIGURES`` of ``figures``: its figures by the names of their files, in reading order."""
         return cast("Mapping[str, Family]", self._module("figures").FIGURES)
+
+    @property
+    def animation(self) -> Animation | None:
+        """``ANIMATION`` of ``figures``: how it moves; None where it has none."""
+        return cast("Animation | None", getattr(self._module("figures"), "ANIMATION", None))
 
     @property
     def chapters(self) -> Sequence[Chapter]:

@@ -11,6 +11,8 @@ import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 from html import escape
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -53,6 +55,35 @@ class Accessor:
         from tribodyn.mechanisms.results import summarise
 
         return summarise(self._dataset)
+
+    def animate(self, path: str | PathLike[str], *, seconds: float = 6.0) -> Path:
+        """Write the last cycle of a user-defined mechanism as a film, or as solids that move.
+
+        Parameters
+        ----------
+        path
+            File to write. Its ending says what: ``.gif``, ``.mp4`` (needs the program ffmpeg), or ``.glb``,
+            solids in glTF that browsers, viewers and modellers show from all sides.
+        seconds
+            Length of the film [s], 1 to 120.
+
+        Returns
+        -------
+        pathlib.Path
+            The file.
+
+        Raises
+        ------
+        InputError
+            The result has no motion to show, the ending is another one, or ffmpeg is missing.
+
+        Examples
+        --------
+        >>> result.tribodyn.animate("press.gif")  # doctest: +SKIP
+        """
+        from tribodyn.report.animation import animate
+
+        return animate(self._dataset, Path(path), seconds)
 
     def _repr_html_(self) -> str:
         """Return the headline numbers as a table, with what the run says of itself."""

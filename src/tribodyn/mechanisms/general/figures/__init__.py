@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.figures import chart, energy, wear
-from tribodyn.figures.base import Family
-from tribodyn.mechanisms.general.figures import joints, mechanism
+from tribodyn.figures.base import Animation, Family
+from tribodyn.mechanisms.general.figures import film, joints, mechanism, solids
 from tribodyn.mechanisms.general.ledger import LEDGERS
 from tribodyn.mechanisms.general.sections.charts import CLEARANCES, FILMS, JOINT_FORCES, MOTION, OUTPUT_ERRORS
 
@@ -26,3 +26,5 @@ FIGURES: Final[dict[str, Family]] = {
         wear.HISTORY,
     )
 }
+
+ANIMATION: Final = Animation(film.MechanismFilm, solids.solids)

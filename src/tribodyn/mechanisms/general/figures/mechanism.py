@@ -31,33 +31,34 @@ def draw(dataset: xr.Dataset) -> Figure:
         return figure
     drawn, (position, orientation) = skeleton(case), motion
     eye, up = view(MM * position.reshape(-1, 3))
-    plane = _plane(eye, up)
+    plane = paper(eye, up)
     first, *others = np.linspace(0, position.shape[0] - 1, _MOMENTS + 1).astype(int)[1:]
     for k in others:
-        _draw_at(axes, drawn, plane, position[k], orientation[k], PALE)
-    _draw_at(axes, drawn, plane, position[first], orientation[first], INK)
-    _draw_joints(axes, drawn, plane, position[first], orientation[first])
-    finish(axes, *(_direction(row) for row in plane))
+        draw_at(axes, drawn, plane, position[k], orientation[k], PALE)
+    draw_at(axes, drawn, plane, position[first], orientation[first], INK)
+    draw_joints(axes, drawn, plane, position[first], orientation[first])
+    finish(axes, *(direction(row) for row in plane))
     return figure
 
 
-def _plane(eye: FloatArray, up: FloatArray) -> FloatArray:
+def paper(eye: FloatArray, up: FloatArray) -> FloatArray:
     """Return the directions to the right and upwards on paper, shape (2, 3)."""
     right = np.cross(up, eye)
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(eye, right)])
 
 
-def _direction(row: FloatArray) -> str:
+def direction(row: FloatArray) -> str:
     """Return the label of an axis on paper: that of the drawing that it is, if it is one."""
     along = int(np.argmax(np.abs(row)))
     sign = "−" if row[along] < 0.0 else ""
     return f"{sign}{'xyz'[along]} [mm]" if abs(row[along]) > 0.999 else "[mm]"
 
 
-def _draw_at(
+def draw_at(
     axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray, colour: str
 ) -> None:
+    """Draw elements and bodies at one moment; names in ink alone."""
     for outline in drawn.outlines:
         x, y = (outline_at(drawn, outline, position, orientation) @ plane.T).T
         axes.plot(x, y, color=GREY if colour == INK else PALE, linewidth=0.7)
@@ -73,9 +74,10 @@ def _draw_at(
             )
 
 
-def _draw_joints(
+def draw_joints(
     axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray
 ) -> None:
+    """Draw the joints at one moment with their names."""
     there: dict[tuple[float, ...], list[Mark]] = {}
     for mark in drawn.marks:
         point = MM * mark.point

@@ -23,7 +23,12 @@ def at_frames(dataset: xr.Dataset) -> tuple[FloatArray, FloatArray] | None:
 
     None where there is no motion to draw: a single row, or a body that is nowhere.
     """
-    time, frames = dataset["time"].values, playback_times(dataset)
+    return at_times(dataset, playback_times(dataset))
+
+
+def at_times(dataset: xr.Dataset, frames: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+    """Return the same at other times [s], shape (n_frames,)."""
+    time = dataset["time"].values
     if min(time.size, frames.size) < 2:
         return None
     position, orientation = (

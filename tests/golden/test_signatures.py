@@ -1,0 +1,60 @@
+"""The type stub of the builder: what type checkers and editors know of its methods.
+
+``make golden`` writes it anew from the keys of a case.
+"""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+from tribodyn.mechanisms.general import methods
+from tribodyn.mechanisms.general.arguments import signature_of_case
+
+STUB: Final = Path(methods.__file__).with_name("signatures.pyi")
+HEAD: Final = '''"""Types of the builder's methods; ``make golden`` writes them from the keys of a case."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Self, TypeAlias
+
+import numpy as np
+
+Table: TypeAlias = Mapping[str, object]
+Vector: TypeAlias = Sequence[float | str] | str | np.ndarray[Any, Any]
+
+class Signatures:
+'''
+
+
+def method(name: str, signature: inspect.Signature, returned: str) -> Iterator[str]:
+    """Yield the lines of a method."""
+    yield f"    def {name}("
+    keywords = False
+    for one in signature.parameters.values():
+        if one.kind is one.KEYWORD_ONLY and not keywords:
+            keywords = True
+            yield "        *,"
+        annotation = "" if one.annotation is one.empty else f": {one.annotation}"
+        yield f"        {one.name}{annotation}{'' if one.default is one.empty else ' = ...'},"
+    yield f"    ) -> {returned}: ..."
+
+
+def stub() -> str:
+    """Return the stub."""
+    builder = signature_of_case()
+    own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    lines = [*method("__init__", builder.replace(parameters=[own, *builder.parameters.values()]), "None")]
+    for one in methods.METHODS:
+        lines += method(one.name, one.signature, "Self")
+    return HEAD + "\n".join(lines) + "\n"
+
+
+def test_the_stub_holds_the_keys_of_today() -> None:
+    assert STUB.read_text(encoding="utf-8") == stub()
+
+
+if __name__ == "__main__":
+    sys.exit(STUB.write_text(stub(), encoding="utf-8") == 0)
