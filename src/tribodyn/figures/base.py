@@ -42,7 +42,7 @@ class Family:
         return all(name in dataset.variables for name in self.needs)
 
 
-class Film(Protocol):
+class MovingFigure(Protocol):
     """A figure that changes with time."""
 
     figure: Figure
@@ -63,5 +63,5 @@ class Animation:
         Likewise the bodies with their motion, and the axis of the drawing that points upwards.
     """
 
-    film: Callable[[xr.Dataset, FloatArray], Film]
+    film: Callable[[xr.Dataset, FloatArray], MovingFigure]
     solids: Callable[[xr.Dataset, FloatArray], tuple[list[Solid], str]]

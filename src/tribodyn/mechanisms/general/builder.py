@@ -19,7 +19,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.general.arguments import CASE, signature_of_case
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.docstrings import docstring
-from tribodyn.mechanisms.general.methods import METHODS, OF_JOINT, Method
+from tribodyn.mechanisms.general.methods import METHODS, OF_JOINT, BuilderMethod
 
 if TYPE_CHECKING:
     from tribodyn.mechanisms.general.signatures import Signatures
@@ -32,7 +32,7 @@ else:
 SOURCE: Final = "Mechanism"
 
 
-class _Tables:
+class _CaseTables:
     """The tables of a case as they begin."""
 
     __signature__: ClassVar[inspect.Signature]
@@ -41,7 +41,7 @@ class _Tables:
         self._tables: dict[str, Any] = {CASE: MechanismCase.kind(), "title": title, **keys}
 
 
-class Mechanism(Signatures, _Tables):
+class Mechanism(Signatures, _CaseTables):
     """Bodies, joints and what moves them, in one drawing with global coordinates.
 
     Values are written as in a case file, with their units; NumPy arrays are numbers in SI units. Keys of
@@ -93,14 +93,14 @@ class Mechanism(Signatures, _Tables):
             title = f"<strong>{escape(str(self._tables['title']))}</strong>"
             return f"{title}<table>{rows}</table><p>{escape(str(error))}</p>"
 
-    def _fill(self, method: Method, name: str, keys: Mapping[str, object]) -> None:
+    def _fill(self, method: BuilderMethod, name: str, keys: Mapping[str, object]) -> None:
         """Add a table of some name."""
         inside = self._tables.setdefault(method.table, {})
         if name in inside:
             raise InputError("this name is given twice", key=f"{method.table}.{name}", source=SOURCE)
         inside[name] = dict(keys)
 
-    def _fill_joint(self, method: Method, joint: str, keys: Mapping[str, object]) -> None:
+    def _fill_joint(self, method: BuilderMethod, joint: str, keys: Mapping[str, object]) -> None:
         """Add a table to a joint."""
         if joint not in self._tables.get("joints", {}):
             words = f"write the joint first, then its {method.table}"
@@ -108,7 +108,7 @@ class Mechanism(Signatures, _Tables):
         self._tables["joints"][joint][method.table] = dict(keys)
 
 
-def _adding(method: Method) -> Callable[..., Mechanism]:
+def _adding(method: BuilderMethod) -> Callable[..., Mechanism]:
     """Return a method of the builder."""
     own = [p for p in method.signature.parameters.values() if p.kind is p.POSITIONAL_OR_KEYWORD]
     names = inspect.Signature([*own, inspect.Parameter("keys", inspect.Parameter.VAR_KEYWORD)])

@@ -7,14 +7,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 from tribodyn.mechanisms.general.arguments import CASE
-from tribodyn.mechanisms.general.methods import METHODS, OF_JOINT, Example, Method
+from tribodyn.mechanisms.general.methods import METHODS, OF_JOINT, BuilderMethod, Example
 
 _WIDTH: Final = 100
 _LINES: Final = textwrap.TextWrapper(_WIDTH, break_long_words=False, break_on_hyphens=False)
 BY_NAME: Final = {method.name: method for method in METHODS}
 
 
-def docstring(method: Method) -> str:
+def docstring(method: BuilderMethod) -> str:
     """Return the docstring of a method: what it does, its keys, and an example that runs."""
     named = [f"{name}\n    {meaning[0].upper()}{meaning[1:]}." for name, _, meaning in method.arguments]
     keys = [f"{name}\n{_indented(one.text)}" for name, one in method.keywords.items()]
@@ -28,7 +28,7 @@ def docstring(method: Method) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _refusal(method: Method) -> str:
+def _refusal(method: BuilderMethod) -> str:
     twice = "The joint is not there." if method.table in OF_JOINT else "The name is given twice."
     return f"{twice} Values are checked by ``case()``, whose message names key, value and what is allowed."
 
@@ -41,7 +41,7 @@ def _indented(text: str) -> str:
     return textwrap.indent(_LINES.fill(" ".join(text.split())), "    ")
 
 
-def written(tables: Example, first: Method) -> Iterator[str]:
+def written(tables: Example, first: BuilderMethod) -> Iterator[str]:
     """Yield the lines of Python, as a prompt shows them, that make a case, by a method wherever it does."""
     named = {method.table for method in METHODS}
     calls = [_call("", _literals({k: v for k, v in tables.items() if k not in (CASE, *named)}))]
@@ -67,7 +67,7 @@ def _call(method: str, arguments: list[str]) -> str:
     return f"{method}(\n" + "\n".join(f"...     {argument}," for argument in arguments) + "\n... )"
 
 
-def _uses(tables: Example, first: Method) -> Iterator[tuple[Method, str, dict[str, Any]]]:
+def _uses(tables: Example, first: BuilderMethod) -> Iterator[tuple[BuilderMethod, str, dict[str, Any]]]:
     """Yield the methods that fill tables, with names and keys; the first one wherever it does."""
     for table, parts in tables.items():
         able = [method for method in (first, *METHODS) if method.table == table]

@@ -40,7 +40,7 @@ _THAT_JOINT: Final = (("joint", "", "a joint that the mechanism has"),)
 
 
 @dataclass(frozen=True)
-class Method:
+class BuilderMethod:
     """A method of the builder.
 
     Attributes
@@ -117,7 +117,7 @@ def _example(*, hinge: Mapping[str, object] = _HINGE, **tables: object) -> Examp
     return {"run": {"duration": "1 ms"}, "bodies": {"arm": _ARM}, "joints": {"hinge": hinge}, **tables}
 
 
-def _of_joint(kind: str) -> Method:
+def _of_joint(kind: str) -> BuilderMethod:
     """Return the method that adds a joint of a kind."""
     about = KINDS[kind]
     starts = {"start_speed": "angle", "start_velocity": "position"}
@@ -126,7 +126,7 @@ def _of_joint(kind: str) -> Method:
     needs |= {"axis": [0, 0, 1]} if about.axis else {}
     needs |= {"second_axis": [1, 0, 0]} if about.second_axis else {}
     needs |= {"stiffness": "1, 1, 1 N/um"} if kind == "spring-damper" else {}
-    return Method(
+    return BuilderMethod(
         name=kind.replace("-", "_"),
         does=f"Add a {kind} joint: {about.meaning}.",
         table="joints",
@@ -143,15 +143,15 @@ def _of_joint(kind: str) -> Method:
     )
 
 
-def _of_element(kind: Any) -> Method:
+def _of_element(kind: Any) -> BuilderMethod:
     """Return the method that adds an element of a kind."""
     first = str(kind.__doc__).splitlines()[0]
     tables = tomllib.loads(kind.EXAMPLE)
-    return Method(kind.METHOD, f"Add {first[0].lower()}{first[1:]}", kind.TABLE, kind, tables)
+    return BuilderMethod(kind.METHOD, f"Add {first[0].lower()}{first[1:]}", kind.TABLE, kind, tables)
 
 
 METHODS: Final = (
-    Method(
+    BuilderMethod(
         "parameter",
         "Add a number that other values are computed from, or an expression of others.",
         "parameters",
@@ -164,9 +164,9 @@ METHODS: Final = (
         },
         arguments=(_NAME, ("value", VALUE, 'its value, such as "50 mm", or an expression')),
     ),
-    Method("body", "Add a rigid body as drawn.", "bodies", BodyKeys, _example()),
+    BuilderMethod("body", "Add a rigid body as drawn.", "bodies", BodyKeys, _example()),
     *map(_of_joint, KINDS),
-    Method(
+    BuilderMethod(
         "joint",
         "Add a joint of a kind that is given by its name.",
         "joints",
@@ -174,7 +174,7 @@ METHODS: Final = (
         _example(),
         arguments=(_NAME, ("kind", "type", f"what it lets move: {', '.join(KINDS)}"), *_ENDS),
     ),
-    Method(
+    BuilderMethod(
         "clearance",
         "Give a joint clearance.",
         "clearance",
@@ -182,7 +182,7 @@ METHODS: Final = (
         _example(hinge={**_HINGE, "clearance": _BEARING}),
         arguments=_THAT_JOINT,
     ),
-    Method(
+    BuilderMethod(
         "film",
         "Let a joint with clearance run in oil.",
         "film",
@@ -190,7 +190,7 @@ METHODS: Final = (
         _example(hinge={**_HINGE, "clearance": _BEARING, "film": {"viscosity": "0.01 Pa s"}}),
         arguments=_THAT_JOINT,
     ),
-    Method(
+    BuilderMethod(
         "drive",
         "Move a joint by one of angle, speed, torque, position, velocity and force.",
         "drives",
@@ -198,7 +198,7 @@ METHODS: Final = (
         _example(drives={"motor": {"joint": "hinge", "speed": "60 rpm"}}),
         arguments=(_NAME, ("joint", "joint", "the joint that it moves")),
     ),
-    Method(
+    BuilderMethod(
         "load",
         "Let a force or a moment act on a body.",
         "loads",
@@ -206,7 +206,7 @@ METHODS: Final = (
         _example(loads={"push": {"body": "arm", "direction": [0, 1, 0], "force": "20 N"}}),
         arguments=(_NAME, ("body", "body", "the body that it acts on")),
     ),
-    Method(
+    BuilderMethod(
         "spring",
         "Put a spring and damper between points of two bodies.",
         "springs",
@@ -223,7 +223,7 @@ METHODS: Final = (
         ),
         arguments=(_NAME, *_ENDS),
     ),
-    Method(
+    BuilderMethod(
         "output",
         "Compare a motion with that of ideal joints.",
         "outputs",
@@ -231,7 +231,7 @@ METHODS: Final = (
         _example(outputs={"swing": {"body": "arm", "quantity": "angle", "along": [0, 0, 1]}}),
         arguments=(_NAME, ("body", "body", "the body that is observed")),
     ),
-    Method(
+    BuilderMethod(
         "pair",
         "Name surfaces and a contact law for joints with clearance.",
         "pairs",

@@ -10,13 +10,13 @@ import pytest
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.general.methods import METHODS, Method
+from tribodyn.mechanisms.general.methods import METHODS, BuilderMethod
 
 ARM = {"mass": "1 kg", "inertia": "1e-3, 1e-3, 1e-3 kg m^2"}
 
 
 @pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
-def test_a_method_documents_its_keys_by_an_example_that_runs(method: Method) -> None:
+def test_a_method_documents_its_keys_by_an_example_that_runs(method: BuilderMethod) -> None:
     made = getattr(td.Mechanism, method.name)
     keys = [one.name for one in inspect.signature(made).parameters.values() if one.kind is one.KEYWORD_ONLY]
     assert set(keys) <= set(method.keys.model_fields)
