@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import groupby
 from typing import Any, Final, NoReturn
 
@@ -72,9 +72,14 @@ def keys_in(case: BaseModel) -> dict[str, Key]:
     declared = keys_of(type(case))
     if not any(ANY_NAME in path for path in declared):
         return declared
-    return keys_with_units(
-        expanded(declared, list(_paths(case.model_dump()))), getattr(case, "_units", None) or {}
-    )
+    there = _expanded(type(case), tuple(_paths(case.model_dump())))
+    return keys_with_units(there, getattr(case, "_units", None) or {})
+
+
+@lru_cache(maxsize=8)
+def _expanded(model: type[BaseModel], paths: tuple[str, ...]) -> dict[str, Key]:
+    """Return the keys of a case with these values: large cases are asked for them many times."""
+    return expanded(keys_of(model), paths)
 
 
 def value_at(case: BaseModel, path: str) -> Any:

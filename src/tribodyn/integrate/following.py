@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final
 
@@ -36,7 +37,7 @@ class Followed:
         self.windows = np.append(self.following.windows, [[np.inf, np.inf]], axis=0)
         size = CHUNK if following else 1
         self.times, self.rows = np.empty(size), np.empty((size, n_observed))
-        self._kept: dict[int, Rows] = {}
+        self._kept: dict[int, list[Rows]] = {}
 
     def collect(self, n: int) -> None:
         """Take over the first ``n`` rows."""
@@ -47,7 +48,8 @@ class Followed:
 
     def merged(self, times: FloatArray, rows: FloatArray) -> Rows:
         """Return other rows and those kept, in the order of time."""
-        parts = [(times, rows), *map(self._thinned, self._kept.values())]
+        parts = [(times, rows), *(self._thinned(_joined(kept)) for kept in self._kept.values())]
+        self._kept.clear()
         every = np.concatenate([part[0] for part in parts])
         order = np.argsort(every)
         return every[order], np.concatenate([part[1] for part in parts])[order]
@@ -55,14 +57,13 @@ class Followed:
     def _add(self, k: int, new: Rows) -> None:
         """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
         full = _UNTHINNED * self.following.most
-        kept = self._kept.get(k, (new[0][:0], new[1][:0]))
+        kept = self._kept.setdefault(k, [])
         while new[0].size:
-            room = full - kept[0].size
-            kept = _joined(kept, (new[0][:room], new[1][:room]))
+            room = full - sum(times.size for times, _ in kept)
+            kept.append((new[0][:room], new[1][:room]))
             new = new[0][room:], new[1][room:]
-            if kept[0].size == full:
-                kept = self._thinned(kept)
-        self._kept[k] = kept
+            if sum(times.size for times, _ in kept) == full:
+                kept[:] = [self._thinned(_joined(kept))]
 
     def _thinned(self, rows: Rows) -> Rows:
         """Return what is kept of the rows of a stretch."""
@@ -103,5 +104,6 @@ def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
     return np.unique(np.concatenate(pieces))
 
 
-def _joined(first: Rows, second: Rows) -> Rows:
-    return np.append(first[0], second[0]), np.append(first[1], second[1], axis=0)
+def _joined(parts: Sequence[Rows]) -> Rows:
+    times, rows = zip(*parts, strict=True)
+    return np.concatenate(times), np.concatenate(rows)

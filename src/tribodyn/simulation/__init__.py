@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -11,13 +13,14 @@ from tribodyn.cases.functions import OwnFunction, with_functions
 from tribodyn.cases.groups import Contact
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.linear_algebra import one_thread
 from tribodyn.core.stopping import Stop, asked
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.base import MechanismDescriptor, ResultPart, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
 from tribodyn.simulation.costs import Estimate, estimated
-from tribodyn.simulation.session import Progress, Session
+from tribodyn.simulation.session import Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 
 if TYPE_CHECKING:
@@ -80,11 +83,13 @@ def simulate(
     """
     case = case_of(case)
     # Equations do not depend on the law, and who compiles them could not import it.
-    prepare(case, stop)
-    with asked(stop):
+    session = _prepared(case, stop)
+    with asked(stop), one_thread():
         own = with_functions(case, drive, loads)
         chosen = own if law is None else _with_law(own, law)
-        return _simulated(chosen, progress, stop, None if checkpoint is None else Path(checkpoint))
+        session = session if chosen is case else _session(chosen)
+        session = replace(session, progress=progress, stop=stop)
+        return _simulated(session, None if checkpoint is None else Path(checkpoint))
 
 
 def _with_law(case: Case, law: OwnLaw) -> Case:
@@ -95,13 +100,11 @@ def _with_law(case: Case, law: OwnLaw) -> Case:
     return case.model_copy(update={"contact": contact.with_own(law_of_user(law))})
 
 
-def _simulated(
-    case: Case, progress: Progress = None, stop: Stop = None, checkpoint: Path | None = None
-) -> xr.Dataset:
-    session = _session(case, progress, stop)
+def _simulated(session: Session, checkpoint: Path | None) -> xr.Dataset:
     if not session.mechanism.of_cycle:
-        return session.dataset(session.integrated(case.duration), ResultPart())
-    return simulate_campaign(session, checkpoint) if case.campaign_cycles else simulate_plain(session)
+        return session.dataset(session.integrated(session.case.duration), ResultPart())
+    campaign = cast("Case", session.case).campaign_cycles
+    return simulate_campaign(session, checkpoint) if campaign else simulate_plain(session)
 
 
 def _mechanism(case: Case) -> MechanismDescriptor:
@@ -111,24 +114,33 @@ def _mechanism(case: Case) -> MechanismDescriptor:
     return MECHANISMS[kind]
 
 
-def _session(case: Case, progress: Progress = None, stop: Stop = None) -> Session:
+def _session(case: Case) -> Session:
     mechanism = _mechanism(case)
     known = cast(SystemCase, case)
-    return Session(known, mechanism, mechanism.system(known), progress, stop)
+    return Session(known, mechanism, mechanism.system(known))
 
 
-def _first_steps(case: Case) -> str:
+def _first_steps(session: Session) -> str:
     """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did."""
-    session = _session(case, stop=lambda: True)
-    return str(session.dataset(session.integrated(case.duration), ResultPart()).attrs["failure"])
+    short = replace(session, stop=lambda: True)
+    with one_thread():
+        run = short.integrated(short.case.duration)
+        return str(short.dataset(run, ResultPart()).attrs["failure"])
 
 
 def prepare(case: Case, stop: Stop = None) -> None:
     """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
+    _prepared(case, stop)
+
+
+def _prepared(case: Case, stop: Stop = None) -> Session:
+    """Return a case with its equations loaded and what was found on the way: assembly and start."""
+    session = _session(case)
     with asked(stop):
-        if not loaded(case, _first_steps):
+        if not loaded(case, partial(_first_steps, session)):
             compile_elsewhere(case)
-            loaded(case, _first_steps)
+            loaded(case, partial(_first_steps, session))
+    return session
 
 
 def estimate(case: AnyCase) -> Estimate:
@@ -170,11 +182,12 @@ def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
     """
     case = case_of(case)
     said = case.remarks()
-    remarks = (*said.warnings, *said.notes, *estimate(case).warnings, *_session(case).system.check())
+    session = _session(case)
+    with one_thread():
+        remarks = (*said.warnings, *said.notes, *estimate(case).warnings, *session.system.check())
     if not deep:
         return remarks
-    prepare(case)
-    failure = _first_steps(case)
+    failure = _first_steps(_prepared(case))
     if failure not in ("", INTERRUPTED):
         raise TribodynError(f"a run fails at its first step: {failure}")
     return remarks
@@ -182,14 +195,14 @@ def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
 
 def load_equations(case: Case) -> bool:
     """Load the equations of a case if they are compiled, and tell whether they are."""
-    return loaded(case, _first_steps)
+    return loaded(case, partial(_first_steps, _session(case)))
 
 
 def compile_for_parent() -> None:
     """Compile the case that the parent process hands over into numba's cache: the first step does."""
     from tribodyn.mechanisms.catalogue import parse_case
 
-    _first_steps(parse_case(from_parent(), "case"))
+    _first_steps(_session(parse_case(from_parent(), "case")))
 
 
 __all__ = ["check", "compile_for_parent", "estimate", "load_equations", "prepare", "simulate"]

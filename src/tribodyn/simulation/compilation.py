@@ -23,7 +23,7 @@ from tribodyn.core.stopping import ask
 if TYPE_CHECKING:
     from tribodyn.cases.case import Case
 
-Steps = Callable[["Case"], Any]
+Steps = Callable[[], Any]
 
 _CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent()"
 _LISTEN: Final = 0.1
@@ -58,7 +58,7 @@ def loaded(case: Case, first_steps: Steps) -> bool:
     if choices not in _loaded:
         try:
             with loading_only():
-                first_steps(case)
+                first_steps()
         except NotCompiled:
             return False
         except Stopped:

@@ -8,7 +8,6 @@ from pathlib import Path
 import numba as nb
 import pytest
 
-from tribodyn.cases import Case
 from tribodyn.core import stopping
 from tribodyn.core.errors import Stopped
 from tribodyn.mechanisms.catalogue import load_case
@@ -27,7 +26,7 @@ def never_compiled(number: float) -> float:
     return number
 
 
-def asks_for_compilation(case: Case) -> None:
+def asks_for_compilation() -> None:
     never_compiled(1.0)
 
 
@@ -40,10 +39,10 @@ def test_loading_compiles_nothing() -> None:
 
 
 def test_equations_are_loaded_once_whatever_the_numbers() -> None:
-    runs: list[Case] = []
+    runs: list[None] = []
 
-    def first_steps(case: Case) -> None:
-        runs.append(case)
+    def first_steps() -> None:
+        runs.append(None)
 
     for clearance in ("20 um", "30 um"):
         assert compilation.loaded(CASE.replace({"joint.clearance": clearance}), first_steps)
@@ -53,7 +52,7 @@ def test_equations_are_loaded_once_whatever_the_numbers() -> None:
 
 
 def test_what_is_wrong_with_a_case_is_left_to_the_run() -> None:
-    def first_steps(case: Case) -> None:
+    def first_steps() -> None:
         raise ValueError("wrong")
 
     assert compilation.loaded(CASE, first_steps)

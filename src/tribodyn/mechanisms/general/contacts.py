@@ -18,7 +18,7 @@ from tribodyn.joints.shapes import Ball, Cylinder, Sphere
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
-from tribodyn.kernels.joints.surface.memory import new_memory
+from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 from tribodyn.mechanisms.bushing import loading
 from tribodyn.mechanisms.checks import instant, named, of_contact, of_damping_pressure, of_load
 from tribodyn.mechanisms.general.joints import frame
@@ -127,13 +127,14 @@ class Contacts:
         except Stopped:
             skip()
             return error, np.full(n_surfaces, np.nan)
+        grids = [(grid, new_memory(grid)) for grid in (data, fine)]
         some = np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int))
         for j, (number, clearance) in enumerate(zip(self.numbers, self.clearances, strict=True)):
             if clearance.contact != SURFACE:
                 continue
             own = slice(int(data.joints[j]), int(data.joints[j + 1]))
             poses = [_pose(rows, number, int(row)) for row in some]
-            pairs = [[_force(grid, j, pose, own) for grid in (data, fine)] for pose in poses if not skip()]
+            pairs = [[_force(*grid, j, pose, own) for grid in grids] for pose in poses if not skip()]
             if len(pairs) < len(poses):
                 at_rest[own] = np.nan
                 continue
@@ -142,7 +143,7 @@ class Contacts:
             off = np.max(np.linalg.norm(forces[:, 0] - forces[:, 1], axis=-1), axis=0)
             error[own] = off / largest if largest > 0.0 else 0.0
             hardest = int(np.argmax(rows["pressure_max"][:, number]))
-            at_rest[own] = _reported(fine, j, _pose(rows, number, hardest))["p_max"][own]
+            at_rest[own] = _reported(*grids[1], j, _pose(rows, number, hardest))["p_max"][own]
         return error, at_rest
 
     def _finer(self, data: SurfaceData) -> SurfaceData:
@@ -180,14 +181,13 @@ def _pose(rows: Mapping[str, FloatArray], number: int, row: int) -> Record:
     return pose_at(rows["displacement"][row, number], axes)
 
 
-def _reported(data: SurfaceData, j: int, pose: Record) -> Record:
-    """Return the reports of all surfaces, those of joint ``j`` filled."""
-    memory = new_memory(data)
+def _reported(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> Record:
+    """Return the reports of all surfaces, those of joint ``j`` filled; shafts at rest leave no memory."""
     report(data, memory, j, pose)
     return memory.reports
 
 
-def _force(data: SurfaceData, j: int, pose: Record, own: slice) -> FloatArray:
+def _force(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, own: slice) -> FloatArray:
     """Return the contact force on the surfaces of a joint [N], shape (n, 3)."""
-    reports = _reported(data, j, pose)
+    reports = _reported(data, memory, j, pose)
     return np.stack([reports[name][own] for name in _FORCE], axis=-1)
