@@ -32,6 +32,7 @@ DONE_BY = {
     "run": ("run", *SHORT, "--no-figures"),
     "cases": ("cases",),
     "show": ("show", "vsv"),
+    "new": ("new", "slider-crank"),
     "check": ("check", "vsv"),
     "sweep": ("sweep", *VARIED),
     "find": ("find", *FOUND, "--within", "30", "--workers", "2"),

@@ -36,6 +36,7 @@ from tribodyn.cases.tables import (
     keys_in,
     nested,
     of_components,
+    plain_entries,
     plain_path,
     value_at,
     with_components,
@@ -264,9 +265,7 @@ def build(
     """
     declared = keys_of(model)
     keys = expanded(declared, list(entries))
-    entries = {
-        path if entry.value == {} else plain_path(path, keys): entry for path, entry in entries.items()
-    }
+    entries = plain_entries(entries, keys)
     given = {path: entry for path, entry in entries.items() if not is_empty_table(path, entry, declared)}
     entries = {path: entry for path, entry in given.items() if not is_empty_table(path, entry, keys)}
     faults = Faults(found)
@@ -377,7 +376,9 @@ def _vector(
 
 def beside(model: type[Case], kept: Mapping[str, Entry], new: Mapping[str, Entry]) -> dict[str, Entry]:
     """Return entries with new ones, which take the place of their alternatives too."""
-    pairs = _alternatives(model, expanded(keys_of(model), [*kept, *new]))
+    keys = expanded(keys_of(model), [*kept, *new])
+    kept, new = plain_entries(kept, keys), plain_entries(new, keys)
+    pairs = _alternatives(model, keys)
     taken = {path for pair in pairs if any(path in new for path in pair) for path in pair}
     return {path: entry for path, entry in kept.items() if path not in taken} | dict(new)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import importlib
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from types import NoneType, UnionType
@@ -24,6 +24,7 @@ from tribodyn.cases.units import (
     dimension,
     from_si,
     likely_quantity,
+    likely_unit,
     rms_roughness,
     si_unit,
     to_si,
@@ -39,6 +40,8 @@ ASSUMED = "assumed"
 ANY_NAME = "*"
 """Stands in the path of a key for the name that a user gives a table."""
 
+VALUE = "value"
+"""Key of a table that may be given as that value alone: ``speed = "5000 rpm"`` is ``speed.value``."""
 _BOUNDS = ("gt", "ge", "lt", "le")
 _LONGEST_SHOWN = 60
 _MOST_ELEMENTS = 20
@@ -166,6 +169,8 @@ class Key:
                 raise ValueProblem("")
             return tuple(str(name) for name in found)
         if self.unit:
+            if found and all(_is_bare(element) for element in found):
+                raise ValueProblem(_list_without_unit(self, found))
             return tuple(self._read_quantity(element) for element in found)
         return tuple(
             float(_read_number(_from_text(str(n), "number") if isinstance(n, str) else n, "number"))
@@ -307,10 +312,34 @@ def toml_string(value: str) -> str:
 
 
 def _without_unit(key: Key, value: object) -> str:
-    """Show how a number given without a unit would be spelled with one."""
+    """Show how a number given without a unit would be spelled with one, the unit guessed from its size."""
     likely = likely_quantity(str(value).strip(), key.example, key.unit)
-    where = "" if key.kind in LISTS else f"{key.name} = "
-    return f'the unit is missing, as in {where}"{likely}"'
+    return f'the unit is missing, probably {_as_written(key)} = "{likely}"'
+
+
+def _list_without_unit(key: Key, numbers: Sequence[object]) -> str:
+    """Show how numbers given without a unit would be spelled with one, guessed from the largest."""
+    example = [str(part) for part in elements(key.example, key.unit) or [""]]
+    typical = max(example, key=lambda text: abs(to_si(text, key.unit)))
+    largest = max((str(number).strip() for number in numbers), key=lambda text: abs(float(text)))
+    given = ", ".join(str(number).strip() for number in numbers)
+    unit = likely_unit(largest, typical, key.unit)
+    return f'the unit is missing, probably {_as_written(key)} = "{brief(given)} {unit}"'
+
+
+def _as_written(key: Key) -> str:
+    """Return the name of a key as a user writes it: ``speed`` for ``speed.value``."""
+    return key.table.rpartition(".")[2] if key.name == VALUE else key.name
+
+
+def _is_bare(value: object) -> bool:
+    """Tell whether a value is a finite number without a unit, also as text."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        return False
+    try:
+        return math.isfinite(float(value))
+    except (ValueError, OverflowError):
+        return False
 
 
 def _not_tiny(value: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
@@ -42,6 +42,9 @@ class BuiltIn:
     origins: Mapping[str, str] = field(default_factory=dict)
 
 
+_FILE: Final = ".toml"
+"""Ending of the name of a case file."""
+_MOST_BASES: Final = 8
 _LONGEST_LINE: Final = 200
 _BARE: Final = re.compile(
     r"\s*([A-Za-z0-9_.-]+)\s*=\s*"
@@ -85,7 +88,8 @@ def read_case(
         model, given = built_in[case].model, _given(case, built_in[case])
         return build(model, _changed(model, given, changes), f"built-in case {case}")
     name = os.fspath(case)
-    return parse(_text(name, built_in), name, kinds, Path(name).parent, built_in, changes)
+    model, given = _of_file(name, Known(kinds, built_in))
+    return build(model, _changed(model, given, changes), name)
 
 
 def parse(
@@ -113,39 +117,86 @@ def parse(
     changes
         As for :func:`read_case`.
     """
+    model, given = _of_text(text, source, folder, Known(kinds, built_in))
+    return build(model, _changed(model, given, changes), source)
+
+
+@dataclass(frozen=True)
+class Known:
+    """What the key ``case`` of a file may name.
+
+    Attributes
+    ----------
+    kinds
+        Kinds of cases.
+    built_in
+        Cases by name.
+    files
+        Files that began with one another, the first one first; empty where no file may be named, because the
+        text comes from elsewhere.
+    """
+
+    kinds: Kinds
+    built_in: Mapping[str, BuiltIn]
+    files: tuple[str, ...] = ()
+
+
+def _of_file(name: str, known: Known) -> tuple[type[Case], dict[str, Entry]]:
+    """Return the kind of case and the entries of a file, and of those that it begins with."""
+    known = replace(known, files=(*known.files, name))
+    return _of_text(_text(name, known.built_in), name, Path(name).parent, known)
+
+
+def _of_text(
+    text: str, source: str, folder: Path | None, known: Known
+) -> tuple[type[Case], dict[str, Entry]]:
+    """Return the kind of case and the entries of a text, and of what it begins with."""
     entries = {path: Entry(value, source, folder=folder) for path, value in flat(_tables(text, source))}
     if not entries:
         raise InputError(
-            f"the file is empty; `tribodyn show {next(iter(kinds))}` prints a complete one", source=source
+            f"the file is empty; `tribodyn show {next(iter(known.kinds))}` prints a complete one",
+            source=source,
         )
-    model, given = _begun(entries, kinds, built_in, source)
+    model, given = _begun(entries, known, source)
     del entries["case"]
-    return build(model, _changed(model, beside(model, given, entries), changes), source)
+    return model, beside(model, given, entries)
 
 
 def _changed(model: type[Case], entries: dict[str, Entry], changes: Mapping[str, Entry]) -> dict[str, Entry]:
     return beside(model, entries, changes) if changes else entries
 
 
-def _begun(
-    entries: Mapping[str, Entry], kinds: Kinds, built_in: Mapping[str, BuiltIn], source: str
-) -> tuple[type[Case], dict[str, Entry]]:
-    """Return the kind of case that the key ``case`` names, and what a built-in one of this name gives."""
-    known = dict.fromkeys([*kinds, *built_in])
-    allowed = ", ".join(known)
+def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[type[Case], dict[str, Entry]]:
+    """Return the kind of case that the key ``case`` names, and what a built-in case or a file gives."""
+    names = dict.fromkeys([*known.kinds, *known.built_in])
+    allowed = ", ".join(names)
     if "case" not in entries:
-        raise InputError(
-            f'this key is missing; write case = "{next(iter(kinds))}" at the top; known: {allowed}',
-            key="case",
-            source=source,
-        )
+        first = next(iter(known.kinds))
+        words = f'this key is missing; write case = "{first}" at the top; known: {allowed}'
+        raise InputError(words, key="case", source=source)
     name = entries["case"].value
-    if not isinstance(name, str) or name not in known:
-        hint = meant(str(name), known)
-        raise InputError(f"given {shown(name)}; allowed: {allowed}{hint}", key="case", source=source)
-    if name in kinds:
-        return kinds[name], {"case": entries["case"]}
-    return built_in[name].model, _given(name, built_in[name])
+    if isinstance(name, str) and name.endswith(_FILE) and known.files:
+        return _base(name, entries["case"], known)
+    if not isinstance(name, str) or name not in names:
+        files = ", or another case file" if known.files else ""
+        hint = meant(str(name), names)
+        raise InputError(f"given {shown(name)}; allowed: {allowed}{files}{hint}", key="case", source=source)
+    if name in known.kinds:
+        return known.kinds[name], {"case": entries["case"]}
+    return known.built_in[name].model, _given(name, known.built_in[name])
+
+
+def _base(name: str, entry: Entry, known: Known) -> tuple[type[Case], dict[str, Entry]]:
+    """Return what the case file gives that another one begins with."""
+    path = os.fspath((entry.folder or Path()) / name)
+    if path in known.files:
+        raise InputError(
+            f"given {shown(name)}: this file begins with itself", key="case", source=entry.source
+        )
+    if len(known.files) > _MOST_BASES:
+        words = f"given {shown(name)}: more than {_MOST_BASES} files begin with one another"
+        raise InputError(words, key="case", source=entry.source)
+    return _of_file(path, known)
 
 
 def _given(name: str, case: BuiltIn) -> dict[str, Entry]:

@@ -15,6 +15,7 @@ from tribodyn.cases.keys import ANY_NAME, Key, shown
 from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name
 from tribodyn.core.errors import MOST_HINTS, InputError
 from tribodyn.core.quoting import closest
+from tribodyn.core.synonyms import meanings
 
 _ALL_KEYS: Final = "`tribodyn show` lists all keys"
 _LONGEST: Final = 200
@@ -57,23 +58,33 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
     below = sorted({_shown(key.table) for key in declared.values() if key.table.startswith(f"{table}.")})
     if below:
         return f"this holds only tables: {', '.join(below)}"
-    near = _nearest_key(path, {**declared, **keys})
-    return "unknown key" + (f"; the nearest valid one is {_shown(near)}" if near else f"; {_ALL_KEYS}")
+    return f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
 
 
 def _shown(path: str) -> str:
     return path.replace(ANY_NAME, "NAME")
 
 
-def _nearest_key(path: str, keys: Mapping[str, Key]) -> str | None:
-    """Return the key that was probably meant: one of the same table first, then the same name."""
+def _nearest(path: str, keys: Mapping[str, Key]) -> str:
+    """Return what was probably meant: a key of the same table, a table by another word, the same name."""
     table, _, name = path.rpartition(".")
     siblings = {key.name: key.path for key in keys.values() if key.table == table}
+    tables = {key.table for key in keys.values()}
+    beside = {word: f"{table}.{word}" for word in meanings(name) if f"{table}.{word}" in tables}
     near = difflib.get_close_matches(name[:80], list(siblings), n=1, cutoff=0.6)
+    near = near or [word for word in meanings(name) if word in siblings or word in beside]
     if near:
-        return siblings[near[0]]
+        return _nearest_valid((siblings | beside)[near[0]])
+    named = next((word for word in meanings(name) if f"{word}.{ANY_NAME}" in tables), None)
+    if named is not None:
+        return f"write a table [{named}.NAME]"
     elsewhere = [key.path for key in keys.values() if key.name == name]
-    return closest(path, elsewhere or keys) or (elsewhere[0] if elsewhere else None)
+    meant = closest(path, elsewhere or keys) or next(iter(elsewhere), None)
+    return _nearest_valid(meant) if meant else ""
+
+
+def _nearest_valid(path: str) -> str:
+    return f"the nearest valid one is {_shown(path)}"
 
 
 @dataclass(frozen=True)

@@ -16,13 +16,11 @@ from typing import Any, Final, NoReturn
 from pydantic import BaseModel
 
 from tribodyn.cases.entry import Entry
-from tribodyn.cases.keys import ANY_NAME, Key, Value, groups_of, keys_of
+from tribodyn.cases.keys import ANY_NAME, VALUE, Key, Value, groups_of, keys_of
 from tribodyn.cases.lists import AXES
 from tribodyn.cases.parameters import keys_with_units
 from tribodyn.cases.units import from_si
 
-VALUE: Final = "value"
-"""Key of a table that may be given as that value alone: ``speed = "5000 rpm"`` is ``speed.value``."""
 FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns a changed copy'
 """What is told whoever tries to change a case."""
 LONGEST_NAME: Final = 40
@@ -116,6 +114,11 @@ def with_components(keys: Mapping[str, Key]) -> dict[str, Key]:
 def plain_path(path: str, keys: Mapping[str, Key]) -> str:
     """Return the path of the key that a path means: a table that has a key ``value`` stands for it."""
     return f"{path}.{VALUE}" if path not in keys and f"{path}.{VALUE}" in keys else path
+
+
+def plain_entries(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
+    """Return entries by the paths of the keys that their paths mean; empty tables keep their paths."""
+    return {path if entry.value == {} else plain_path(path, keys): entry for path, entry in entries.items()}
 
 
 def of_components(path: str, text: str, key: Key, value: Sequence[float]) -> list[str]:

@@ -69,6 +69,8 @@ SI_UNITS: Final = tuple(_DIMENSIONS)
 
 RZ_OVER_RA: Final = 5.6
 """No constant: tables for workshops have 4 (firgelliauto.com) to 7.2 (frictioncalculator.com)."""
+_ROUND: Final = 3
+"""Characters that a number may gain in another unit; with more it is not a round number there."""
 _GAUSSIAN: Final = math.sqrt(math.pi / 2.0)
 AMPLITUDES: Final = {
     "Rq": 1.0,
@@ -216,28 +218,41 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def likely_quantity(number: str, example: str, unit: str) -> str:
-    """Return a number that was given without a unit with the one it was probably meant in.
+def likely_unit(number: str, example: str, unit: str) -> str:
+    """Return the unit in which a number was probably meant that was given without one.
 
     Parameters
     ----------
     number
         As it was given.
     example
-        A likely quantity. Of the readings in ``unit`` and in SI units the one nearer to it is taken.
+        A likely quantity.
     unit
-        In which such a quantity is shown.
+        In which such a quantity is shown; returned unless the number is nearer to the example in SI units.
     """
-    in_unit = f"{brief(number)} {unit}"
     try:
         likely, first, second = (
-            to_si(text, unit) for text in (example, in_unit, f"{number} {si_unit(unit)}")
+            to_si(text, unit) for text in (example, f"{number} {unit}", f"{number} {si_unit(unit)}")
         )
     except UnitProblem:
-        return in_unit
+        return unit
     if 0.0 in (likely, first, second) or _apart(first, likely) <= _apart(second, likely):
-        return in_unit
-    return from_si(second, unit)
+        return unit
+    return si_unit(unit)
+
+
+def likely_quantity(number: str, example: str, unit: str) -> str:
+    """Return a number that was given without a unit with the one it was probably meant in.
+
+    ``number``, ``example`` and ``unit`` are those of :func:`likely_unit`. The quantity is written in ``unit``
+    where that is as short.
+    """
+    likely = likely_unit(number, example, unit)
+    given = f"{brief(number)} {likely}"
+    if likely == unit:
+        return given
+    written = from_si(to_si(f"{number} {likely}", unit), unit)
+    return written if len(written) <= len(given) + _ROUND else given
 
 
 def _apart(a: float, b: float) -> float:

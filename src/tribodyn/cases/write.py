@@ -11,9 +11,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from tribodyn.cases.keys import ANY_NAME, ASSUMED, Key, keys_of, toml_string
+from tribodyn.cases.keys import ANY_NAME, ASSUMED, VALUE, Key, keys_of, toml_string
 from tribodyn.cases.parameters import TABLE as PARAMETERS
-from tribodyn.cases.tables import VALUE, as_declared, keys_in, value_at
+from tribodyn.cases.tables import as_declared, keys_in, value_at
 
 _COMMENT_COLUMN = 38
 _LONGEST_LINE = 120
@@ -54,6 +54,20 @@ def to_toml(
     return "\n".join(lines) + "\n"
 
 
+def keys_as_toml(model: type[BaseModel], kind: str) -> str:
+    """Return every key of a kind of case as commented TOML, with its default or an example."""
+    declared = keys_of(model)
+    top = (key for key in declared.values() if not key.table and key.name != "case")
+    lines = [line for key in top for line in _declared(key)]
+    return "\n".join([*_head(kind), f'case = "{kind}"', *lines, *_not_there(declared, ())]) + "\n"
+
+
+def _declared(key: Key) -> Iterator[str]:
+    """Yield a key that a case does not have, commented out, with its default or an example."""
+    value = _example(key) if key.default is None else key.write(key.default)
+    yield from _commented(f"# {key.name} = {value}", key)
+
+
 def _shortened(tables: Mapping[str, list[str]]) -> dict[str, list[str]]:
     """Return the lines of tables; one that holds only its ``value`` is a line of the table above it."""
     short: dict[str, list[str]] = {}
@@ -74,7 +88,7 @@ def _is_there(case: BaseModel, table: str) -> bool:
 def _head(kind: str) -> Iterator[str]:
     yield f'# All keys of a "{kind}" case. Copy, edit, then: tribodyn run FILE.toml'
     yield '# Values with a unit are text, "20 um"; others are bare. Keys left out take their defaults.'
-    yield f"# {_ASSUMED}: the paper does not give this value."
+    yield f"# {_ASSUMED}: a value without a source."
     yield ""
 
 
@@ -119,8 +133,7 @@ def _not_there(declared: Mapping[str, Key], tables: Collection[str]) -> Iterator
         if table and table not in tables:
             yield from ("", f"# [{table.replace(ANY_NAME, 'NAME')}]")
             for key in own:
-                value = _example(key) if key.default is None else key.write(key.default)
-                yield from _commented(f"# {key.name} = {value}", key)
+                yield from _declared(key)
 
 
 def _commented(line: str, key: Key, *, own: bool = False) -> Iterator[str]:

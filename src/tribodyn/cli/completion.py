@@ -62,6 +62,12 @@ def _cases(prefix: str, **_: object) -> list[str]:
     return [*built_in(), *files]
 
 
+def _templates(**_: object) -> list[str]:
+    from tribodyn.mechanisms.catalogue import templates
+
+    return list(templates())
+
+
 def _keys(parsed_args: Namespace) -> dict[str, Key]:
     """Return the keys of the case that stands on the command line so far."""
     from tribodyn.cases.tables import keys_in, with_components
@@ -104,6 +110,7 @@ COMPLETERS: Final[dict[str, Callable[..., list[str]]]] = {
     "solver": _names("tribodyn.integrate", "SOLVERS"),
     "law": _names("tribodyn.contact", "LAWS"),
     "names": _names("tribodyn.cases.materials", "MATERIALS"),
+    "template": _templates,
     "shell": _names("tribodyn.cli.completion", "SHELLS"),
 }
 """What completes an argument, by its name in the parser; choices and files complete themselves."""

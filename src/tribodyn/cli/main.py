@@ -21,6 +21,7 @@ from tribodyn.cli import (
     fit,
     log,
     materials,
+    new,
     report,
     reproduce,
     run,
@@ -55,6 +56,7 @@ class Command(Protocol):
 COMMANDS: Final[dict[str, Command]] = {
     "run": run,
     "cases": cases,
+    "new": new,
     "show": show,
     "check": check,
     "sweep": sweep,
@@ -78,6 +80,7 @@ COMMANDS: Final[dict[str, Command]] = {
 _EXAMPLES: Final = {
     "run": "tribodyn run vsv --set joint.clearance='25 um' -o wide",
     "cases": "tribodyn cases",
+    "new": "tribodyn new slider-crank mine.toml",
     "show": "tribodyn show vsv > mine.toml",
     "check": "tribodyn check vsv --deep",
     "sweep": "tribodyn sweep vsv --vary joint.clearance='20 um:40 um:5 um' --workers 2",
@@ -101,7 +104,7 @@ _EPILOG: Final = """\
 examples:
   tribodyn run vsv
   tribodyn run vsv --set joint.clearance="25 um" -o wide
-  tribodyn show vsv > mine.toml && tribodyn run mine.toml
+  tribodyn new slider-crank mine.toml && tribodyn run mine.toml
   tribodyn sweep vsv --vary joint.clearance="20 um:40 um:5 um" --vary mechanism.formulation=exact,paper
 
 exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, nothing is written

@@ -1,13 +1,13 @@
-"""``tribodyn show``: print the whole resolved case as commented TOML."""
+"""``tribodyn show``: print the whole resolved case, or all keys of a kind of case, as commented TOML."""
 
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
+from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
 from tribodyn.cli.console import show_json
 
-HELP = "print a case with every key explained, as TOML: copy it, edit it, run it"
+HELP = "print a case with every key explained, as TOML; `show mechanism` lists all keys of such a case"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -16,10 +16,28 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def execute(args: Namespace) -> int:
-    """Print the case."""
+    """Print the case, or the keys of a kind."""
+    from tribodyn.mechanisms.catalogue import built_in, kinds
+
+    if args.case in kinds() and args.case not in built_in() and not changes(args):
+        return _show_keys(args)
     case = chosen_case(args)
     if args.json:
         show_json(case.model_dump())
     else:
         print(case.to_toml(comments=True), end="")
+    return 0
+
+
+def _show_keys(args: Namespace) -> int:
+    """Print all keys of a kind of case."""
+    from tribodyn.cases.keys import keys_of
+    from tribodyn.cases.write import keys_as_toml
+    from tribodyn.mechanisms.catalogue import kinds
+
+    model = kinds()[args.case]
+    if args.json:
+        show_json({path: key.description for path, key in keys_of(model).items()})
+    else:
+        print(keys_as_toml(model, args.case), end="")
     return 0

@@ -6,10 +6,14 @@ import os
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Final
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.views.numbers import rounded
+
+if TYPE_CHECKING:
+    from tribodyn.results.summary import Headline
 
 _SHOWN_IN_FULL: Final = (1e4, 1e9)
 _GREY: Final = "\x1b[2m"
@@ -39,13 +43,49 @@ def grey(text: str, doubt: object) -> str:
 
 
 def _numbers(summary: Mapping[str, object]) -> Iterator[str]:
+    """Give a line for each number of the whole, and a table for those of several parts, such as joints."""
     from tribodyn.mechanisms.results import known
 
     headlines = known(summary, str(summary.get("kind", "")))
+    groups = groupby(headlines.items(), key=lambda item: item[1].group if item[1].part else "")
+    for number, (part, items) in enumerate(groups):
+        group = dict(items)
+        yield from [""] if number else []
+        yield from _parts(part, group, summary) if part else _lines(group, summary)
+
+
+def _lines(headlines: Mapping[str, Headline], summary: Mapping[str, object]) -> Iterator[str]:
     labels = {name: headline.label_in(summary) for name, headline in headlines.items()}
     width = max(map(len, labels.values()), default=0)
     for name, headline in headlines.items():
         yield f"  {labels[name]:<{width}}  {_number(summary[name], headline.digits)} {headline.unit}".rstrip()
+
+
+def _parts(group: str, headlines: Mapping[str, Headline], summary: Mapping[str, object]) -> Iterator[str]:
+    """Give a table with a row for each part and a column for each quantity."""
+    columns = {f"{h.column_in(summary)} {h.unit}".strip(): "" for h in headlines.values()}
+    cells = {
+        (h.part, f"{h.column_in(summary)} {h.unit}".strip()): _number(summary[name], h.digits)
+        for name, h in headlines.items()
+    }
+    parts = dict.fromkeys(h.part for h in headlines.values())
+    width = max(map(len, (group, *parts)))
+    for number, shown in enumerate(_blocks(columns, width)):
+        yield from [""] if number else []
+        yield from (f"  {line}" for line in _heading({group: (group, width)}, {name: name for name in shown}))
+        for part in parts:
+            row = (f"{cells.get((part, name), '–'):>{_COLUMN}}" for name in shown)
+            yield f"  {part:<{width}}  {'  '.join(row)}"
+
+
+def _blocks(columns: Iterable[str], taken: int) -> Iterator[list[str]]:
+    """Yield the columns in pieces that fit into the terminal beside what is taken, of nearly one size."""
+    left = list(columns)
+    most = max((shutil.get_terminal_size((120, 40)).columns - taken - 4) // (_COLUMN + 2), 1)
+    pieces = max(-(-len(left) // most), 1)
+    each = -(-len(left) // pieces)
+    for begin in range(0, len(left), max(each, 1)):
+        yield left[begin : begin + each]
 
 
 def _number(value: object, digits: int) -> str:
@@ -154,14 +194,18 @@ def _headlines(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str
 
 def _points(points: Sequence[Mapping[str, Any]], numbers: Mapping[str, str], *, every: bool) -> Iterator[str]:
     widths = {name: _width(name, points) for name in points[0]["changes"]}
-    room = shutil.get_terminal_size((120, 40)).columns - sum(widths.values()) - 2 * len(widths)
-    shown = dict(list(numbers.items())[: None if every else max(room // (_COLUMN + 2), 1)])
-    yield from _heading({name: (name.replace(".", " "), width) for name, width in widths.items()}, shown)
-    for point in points[:_MOST_ROWS]:
-        changes = (f"{point['changes'][name]:<{width}.{width}}" for name, width in widths.items())
-        yield "  ".join([*changes, *(grey(cell, point.get("doubtful")) for cell in _cells(point, shown))])
+    headings = {name: (name.replace(".", " "), width) for name, width in widths.items()}
+    pieces = list(_blocks(numbers, sum(widths.values()) + 2 * len(widths) - 4)) or [[]]
+    for piece in pieces if every else pieces[:1]:
+        shown = {name: numbers[name] for name in piece}
+        yield from _heading(headings, shown)
+        for point in points[:_MOST_ROWS]:
+            changes = (f"{point['changes'][name]:<{width}.{width}}" for name, width in widths.items())
+            yield "  ".join([*changes, *(grey(cell, point.get("doubtful")) for cell in _cells(point, shown))])
     if len(points) > _MOST_ROWS:
         yield f"... {len(points) - _MOST_ROWS} more points"
+    if len(pieces) > 1 and not every:
+        yield f"... {len(numbers) - len(pieces[0])} more numbers in sweep.json; --show NAMES prints them"
 
 
 def _width(name: str, points: Sequence[Mapping[str, Any]]) -> int:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Collection
 from typing import Final
+
+from tribodyn.core.synonyms import meanings
 
 LONGEST: Final = 80
 """Characters of a given text that a message repeats at most."""
@@ -42,14 +44,17 @@ def as_given(text: str) -> str:
     return f'given "{brief(text)}"'
 
 
-def meant(word: str, words: Iterable[str]) -> str:
+def meant(word: str, words: Collection[str]) -> str:
     """Return the end of a message that says which of `words` was probably meant, empty where none is near."""
     near = closest(word, words)
     return f'; did you mean "{near}"?' if near else ""
 
 
-def closest(word: str, words: Iterable[str]) -> str | None:
-    """Return the one of `words` that is spelled most like `word` in capital or small letters, if any is."""
+def closest(word: str, words: Collection[str]) -> str | None:
+    """Return the one of `words` that means the same as `word`, or is spelled most like it, if any is."""
+    synonym = next((other for other in meanings(word) if other in words), None)
+    if synonym is not None:
+        return synonym
     by_letters = {other.casefold(): other for other in words}
     found = difflib.get_close_matches(word[:80].casefold(), by_letters, n=1, cutoff=0.5)
     return by_letters[found[0]] if found else None

@@ -294,6 +294,8 @@ class MechanismDescriptor:
         Its case model.
     built_in
         Cases that can be run by name.
+    templates
+        Texts of case files that ``tribodyn new`` copies, by name.
     variables
         Quantities of its results beside those that every result has, by name.
     headlines
@@ -319,6 +321,7 @@ class MechanismDescriptor:
     headlines: Mapping[str, Headline]
     key_numbers: tuple[str, ...]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
+    templates: Mapping[str, str] = field(default_factory=dict)
     by_part: Mapping[str, Mapping[str, ByPart]] = field(default_factory=dict)
     controls: tuple[str, ...] = ()
     bearings: str = ""

@@ -19,8 +19,9 @@ from tribodyn.cases import load
 from tribodyn.cases.case import Case
 from tribodyn.cases.entry import Entry
 from tribodyn.cases.load import BuiltIn
+from tribodyn.core import toml
 from tribodyn.core.errors import InputError
-from tribodyn.core.quoting import brief
+from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.base import MechanismDescriptor
 
 FOLDERS: Final = (
@@ -109,6 +110,31 @@ def load_case(
         given = {path: Entry(value, source, text=True) for path, value in changes.items()}
         found = load.read_case(case, kinds(), built_in(), given)
     return found.replace(changes, source=source) if changes else found
+
+
+def templates() -> dict[str, str]:
+    """Return the titles of the case files that ``tribodyn new`` writes, by name."""
+    own = {name: text for mechanism in MECHANISMS.values() for name, text in mechanism.templates.items()}
+    titles = {name: str(toml.parse(text)["title"]) for name, text in own.items()}
+    return {**titles, **{name: case.summary for name, case in built_in().items() if name not in own}}
+
+
+def template(name: str) -> str:
+    """Return the text of a case file that ``tribodyn new`` writes.
+
+    Raises
+    ------
+    InputError
+        There is no such template.
+    """
+    for mechanism in MECHANISMS.values():
+        if name in mechanism.templates:
+            return mechanism.templates[name]
+    if name in built_in():
+        return load_case(name).to_toml(comments=True)
+    known = templates()
+    words = f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}"
+    raise InputError(words, key="TEMPLATE")
 
 
 class Described(Protocol):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -38,6 +38,10 @@ class Headline:
         Of a peak, the name of the headline number that says in how much of the motion it was looked for.
     span
         That in words; a plural s follows them.
+    part
+        Of one of several parts, such as joints, its name.
+    column
+        Label without the name of the part: the heading of a column, where each part has a row.
     """
 
     label: str
@@ -49,13 +53,28 @@ class Headline:
     digits: int = 3
     over: str = ""
     span: str = "after {} reversal"
+    part: str = ""
+    column: str = ""
 
     def label_in(self, summary: Mapping[str, object]) -> str:
         """Return the label in a summary: a peak says in how much of the motion it was looked for."""
+        if not self.part:
+            return self.label + self._span_in(summary)
+        return f"{self.column_in(summary)}, {self.part}"
+
+    def column_in(self, summary: Mapping[str, object]) -> str:
+        """Return the heading of the column in a summary."""
+        return self.column + self._span_in(summary)
+
+    def _span_in(self, summary: Mapping[str, object]) -> str:
         if self.over not in summary:
-            return self.label
+            return ""
         n = summary[self.over]
-        return f"{self.label} {self.span.format(n)}" + ("" if n == 1 else "s")
+        return f" {self.span.format(n)}" + ("" if n == 1 else "s")
+
+    def of_part(self, part: str) -> Headline:
+        """Return the number as that of a part with a name."""
+        return replace(self, label=f"{self.label}, {part}", part=part, column=self.label)
 
 
 Summary: TypeAlias = dict[str, float | int | str | list[str]]

@@ -9,9 +9,9 @@ from fnmatch import fnmatchcase
 from typing import Any, Final
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.keys import Key, Value
+from tribodyn.cases.keys import VALUE, Key, Value
 from tribodyn.cases.lists import LISTS
-from tribodyn.cases.tables import VALUE, Tables, keys_in, with_components
+from tribodyn.cases.tables import Tables, keys_in, with_components
 from tribodyn.cases.units import number_in
 from tribodyn.studies.variation import written
 from tribodyn.workbench.ranges import track

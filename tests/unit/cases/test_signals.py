@@ -147,7 +147,7 @@ def test_straight_lines_have_a_kink_at_every_row() -> None:
         ('force = { value = "1 N", table = "gas.csv" }', "not both"),
         ('force = { table = "none.csv" }', "no such file"),
         ('force = "2 m"', "not a unit of force"),
-        ("force = 2", 'the unit is missing, as in value = "2 N"'),
+        ("force = 2", 'the unit is missing, probably force = "2 N"'),
     ],
 )
 def test_what_no_signal_can_be_is_refused(text: str, words: str, tmp_path: Path) -> None:

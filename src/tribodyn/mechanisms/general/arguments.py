@@ -9,8 +9,7 @@ from typing import Final
 
 from pydantic import BaseModel
 
-from tribodyn.cases.keys import ANY_NAME, Key, groups_of, keys_of
-from tribodyn.cases.tables import VALUE
+from tribodyn.cases.keys import ANY_NAME, VALUE, Key, groups_of, keys_of
 from tribodyn.mechanisms.general.case import MechanismCase
 
 CASE: Final = "case"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.resources import files
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn, flat
@@ -11,22 +10,22 @@ from tribodyn.core import toml
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.headlines import BY_JOINT, HEADLINES, KEY_NUMBERS
+from tribodyn.mechanisms.general.library import BUILT_IN, TEMPLATES
 from tribodyn.mechanisms.general.output_numbers import BY_OUTPUT
 from tribodyn.mechanisms.general.variables import OF_CYCLE, VARIABLES
 
 
 def _built_in() -> Iterator[tuple[str, BuiltIn]]:
-    """Yield the cases of the folder ``built_in`` by the names of their files, with their titles."""
-    folder = files(__package__).joinpath("built_in")
-    for file in sorted(folder.iterdir(), key=lambda file: file.name):
-        given = dict(flat(toml.parse(file.read_text(encoding="utf-8"))))
-        yield file.name.removesuffix(".toml"), BuiltIn(MechanismCase, str(given["title"]), given)
+    """Yield the built-in cases by the names of their files, with their titles."""
+    for name, file in BUILT_IN.items():
+        yield name, BuiltIn(MechanismCase, file.title, dict(flat(toml.parse(file.text))))
 
 
 MECHANISM: Final = MechanismDescriptor(
     folder="tribodyn.mechanisms.general",
     case=MechanismCase,
     built_in=dict(_built_in()),
+    templates={name: template.text for name, template in TEMPLATES.items()},
     variables=VARIABLES,
     headlines=HEADLINES,
     key_numbers=KEY_NUMBERS,

@@ -18,12 +18,12 @@ from tribodyn.results.reading import column, in_settled, peak, period, settled, 
 from tribodyn.results.summary import Headline
 
 SHORT: Final = 0.01
-"""Share of the time that blows may last; what is exceeded no longer counts as lasting."""
+"""Share of the time that impacts may last; a sustained maximum leaves it out."""
 _ROUNDING: Final = 1e-9
 
 
 def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
-    """Return the largest size that is not that of a blow: one that is exceeded for a hundredth of the time.
+    """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
 
 
 def _cycles(dataset: xr.Dataset) -> float:
-    """Return how many whole cycles are looked at; NaN where there is none."""
+    """Return the number of whole cycles evaluated; NaN for none."""
     whole = math.floor(column(dataset, "time")[-1] / period(dataset) + _ROUNDING)
     return _above_zero(whole if in_settled(dataset)[0] else whole - 1)
 
@@ -75,7 +75,7 @@ def offset(dataset: xr.Dataset) -> FloatArray:
 
 
 def _power(dataset: xr.Dataset) -> float:
-    """Return the mean power put in [W]: by the ledger what was stored and what became heat.
+    """Return the mean power put in [W]: the rate of stored energy and heat by the energy balance.
 
     The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
     """
@@ -95,14 +95,14 @@ def _pair(
     *,
     scale: float = 1.0,
 ) -> dict[str, Headline]:
-    """Return a maximum without the blows and one with them, by their names.
+    """Return the sustained maximum and the peak with impacts, by their names.
 
     Parameters
     ----------
     names
         Of the two.
     label, unit, group, meaning
-        As of a :class:`~tribodyn.results.summary.Headline`; the meaning goes on with "but for ...".
+        As of a :class:`~tribodyn.results.summary.Headline`; the meaning ends in the share of time.
     values
         The quantities over time, shape (n_t,) or (n_t, n).
     scale
@@ -111,17 +111,17 @@ def _pair(
     quiet, loud = names
     return {
         quiet: Headline(
-            f"{label}, lasting",
+            f"{label}, sustained",
             unit,
             group,
-            f"{meaning}, but for the hardest hundredth of the time.",
+            f"{meaning} for 99 % of the time; impacts excluded.",
             lambda d: _above_zero(lasting(d, values(d))) * scale,
         ),
         loud: Headline(
             f"{label}, peak",
             unit,
             group,
-            "The same at any step of the integration, blows of shafts against their sockets among them.",
+            "Largest value at any step of the integration, impacts included.",
             lambda d: _above_zero(peak(settled(d, values(d)))) * scale,
             over="cycles",
             span="over {} cycle",
@@ -131,10 +131,10 @@ def _pair(
 
 HEADLINES: Final[dict[str, Headline]] = {
     "cycles": Headline(
-        "Cycles held",
+        "Cycles evaluated",
         "",
         "Load",
-        "Whole cycles that peaks are taken over: of several not the first, in which the start dies away.",
+        "Whole cycles that peaks are taken over; of several, the first is left out as transient.",
         _cycles,
         count=True,
     ),
@@ -160,7 +160,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Drive moment",
         "N m",
         "Drive",
-        "What a motor must give",
+        "Largest moment of a motor",
         lambda d: column(d, "drive_moment"),
     ),
     **_pair(
@@ -168,24 +168,24 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Drive force",
         "N",
         "Drive",
-        "What an actuator must give",
+        "Largest force of an actuator",
         lambda d: column(d, "drive_force"),
     ),
     "power_mean_W": Headline(
-        "Power put in, mean", "W", "Drive", "What drives and loads give over the time of the run.", _power
+        "Power put in, mean", "W", "Drive", "Mean power of drives and loads over the run.", _power
     ),
     "offset_max_um": Headline(
         "Offset in a joint, largest",
         "µm",
         "Accuracy",
-        "How far a shaft leaves the middle of its bore.",
+        "Largest distance of a pin from the centre of its bore.",
         lambda d: peak(settled(d, offset(d))) * 1e6,
     ),
     "friction_heat_J": Headline(
         "Friction heat",
         "J",
         "Loss",
-        "What friction in all joints turned into heat.",
+        "Heat of friction in all joints over the run.",
         lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
     ),
     "film_pressure_max_MPa": Headline(
@@ -199,28 +199,28 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Film thickness, smallest",
         "µm",
         "Oil film",
-        "Smallest gap of any oil film; within a few roughnesses asperities carry, too.",
+        "Smallest gap of any oil film; below a few rms roughnesses asperities carry a part of the load.",
         lambda d: _least(settled(d, column(d, "film_thickness_min"))) * 1e6,
     ),
     "film_power_mean_W": Headline(
         "Film friction power, mean",
         "W",
         "Oil film",
-        "Mean power that all oil films turn into heat.",
+        "Mean power that all oil films dissipate.",
         lambda d: time_mean(d, np.nansum(column(d, "film_power"), axis=1)),
     ),
     "wear_depth_max_nm": Headline(
         "Wear depth, largest",
         "nm",
         "Wear",
-        "What is worn off at the deepest point of any joint.",
+        "Largest wear depth of any joint.",
         lambda d: peak(column(d, "wear_depth")) * 1e9,
     ),
     "cycle_scatter_percent": Headline(
         "Scatter of the cycles",
         "%",
         "Trust",
-        "By how much the largest force of one cycle differs from that of another, three cycles and more.",
+        "Range of the largest forces of single cycles over their mean; needs three cycles.",
         _scatter,
         digits=2,
     ),
@@ -228,7 +228,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Energy residual",
         "%",
         "Trust",
-        "What the energy ledger misses, of its largest term.",
+        "Error of the energy balance over its largest term.",
         lambda d: 100.0 * float(d.attrs["energy_residual"]),
     ),
 }
@@ -249,7 +249,7 @@ def _least(values: FloatArray) -> float:
 
 
 def _above_zero(value: float) -> float:
-    """Return a number that is zero only where there is nothing to tell; NaN then."""
+    """Return a number, or NaN where it is zero and thus not shown."""
     return value if value > 0.0 else math.nan
 
 
@@ -257,7 +257,8 @@ def _named(
     label: str, unit: str, group: str, meaning: str, compute: Callable[[xr.Dataset, int], float]
 ) -> ByPart:
     def made(joint: str) -> Headline:
-        return Headline(f"{label}, {joint}", unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
+        number = Headline(label, unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
+        return number.of_part(joint)
 
     return made
 
@@ -276,14 +277,14 @@ def _pair_named(
     def made(name: str, joint: str) -> Headline:
         pair = _pair(
             names,
-            f"{label} in {joint}",
+            label,
             unit,
             "Joints",
             meaning,
             lambda d: values(d, of_joint(d, joint)),
             scale=scale,
         )
-        return pair[name]
+        return pair[name].of_part(joint)
 
     return {name: partial(made, name) for name in names}
 
@@ -300,14 +301,14 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Force, mean",
         "N",
         "Joints",
-        "Mean force in this joint: what wears it.",
+        "Mean force in this joint; wear is proportional to it.",
         lambda d, j: time_mean(d, sizes(d, "reaction_force")[:, j]),
     ),
     "offset_max_um": _named(
         "Offset, largest",
         "µm",
         "Joints",
-        "How far the shaft leaves the middle of the bore.",
+        "Largest distance of the pin from the centre of the bore.",
         lambda d, j: peak(settled(d, offset(d)[:, j])) * 1e6,
     ),
     **_pair_named(
@@ -322,7 +323,7 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Friction heat",
         "J",
         "Joints",
-        "What friction in this joint turned into heat.",
+        "Heat of friction in this joint over the run.",
         lambda d, j: float(column(d, "joint_friction")[-1, j]) if of_surfaces(d, j).size else math.nan,
     ),
     "film_pressure_max_MPa": _named(
@@ -343,7 +344,7 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Wear depth",
         "nm",
         "Joints",
-        "What is worn off this joint at its deepest.",
+        "Largest wear depth of this joint.",
         lambda d, j: peak(column(d, "wear_depth")[of_surfaces(d, j)]) * 1e9,
     ),
 }

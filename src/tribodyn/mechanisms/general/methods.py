@@ -16,7 +16,7 @@ from pydantic import BaseModel
 
 from tribodyn.cases.case import ParameterKeys
 from tribodyn.cases.film import FilmKeys
-from tribodyn.cases.tables import VALUE
+from tribodyn.cases.keys import VALUE
 from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.arguments import Argument, arguments_of, parameters_of
 from tribodyn.mechanisms.general.body import BodyKeys

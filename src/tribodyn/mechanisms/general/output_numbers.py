@@ -32,11 +32,11 @@ def _rms(dataset: xr.Dataset, error: FloatArray) -> float:
 
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
     "lasting": (
-        "lasting",
-        "Largest difference from the motion with ideal joints, but for the hardest hundredth of the time.",
+        "sustained",
+        "Largest difference from the motion with ideal joints for 99 % of the time; impacts excluded.",
         lasting,
     ),
-    "max": ("peak", "The same at any time of the result.", lambda d, error: peak(settled(d, error))),
+    "max": ("peak", "Largest value at any time, impacts included.", lambda d, error: peak(settled(d, error))),
     "rms": ("rms", "Root mean square over time of the difference from the motion with ideal joints.", _rms),
 }
 """By what stands in the name of the key result: how an error over time becomes one number."""
@@ -59,7 +59,7 @@ def _made(measure: str, unit: str, output: str) -> Headline:
             return math.nan
         return scale * reduce(dataset, error)
 
-    return Headline(f"Error, {label}, {output}", shown, "Outputs", meaning, compute)
+    return Headline(f"Error, {label}", shown, "Outputs", meaning, compute).of_part(output)
 
 
 BY_OUTPUT: Final[dict[str, ByPart]] = {

@@ -54,7 +54,7 @@ def test_numbers_are_told_of_each_joint_by_its_name() -> None:
     assert told["peak_pressure_MPa_wrist"] == pytest.approx(40.0)
     assert "offset_max_um_main" not in told
     labels = results.known(told, "mechanism")
-    assert labels["force_max_N_guide"].label == "Force in guide, peak"
+    assert labels["force_max_N_guide"].label == "Force, peak, guide"
     assert set(labels) == {name for name, value in told.items() if isinstance(value, int | float)}
 
 
@@ -70,7 +70,7 @@ def test_a_blow_is_a_peak_and_does_not_last() -> None:
     assert told["force_lasting_N_wrist"] == pytest.approx(whole["force_lasting_N_wrist"], rel=2e-3)
     assert whole["force_lasting_N_wrist"] == pytest.approx(2700.0 * math.cos(math.pi / 200.0), rel=2e-3)
     known = results.known(told, "mechanism")
-    assert known["force_max_N_wrist"].label_in(told) == "Force in wrist, peak over 1 cycle"
+    assert known["force_max_N_wrist"].label_in(told) == "Force, peak over 1 cycle, wrist"
 
 
 def test_cycles_that_are_not_alike_scatter() -> None:

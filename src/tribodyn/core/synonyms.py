@@ -1,0 +1,77 @@
+"""Words of other programs and of everyday language, each with the words of this program for it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
+    # Kinds of joints.
+    "hinge": ("revolute",),
+    "pin": ("revolute", "pin-slot"),
+    "pivot": ("revolute",),
+    "rotational": ("revolute",),
+    "slider": ("prismatic",),
+    "slide": ("prismatic",),
+    "translational": ("prismatic",),
+    "ball": ("spherical",),
+    "ball-joint": ("spherical",),
+    "sleeve": ("cylindrical",),
+    "cardan": ("universal",),
+    "hooke": ("universal",),
+    "slot": ("pin-slot",),
+    "weld": ("fixed",),
+    "rigid": ("fixed",),
+    "plane": ("planar",),
+    "bushing": ("spring-damper",),
+    # Tables and keys of user-defined mechanisms.
+    "links": ("bodies",),
+    "parts": ("bodies",),
+    "limit": ("stops", "stop"),
+    "limits": ("stops", "stop"),
+    "range": ("stops", "stop"),
+    "motors": ("drives", "drive"),
+    "motor": ("drives", "drive"),
+    "actuators": ("drives", "drive"),
+    "actuator": ("drives", "drive"),
+    "force": ("loads", "load"),
+    "forces": ("loads", "load"),
+    "friction": ("friction_coefficient",),
+    "mu": ("friction_coefficient",),
+    "com": ("centre",),
+    "cog": ("centre",),
+    "inertia_tensor": ("inertia",),
+    "moments_of_inertia": ("inertia",),
+    "kind": ("type",),
+    "bodies": ("between",),
+    "location": ("point",),
+    "position": ("point",),
+    "origin": ("point",),
+    "direction": ("axis",),
+    "play": ("radial", "clearance"),
+    "gap": ("radial", "clearance"),
+    "rpm": ("speed",),
+    "velocity": ("speed",),
+    "time": ("duration",),
+    "end_time": ("duration",),
+    # Commands.
+    "simulate": ("run",),
+    "init": ("new",),
+    "create": ("new",),
+    "template": ("new",),
+    "list": ("cases",),
+    "keys": ("show",),
+    "plot": ("report",),
+    "gui": ("workbench",),
+}
+"""What was probably meant, the likeliest first; a word that is also one of ours is never looked up."""
+
+
+def meanings(word: str) -> tuple[str, ...]:
+    """Return the words of this program for a word, none where it is not known.
+
+    Examples
+    --------
+    >>> meanings("Hinge")
+    ('revolute',)
+    """
+    return SYNONYMS.get(word.casefold().replace(" ", "-"), ())

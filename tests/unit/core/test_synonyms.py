@@ -1,0 +1,38 @@
+from __future__ import annotations
+
+import pytest
+
+from tribodyn.cases.keys import keys_of
+from tribodyn.cli.main import COMMANDS
+from tribodyn.core.errors import InputError
+from tribodyn.core.synonyms import SYNONYMS
+from tribodyn.mechanisms.catalogue import kinds, parse_case
+from tribodyn.mechanisms.general.elements import ELEMENTS
+from tribodyn.mechanisms.general.kinds import KINDS
+
+BODY = '[bodies.rod]\nmass = "1 kg"\ncentre = "0, 0, 0 mm"\ninertia = "1e-4, 1e-4, 1e-4 kg m^2"\n'
+JOINT = '[joints.pivot]\nbetween = ["ground", "rod"]\npoint = "0, 0, 0 mm"\naxis = [0, 0, 1]\n'
+
+
+def test_every_meaning_is_a_word_of_ours() -> None:
+    keys = keys_of(kinds()["mechanism"])
+    names = {part for path in keys for part in path.split(".")}
+    ours = {*KINDS, *COMMANDS, *names, *(kind.METHOD for kind in ELEMENTS), "drive", "load"}
+    assert {word for meant in SYNONYMS.values() for word in meant} <= ours
+
+
+@pytest.mark.parametrize(
+    ("lines", "hint"),
+    [
+        (f'{BODY}{JOINT}type = "hinge"\n', 'did you mean "revolute"?'),
+        (f'{BODY}{JOINT}type = "slider"\n', 'did you mean "prismatic"?'),
+        (f'{BODY}{JOINT}type = "Ball"\n', 'did you mean "spherical"?'),
+        (f'{BODY}{JOINT}type = "revolute"\nlimits = "0, 90 deg"\n', r"write a table \[stops.NAME\]"),
+        (f'{BODY}{JOINT}type = "revolute"\nlocation = "0, 0, 0 mm"\n', "joints.pivot.point"),
+        (f'{BODY}{JOINT}type = "revolute"\n[drives.motor]\njoint = "pivot"\nrpm = 3\n', "drives.motor.speed"),
+        (BODY.replace("centre", "com"), "bodies.rod.centre"),
+    ],
+)
+def test_words_of_other_programs_are_understood(lines: str, hint: str) -> None:
+    with pytest.raises(InputError, match=hint):
+        parse_case(f'case = "mechanism"\n{lines}', "mine.toml")
