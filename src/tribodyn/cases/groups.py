@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import PrivateAttr
 
@@ -105,6 +105,26 @@ class Surfaces(Group):
             asperity_density=asperities.density,
             asperity_radius=asperities.radius,
         )
+
+    def run_in(self, depth: float, final: float | None) -> Self:
+        """Return the surfaces after a mean depth is worn off the bushing.
+
+        Parameters
+        ----------
+        depth
+            The depth [m].
+        final
+            Roughness that the bushing runs in to [m]; None for that of the trunnion.
+        """
+        from tribodyn.wear import worn_roughness
+
+        sigma = worn_roughness(self.bushing.roughness, depth, final or self.trunnion.roughness)
+        return self.model_copy(update={"bushing": self.bushing.model_copy(update={"roughness": sigma})})
+
+    def check_running_in(self, final: float | None, key: str = "wear.") -> None:
+        """Refuse a bushing that runs in to no roughness; ``key`` is what the keys of its wear begin with."""
+        words = "the trunnion is smooth: say what the bushing runs in to"
+        demand(bool(final or self.trunnion.roughness), f"{key}final_roughness", words)
 
 
 class AsperityKeys(Group):
@@ -285,6 +305,15 @@ class Wear(Group):
     )
     depth_limit: float | None = quantity(
         None, "depth at which the bushing is worn out: a campaign ends there", ASSUMED, gt=0, example="5 um"
+    )
+
+    running_in: bool = switch(False, "whether the bushing's roughness changes in a campaign", "manual, wear")
+    final_roughness: float | None = quantity(
+        None,
+        "rms roughness that the bushing runs in to; that of the trunnion without it",
+        ASSUMED,
+        gt=0,
+        example="0.4 um",
     )
 
     @property

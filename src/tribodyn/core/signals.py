@@ -67,10 +67,14 @@ class Signal:
         """Value of a table at zero."""
         return float(self(np.zeros(1))[0])
 
+    def zeros(self, order: int) -> FloatArray:
+        """Return where a derivative of a table of some order is zero, shape (m,); begins of zero pieces."""
+        found = np.asarray(self._curve.derivative(order).roots(extrapolate=False))
+        return found[np.isfinite(found)]
+
     def least(self, until: float) -> tuple[float, float]:
         """Return where between zero and ``until`` a table has its least value, and that value."""
-        turns = self._curve.derivative().roots(extrapolate=False)
-        places = np.concatenate([[0.0, until], self.knots, turns])
+        places = np.concatenate([[0.0, until], self.knots, self.zeros(1)])
         places = places[(places >= 0.0) & (places <= until)]
         values = self(places)
         return float(places[values.argmin()]), float(values.min())

@@ -12,6 +12,7 @@ from tribodyn.cases.beyond import FollowedTable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.touch import Touch
+from tribodyn.mechanisms.peaks import impact_time
 
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
@@ -132,6 +133,34 @@ def of_damping_pressure(pressure: float, at_rest: float) -> str:
     return (
         f"Surfaces at rest would carry {at_rest * 1e-6:.3g} MPa where the pressure was largest: the rest of "
         f"{pressure * 1e-6:.3g} MPa is damping at single points, and more on a finer grid."
+    )
+
+
+def of_reversals(every: FloatArray, turns: FloatArray, *, period: float, t_end: float, carried: bool) -> str:
+    """Say which reversals of a drive cycle a run does not hold with the impacts that follow them.
+
+    Parameters
+    ----------
+    every
+        Reversals of a cycle [s], shape (n,).
+    turns
+        The start and the reversals that were reached [s], shape (m,).
+    period
+        Time of a cycle [s].
+    t_end
+        Simulated time reached [s].
+    carried
+        Whether the start is a reversal, because the run goes on from another one.
+    """
+    settling = impact_time(period)
+    held = turns[(turns + settling <= t_end) & ((turns > 0.0) | carried)]
+    phases = np.mod(held + 0.5 * settling, period) - 0.5 * settling
+    missing = [t for t in every if not np.any(np.abs(phases - t) < 0.5 * settling)]
+    if not missing:
+        return ""
+    return (
+        f"Of the {every.size} reversals of a drive cycle the run holds {every.size - len(missing)} with the "
+        "impacts that follow: peaks after the others may be larger."
     )
 
 

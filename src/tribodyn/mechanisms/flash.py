@@ -1,55 +1,60 @@
-"""Flash temperature of a clearance joint: an estimate where the conductors of heat are known."""
+"""Flash temperature of a joint with clearance: an estimate where the conductors of heat are known."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 
-from tribodyn.cases.groups import Bushing, Trunnion
+from tribodyn.cases.groups import Bushing, Surfaces, Trunnion
+from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.flash_temperature import Conductor, flash_temperature
-from tribodyn.core.arrays import FloatArray
-from tribodyn.joints import SURFACE, BushingJoint
-from tribodyn.mechanisms.bushing import HasBushing
+from tribodyn.joints.touch import Touch
+
+
+def has_conductors(surfaces: Surfaces) -> bool:
+    """Return whether conductivity and diffusivity of both surfaces are given."""
+    return all(_conductor(surface) is not None for surface in (surfaces.trunnion, surfaces.bushing))
 
 
 def flash_of(
-    case: HasBushing, joint: BushingJoint, rows: Mapping[str, FloatArray], speed: FloatArray
-) -> dict[str, float]:
-    """Return the flash temperature where pressure times speed was largest, by name; else nothing.
+    surfaces: Surfaces,
+    law: ContactLaw,
+    touch: Touch,
+    *,
+    friction_coefficient: float,
+    pressure: float,
+    separation: float,
+    speed: float,
+) -> float:
+    """Return the flash temperature of a contact at one instant [K]; NaN where it is not known.
 
-    The heat μ p V of a pressure p is spread over the real area of contact that the law has at the smallest
-    gap of that time, or over p/H where it has none, in as many equal spots as asperities touch. They belong
-    to the rougher surface and pass over the other.
+    The heat μ p V is spread over the real area of contact that the law has at the smallest gap, or over p/H
+    where it has none, in as many equal spots as asperities touch. They belong to the rougher surface and pass
+    over the other.
 
     Parameters
     ----------
-    case, joint
-        The case and its joint.
-    rows
-        Columns of the run, of which pressures and gaps are used.
-    speed
-        Of sliding at each row [m/s], shape (n_t,).
+    surfaces, law, touch
+        Both surfaces with what they do with heat, and their contact.
+    friction_coefficient
+        μ [1].
+    pressure, separation, speed
+        Largest pressure p [Pa], smallest gap [m], and speed of sliding V [m/s].
     """
-    trunnion, bushing = _conductor(case.surfaces.trunnion), _conductor(case.surfaces.bushing)
-    if trunnion is None or bushing is None or joint.contact != SURFACE or not speed.size:
-        return {}
-    row = int(np.argmax(rows["p_max"] * np.abs(speed)))
-    pressure, sliding = float(rows["p_max"][row]), abs(float(speed[row]))
-    pair = case.surface_pair
-    law = case.contact.law_of(pair)
-    gap = np.array([joint.touch.asperity_separation(float(rows["separation_min"][row]))])
+    trunnion, bushing = _conductor(surfaces.trunnion), _conductor(surfaces.bushing)
+    if trunnion is None or bushing is None or not touch.over_surface:
+        return math.nan
+    gap, pair = np.array([touch.asperity_separation(separation)]), law.pair
     real, count = float(law.real_area_fraction(gap)[0]), float(law.contact_count(gap)[0])
     real = pressure / pair.hardness if math.isnan(real) else real
     count = pair.asperity_density * float(law.touching_share(gap)[0]) if math.isnan(count) else count
     if not (real > 0.0 and count > 0.0):
-        return {"flash_temperature": 0.0}
-    rougher = case.surfaces.bushing.roughness >= case.surfaces.trunnion.roughness
+        return 0.0
+    rougher = surfaces.bushing.roughness >= surfaces.trunnion.roughness
     standing, passing = (bushing, trunnion) if rougher else (trunnion, bushing)
-    flux = joint.friction.coefficient * pressure * sliding / real
     radius = math.sqrt(real / (math.pi * count))
-    return {"flash_temperature": flash_temperature(flux, radius, sliding, standing, passing)}
+    return flash_temperature(friction_coefficient * pressure * speed / real, radius, speed, standing, passing)
 
 
 def _conductor(surface: Trunnion | Bushing) -> Conductor | None:

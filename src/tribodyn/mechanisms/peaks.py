@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Final
+
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Table, names
 from tribodyn.kernels.peaks import Peaks
 from tribodyn.results.peaks import PARTS
+
+IMPACT_SHARE: Final = 0.1
+"""Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
+the drive, half its cycle; the rest is smooth motion."""
+
+
+def impact_time(period: float) -> float:
+    """Return how long impacts last after a reversal [s] where a drive cycle takes ``period`` [s]."""
+    return IMPACT_SHARE * 0.5 * period
 
 
 def of_run(peaks: Peaks, table: Table) -> dict[str, float]:
@@ -30,4 +42,41 @@ def of_reversals(peaks: Peaks, table: Table) -> dict[str, FloatArray]:
         for place, part in enumerate(PARTS):
             found[f"{name}_{part}"] = peaks.largest[:reached, place, k]
             found[f"{name}_{part}_time"] = peaks.when[:reached, place, k]
+    return found
+
+
+def of_rows(
+    times: FloatArray, values: Mapping[str, FloatArray], begins: FloatArray, lasting: float
+) -> dict[str, FloatArray]:
+    """Return the same peaks and times [s] from rows that follow the steps, by name.
+
+    Parameters
+    ----------
+    times
+        Of the rows [s], shape (n_t,).
+    values
+        Quantities by name, shape (n_t, n) each; their sizes are looked at.
+    begins
+        The start and the reversals that were reached [s], shape (n_reversals,).
+    lasting
+        How long impacts last after each [s].
+
+    Returns
+    -------
+    dict
+        Of shape (n_reversals, n) each, NaN where there is no finite value.
+    """
+    shape = (begins.size, next(iter(values.values())).shape[1])
+    found = {f"{name}_{part}": np.full(shape, np.nan) for name in values for part in PARTS}
+    found |= {f"{name}_time": np.full(shape, np.nan) for name in found}
+    for k, (begin, end) in enumerate(zip(begins, np.append(begins[1:], np.inf), strict=True)):
+        inside = (times >= begin) & (times <= end)
+        impact = times <= begin + lasting
+        for part, rows in zip(PARTS, (inside & impact, inside & ~impact), strict=True):
+            for name, column in values.items():
+                sizes = np.abs(column[rows])
+                known = np.flatnonzero(np.isfinite(sizes).any(axis=0))
+                row = np.nanargmax(sizes[:, known], axis=0)
+                found[f"{name}_{part}"][k, known] = sizes[row, known]
+                found[f"{name}_{part}_time"][k, known] = times[rows][row]
     return found

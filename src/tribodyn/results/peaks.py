@@ -24,12 +24,14 @@ def of_run_described(table: Table) -> dict[str, Variable]:
     return described
 
 
-def of_reversals_described(table: Table) -> dict[str, Variable]:
-    """Return what is known of the peaks of each reversal, by name."""
+def of_reversals_described(table: Table, part_of: tuple[str, ...] = ()) -> dict[str, Variable]:
+    """Return what is known of the peaks of each reversal, and of each part of a mechanism, by name."""
     described = {}
     for quantity in table:
         for part, where in PARTS.items():
             meaning = f"largest {quantity.meaning} {where}"
-            described[f"{quantity.name}_{part}"] = Variable(quantity.unit, meaning, REVERSAL)
-            described[f"{quantity.name}_{part}_time"] = Variable("s", f"time of the {meaning}", REVERSAL)
+            described[f"{quantity.name}_{part}"] = Variable(quantity.unit, meaning, (*REVERSAL, *part_of))
+            described[f"{quantity.name}_{part}_time"] = Variable(
+                "s", f"time of the {meaning}", (*REVERSAL, *part_of)
+            )
     return described

@@ -64,7 +64,7 @@ def reversals_held(dataset: xr.Dataset) -> int:
     held = turns + float(dataset.attrs["impact_time"]) <= float(dataset.attrs["time_reached"])
     for name in dataset.data_vars:
         if str(name).endswith("_impact"):
-            held &= np.isfinite(column(dataset, str(name)))
+            held &= np.isfinite(column(dataset, str(name))).reshape(turns.size, -1).any(axis=1)
     if dataset.attrs["start"] != CARRIED:
         held &= turns > 0.0
     return int(np.count_nonzero(held))

@@ -81,6 +81,7 @@ FIELDS: Final[dict[str, Variable]] = {
     "wear_depth": Variable(
         "m", "wear depth of the bushing, after the campaign or, estimated, after this run", ("theta", "z")
     ),
+    "partner_wear_depth": Variable("m", "part of wear_depth worn off the partner", ("theta", "z")),
 }
 """Fields over the nodes of the bushing."""
 

@@ -79,14 +79,16 @@ def _archard(system: WearingSystem, wear: groups.Wear) -> Archard:
     return Archard(bushing + partner, wear.paper_hardness_divisor)
 
 
-def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> list[str]:
-    """Say whose the worn depth is where both surfaces wear."""
+def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> ResultPart:
+    """Return what is worn off the partner of the bushing; nothing where only the bushing wears."""
     bushing, partner = (np.broadcast_to(rate, depth.shape) for rate in system.wear_rates)
     both = np.maximum(bushing + partner, np.finfo(np.float64).tiny)
-    share = 100.0 * worn_volume(depth * partner / both, system.nodes.area) / volume if volume > 0.0 else 0.0
+    own = depth * partner / both
+    share = 100.0 * worn_volume(own, system.nodes.area) / volume if volume > 0.0 else 0.0
     if share == 0.0:
-        return []
-    return [f"Of the worn depth and volume {share:.3g} % are worn off the partner of the bushing."]
+        return ResultPart()
+    words = f"Of the worn depth and volume {share:.3g} % are worn off the partner of the bushing."
+    return ResultPart(fields={"partner_wear_depth": system.as_field(own)}, notes=[words])
 
 
 def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> ResultPart:
@@ -94,10 +96,11 @@ def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, obj
     if not depth.size:
         return ResultPart()
     volume = worn_volume(depth, system.nodes.area)
+    partner = _of_partner(system, depth, volume)
     return ResultPart(
-        fields={"wear_depth": system.as_field(depth)},
+        fields={"wear_depth": system.as_field(depth), **partner.fields},
         attributes={"worn_volume": volume, **attributes},
-        notes=_of_partner(system, depth, volume),
+        notes=partner.notes,
     )
 
 

@@ -15,14 +15,14 @@ def impact_time(dataset: xr.Dataset) -> float:
 
 
 def reversal_times(dataset: xr.Dataset) -> FloatArray:
-    """Return when the vane reverses, stops or starts [s], shape (n,); never where nothing is driven.
+    """Return when vane or drive reverse, stop or start [s], shape (n,); never where nothing is driven.
 
     As the result holds it, else where the ideal vane speed changes its sign.
     """
-    if "omega_v_ideal" not in dataset:
-        return np.empty(0)
     if "reversal_time" in dataset:
         return np.asarray(dataset["reversal_time"].values[1:], dtype=np.float64)
+    if "omega_v_ideal" not in dataset:
+        return np.empty(0)
     speed = series(dataset, "omega_v_ideal")
     moving = np.isfinite(speed) & (speed != 0.0)
     time, speed = series(dataset, "time")[moving], speed[moving]

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
+from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
 from pydantic import create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import Group, NamedGroup, demand
+from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
 from tribodyn.cases.functions import Doors
-from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, Wear, check_output_interval
+from tribodyn.cases.groups import Contact, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.known import demand_known
 from tribodyn.cases.messages import Remarks
@@ -27,53 +27,18 @@ from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.output_keys import OutputKeys
+from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 
 if TYPE_CHECKING:
-    from tribodyn.contact import SurfacePair
+    pass
 
 ROWS: Final = 500
 """Rows of a result for which no interval was given."""
 _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
-_RATES: Final = ("wear.specific_wear_rate", "wear.partner_wear_rate")
+_OF_WEAR: Final = ("wear.specific_wear_rate", "wear.partner_wear_rate", "wear.final_roughness")
 _CLEARANCE: Final = re.compile(r"(joints\.[^.]+\.clearance\.).+")
-
-
-def _friction(which: str) -> Any:
-    return number(
-        0.1, f"coefficient of friction mu_f of {which}, unless a joint says otherwise", ASSUMED, ge=0, le=2
-    )
-
-
-class PairWear(Group):
-    """Wear of the surfaces of a pair; that of the case without a material of their own."""
-
-    specific_wear_rate: float = quantity(
-        "1.1e-15 m^2/N", "specific wear rate C_w of the bushing", "paper, section 2.4", ge=0
-    )
-    partner_wear_rate: float = quantity(
-        "0 m^2/N", "specific wear rate of what slides in it; both wear in proportion", ASSUMED, ge=0
-    )
-
-
-class PairKeys(NamedGroup):
-    """Surfaces, contact law, friction and wear of joints that name them."""
-
-    surfaces: Surfaces = Surfaces()
-    asperities: AsperityKeys = AsperityKeys()
-    contact: Contact = Contact()
-    friction_coefficient: float = _friction("the joints of this pair")
-    wear: PairWear = PairWear()
-
-    @property
-    def surface_pair(self) -> SurfacePair:
-        """The two surfaces in contact, as contact laws take them."""
-        return self.surfaces.pair(self.asperities)
-
-    def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
-        self.contact.check(self.surface_pair)
 
 
 class RunKeys(Group):
@@ -127,7 +92,7 @@ class _Parts(RoughCase):
 
     case: Literal["mechanism"] = choice("mechanism", "the kind of system", "")
     title: str = text("Mechanism", "heading of figures and report")
-    friction_coefficient: float = _friction("all joints without a pair")
+    friction_coefficient: float = friction_of("all joints without a pair")
     gravity: Vector = vector(
         "0, 0, 0 m/s^2",
         "acceleration of gravity",
@@ -184,7 +149,7 @@ class MechanismCase(_WithElements):
         for name in {path.split(".")[1] for path in known if path.startswith(f"{_PAIRS}.")}:
             prefix = f"{_PAIRS}.{name}."
             if f"{prefix}surfaces.bushing.{materials.MATERIAL}" not in known:
-                taken = {path: known[path] for path in (_FRICTION, *_RATES) if path in known}
+                taken = {path: known[path] for path in (_FRICTION, *_OF_WEAR) if path in known}
                 found |= {prefix + path: value for path, value in taken.items() if prefix + path not in known}
         for joint in {match[1] for path in known if (match := _CLEARANCE.fullmatch(path))}:
             pair = known.get(f"{joint}pair")
@@ -294,6 +259,7 @@ class MechanismCase(_WithElements):
         self._check_loads()
         self._check_elements()
         self._check_run()
+        self._check_running_in()
         self._check_campaign()
 
     def _check_names(self) -> None:
@@ -381,6 +347,13 @@ class MechanismCase(_WithElements):
                 )
                 inside = knots[0] <= 0.0 and knots[-1] >= self.duration
                 demand(inside, f"drives.{name}.{drive.gives}.times", words)
+
+    def _check_running_in(self) -> None:
+        """Check that there is a roughness to run in to."""
+        pairs = {clearance.pair for joint in self.joints.values() if (clearance := joint.real) is not None}
+        for name in sorted(pairs, key=str) if self.wear.running_in else ():
+            pair, prefix = (self, "") if name is None else (self.pairs[name], f"{_PAIRS}.{name}.")
+            pair.surfaces.check_running_in(pair.wear.final_roughness, f"{prefix}wear.")
 
     def _check_campaign(self) -> None:
         if self.wear.cycles == 0:

@@ -77,6 +77,7 @@ class Contacts:
         ]
         error, at_rest = self._on_finer_grid(data, rows)
         return {
+            "roughness": np.array(data.surfaces["roughness"]),
             "hardness_share": np.array([load["hardness_share"] for load in loads]),
             "real_area_share": np.array([load["real_area_share"] for load in loads]),
             "grid_force_error": error,

@@ -9,43 +9,38 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart
 from tribodyn.mechanisms.general.ledger import WHOLE
-from tribodyn.results.reading import column, in_settled, peak, period, settled, time_mean
+from tribodyn.mechanisms.general.readings import (
+    above_zero,
+    lasting,
+    least,
+    of_joint,
+    of_surfaces,
+    offset,
+    sizes,
+)
+from tribodyn.results.reading import (
+    column,
+    in_settled,
+    peak,
+    period,
+    reversals_held,
+    settled,
+    time_mean,
+)
 from tribodyn.results.summary import Headline
+from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
-SHORT: Final = 0.01
-"""Share of the time that impacts may last; a sustained maximum leaves it out."""
 _ROUNDING: Final = 1e-9
-
-
-def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
-    """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
-
-    Parameters
-    ----------
-    dataset
-        A result.
-    values
-        Quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
-    """
-    time = settled(dataset, column(dataset, "time"))
-    found = np.abs(settled(dataset, values).reshape(time.size, -1))
-    steps = np.diff(time)
-    weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
-    order = np.argsort(found, axis=0)
-    share = np.cumsum(weights[order], axis=0) / weights.sum()
-    rising = np.take_along_axis(found, order, axis=0)
-    return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))
 
 
 def _cycles(dataset: xr.Dataset) -> float:
     """Return the number of whole cycles evaluated; NaN for none."""
     whole = math.floor(column(dataset, "time")[-1] / period(dataset) + _ROUNDING)
-    return _above_zero(whole if in_settled(dataset)[0] else whole - 1)
+    return above_zero(whole if in_settled(dataset)[0] else whole - 1)
 
 
 def _scatter(dataset: xr.Dataset) -> float:
@@ -57,23 +52,6 @@ def _scatter(dataset: xr.Dataset) -> float:
     return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
 
 
-def sizes(dataset: xr.Dataset, name: str) -> FloatArray:
-    """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n)."""
-    return np.asarray(np.linalg.norm(column(dataset, name), axis=-1))
-
-
-def of_joint(dataset: xr.Dataset, joint: str) -> int:
-    """Return the number of a joint, whose name may be that of a number; an unknown one raises."""
-    names = [str(name).replace("-", "_") for name in dataset["joint"].values]
-    return names.index(joint.replace("-", "_"))
-
-
-def offset(dataset: xr.Dataset) -> FloatArray:
-    """Return how far shafts are from the middle of their bores [m], shape (n_t, n_joints)."""
-    across = np.linalg.norm(column(dataset, "displacement")[..., :2], axis=-1)
-    return np.asarray(np.where(np.isfinite(column(dataset, "clearance")), across, np.nan))
-
-
 def _power(dataset: xr.Dataset) -> float:
     """Return the mean power put in [W]: the rate of stored energy and heat by the energy balance.
 
@@ -83,6 +61,35 @@ def _power(dataset: xr.Dataset) -> float:
     gains = np.sum([column(dataset, name) for name in WHOLE.gained if name in dataset.variables], axis=0)
     works = np.ptp(column(dataset, "energy_in")) > _ROUNDING * np.ptp(column(dataset, "energy_kinetic"))
     return float((gains[-1] - gains[0]) / (time[-1] - time[0])) if works else math.nan
+
+
+def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:
+    """Return the largest value outside the impacts after reversals, of one joint or of all of them."""
+
+    def value(dataset: xr.Dataset, joint: str) -> float:
+        values = column(dataset, f"{quantity}_outside")
+        return above_zero(peak(values[:, of_joint(dataset, joint)] if joint else values)) * scale
+
+    def made(joint: str) -> Headline:
+        name = f"{label} in {joint}" if joint else f"{label} in a joint"
+        return Headline(
+            f"{name}, largest outside impacts",
+            unit,
+            "Joints" if joint else "Load",
+            "Once the impacts after reversals of the drive have died away.",
+            lambda d: value(d, joint),
+        )
+
+    return made
+
+
+OUTSIDE: Final[dict[str, ByPart]] = {
+    "force_outside_N": _outside("Force", "N", "joint_force"),
+    "pressure_outside_MPa": _outside("Contact pressure", "MPa", "pressure", scale=1e-6),
+    "offset_outside_um": _outside("Offset", "µm", "offset", scale=1e6),
+    "drive_moment_outside_Nm": _outside("Drive moment", "N m", "drive_moment"),
+}
+"""Numbers of mechanisms whose drives reverse, by name."""
 
 
 def _pair(
@@ -115,14 +122,14 @@ def _pair(
             unit,
             group,
             f"{meaning} for 99 % of the time; impacts excluded.",
-            lambda d: _above_zero(lasting(d, values(d))) * scale,
+            lambda d: above_zero(lasting(d, values(d))) * scale,
         ),
         loud: Headline(
             f"{label}, peak",
             unit,
             group,
             "Largest value at any step of the integration, impacts included.",
-            lambda d: _above_zero(peak(settled(d, values(d)))) * scale,
+            lambda d: above_zero(peak(settled(d, values(d)))) * scale,
             over="cycles",
             span="over {} cycle",
         ),
@@ -130,6 +137,14 @@ def _pair(
 
 
 HEADLINES: Final[dict[str, Headline]] = {
+    "reversals": Headline(
+        "Reversals held",
+        "",
+        "Load",
+        "Reversals of a drive in this result with the impacts that follow them.",
+        reversals_held,
+        count=True,
+    ),
     "cycles": Headline(
         "Cycles evaluated",
         "",
@@ -171,6 +186,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Largest force of an actuator",
         lambda d: column(d, "drive_force"),
     ),
+    **{name: made("") for name, made in OUTSIDE.items()},
     "power_mean_W": Headline(
         "Power put in, mean", "W", "Drive", "Mean power of drives and loads over the run.", _power
     ),
@@ -188,6 +204,15 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Heat of friction in all joints over the run.",
         lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
     ),
+    "flash_temperature_K": Headline(
+        "Flash temperature, largest",
+        "K",
+        "Load",
+        "How much warmer than the surfaces their asperities get in any joint, an estimate, where pressure "
+        "times speed is largest.",
+        lambda d: peak(column(d, "flash_temperature")),
+        digits=2,
+    ),
     "film_pressure_max_MPa": Headline(
         "Film pressure, peak",
         "MPa",
@@ -200,7 +225,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "µm",
         "Oil film",
         "Smallest gap of any oil film; below a few rms roughnesses asperities carry a part of the load.",
-        lambda d: _least(settled(d, column(d, "film_thickness_min"))) * 1e6,
+        lambda d: least(settled(d, column(d, "film_thickness_min"))) * 1e6,
     ),
     "film_power_mean_W": Headline(
         "Film friction power, mean",
@@ -216,6 +241,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Largest wear depth of any joint.",
         lambda d: peak(column(d, "wear_depth")) * 1e9,
     ),
+    **WEAR_NUMBERS,
     "cycle_scatter_percent": Headline(
         "Scatter of the cycles",
         "%",
@@ -240,17 +266,6 @@ KEY_NUMBERS: Final = (
     "drive_moment_lasting_Nm",
     "energy_residual_percent",
 )
-
-
-def _least(values: FloatArray) -> float:
-    """Return the smallest finite value, NaN when there is none."""
-    finite = values[np.isfinite(values)]
-    return float(finite.min()) if finite.size else math.nan
-
-
-def _above_zero(value: float) -> float:
-    """Return a number, or NaN where it is zero and thus not shown."""
-    return value if value > 0.0 else math.nan
 
 
 def _named(
@@ -290,6 +305,7 @@ def _pair_named(
 
 
 BY_JOINT: Final[dict[str, ByPart]] = {
+    **OUTSIDE,
     **_pair_named(
         ("force_lasting_N", "force_max_N"),
         "Force",
@@ -326,6 +342,13 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Heat of friction in this joint over the run.",
         lambda d, j: float(column(d, "joint_friction")[-1, j]) if of_surfaces(d, j).size else math.nan,
     ),
+    "flash_temperature_K": _named(
+        "Flash temperature",
+        "K",
+        "Joints",
+        "How much warmer than the surfaces the asperities of this joint get, an estimate.",
+        lambda d, j: float(column(d, "flash_temperature")[j]),
+    ),
     "film_pressure_max_MPa": _named(
         "Film pressure, peak",
         "MPa",
@@ -338,7 +361,7 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "µm",
         "Joints",
         "Smallest gap of the oil film of this joint.",
-        lambda d, j: _least(settled(d, column(d, "film_thickness_min")[:, j])) * 1e6,
+        lambda d, j: least(settled(d, column(d, "film_thickness_min")[:, j])) * 1e6,
     ),
     "wear_depth_nm": _named(
         "Wear depth",
@@ -347,12 +370,12 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Largest wear depth of this joint.",
         lambda d, j: peak(column(d, "wear_depth")[of_surfaces(d, j)]) * 1e9,
     ),
+    "partner_wear_depth_nm": _named(
+        "Wear depth of the partner",
+        "nm",
+        "Joints",
+        "Its part of the wear depth of this joint, where both wear.",
+        lambda d, j: peak(column(d, "partner_wear_depth")[of_surfaces(d, j)]) * 1e9,
+    ),
 }
 """Numbers of each joint, by what stands before its name."""
-
-
-def of_surfaces(dataset: xr.Dataset, joint: int) -> NDArray[np.intp]:
-    """Return the numbers of the surfaces of a joint, none where it is ideal."""
-    name = str(dataset["joint"].values[joint])
-    surfaces = dataset["surface"].values.tolist() if "surface" in dataset.coords else []
-    return np.flatnonzero([text.rpartition(":")[0] == name for text in surfaces])

@@ -20,10 +20,10 @@ from tribodyn.cases.keys import VALUE
 from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.arguments import Argument, arguments_of, parameters_of
 from tribodyn.mechanisms.general.body import BodyKeys
-from tribodyn.mechanisms.general.case import PairKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.output_keys import OutputKeys
+from tribodyn.mechanisms.general.pairs import PairKeys
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 
 Example = Mapping[str, Any]

@@ -12,7 +12,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart, plain
-from tribodyn.mechanisms.general.headlines import lasting
+from tribodyn.mechanisms.general.readings import lasting
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, peak, settled
 from tribodyn.results.summary import Headline

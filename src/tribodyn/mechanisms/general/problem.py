@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Final
 
@@ -12,8 +13,10 @@ from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
+from tribodyn.mechanisms.actions import WAVE_STEPS
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
+from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.equations import n_blocks
 
 FUNCTIONS: Final = CompiledFunctions(
@@ -89,7 +92,16 @@ def mechanism_problem(
         n_observed=N_WHOLE + n * N_BODY + data.parts.couplings.size * N_COUPLING,
         field_shape=(data.contact.nodes.shape[1],),
         algebra=None if dense else _algebra(data),
+        longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
     )
+
+
+def _shortest_wave(case: MechanismCase) -> float:
+    """Return the shortest period of a sinusoidal drive or load [s]; infinite without one."""
+    signals = [drive.signal for drive in case.drives.values()]
+    periods = [signal.period for signal in signals]
+    periods += [signal.period for load in case.loads.values() for signal in load.given.values()]
+    return min((period for period in periods if period), default=math.inf)
 
 
 def _algebra(data: MechanismData) -> LinearSolver:

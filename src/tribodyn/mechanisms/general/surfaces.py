@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 import numpy as np
 
@@ -20,10 +21,12 @@ from tribodyn.mechanisms.bushing import Bearing
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.pairs import PairKeys
 from tribodyn.mechanisms.general.parts import FLANGE, ClearanceKeys, JointKeys
 from tribodyn.mechanisms.general.races import axes_of
 
 _Round = TypeVar("_Round", Cylinder, Sphere, Ball)
+NOT_WORN: Final[Mapping[str, float]] = {}
 
 
 def bearings(case: MechanismCase) -> dict[str, Bearing]:
@@ -47,17 +50,27 @@ def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
     )
 
 
-def clearances_of(case: MechanismCase) -> dict[str, Clearance]:
-    """Return the clearances of all joints that are not ideal by their names, contact laws tabulated."""
+def run_in(pair: PairKeys | MechanismCase, depth: float) -> PairKeys | MechanismCase:
+    """Return surfaces, contact law and wear with the roughness that a mean wear depth [m] leaves."""
+    return pair.model_copy(update={"surfaces": pair.surfaces.run_in(depth, pair.wear.final_roughness)})
+
+
+def clearances_of(case: MechanismCase, depths: Mapping[str, float] = NOT_WORN) -> dict[str, Clearance]:
+    """Return the clearances of all joints that are not ideal by their names, contact laws tabulated.
+
+    ``depths`` are mean depths that have run surfaces in [m], by joint.
+    """
     return {
-        name: _clearance(case, name, joint, joint.real)
+        name: _clearance(case, name, joint, joint.real, depths.get(name, 0.0))
         for name, joint in case.joints.items()
         if joint.real is not None
     }
 
 
-def _clearance(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys) -> Clearance:
-    pair = case.of_pair(keys)
+def _clearance(
+    case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys, depth: float
+) -> Clearance:
+    pair = run_in(case.of_pair(keys), depth)
     contact, surfaces = pair.contact, pair.surface_pair
     grid, law = case.solver.grid, contact.law_of(surfaces)
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)

@@ -10,8 +10,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribodyn.cases.beyond import FollowedTable
-from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following, Problem
@@ -28,12 +26,15 @@ from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
 from tribodyn.mechanisms.general.element_numbers import transmitted
 from tribodyn.mechanisms.general.films import film_columns, film_peaks
+from tribodyn.mechanisms.general.flash import flash_temperatures
+from tribodyn.mechanisms.general.followed import followed
 from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
+from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import (
     AXES,
@@ -44,6 +45,7 @@ from tribodyn.mechanisms.general.variables import (
     columns_of,
     observed,
 )
+from tribodyn.mechanisms.general.worn import depth_of, least_roughness, worn_model
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED
 
@@ -72,9 +74,13 @@ class MechanismSystem:
         return replace(found, strain=passage.warning)
 
     def _assembled(self, depth: FloatArray | None) -> Assembly:
-        found = assemble(self.model, depth)
+        found = assemble(self._worn(depth), depth)
         found.require_sound()
         return found
+
+    def _worn(self, depth: FloatArray | None) -> Model:
+        """Return the mechanism with the roughness that its joints have at a wear depth [m]."""
+        return worn_model(self.model, self.maps.places, depth)
 
     @cached_property
     def real(self) -> tuple[tuple[str, Clearance], ...]:
@@ -100,8 +106,7 @@ class MechanismSystem:
     @property
     def nodes(self) -> WearNodes:
         """The nodes of all joints with clearance, shape (n_nodes,)."""
-        roughness = min((clearance.roughness for _, clearance in self.real), default=1.0)
-        return WearNodes(self.maps.area, roughness, _STATES * len(self.model.bodies))
+        return WearNodes(self.maps.area, least_roughness(self.case), _STATES * len(self.model.bodies))
 
     @property
     def wear_rates(self) -> WearRates:
@@ -118,7 +123,7 @@ class MechanismSystem:
         """Put the mechanism together, move it through its cycle, and say what there is to know of it."""
         # A finer grid than by default would change nothing of that, and take much memory.
         coarse = replace(self, case=self.case.with_plain_grids())
-        touches = zip(coarse.maps.names, coarse._contacts.touches, strict=True)
+        touches = zip(coarse.maps.names, coarse._contacts(coarse.model).touches, strict=True)
         rough = [text for name, touch in touches for text in named(name, [of_clearance(touch)])]
         return [*coarse.assembly.remarks, *rough, *coarse._of_temperatures()]
 
@@ -198,6 +203,7 @@ class MechanismSystem:
         means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self.model.real]]
         return {
             "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
+            "wear_roughness": float(np.max(run.problem.data.contact.surfaces["roughness"])),
             "wear_force_mean": max(means),
         }
 
@@ -208,7 +214,8 @@ class MechanismSystem:
         ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled))
         energy = WHOLE.fraction(ledger, self._least_energy(found))
         peaks = self._peaks(run)
-        contacts = self._contacts
+        worn = self._worn(depth_of(run.problem.data.contact, self.maps.places))
+        contacts = self._contacts(worn)
         of_contacts = contacts.numbers_of(run.problem.data.contact, found.couplings, peaks) if peaks else {}
         return ResultPart(
             coordinates=self._coordinates(run),
@@ -224,33 +231,43 @@ class MechanismSystem:
                 "clearance": self._clearances(),
                 **peaks,
                 **of_contacts,
+                **flash_temperatures(worn, self.maps.places, contacts.touches, found.couplings),
                 **film_peaks(run.problem.memory.oil, self.model),
+                **self._reversals.peaks(run.solution.t, found.couplings, self._clearances()),
                 **self._pressure(run),
             },
             attributes={
                 "energy_residual": energy,
                 **self._began(run),
                 **({"cycle_period": self.case.period} if self.case.period is not None else {}),
+                **self._reversals.attributes,
             },
             warnings=checks.said(
                 [*self.assembly.warnings],
                 checks.of_start(self.case.run.start, self._began(run)),
                 checks.of_ledgers(energy, found.whole["gap"]),
                 contacts.warnings(peaks, of_contacts, float(run.solution.t_end)) if peaks else [],
-                of_tables(self.case.followed(), run.solution.t, partial(self._followed, found)),
+                of_tables(
+                    self.case.followed(), run.solution.t, partial(followed, self.case, found.couplings)
+                ),
                 cost=run.cost,
             ),
             notes=[
                 *self._of_temperatures(),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
+                *(self._reversals.notes(float(run.solution.t_end), carried=run.carried) if self.real else []),
             ],
             failure=self._failure(run),
         )
 
     @cached_property
-    def _contacts(self) -> Contacts:
-        clearances = tuple(clearance for _, clearance in self.real)
+    def _reversals(self) -> Reversals:
+        return Reversals(tuple(self.case.drives.values()), self.period, self.case.duration)
+
+    def _contacts(self, model: Model) -> Contacts:
+        """Return the contacts of all joints of the mechanism as drawn or worn."""
+        clearances = tuple(model.clearances.values())
         return Contacts(clearances, tuple(self.model.real), self.maps.names, self.maps.places)
 
     def _of_temperatures(self) -> list[str]:
@@ -262,30 +279,6 @@ class MechanismSystem:
             if cold is not None and cold.radial is not None
             for text in named(name, [of_expansion(cold.radial, hot.shape.clearance)])
         ]
-
-    def _followed(self, found: Observed, table: FollowedTable) -> FloatArray:
-        """Return what a table of a load follows, shape (n_t,): coordinate or speed of a joint, or its own."""
-        couplings, z = found.couplings, 2
-        if not table.follows:
-            return self._opposed(found, table)
-        along = {
-            "angles": couplings["joint_angle"],
-            "positions": couplings["displacement"][..., z],
-            "speeds": couplings["relative_rate"][..., z],
-            "velocities": couplings["relative_velocity"][..., z],
-        }[table.over]
-        number = self.model.joints.index(table.follows)
-        return np.asarray(self.case.joints[table.follows].sign * along[:, number])
-
-    def _opposed(self, found: Observed, table: FollowedTable) -> FloatArray:
-        """Return the speed that a load opposes, shape (n_t,)."""
-        name = table.path.split(".")[1]
-        place = len(self.case.joints) + len(self.case.springs) + list(self.case.loads).index(name)
-        twist = found.couplings["relative_rate" if table.over == "speeds" else "relative_velocity"][:, place]
-        direction = self.case.loads[name].direction
-        if direction is None:
-            return np.asarray(np.linalg.norm(twist, axis=1))
-        return np.asarray(np.abs(twist @ np.array(unit(direction, "direction"))))
 
     def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""
@@ -346,7 +339,7 @@ class MechanismSystem:
         return {name: np.where(np.isfinite(peaks[name]), peaks[name], np.nan) for name in peaks.dtype.names}
 
     def _coordinates(self, run: FinishedRun) -> dict[str, ArrayLike]:
-        parts = {
+        parts: dict[str, ArrayLike] = {
             "body": list(self.model.bodies),
             "joint": list(self.model.joints),
             "axis": list(AXES),
@@ -357,6 +350,7 @@ class MechanismSystem:
         if self.outputs:
             parts["output"] = [output.name for output in self.outputs]
             parts["output_unit"] = [output.unit for output in self.outputs]
+        parts |= self._reversals.coordinates(float(run.solution.t_end))
         if not self.real:
             return dict(parts)
         frames = run.solution.picture_times[self._playback(run)]

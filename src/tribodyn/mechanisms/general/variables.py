@@ -13,6 +13,8 @@ from tribodyn.core.quantities import TIME, Table, names, slices
 from tribodyn.kernels.film.quantities import FILM, FILM_PEAKS
 from tribodyn.kernels.joints.surface.quantities import PEAKS
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
+from tribodyn.mechanisms.general.reversals import PEAKS as REVERSAL_PEAKS
+from tribodyn.results.peaks import of_reversals_described
 from tribodyn.results.variables import FRAME, JUMP, STAGE, Variable, described
 
 AXES: Final = ("x", "y", "z")
@@ -102,6 +104,7 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
 
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
+    "wear_roughness": Variable("m", "largest combined rms roughness of a joint in the cycle", JUMP),
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
 }
 """What a wear campaign writes down about each cycle."""
@@ -124,6 +127,9 @@ VARIABLES: Final[dict[str, Variable]] = {
     **_variables(BODY, "body"),
     **{name: known for name, known in _variables(COUPLING, "joint").items() if name in JOINTS},
     "clearance": Variable("m", "radial clearance of the joint; none where it is ideal", ("joint",)),
+    "flash_temperature": Variable(
+        "K", "how much warmer than the surfaces their asperities get, an estimate", ("joint",)
+    ),
     **{
         quantity.name: Variable(quantity.unit, f"{quantity.meaning}, of each surface", ("surface",))
         for quantity in PEAKS
@@ -133,6 +139,7 @@ VARIABLES: Final[dict[str, Variable]] = {
         for quantity in FILM_PEAKS
     },
     "hardness_share": Variable("1", "largest contact pressure over the hardness", ("surface",)),
+    "roughness": Variable("m", "combined rms roughness in this run, of each surface", ("surface",)),
     "real_area_share": Variable("1", "real over nominal area of contact at the smallest gap", ("surface",)),
     "grid_force_error": Variable(
         "1", "largest error of the contact force on the chosen grid, over the largest force", ("surface",)
@@ -140,6 +147,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "pressure_at_rest": Variable(
         "Pa", "peak pressure of surfaces at rest where that of the run was largest", ("surface",)
     ),
+    **of_reversals_described(REVERSAL_PEAKS, ("joint",)),
     **described(WHOLE),
     "energy_in": Variable("J", "work of drives and loads since the start"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
@@ -148,6 +156,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_residual": Variable("J", "what the energy ledger misses"),
     "pressure_cycle": Variable("Pa", "contact pressure over one cycle", (*FRAME, *_MAP)),
     "wear_depth": Variable("m", "wear depth, after the campaign or, estimated, after this run", _MAP),
+    "partner_wear_depth": Variable("m", "part of wear_depth worn off the partner of the bushing", _MAP),
     "stage_depth": Variable("m", "wear depth, selected", (*STAGE, *_MAP)),
     **OF_CYCLE,
 }

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.mechanisms.general.headlines import offset, sizes
+from tribodyn.mechanisms.general.readings import offset, sizes
 from tribodyn.mechanisms.general.sections import mechanism
 from tribodyn.mechanisms.general.sections.charts import (
     CLEARANCES,

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.general.headlines import offset, sizes
 from tribodyn.mechanisms.general.ledger import WHOLE
+from tribodyn.mechanisms.general.readings import offset, sizes
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.ledger import ledger_chart

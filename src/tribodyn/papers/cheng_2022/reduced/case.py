@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
 from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import choice, count, number, quantity, switch, tables, text
+from tribodyn.cases.fields import choice, count, number, quantity, tables, text
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import (
     Solver,
@@ -124,15 +124,6 @@ class VaneWear(Wear):
         ASSUMED,
         gt=0,
         example="0.05 deg",
-    )
-
-    running_in: bool = switch(False, "whether the bushing's roughness changes in a campaign", "manual, wear")
-    final_roughness: float | None = quantity(
-        None,
-        "rms roughness that the bushing runs in to; that of the trunnion without it",
-        ASSUMED,
-        gt=0,
-        example="0.4 um",
     )
 
     @property
@@ -341,18 +332,12 @@ class VsvCase(BushingCase):
 
     def _check_running_in(self) -> None:
         """Check that there is a roughness to run in to."""
-        final = self.surfaces.trunnion.roughness if self.wear.final_roughness is None else 1.0
-        words = "the trunnion is smooth: say what the bushing runs in to"
-        demand(not self.wear.running_in or final > 0.0, "wear.final_roughness", words)
+        if self.wear.running_in:
+            self.surfaces.check_running_in(self.wear.final_roughness)
 
     def run_in(self, depth: float) -> Self:
         """Return the case with the roughness of a bushing that is worn by a mean depth [m]."""
-        from tribodyn.wear import worn_roughness
-
-        bushing, trunnion = self.surfaces.bushing, self.surfaces.trunnion
-        final = self.wear.final_roughness or trunnion.roughness
-        sigma = worn_roughness(bushing.roughness, depth, final)
-        worn = self.surfaces.model_copy(update={"bushing": bushing.model_copy(update={"roughness": sigma})})
+        worn = self.surfaces.run_in(depth, self.wear.final_roughness)
         return self.model_copy(update={"surfaces": worn})
 
     def _check_loads(self) -> None:

@@ -17,6 +17,7 @@ from tribodyn.mechanisms.checks import (
     of_damping_pressure,
     of_lift_off,
     of_load,
+    of_reversals,
     of_steps,
 )
 from tribodyn.papers.cheng_2022.reduced.course import course
@@ -109,19 +110,11 @@ def lift_off_share(found: Mapping[str, float], t_end: float) -> float:
 
 def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> str:
     """Say which reversals of a drive cycle the run does not hold with what follows them."""
-    period, settling = vsv.drive.period, vsv.drive.impact_time
+    period = vsv.drive.period
     cycle = course(vsv, period)
     ends = cycle.segments.direction[[0, -1]]
     every = cycle.turns if ends[0] == ends[1] else np.concatenate([[0.0], cycle.turns])
-    held = turns[(turns + settling <= t_end) & ((turns > 0.0) | carried)]
-    phases = np.mod(held + 0.5 * settling, period) - 0.5 * settling
-    missing = [t for t in every if not np.any(np.abs(phases - t) < 0.5 * settling)]
-    if not missing:
-        return ""
-    return (
-        f"Of the {every.size} reversals of a drive cycle the run holds {every.size - len(missing)} with the "
-        "impacts that follow: peaks after the others may be larger."
-    )
+    return of_reversals(every, turns, period=period, t_end=t_end, carried=carried)
 
 
 def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:

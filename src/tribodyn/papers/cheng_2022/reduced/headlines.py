@@ -13,7 +13,6 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.reading import (
     column,
-    cycles,
     largest,
     norm,
     outside,
@@ -23,6 +22,7 @@ from tribodyn.results.reading import (
     time_mean,
 )
 from tribodyn.results.summary import Headline
+from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
 
 def _angle_error(dataset: xr.Dataset) -> FloatArray:
@@ -33,15 +33,6 @@ def _angle_error(dataset: xr.Dataset) -> FloatArray:
 def _speed_error(dataset: xr.Dataset) -> FloatArray:
     """Return the vane-speed error [deg/s] over time."""
     return np.rad2deg(column(dataset, "omega_v") - column(dataset, "omega_v_ideal"))
-
-
-def _wear_rate(dataset: xr.Dataset) -> float:
-    """Return the greatest wear depth [nm] a thousand cycles would make; NaN before one cycle is complete."""
-    if "wear_rate" in dataset:
-        return float(column(dataset, "wear_rate")[-1]) * 1e9 * 1000.0
-    held = cycles(dataset)
-    whole = held >= 1.0 - 1e-9
-    return peak(column(dataset, "wear_depth")) * 1e9 * 1000.0 / held if whole else math.nan
 
 
 @dataclass(frozen=True)
@@ -215,45 +206,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Deepest point of the worn bushing: after the wear campaign, or a linear estimate for this run.",
         lambda d: peak(column(d, "wear_depth")) * 1e9,
     ),
-    "wear_depth_rate_nm_per_1000_cycles": Headline(
-        "Wear rate",
-        "nm per 1000 cycles",
-        "Wear",
-        "Deepest wear if this motion repeats and the pressure stays as it is.",
-        _wear_rate,
-    ),
-    "worn_volume_mm3": Headline(
-        "Worn volume",
-        "mm³",
-        "Wear",
-        "What was worn off the bushing, in the campaign or by the same estimate.",
-        lambda d: float(d.attrs["worn_volume"]) * 1e9,
-    ),
-    "wear_cycles": Headline(
-        "Cycles of wear",
-        "",
-        "Wear",
-        "Drive cycles that the wear campaign covered.",
-        lambda d: float(d.attrs["wear_cycles_reached"]),
-        count=True,
-    ),
-    "wear_life_cycles": Headline(
-        "Life",
-        "cycles",
-        "Wear",
-        "Drive cycles until some point is worn to the depth limit, or the vane-angle error has grown to "
-        "its own; without a campaign a linear estimate.",
-        lambda d: float(d.attrs["wear_life_cycles"]),
-    ),
-    "wear_life_factor": Headline(
-        "Factor of the life",
-        "",
-        "Wear",
-        "Lives at both ends of the range of wear rates, over each other: of the named material, or of the "
-        "liners of one laboratory where nobody gave a rate or a material.",
-        lambda d: float(d.attrs["wear_life_factor"]),
-        digits=1,
-    ),
+    **WEAR_NUMBERS,
     "energy_residual_percent": Headline(
         "Energy residual, whole system",
         "%",

@@ -15,13 +15,11 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
 from tribodyn.mechanisms.actions import Term, crossings
+from tribodyn.mechanisms.peaks import impact_time
 
 FORMULATIONS: Final = ("exact", "paper")
 _LEAST_RANGE: Final = 1.0e-4
 """Of the crank, where a run ends before its table sets out [rad]."""
-IMPACT_SHARE: Final = 0.1
-"""Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
-the crank; the rest is smooth motion."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +74,7 @@ class CrankMotion:
     @property
     def impact_time(self) -> float:
         """How long impacts last after a reversal [s]."""
-        return IMPACT_SHARE * 0.5 * self.period
+        return impact_time(self.period)
 
     @property
     def swing(self) -> float:
@@ -133,7 +131,7 @@ class TableDrive:
     @property
     def impact_time(self) -> float:
         """How long impacts last after a reversal [s]."""
-        return IMPACT_SHARE * 0.5 * self.period
+        return impact_time(self.period)
 
     @cached_property
     def _angle(self) -> PPoly:

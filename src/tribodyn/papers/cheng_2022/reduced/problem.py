@@ -25,7 +25,7 @@ from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.observe import observe
 from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
-from tribodyn.mechanisms.actions import actions_of, shortest_wave
+from tribodyn.mechanisms.actions import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.signals import SignalList, pieces_of
 from tribodyn.papers.cheng_2022.reduced.course import course
@@ -34,9 +34,6 @@ from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_table
 
 STARTS: Final = ("equilibrium", "centred")
-WAVE_STEPS: Final = 24
-"""Steps in a wave of a load, at least. What it lends the trunnion and takes back is up to a hundred times
-what the contact turns into heat: a small delay of the steps would show in the ledger."""
 
 FUNCTIONS: Final = CompiledFunctions(
     rhs=functions.rhs,

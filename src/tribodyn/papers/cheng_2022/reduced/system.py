@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Final
@@ -11,6 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
@@ -30,7 +31,7 @@ from tribodyn.mechanisms.bushing import (
     pressure_at_rest,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
-from tribodyn.mechanisms.flash import flash_of
+from tribodyn.mechanisms.flash import flash_of, has_conductors
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -111,9 +112,14 @@ class VsvSystem:
 
     def worn_bushing(self, depth: FloatArray | None) -> BushingJoint:
         """Return the trunnion in its bushing with the roughness that it has at a wear depth [m]."""
+        case = self._worn_case(depth)
+        return self.bushing if case is self.case else bushing_of(case)
+
+    def _worn_case(self, depth: FloatArray | None) -> VsvCase:
+        """Return the case with the roughness that the bushing has at a wear depth [m]."""
         if not self.case.wear.running_in or depth is None or not depth.any():
-            return self.bushing
-        return bushing_of(self.case.run_in(loaded_depth(depth, self._area)))
+            return self.case
+        return self.case.run_in(loaded_depth(depth, self._area))
 
     @property
     def wear_rates(self) -> WearRates:
@@ -199,10 +205,8 @@ class VsvSystem:
         found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
         largest = of_run(memory.peaks, WATCHED)
         pressure = largest["pressure_peak"]
-        law = self.case.contact.law_of(self.case.surface_pair)
+        law = self.case.contact.law_of(self._worn_case(worn).surface_pair)
         found |= loading(law, bushing.touch, pressure, found["separation_least"])
-        speed = rows["omega_v"] * bushing.geometry.radius
-        flash = flash_of(self.case, bushing, rows, speed)
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         when = instant(largest["pressure_peak_time"], turns, self.vsv.drive.impact_time)
@@ -220,7 +224,7 @@ class VsvSystem:
                 "energy_residual": whole,
                 "clearance_energy_residual": of_clearance,
                 **found,
-                **flash,
+                **self._flash(bushing, law, rows),
             },
             warnings=[
                 *warnings(self.vsv, found, whole, of_clearance, t_end, run.cost, when),
@@ -236,6 +240,25 @@ class VsvSystem:
             ],
             failure=self._failure(run),
         )
+
+    def _flash(
+        self, bushing: BushingJoint, law: ContactLaw, rows: Mapping[str, FloatArray]
+    ) -> dict[str, float]:
+        """Return the flash temperature where pressure times speed was largest, by name; else nothing."""
+        speed = np.abs(rows["omega_v"]) * bushing.geometry.radius
+        if not (has_conductors(self.case.surfaces) and bushing.touch.over_surface and speed.size):
+            return {}
+        row = int(np.argmax(rows["p_max"] * speed))
+        flash = flash_of(
+            self.case.surfaces,
+            law,
+            bushing.touch,
+            friction_coefficient=bushing.friction.coefficient,
+            pressure=float(rows["p_max"][row]),
+            separation=float(rows["separation_min"][row]),
+            speed=float(speed[row]),
+        )
+        return {"flash_temperature": flash}
 
     def _coordinates(self, run: FinishedRun) -> dict[str, FloatArray]:
         pictures = run.solution.picture_times

@@ -1,0 +1,71 @@
+"""Numbers read off a result of a user-defined mechanism: what its key results and charts are made of."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.results.reading import column, settled
+
+SHORT: Final = 0.01
+"""Share of the time that impacts may last; a sustained maximum leaves it out."""
+
+
+def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+    values
+        Quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
+    """
+    time = settled(dataset, column(dataset, "time"))
+    found = np.abs(settled(dataset, values).reshape(time.size, -1))
+    steps = np.diff(time)
+    weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
+    order = np.argsort(found, axis=0)
+    share = np.cumsum(weights[order], axis=0) / weights.sum()
+    rising = np.take_along_axis(found, order, axis=0)
+    return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))
+
+
+def sizes(dataset: xr.Dataset, name: str) -> FloatArray:
+    """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n)."""
+    return np.asarray(np.linalg.norm(column(dataset, name), axis=-1))
+
+
+def of_joint(dataset: xr.Dataset, joint: str) -> int:
+    """Return the number of a joint, whose name may be that of a number; an unknown one raises."""
+    names = [str(name).replace("-", "_") for name in dataset["joint"].values]
+    return names.index(joint.replace("-", "_"))
+
+
+def offset(dataset: xr.Dataset) -> FloatArray:
+    """Return how far shafts are from the middle of their bores [m], shape (n_t, n_joints)."""
+    across = np.linalg.norm(column(dataset, "displacement")[..., :2], axis=-1)
+    return np.asarray(np.where(np.isfinite(column(dataset, "clearance")), across, np.nan))
+
+
+def least(values: FloatArray) -> float:
+    """Return the smallest finite value, NaN when there is none."""
+    finite = values[np.isfinite(values)]
+    return float(finite.min()) if finite.size else math.nan
+
+
+def above_zero(value: float) -> float:
+    """Return a number, or NaN where it is zero and thus not shown."""
+    return value if value > 0.0 else math.nan
+
+
+def of_surfaces(dataset: xr.Dataset, joint: int) -> NDArray[np.intp]:
+    """Return the numbers of the surfaces of a joint, none where it is ideal."""
+    name = str(dataset["joint"].values[joint])
+    surfaces = dataset["surface"].values.tolist() if "surface" in dataset.coords else []
+    return np.flatnonzero([text.rpartition(":")[0] == name for text in surfaces])
