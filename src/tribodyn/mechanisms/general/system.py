@@ -256,14 +256,16 @@ class MechanismSystem:
                 *self._of_temperatures(),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
-                *(self._reversals.notes(float(run.solution.t_end), carried=run.carried) if self.real else []),
+                *self._reversals.notes(float(run.solution.t_end), carried=run.carried),
             ],
             failure=self._failure(run),
         )
 
     @cached_property
     def _reversals(self) -> Reversals:
-        return Reversals(tuple(self.case.drives.values()), self.period, self.case.duration)
+        # Where all joints are ideal, no impacts follow.
+        drives = tuple(self.case.drives.values()) if self.real else ()
+        return Reversals(drives, self.period, self.case.duration)
 
     def _contacts(self, model: Model) -> Contacts:
         """Return the contacts of all joints of the mechanism as drawn or worn."""
