@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
+
+ANALYSES: Final = ("static", "kinematic")
+"""Analyses that have an option of their own."""
 
 
 def add_case_arguments(parser: ArgumentParser, *, required: bool = True) -> None:
@@ -36,19 +39,29 @@ def add_changes(parser: ArgumentParser) -> None:
         help='change a key, with its unit: --set joint.clearance="25 um"; may be repeated',
     )
     parser.add_argument("--solver", metavar="NAME", help="short for --set solver.name=NAME")
+    for name in ANALYSES:
+        parser.add_argument(
+            f"--{name}",
+            dest="analysis",
+            action="store_const",
+            const=name,
+            help=f"short for --set run.analysis={name} of a user-defined mechanism",
+        )
 
 
 def chosen_case(args: Namespace) -> Case:
     """Return the case that the arguments name, with the changes they ask for."""
     from tribodyn.mechanisms.catalogue import load_case
 
-    case, solver = load_case(args.case, _set(args), source="--set"), _solver(args)
-    return case.replace(solver, source="--solver") if solver else case
+    case = load_case(args.case, _set(args), source="--set")
+    for option, short in (("--solver", _solver(args)), (f"--{args.analysis}", _analysis(args))):
+        case = case.replace(short, source=option) if short else case
+    return case
 
 
 def changes(args: Namespace) -> dict[str, str]:
     """Return the changes that the arguments ask for, by dotted path."""
-    return _set(args) | _solver(args)
+    return _set(args) | _solver(args) | _analysis(args)
 
 
 def _set(args: Namespace) -> dict[str, str]:
@@ -57,6 +70,10 @@ def _set(args: Namespace) -> dict[str, str]:
 
 def _solver(args: Namespace) -> dict[str, str]:
     return {} if args.solver is None else {"solver.name": args.solver}
+
+
+def _analysis(args: Namespace) -> dict[str, str]:
+    return {} if args.analysis is None else {"run.analysis": args.analysis}
 
 
 def typed(text: str) -> str:

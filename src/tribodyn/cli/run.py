@@ -66,8 +66,9 @@ def execute(args: Namespace) -> int:
 
 
 def _name(args: Namespace) -> str:
-    """Return the default directory: named after the case, in the current directory."""
-    return f"results-{Path(args.case).stem}"
+    """Return the default directory: named after case and analysis, in the current directory."""
+    analysis = "" if args.analysis is None else f"-{args.analysis}"
+    return f"results-{Path(args.case).stem}{analysis}"
 
 
 def _spare(folder: str, case: Case) -> None:

@@ -176,6 +176,10 @@ class Problem:
         Where steps give rows beside those at output times; nowhere by default.
     longest_step
         Length that no step exceeds [s]: what acts may swing faster than the states show.
+    solved
+        Returns the solution where states are not integrated but known or in equilibrium; its arguments are
+        the times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial
+        value problem.
     """
 
     functions: CompiledFunctions
@@ -194,6 +198,7 @@ class Problem:
     index: tuple[int, ...] = ()
     following: Following | None = None
     longest_step: float = math.inf
+    solved: Callable[[FloatArray, FloatArray, Callable[[float], None] | None], Solution] | None = None
 
 
 @dataclass

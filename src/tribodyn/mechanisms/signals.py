@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -83,6 +84,29 @@ def _padded(polynomial: FloatArray) -> FloatArray:
 def _value(polynomial: FloatArray, x: float) -> float:
     """Return the value of one polynomial."""
     return float(np.polynomial.polynomial.polyval(x, polynomial))
+
+
+def backward(signals: kinds.Signals, numbers: Iterable[int]) -> kinds.Signals:
+    """Return signals of which some run backward: at −x they have the value that they had at x.
+
+    Parameters
+    ----------
+    signals
+        All of a mechanism; they stay as they are.
+    numbers
+        Of those that follow time.
+    """
+    records, pieces = signals.signals.copy(), signals.pieces.copy()
+    for number in numbers:
+        signal = records[number]
+        own = slice(signal.first, signal.first + signal.n)
+        begin = signal.begin if signal.period > 0.0 else -np.inf
+        starts = np.append(begin, pieces.until[own][:-1])
+        pieces.until[own], pieces.left[own] = -starts[::-1], -pieces.left[own][::-1]
+        pieces.c[own] = (pieces.c[own] * [1.0, -1.0, 1.0, -1.0, 1.0])[::-1]
+        signal.sine[1] *= -1.0
+        signal.begin = -(signal.begin + signal.period)
+    return kinds.Signals(records, pieces, -signals.kinks[::-1])
 
 
 class SignalList:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
@@ -10,8 +11,8 @@ from pydantic import create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import Vector, choice, count, number, quantity, tables, text, vector
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import Vector, choice, tables, text, vector
 from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import Contact, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
@@ -29,62 +30,15 @@ from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
+from tribodyn.mechanisms.general.run_keys import ROWS, Integration, NodeKeys, RunKeys
 
-if TYPE_CHECKING:
-    pass
 
-ROWS: Final = 500
-"""Rows of a result for which no interval was given."""
 _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
 _OF_WEAR: Final = ("wear.specific_wear_rate", "wear.partner_wear_rate", "wear.final_roughness")
 _CLEARANCE: Final = re.compile(r"(joints\.[^.]+\.clearance\.).+")
 
 
-class RunKeys(Group):
-    """How long, and what is kept."""
-
-    cycles: float | None = number(
-        None, "cycles to simulate; give this or duration", ASSUMED, gt=0, le=1e6, example="2"
-    )
-    duration: float | None = quantity(
-        None, "simulated time; give this or cycles", ASSUMED, gt=0, example="0.5 s"
-    )
-    period: float | None = quantity(
-        None, "time of one cycle; that of the first drive that has one without it", "", gt=0, example="12 ms"
-    )
-    start: Literal["equilibrium", "centred"] = choice(
-        "equilibrium", "where shafts are in their sockets at the start", "manual, any mechanism"
-    )
-    output_interval: float | None = quantity(
-        None,
-        f"time between rows of the result; a {ROWS}th of the run or cycle without it",
-        "",
-        gt=0,
-        example="0.1 ms",
-    )
-    step_rows: int = count(
-        2000,
-        "rows of each cycle that follow the steps, at most: those with the peaks; none with 0",
-        ASSUMED,
-        ge=0,
-        le=1_000_000,
-    )
-
-
-class NodeKeys(Group):
-    """Quadrature points over each surface of a joint with clearance, unless the joint says otherwise."""
-
-    theta: int = count(96, "points around", ASSUMED, ge=12, le=4096)
-    z: int = count(16, "Gauss points across", ASSUMED, ge=2, le=256)
-
-
-class Integration(Group):
-    """The time integration; absolute tolerances follow from clearances and sizes."""
-
-    name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
-    rtol: float = number(1e-5, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
-    grid: NodeKeys = NodeKeys()
 
 
 class _Parts(RoughCase):
@@ -202,8 +156,8 @@ class MechanismCase(_WithElements):
             for key, signal in load.given.items()
         }
         along = {path: self.loads[path.split(".")[1]].along or "" for path in loads}
-        yield from followed(self, drives, self.duration)
-        yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
+        yield from followed(self, drives, self.span)
+        yield from followed(self, loads, self.span, cycle=self.period, follows=along)
 
     def idle(self) -> tuple[str, ...]:
         """Return the keys that follow from the shapes of bodies."""
@@ -211,7 +165,7 @@ class MechanismCase(_WithElements):
 
     def doors(self) -> Doors:
         """Return where functions for the drive and for loads go."""
-        return doors_of(self.drives, self.loads, self.duration)
+        return doors_of(self.drives, self.loads, self.span)
 
     @property
     def period(self) -> float | None:
@@ -221,18 +175,32 @@ class MechanismCase(_WithElements):
         return next(filter(None, (drive.period for drive in self.drives.values())), None)
 
     @property
-    def duration(self) -> float:
-        """Simulated time of the whole run [s]."""
+    def span(self) -> float:
+        """Time that the drives run forward [s]: one cycle at most where the run is not dynamic."""
         if self.run.duration is not None:
             return self.run.duration
         assert self.run.cycles is not None
         assert self.period is not None
-        return self.run.cycles * self.period
+        cycles = self.run.cycles if self.run.analysis == "dynamic" else min(self.run.cycles, 1.0)
+        return cycles * self.period
+
+    @property
+    def turn(self) -> float:
+        """Time at which the drives turn back [s]; infinite where they do not."""
+        return self.span if self.run.directions == "both" else math.inf
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of the whole run [s]."""
+        return self.span if math.isinf(self.turn) else 2.0 * self.span
 
     @property
     def output_interval(self) -> float:
         """Time between rows [s]."""
-        return self.run.output_interval or min(self.duration, self.period or self.duration) / ROWS
+        longest = min(self.span, self.period or self.span)
+        if self.run.analysis == "static":
+            return longest / self.run.positions
+        return self.run.output_interval or longest / ROWS
 
     @property
     def campaign_cycles(self) -> int:
@@ -339,13 +307,13 @@ class MechanismCase(_WithElements):
         words = "nothing says how long a cycle is; give run.period, or run.duration instead"
         demand(run.cycles is None or self.period is not None, "run.cycles", words)
         check_output_interval(self.output_interval, self.duration)
+        words = 'only a static analysis passes its positions in both directions; give run.analysis = "static"'
+        demand(run.directions == "forward" or run.analysis == "static", "run.directions", words)
         for name, drive in self.drives.items():
             knots = drive.signal.knots
             if knots and GIVEN[drive.gives][1] == 0:
-                words = (
-                    f"the table holds {knots[0]:g} s to {knots[-1]:g} s, the run takes {self.duration:g} s"
-                )
-                inside = knots[0] <= 0.0 and knots[-1] >= self.duration
+                words = f"the table holds {knots[0]:g} s to {knots[-1]:g} s, the run takes {self.span:g} s"
+                inside = knots[0] <= 0.0 and knots[-1] >= self.span
                 demand(inside, f"drives.{name}.{drive.gives}.times", words)
 
     def _check_running_in(self) -> None:
@@ -358,6 +326,8 @@ class MechanismCase(_WithElements):
     def _check_campaign(self) -> None:
         if self.wear.cycles == 0:
             return
+        words = f"a wear campaign simulates cycles, and a {self.run.analysis} analysis none; choose dynamic"
+        demand(self.run.analysis == "dynamic", "run.analysis", words)
         real = [joint.real for joint in self.joints.values() if joint.real is not None]
         words = 'a wear campaign needs a joint with clearance whose contact is "surface"'
         demand(any(clearance.contact == "surface" for clearance in real), "wear.cycles", words)

@@ -6,6 +6,7 @@ One file because all that assembly asks of these matrices shares the bodies that
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Any, Final, TypeAlias
 
 import numpy as np
@@ -20,6 +21,7 @@ from tribodyn.kernels.mechanism.solution import (
     HARD,
     ROUNDS,
     close,
+    correct_velocities,
     kinematics,
     mark_angles,
     set_compliance,
@@ -62,7 +64,13 @@ Position: TypeAlias = tuple[Any, Any]
 
 
 class System:
-    """A mechanism while it is put together, its rows as full matrices."""
+    """A mechanism while it is put together, its rows as full matrices.
+
+    Attributes
+    ----------
+    known_rank
+        Number of independent constraints, where it is not to be found anew at each position.
+    """
 
     def __init__(self, model: Model, worn: FloatArray | None = None) -> None:
         self.model = model
@@ -73,6 +81,7 @@ class System:
         self.n = len(model.bodies)
         self.size = float(self.parts.constants.size)
         self._wait = 0
+        self.known_rank: int | None = None
         self._later_legs = [
             (self.rows.index((int(c.first_leg), 0)), k)
             for k, c in enumerate(self.parts.couplings)
@@ -145,8 +154,9 @@ class System:
         """Return one quantity of all rows, shape (n_rows,)."""
         return np.asarray(self.now.couplings[name][self._places], np.float64)
 
+    @cached_property
     def metric(self) -> FloatArray:
-        """Return the inverse square root of the mass matrix, shape (6 n, 6 n)."""
+        """Inverse square root of the mass matrix, shape (6 n, 6 n)."""
         root = np.zeros((6 * self.n, 6 * self.n))
         for b, body in enumerate(self.parts.bodies):
             root[6 * b : 6 * b + 3, 6 * b : 6 * b + 3] = np.eye(3) / np.sqrt(body.mass)
@@ -157,7 +167,7 @@ class System:
 
     def scaled(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return G over the metric with rows of length one, the metric and the lengths."""
-        root = self.metric()
+        root = self.metric
         g = self.matrix() @ root
         length = np.linalg.norm(g, axis=1)
         length[length == 0.0] = 1.0
@@ -174,11 +184,13 @@ class System:
 
     def rank(self, rows: FloatArray | None = None) -> int:
         """Return how many of these rows, or of the constraints, are independent."""
+        if rows is None and self.known_rank is not None:
+            return self.known_rank
         given = self.over_sizes(self.matrix() if rows is None else rows)
         return rank_of(np.asarray(np.linalg.svd(given, compute_uv=False), np.float64))
 
-    def inverse(self, scaled: FloatArray, rows: FloatArray) -> FloatArray:
-        """Return the pseudo-inverse of rows that were scaled by mass, of the rank of the ``rows``."""
+    def inverse(self, scaled: FloatArray, rows: FloatArray | None = None) -> FloatArray:
+        """Return the pseudo-inverse of rows that were scaled by mass, of the rank of ``rows`` or of all."""
         rank = self.rank(rows)
         u, values, v = np.linalg.svd(scaled, full_matrices=False)
         return np.asarray((v[:rank].T / values[:rank]) @ u[:, :rank].T)
@@ -212,6 +224,15 @@ class System:
         close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
         return self.gap()
 
+    def move_with_drives(self, direction: float) -> None:
+        """Fill the velocities of the drives, running forward (1) or back (−1); freedoms are at rest."""
+        self.now.bodies.v[:] = self.now.bodies.w[:] = 0.0
+        self.refresh()
+        correct_velocities(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
+        self.now.bodies.v[:] *= direction
+        self.now.bodies.w[:] *= direction
+        self.refresh()
+
     def follow(self, times: FloatArray, first: int, matrix: FloatArray, states: FloatArray) -> int:
         """Fill states at times from a number on; return the number of the first that is not reached at once.
 
@@ -238,7 +259,7 @@ class System:
     def wander(self, chance: np.random.Generator) -> bool:
         """Move the bodies some way along the freedoms that are left; tell whether there are any."""
         g, root, _ = self.scaled()
-        free = np.eye(6 * self.n) - self.inverse(g, self.matrix()) @ g
+        free = np.eye(6 * self.n) - self.inverse(g) @ g
         way = root @ free @ chance.normal(size=6 * self.n)
         ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
         if np.max(ways) <= CLOSED:
@@ -255,7 +276,7 @@ class System:
             if least < CLOSED:
                 break
             g, root, length = self.scaled()
-            change = self.inverse(g, self.matrix()) @ (-self.entries("residual") / length)
+            change = self.inverse(g) @ (-self.entries("residual") / length)
             self.step(root @ change)
             if (gap := self.gap()) < least:
                 least, nearest = gap, self.position()

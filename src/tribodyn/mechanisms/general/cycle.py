@@ -169,8 +169,12 @@ def _finding(system: System, time: float) -> ModelError:
     """Return which joint does not close at a time, and where the drives are then."""
     system.close()
     finding = system.open_joint()
-    where = " and ".join(_where(system, *row) for row in system.drive_rows())
-    return ModelError(finding.key, f"at t = {time:.4g} s, with {where}, {finding.text}")
+    return ModelError(finding.key, f"at t = {time:.4g} s, with {where_drives_are(system)}, {finding.text}")
+
+
+def where_drives_are(system: System) -> str:
+    """Return where the drives are at the time of a system, in words."""
+    return " and ".join(_where(system, *row) for row in system.drive_rows())
 
 
 def _where(system: System, coupling: int, row: int, name: str) -> str:

@@ -34,7 +34,7 @@ _SIZE_AT: Final = {"force": 0, "moment": 3}
 
 def terms_of(case: MechanismCase, load: LoadKeys) -> Iterator[Term]:
     """Yield the terms of a load; against the motion they are its size."""
-    for vector, factors in parts_of(load, _FOLLOWED, case.period, case.duration):
+    for vector, factors in parts_of(load, _FOLLOWED, case.period, case.span):
         if load.frame == "motion":
             yield term(_size_at(load), 1.0, factors)
         else:

@@ -106,6 +106,18 @@ class Output:
             difference = np.remainder(difference + np.pi, 2.0 * np.pi) - np.pi
         return self.value(difference)
 
+    def rate(self, motion: Motion) -> FloatArray:
+        """Return the rate of its value, of a velocity the value itself, shape (n_t,)."""
+        if self.keys.quantity == "angle":
+            return self._turning(motion)
+        point, rate = self._point_in_reference(motion)
+        if self.keys.quantity == "velocity":
+            return self.value(self.components(motion))
+        if self.keys.quantity == "distance" or self.keys.along is None:
+            length = np.linalg.norm(point, axis=1)
+            return np.asarray(np.sum(point * rate, axis=1) / np.where(length > 0.0, length, np.nan))
+        return np.asarray(rate @ self._along)
+
     @property
     def _along(self) -> FloatArray:
         assert self.keys.along is not None
@@ -113,9 +125,26 @@ class Output:
 
     def _angle(self, motion: Motion) -> FloatArray:
         """Return the angle about the axis, without jumps [rad], shape (n_t,)."""
-        of_body, of_reference = (_rotation(motion, b) for b in (self.body, self.reference))
-        q = np.atleast_2d((of_reference.inv() * of_body).as_quat())
+        q = self._relative(motion)
         return np.asarray(np.unwrap(2.0 * np.arctan2(q[:, :3] @ self._along, q[:, 3])))
+
+    def _relative(self, motion: Motion) -> FloatArray:
+        """Return the quaternions that turn the reference to the body, scalar last, shape (n_t, 4)."""
+        of_body, of_reference = (_rotation(motion, b) for b in (self.body, self.reference))
+        return np.atleast_2d((of_reference.inv() * of_body).as_quat())
+
+    def _turning(self, motion: Motion) -> FloatArray:
+        """Return the rate of the angle about the axis [rad/s], shape (n_t,): q̇ = (0, ω) q / 2."""
+        q, against = self._relative(motion), _spin(motion, self.body) - _spin(motion, self.reference)
+        spin, vector, scalar = (
+            _rotation(motion, self.reference).apply(against, inverse=True),
+            q[:, :3],
+            q[:, 3],
+        )
+        scalar_rate = -np.sum(spin * vector, axis=1)
+        rate = (scalar[:, None] * spin + np.cross(spin, vector)) @ self._along
+        twist = vector @ self._along
+        return np.asarray((scalar * rate - twist * scalar_rate) / (scalar**2 + twist**2))
 
     def _point_in_reference(self, motion: Motion) -> tuple[FloatArray, FloatArray]:
         """Return the way from the reference point to the point, and its rate, in axes of the reference."""
@@ -149,7 +178,12 @@ def _rotation(motion: Motion, body: int) -> Rotation:
     """Return how a body is turned from the drawing; the ground is not."""
     if body < 0:
         return Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (motion.position.shape[0], 1)))
-    return Rotation.from_quat(np.roll(motion.orientation[:, body], -1, axis=1))
+    return rotations(motion.orientation[:, body])
+
+
+def rotations(quaternions: FloatArray) -> Rotation:
+    """Return the rotations of quaternions, scalar first, shape (n, 4)."""
+    return Rotation.from_quat(np.roll(quaternions, -1, axis=1))
 
 
 def _spin(motion: Motion, body: int) -> FloatArray:

@@ -70,10 +70,12 @@ def start(
     fits
         Whether this counterpart can move as its drives do; its rows must then be satisfied exactly.
     """
-    exact, root = _rows(system, speeds), system.metric()
+    exact, root = _rows(system, speeds), system.metric
     scaled = exact.matrix @ root
     length = np.maximum(np.linalg.norm(scaled, axis=1, keepdims=True), _TINY)
-    velocity = root @ (system.inverse(scaled / length, exact.matrix) @ (exact.target / length[:, 0]))
+    velocity = root @ (
+        system.inverse(scaled / length, exact.matrix if speeds else None) @ (exact.target / length[:, 0])
+    )
     missed = exact.missed_by(velocity)
     if ideal is not None:
         held = _rows(ideal.system, ())

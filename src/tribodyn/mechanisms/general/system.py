@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, Final
@@ -20,6 +20,8 @@ from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes
 from tribodyn.mechanisms.bushing import of_expansion
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.general import checks
+from tribodyn.mechanisms.general.actions import GIVEN
+from tribodyn.mechanisms.general.analysis import NOTES, analysed
 from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
@@ -29,10 +31,12 @@ from tribodyn.mechanisms.general.films import film_columns, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
 from tribodyn.mechanisms.general.ideal_motion import compared
+from tribodyn.mechanisms.general.kinematics import velocity_ratios
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
+from tribodyn.mechanisms.general.positions import Course
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.start import initial_state
@@ -61,14 +65,19 @@ class MechanismSystem:
 
     @cached_property
     def model(self) -> Model:
-        """The mechanism as drawn."""
-        return model_of(self.case)
+        """The mechanism as drawn; of a kinematic analysis with ideal joints."""
+        found = model_of(self.case)
+        return found.counterpart if self._analysis == "kinematic" else found
+
+    @property
+    def _analysis(self) -> str:
+        return self.case.run.analysis
 
     @cached_property
     def assembly(self) -> Assembly:
         """The mechanism put together, its joints not worn, and led through its cycle."""
         found = self._assembled(None)
-        passage = drive_through(found, self.case.duration)
+        passage = drive_through(found, self.case.span)
         if passage.finding is not None:
             raise InputError(passage.finding.text, key=passage.finding.key)
         return replace(found, strain=passage.warning)
@@ -138,6 +147,8 @@ class MechanismSystem:
             # Of all integrators one knows the structure of these equations.
             dense=self.case.solver.name != "mebdf",
         )
+        if self._analysis != "dynamic":
+            return analysed(problem, self.assembly, self._analysis, self.case.turn)
         return replace(problem, following=self._following(duration))
 
     def _following(self, duration: float) -> Following | None:
@@ -163,7 +174,7 @@ class MechanismSystem:
         It is looked for once.
         """
         if not self._starts:
-            wanted = self.case.run.start == "equilibrium"
+            wanted = self.case.run.start == "equilibrium" and self._analysis == "dynamic"
             self._starts.append(initial_state(self.assembly) if wanted else None)
         return self._starts[0]
 
@@ -212,7 +223,9 @@ class MechanismSystem:
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled))
-        energy = WHOLE.fraction(ledger, self._least_energy(found))
+        energy = self._energy_missed(ledger, found)
+        if not energy:
+            del ledger[WHOLE.residual]
         peaks = self._peaks(run)
         worn = self._worn(depth_of(run.problem.data.contact, self.maps.places))
         contacts = self._contacts(worn)
@@ -237,7 +250,7 @@ class MechanismSystem:
                 **self._pressure(run),
             },
             attributes={
-                "energy_residual": energy,
+                **energy,
                 **self._began(run),
                 **({"cycle_period": self.case.period} if self.case.period is not None else {}),
                 **self._reversals.attributes,
@@ -245,7 +258,7 @@ class MechanismSystem:
             warnings=checks.said(
                 [*self.assembly.warnings],
                 checks.of_start(self.case.run.start, self._began(run)),
-                checks.of_ledgers(energy, found.whole["gap"]),
+                *(checks.of_ledgers(missed, found.whole["gap"]) for missed in energy.values()),
                 contacts.warnings(peaks, of_contacts, float(run.solution.t_end)) if peaks else [],
                 of_tables(
                     self.case.followed(), run.solution.t, partial(followed, self.case, found.couplings)
@@ -253,6 +266,7 @@ class MechanismSystem:
                 cost=run.cost,
             ),
             notes=[
+                *NOTES[self._analysis],
                 *self._of_temperatures(),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
@@ -299,9 +313,15 @@ class MechanismSystem:
             float(np.max(np.abs(forces), initial=0.0)) * self.case.solver.rtol * length_scale(self.assembly)
         )
 
+    def _energy_missed(self, ledger: Mapping[str, FloatArray], found: Observed) -> dict[str, float]:
+        """Return what the energy ledger misses, of its largest term; nothing where nothing is integrated."""
+        if self._analysis != "dynamic":
+            return {}
+        return {WHOLE.attribute: WHOLE.fraction(ledger, self._least_energy(found))}
+
     def _began(self, run: FinishedRun) -> dict[str, str]:
-        """Return how a run with clearances began."""
-        if not self.real:
+        """Return how a dynamic run with clearances began."""
+        if not self.real or self._analysis != "dynamic":
             return {}
         if run.carried:
             return {"start": CARRIED}
@@ -327,7 +347,11 @@ class MechanismSystem:
             return {}, ()
         names = ("position", "orientation", "velocity", "angular_velocity")
         motion = Motion(*(found.bodies[name] for name in names))
-        return compared(self.assembly, self.outputs, run.solution.t, motion)
+        course = Course(run.solution.t, self.case.turn)
+        columns, notes = compared(self.assembly, self.outputs, course, motion)
+        if self._analysis == "kinematic":
+            columns["output_ratio"] = velocity_ratios(self.assembly, self.outputs, course.times)
+        return columns, notes
 
     def _clearances(self) -> FloatArray:
         real = self.model.clearances
@@ -352,6 +376,8 @@ class MechanismSystem:
         if self.outputs:
             parts["output"] = [output.name for output in self.outputs]
             parts["output_unit"] = [output.unit for output in self.outputs]
+        if self.outputs and self._analysis == "kinematic":
+            parts["drive"] = [name for name, keys in self.case.drives.items() if GIVEN[keys.gives][1] < 2]
         parts |= self._reversals.coordinates(float(run.solution.t_end))
         if not self.real:
             return dict(parts)

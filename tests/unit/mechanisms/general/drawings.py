@@ -17,11 +17,12 @@ from tribodyn.joints.clearances import Clearance
 from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.assembly import assemble
 from tribodyn.mechanisms.general.body import BodyKeys
-from tribodyn.mechanisms.general.case import MechanismCase, RunKeys
+from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.problem import mechanism_problem
+from tribodyn.mechanisms.general.run_keys import RunKeys
 from tribodyn.mechanisms.general.variables import AXES, Observed, observed
 
 G = "ground"

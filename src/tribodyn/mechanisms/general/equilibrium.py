@@ -1,0 +1,359 @@
+"""Where the loads on the shafts of a mechanism balance, its bodies displaced within the clearances.
+
+With the mass matrix M, the forces Q of contact and all else, the accelerations a that ideal joints ask for,
+and the motions B that clearances alone allow,
+
+    Bᵀ (Q(q) − M a) = 0,
+
+solved by Newton's method over B. Traction and loads against the motion are those of the motion that is there,
+or, at rest, of the last one or of the one that is about to begin.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.stopping import ask
+from tribodyn.integrate.binding import kernel_types, machine_code
+from tribodyn.kernels.mechanism import newton
+from tribodyn.kernels.mechanism.bodies import collect, move, place
+from tribodyn.kernels.mechanism.data import (
+    CONTACT,
+    LOAD_LINE,
+    LOAD_MOTION,
+    N_STATES,
+    NONE,
+    NOTHING,
+    SPRING,
+    SPRINGS,
+    VELOCITY,
+)
+from tribodyn.mechanisms.general.assembly import Assembly, memory_of
+from tribodyn.mechanisms.general.closing import System
+from tribodyn.mechanisms.general.nodes import JointNodes, nodes_of
+from tribodyn.mechanisms.general.problem import mechanism_problem
+from tribodyn.mechanisms.general.speeds import Speeds, start
+
+_MOVING: Final = 1.0e-6
+"""Slip over the one at which traction is developed that is rest."""
+_SLIDING: Final = 100.0
+"""The same with which a motion that is about to begin is looked at."""
+_ROUNDING: Final = 1.0e-10
+"""Acceleration over the one that loads would cause without joints that is none."""
+_MOST_LOOKS: Final = 20
+_MOST_STEPS: Final = 100
+_SETTLED: Final = 1.0e-3
+"""Change of a gap, over the roughness, that is none."""
+_BALANCED: Final = 1.0e-6
+"""Load over the largest one met on the way that is none."""
+_LOST: Final = 3.0
+"""How many times its largest gap a shaft may move without finding what holds it."""
+_LEAST: Final = 1.0
+"""Stiffness of springs where there is no contact yet [N/m]."""
+_FLOOR: Final = 1.0e-6
+"""The same over the largest stiffness."""
+_STIFFER: Final = 4.0
+_SOFTER: Final = 3.0
+"""Factors by which springs change."""
+_BACK: Final = 0.5
+"""Share of the load along a step that may have turned against it."""
+_ADRIFT: Final = 1.0e-3
+"""Load along a freedom that nothing holds, over all loads, that is none."""
+_TINY: Final = 1.0e-300
+_FAR: Final = 0.5
+"""Part of the largest gap of a joint that a step may not pass."""
+
+
+class Loads:
+    """The loads on bodies that are displaced within the clearances.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism, without findings.
+    ideal
+        Its ideal counterpart at the same place and time.
+    speeds
+        Given speeds of free coordinates.
+    freedoms
+        Whether loads balance along the freedoms of the mechanism that springs hold, too.
+    """
+
+    def __init__(
+        self, assembly: Assembly, ideal: System, speeds: Speeds = (), *, freedoms: bool = False
+    ) -> None:
+        self.n = ideal.n
+        self.state = np.zeros(N_STATES * self.n)
+        collect(ideal.now.bodies, self.state)
+        problem = mechanism_problem(assembly, duration=1.0, rtol=0.1, state=self.state)
+        self.data, self.memory = problem.data, memory_of(assembly, self.state)
+        self._forces = machine_code(problem, kernel_types(problem)).jac
+        couplings = self.data.parts.couplings
+        self.couplings = self.memory.now.couplings
+        self.contacts = nodes_of(self.data.contact, np.flatnonzero(couplings.force == CONTACT))
+        self.ends = [(int(coupling.socket), int(coupling.shaft)) for coupling in couplings]
+        self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE))
+        parts = newton.N_PLACES + newton.N_BODY
+        self.laws = np.flatnonzero(couplings.law)
+        self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
+        self.ideal, self.real = ideal, System(assembly.model.without_films)
+        self.real.adopt(self.state)
+        self.springs = np.flatnonzero(np.isin(couplings.force, (SPRINGS, SPRING)))
+        self.speeds, self.freedoms, self.largest = speeds, freedoms, 0.0
+        self.ahead: FloatArray | None = None
+
+    def look(self) -> None:
+        """Look at the motions that clearances allow where the bodies are, and at how these are to move.
+
+        Ideal joints are closed; shafts rest in their sockets.
+        """
+        ask()
+        self.state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
+        place(self.state, self.real.now.bodies)
+        self.real.refresh()
+        self.close()
+        collect(self.real.now.bodies, self.state)
+        place(self.state, self.ideal.now.bodies)
+        self.ideal.refresh()
+        self.begin_to_move()
+        collect(self.ideal.now.bodies, self.state)
+        g, self.root, length = self.ideal.scaled()
+        u, values, rows = np.linalg.svd(g)
+        rank = self.ideal.rank()
+        self.held, free = rows[:rank].T, rows[rank:].T
+        asked = u[:, :rank].T @ (self.ideal.entries("gamma") / length)
+        self.wanted = self.held @ (asked / values[:rank])
+        # Where real joints hold something, so do the ideal ones.
+        _, allowed = _spaces(self.real.scaled()[0] @ self.held, self.real.rank())
+        self.velocity = self.slipping = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
+        carried, self.adrift = self._divided(free)
+        motions = np.hstack([self.held @ allowed, carried])
+        self.motions, self.asked = self.root @ motions, motions.T @ (self.held @ (self.held.T @ self.wanted))
+        if np.any(self._slips() > _MOVING):
+            self.ahead = self.velocity
+        else:
+            # Once, from the middle: traction itself must not decide where it points.
+            self.ahead = self._ahead() if self.ahead is None else self.ahead
+            self.slipping = self.ahead
+
+    def close(self) -> None:
+        """Close the ideal joints of the mechanism."""
+        self.real.close()
+
+    def begin_to_move(self) -> None:
+        """Fill the velocities of the ideal counterpart."""
+        start(self.ideal, self.speeds)
+
+    def _divided(self, free: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the freedoms that springs hold, of those that joints and drives leave, and all others."""
+        if not (self.freedoms and free.size):
+            return free[:, :0], free
+        self._evaluate(self.velocity)
+        values, vectors = np.linalg.eigh(self._held_by(self.root @ free, self.springs))
+        held = values > _FLOOR * np.max(values, initial=_TINY)
+        return free @ vectors[:, held], free @ vectors[:, ~held]
+
+    def unbalanced(self) -> int | None:
+        """Return the number of a body that loads push along a freedom which nothing holds; None without one.
+
+        What slip decides does not count: a body that is free to spin finds the speed at which it vanishes.
+        """
+        loads = self._evaluate(np.zeros_like(self.velocity))
+        pushed = self.root @ (self.adrift @ (self.adrift.T @ (self.root @ loads)))
+        if np.linalg.norm(pushed) <= _ADRIFT * np.linalg.norm(self.root @ (self.root @ loads)):
+            return None
+        return int(np.argmax(np.linalg.norm((self.root @ pushed).reshape(-1, 6), axis=1)))
+
+    def _ahead(self) -> FloatArray:
+        """Return velocities along the accelerations that motion begins with, shape (n, 6), or none."""
+        free = self.root @ self._evaluated()
+        begins = self.wanted + free - self.held @ (self.held.T @ free)
+        if np.linalg.norm(begins) <= _ROUNDING * np.linalg.norm(free):
+            return self.velocity
+        self.slipping = (self.root @ begins).reshape(-1, 6)
+        slips = self._slips()
+        moving = slips[slips > _MOVING * np.max(slips, initial=0.0)]
+        return self.slipping * (_SLIDING / moving.min() if moving.size else 0.0)
+
+    def _evaluate(self, velocity: FloatArray) -> FloatArray:
+        """Fill forces and slopes of all couplings at given velocities; return the force on bodies (6 n,)."""
+        y = self.state.copy()
+        y.reshape(-1, N_STATES)[:, VELOCITY:] = velocity
+        self._forces(self.ideal.t, y, self.data, self.memory, np.zeros(y.size), self.entries)
+        forces = np.array(self.memory.now.bodies.force[: self.n]).ravel()
+        return forces + self._pushes("constraint", self.laws)
+
+    def _of_slip(self) -> FloatArray:
+        """Return the part of that force that slip decides."""
+        return self._pushes("wrench", np.flatnonzero(self.by_slip))
+
+    def _pushes(self, wrench: str, couplings: IntArray) -> FloatArray:
+        """Return what a wrench of some couplings does to the bodies, shape (6 n,)."""
+        force, wrenches, arms = np.zeros((self.n + 1, 6)), self.couplings[wrench], self.couplings["H"]
+        for k in couplings.tolist():
+            push = wrenches[k] @ arms[k]
+            socket, shaft = self.ends[k]
+            force[socket] += push[:6]
+            force[shaft] += push[6:]
+        return force[: self.n].ravel()
+
+    def _evaluated(self) -> FloatArray:
+        """Return the force on all bodies, slip as it is looked at, all else as bodies move."""
+        rest = self._evaluate(self.velocity)
+        if self.slipping is self.velocity:
+            return rest
+        rest -= self._of_slip()
+        self._evaluate(self.slipping)
+        return np.asarray(rest + self._of_slip())
+
+    def _slips(self) -> FloatArray:
+        """Return the largest slip of each joint over the one at which its traction is developed."""
+        self._evaluate(self.slipping)
+        twists = [(self.couplings["twist"][contact.coupling], contact) for contact in self.contacts]
+        return np.array(
+            [
+                np.linalg.norm(twist[:3] + np.cross(twist[3:], contact.position), axis=1).max() / contact.slip
+                for twist, contact in twists
+            ]
+        )
+
+    def residual(self) -> FloatArray:
+        """Return the loads that do not balance, over the motions that clearances allow, shape (m,)."""
+        found = np.asarray(self.motions.T @ self._evaluated() - self.asked)
+        self.largest = max(self.largest, float(np.linalg.norm(found)))
+        return found
+
+    def stiffness(self) -> tuple[FloatArray, FloatArray]:
+        """Return the stiffness of what was evaluated last, and of springs under all nodes, (m, m) each."""
+        m = self.motions.shape[1]
+        even = np.zeros((m, m))
+        for contact in self.contacts:
+            way = contact.root @ self._way(contact.coupling, self.motions)
+            even += way.T @ way
+        acting = np.flatnonzero(self.data.parts.couplings.force != NOTHING)
+        return self._held_by(self.motions, acting), even
+
+    def _held_by(self, motions: FloatArray, couplings: IntArray) -> FloatArray:
+        """Return the stiffness of some couplings and of all force laws over motions (6 n, m), (m, m)."""
+        total = np.zeros((motions.shape[1], motions.shape[1]))
+        for k in couplings.tolist():
+            way = self._way(k, motions)
+            total -= way.T @ self.couplings["slope"][k, :, :6] @ way
+        for first in self.laws[self.data.parts.couplings.first_leg[self.laws] == NONE].tolist():
+            row = self._row(first, motions)
+            total -= self.couplings[first].law.in_position * np.outer(row, row)
+        return total
+
+    def _row(self, leg: int, motions: FloatArray) -> FloatArray:
+        """Return what motions do to the coordinate of an element from a leg on, shape (m,)."""
+        row = np.asarray(self.couplings[leg].N[0] @ self._way(leg, motions))
+        following = int(self.data.parts.couplings[leg].next_leg)
+        return row if following == NONE else np.asarray(row + self._row(following, motions))
+
+    def _way(self, coupling: int, motions: FloatArray) -> FloatArray:
+        """Return what motions of all bodies (6 n, ...) do to the shaft of a coupling, shape (6, ...)."""
+        arms, ways = self.couplings["H"][coupling], np.zeros((6, *motions.shape[1:]))
+        for side, body in enumerate(self.ends[coupling]):
+            if body < self.n:
+                own = motions[6 * body : 6 * body + 6]
+                ways += arms[:, 6 * side : 6 * side + 6] @ own
+        return ways
+
+    def _place(self, contact: JointNodes) -> FloatArray:
+        """Return displacement and tilt of a shaft where it was evaluated last, shape (6,)."""
+        pose = self.couplings["pose"][contact.coupling]
+        rotation = pose["rotation"]
+        x, y, z = rotation[:, 2]
+        twist = 0.5 * (rotation[1, 0] - rotation[0, 1])
+        return np.array([*pose["d"], -y / z, x / z, twist])
+
+    def change(self, step: FloatArray) -> tuple[float, float]:
+        """Return by how much a step (m,) changes gaps at most, over the roughness and over gaps as drawn."""
+        ask()
+        moved = self.motions @ step
+        over_roughness = over_gap = 0.0
+        for contact in self.contacts:
+            change = np.abs(contact.gradient @ self._way(contact.coupling, moved))
+            over_roughness = max(over_roughness, float(np.max(change / contact.roughness)))
+            over_gap = max(over_gap, float(np.max(change) / np.max(contact.drawn)))
+        return over_roughness, over_gap
+
+    def move(self, step: FloatArray) -> None:
+        """Displace the bodies by a step (m,)."""
+        change, bodies = self.motions @ step, self.memory.now.bodies
+        place(self.state, bodies)
+        for b in range(self.n):
+            move(bodies[b], change[6 * b : 6 * b + 6], np.zeros(4))
+        collect(bodies, self.state)
+
+    @property
+    def beyond_law(self) -> bool:
+        """Whether surfaces overlap further than their contact law reaches."""
+        return any(np.any(contact.gaps(self._place(contact)) < contact.deepest) for contact in self.contacts)
+
+    @property
+    def lost(self) -> bool:
+        """Whether a shaft has left its socket without meeting anything."""
+        gaps = [(contact.gaps(self._place(contact)), contact.drawn) for contact in self.contacts]
+        return any(not np.max(np.abs(gap)) <= _LOST * np.max(drawn) for gap, drawn in gaps)
+
+
+def _spaces(matrix: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:
+    """Return orthonormal columns that span the rows of a matrix, and what is at right angles to them."""
+    _, _, rows = np.linalg.svd(matrix)
+    return rows[:rank].T, rows[rank:].T
+
+
+def settled(loads: Loads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:
+    """Move the bodies to where their loads balance; return the state there, or None.
+
+    Parameters
+    ----------
+    loads
+        With the bodies where the search begins.
+    change
+        Change of gaps, over the roughness, that is none.
+    near
+        Change of gaps, over the roughness, after which the possible motions are not looked for again.
+    """
+    soft = 0.0
+    for _ in range(_MOST_LOOKS):
+        loads.look()
+        steps, moved, soft = _newton(loads, soft, change) if loads.motions.size else (0, 0.0, soft)
+        if steps == 0 or moved < near:
+            return None if loads.beyond_law else loads.state
+        if loads.lost:
+            return None
+    return None
+
+
+def _newton(loads: Loads, soft: float, least: float) -> tuple[int, float, float]:
+    """Make steps until one changes nothing; return their number and changes, and the stiffness of springs.
+
+    Springs under all nodes, of stiffness ``soft`` [N/m] in each joint, hold a step where contact does not.
+    They are stiffer after a step that overshoots the place where the loads along it balance, else softer.
+    """
+    residual, moved = loads.residual(), 0.0
+    for steps in range(_MOST_STEPS):
+        stiffness, even = loads.stiffness()
+        soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
+        for _ in range(_MOST_STEPS):
+            step = np.asarray(np.linalg.lstsq(stiffness + soft * even, residual, rcond=None)[0], np.float64)
+            change, way = loads.change(step)
+            if way < _FAR:
+                loads.move(step)
+                after = loads.residual()
+                if after @ step >= -_BACK * (residual @ step):
+                    break
+                loads.move(-step)
+            soft *= _STIFFER
+        else:
+            return _MOST_STEPS, math.inf, soft
+        residual, soft, moved = after, soft / _SOFTER, moved + change
+        if change < least and np.linalg.norm(after) <= _BALANCED * loads.largest:
+            return steps, moved, soft
+    return _MOST_STEPS, math.inf, soft

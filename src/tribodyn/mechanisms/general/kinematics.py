@@ -1,0 +1,117 @@
+"""Kinematic analysis: ideal joints follow the drives; forces follow by inverse dynamics.
+
+Positions and velocities are those that joints and drives allow, freedoms that are left at rest. With the mass
+matrix M, the constraints G and the forces Q at that state, accelerations a and reactions λ solve
+
+    M a − Gᵀ λ = Q,   G a = γ,
+
+so that reactions and drive efforts are those that the prescribed motion needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError, IntegrationFailure
+from tribodyn.core.problem import Problem, Solution
+from tribodyn.kernels.mechanism.bodies import collect
+from tribodyn.mechanisms.general.assembly import Assembly
+from tribodyn.mechanisms.general.closing import System
+from tribodyn.mechanisms.general.ideal_motion import (
+    IdealMechanism,
+    in_body_axes,
+    in_global_axes,
+    motion_of,
+    unreached,
+)
+from tribodyn.mechanisms.general.outputs import Output
+from tribodyn.mechanisms.general.positions import Course, walked
+
+
+def require_motion(assembly: Assembly) -> None:
+    """Refuse a mechanism whose drives prescribe no motion, or one that ideal joints cannot follow.
+
+    Raises
+    ------
+    InputError
+        There is no drive by angle, position, speed or velocity; or clearances must take a misfit.
+    """
+    if not any(System(assembly.model.counterpart).drive_rows()):
+        words = (
+            "no drive prescribes a motion, so there are no positions to analyse; add one that gives an "
+            "angle, a position, a speed or a velocity, or run the dynamic analysis"
+        )
+        raise InputError(words, key="drives")
+    if assembly.strain:
+        raise InputError(assembly.strain, key="run.analysis")
+
+
+def follow_drives(
+    assembly: Assembly,
+    problem: Problem,
+    times: FloatArray,
+    picture_times: FloatArray,
+    progress: Callable[[float], None] | None,
+) -> Solution:
+    """Return the motion of a mechanism of ideal joints along its drives, with its reactions.
+
+    Parameters
+    ----------
+    assembly
+        Of ideal joints.
+    problem
+        The same.
+    times
+        Rising, from 0 [s], shape (n_t,).
+    picture_times, progress
+        As for :func:`tribodyn.mechanisms.general.positions.walked`.
+    """
+    found = IdealMechanism(assembly).follow(times)
+    states = in_body_axes(found)
+
+    def known(number: int) -> FloatArray:
+        if number >= len(states):
+            raise IntegrationFailure(float(times[number]), unreached(times, found))
+        return np.asarray(states[number])
+
+    return walked(problem, Course(times), known, picture_times, progress)
+
+
+def velocity_ratios(assembly: Assembly, outputs: Sequence[Output], times: FloatArray) -> FloatArray:
+    """Return the rates of outputs for a unit rate of each drive, the others at rest.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism.
+    outputs
+        Of it.
+    times
+        Rising, from 0 [s], shape (n_t,).
+
+    Returns
+    -------
+    numpy.ndarray
+        In the units of output and drive, shape (n_t, n_outputs, n_drives); NaN where joints do not close.
+    """
+    mechanism = IdealMechanism(assembly)
+    states, system = mechanism.follow(times), mechanism.system
+    driven = [system.rows.index((k, m)) for k, m, _ in system.drive_rows()]
+    signs = [assembly.model.joint(k).sign for k, _, _ in system.drive_rows()]
+    found = np.full((times.size, len(outputs), len(driven)), np.nan)
+    moved = np.zeros((len(driven), *states.shape))
+    for i, state in enumerate(states):
+        mechanism.put(times[i], state)
+        scaled, root, length = system.scaled()
+        velocities = root @ (system.inverse(scaled) / length)[:, driven] * signs
+        for d, velocity in enumerate(velocities.T):
+            parts = velocity.reshape(-1, 6)
+            system.now.bodies.v[:-1], system.now.bodies.w[:-1] = parts[:, :3], parts[:, 3:]
+            collect(system.now.bodies, moved[d, i])
+    for d, of_drive in enumerate(moved):
+        motion = motion_of(in_global_axes(of_drive))
+        found[: len(states), :, d] = np.stack([output.rate(motion) for output in outputs], axis=1)
+    return found

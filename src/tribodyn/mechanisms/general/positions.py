@@ -1,0 +1,167 @@
+"""Rows of a mechanism at states that are not integrated: known by geometry, or in equilibrium.
+
+The functions of its problem are called as after accepted steps, so that rows hold the same quantities:
+forces, reactions, works, sliding loads. Drives may turn back at some time: from then on their motion is
+repeated backward, by the same mechanism with the time reversed.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import IntegrationFailure, Stopped
+from tribodyn.core.problem import Problem, Solution, Statistics
+from tribodyn.integrate import INTERRUPTED
+from tribodyn.integrate.binding import kernel_types, machine_code
+from tribodyn.kernels.actions import TIME
+from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
+from tribodyn.mechanisms.signals import backward
+
+BROKEN: Final = "a joint has come apart"
+
+
+@dataclass(frozen=True)
+class Course:
+    """Times of positions, and where the drives are then.
+
+    Attributes
+    ----------
+    times
+        Rising, from 0 [s], shape (n_t,).
+    turn
+        When the drives turn back [s]; infinite where they do not.
+    """
+
+    times: FloatArray
+    turn: float = math.inf
+
+    @property
+    def forward(self) -> FloatArray:
+        """Direction of the motion at each time: 1, or −1 after the drives have turned back, shape (n_t,)."""
+        return np.where(self.times > self.turn, -1.0, 1.0)
+
+    @property
+    def of_drives(self) -> FloatArray:
+        """Time of the drives at each of these [s], shape (n_t,)."""
+        if math.isinf(self.turn):
+            return self.times
+        return np.asarray(self.turn - np.abs(self.times - self.turn))
+
+
+class States(Protocol):
+    """Finds the states of a mechanism."""
+
+    def __call__(self, number: int) -> FloatArray:
+        """Return the state at the time with a number, which rises by one, shape (13 n,).
+
+        Raises
+        ------
+        IntegrationFailure
+            There is none.
+        """
+        ...
+
+
+def walked(
+    problem: Problem,
+    course: Course,
+    states: States,
+    picture_times: FloatArray,
+    progress: Callable[[float], None] | None,
+) -> Solution:
+    """Return the rows at given states.
+
+    Parameters
+    ----------
+    problem
+        The mechanism; its memory is changed.
+    course
+        Times of the rows.
+    states
+        Of the mechanism at these times.
+    picture_times
+        Times of pictures [s], each taken at the nearest row.
+    progress
+        Called with each time reached.
+    """
+    begin, walk = time.perf_counter(), _Walk(problem, course)
+    nearest = np.abs(course.times[:, None] - picture_times).argmin(axis=0) if course.times.size else []
+    shown, failure, reached = np.unique(nearest).astype(int), None, 0
+    pictures = np.zeros((shown.size, *problem.field_shape))
+    y = problem.y0.copy()
+    try:
+        for k in range(course.times.size):
+            y = walk.put(k, states(k))
+            for place in np.flatnonzero(shown == k):
+                walk.picture(k, y, pictures[place])
+            reached = k + 1
+            if progress is not None:
+                progress(float(course.times[k]))
+    except IntegrationFailure as error:
+        failure = str(error)
+    except Stopped:
+        failure = INTERRUPTED
+    taken = shown[shown < reached]
+    return Solution(
+        t=course.times[:reached],
+        rows=walk.rows[:reached],
+        picture_times=course.times[taken],
+        pictures=pictures[: taken.size],
+        t_end=float(course.times[reached - 1]) if reached else 0.0,
+        y_end=y,
+        statistics=Statistics(steps=reached, wall_time=time.perf_counter() - begin),
+        failure=failure,
+    )
+
+
+class _Walk:
+    """Calls the functions of a problem at one state after the other."""
+
+    def __init__(self, problem: Problem, course: Course) -> None:
+        self.problem, self.course, self.memory = problem, course, problem.memory
+        self.functions = machine_code(problem, kernel_types(problem))
+        self.data: MechanismData = problem.data
+        self.clock, self.last = course.of_drives * course.forward, 0.0
+        self.rows = np.empty((course.times.size, problem.n_observed))
+
+    def put(self, k: int, state: FloatArray) -> FloatArray:
+        """Put the mechanism into a state and fill its row; return the state on the constraints."""
+        t, y, memory = float(self.clock[k]), state.copy(), self.memory
+        if k > 0 and self.course.forward[k] < self.course.forward[k - 1]:
+            self._turn_back()
+        kinks = self.data.signals.kinks
+        if k == 0 or np.any((kinks > self.last) & (kinks <= t)):
+            self.functions.enter(t, y, self.data, memory)
+        else:
+            self.functions.advance(self.last, t, y, self.data, memory)
+        self.functions.observe(t, y, self.data, memory, self.rows[k])
+        self.functions.accept(t, y, self.data, memory)
+        if memory.now.course.broken != INTACT:
+            raise IntegrationFailure(float(self.course.times[k]), BROKEN)
+        self.last = t
+        return y
+
+    def picture(self, k: int, y: FloatArray, fields: FloatArray) -> None:
+        """Fill the fields at the state that was put last."""
+        self.functions.picture(float(self.clock[k]), y, self.data, self.memory, fields)
+
+    def _turn_back(self) -> None:
+        """Go on with the time reversed, from where the drives turn."""
+        self.data = in_reverse(self.data)
+        self.last = -self.course.turn
+        self.functions.enter(self.last, self.memory.settled.copy(), self.data, self.memory)
+
+
+def in_reverse(data: MechanismData) -> MechanismData:
+    """Return a mechanism whose drives and loads run backward: what was at time t is at −t."""
+    couplings, terms = data.parts.couplings, data.terms
+    of_time = [couplings.row_signal.ravel(), couplings.effort.ravel(), terms.signals[terms.over == TIME]]
+    numbers = np.unique(np.concatenate(of_time))
+    return data._replace(signals=backward(data.signals, numbers[numbers != NONE].tolist()))

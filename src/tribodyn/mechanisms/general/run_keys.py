@@ -1,0 +1,68 @@
+"""Keys of a run of a mechanism, of its integration and of the nodes of its joints."""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+from tribodyn.cases.case import Group
+from tribodyn.cases.fields import choice, count, number, quantity
+from tribodyn.cases.keys import ASSUMED
+
+ROWS: Final = 500
+"""Rows of a result for which no interval was given."""
+
+
+class RunKeys(Group):
+    """What is computed, how long, and what is kept."""
+
+    analysis: Literal["dynamic", "static", "kinematic"] = choice(
+        "dynamic",
+        "dynamic: motion over time; static: equilibrium in the clearances at positions along the drives; "
+        "kinematic: ideal joints along the drives, forces by inverse dynamics",
+        ASSUMED,
+    )
+    directions: Literal["forward", "both"] = choice(
+        "forward", "whether positions of a static analysis are passed backward, too", ASSUMED
+    )
+    cycles: float | None = number(
+        None, "cycles to simulate; give this or duration", ASSUMED, gt=0, le=1e6, example="2"
+    )
+    duration: float | None = quantity(
+        None, "simulated time; give this or cycles", ASSUMED, gt=0, example="0.5 s"
+    )
+    period: float | None = quantity(
+        None, "time of one cycle; that of the first drive that has one without it", "", gt=0, example="12 ms"
+    )
+    start: Literal["equilibrium", "centred"] = choice(
+        "equilibrium", "where shafts are in their sockets at the start", "manual, any mechanism"
+    )
+    output_interval: float | None = quantity(
+        None,
+        f"time between rows of the result; a {ROWS}th of the run or cycle without it",
+        "",
+        gt=0,
+        example="0.1 ms",
+    )
+    positions: int = count(120, "positions of a static analysis in a cycle", ASSUMED, ge=2, le=1_000_000)
+    step_rows: int = count(
+        2000,
+        "rows of each cycle that follow the steps, at most: those with the peaks; none with 0",
+        ASSUMED,
+        ge=0,
+        le=1_000_000,
+    )
+
+
+class NodeKeys(Group):
+    """Quadrature points over each surface of a joint with clearance, unless the joint says otherwise."""
+
+    theta: int = count(96, "points around", ASSUMED, ge=12, le=4096)
+    z: int = count(16, "Gauss points across", ASSUMED, ge=2, le=256)
+
+
+class Integration(Group):
+    """The time integration; absolute tolerances follow from clearances and sizes."""
+
+    name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
+    rtol: float = number(1e-5, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
+    grid: NodeKeys = NodeKeys()

@@ -1,0 +1,245 @@
+"""Quasi-static and kinematic analyses against closed forms and against dynamic runs."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from tests.analytic.test_outputs import BAR, CRANK, ROD, closed_form, of, press
+
+import tribodyn as td
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.kernels.signals import Signals, evaluate
+from tribodyn.mechanisms.results import summarise
+from tribodyn.mechanisms.signals import Pieces, SignalList, backward
+from tribodyn.results.reading import column
+
+PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
+FRICTION = 0.2
+SIDE = 0.2e-3
+"""Difference of two clearances [m]: roughness, which holds pins apart, is some micrometres."""
+
+
+def static(mechanism: td.Mechanism, **run: object) -> xr.Dataset:
+    keys = {"analysis": "static", **run}
+    return td.simulate(mechanism.case().replace({f"run.{key}": str(value) for key, value in keys.items()}))
+
+
+def wrist(radial: str) -> xr.Dataset:
+    """Return the equilibria of the press in both directions, by the ideal angle of the crank."""
+    drawn = press(radial=radial, friction_coefficient=str(FRICTION), **PIN)
+    return static(drawn, directions="both", positions=36)
+
+
+def test_error_of_a_slider_for_one_clearance_in_both_directions() -> None:
+    # The rod is a bar between two points: its force touches the friction circle of the wrist. The pin lies
+    # where the normal stands at the angle of friction to that force. Two clearances differ by 0.2 mm of it.
+    narrow, wide = wrist("0.2 mm"), wrist("0.4 mm")
+    angle = of(narrow, "output_ideal", "turn")
+    assert angle[36] == pytest.approx(2.0 * np.pi)
+    assert angle == pytest.approx(angle[::-1], abs=1e-9)
+    _, _, lean = closed_form(narrow)
+    lean = np.where(np.arange(73) > 36, lean[::-1], lean)
+    friction, radius = math.atan(FRICTION), 9.5e-3
+    off = friction - math.asin(radius * math.sin(friction) / ROD)
+    way, tilt = (
+        of(wide, "output_error", name) - of(narrow, "output_error", name) for name in ("way", "lean")
+    )
+    clear = np.abs(np.cos(angle)) > 0.2  # at the dead centres of the rod's rotation slip changes its sign
+    assert way[clear] == pytest.approx((-SIDE * math.cos(off) / np.cos(lean))[clear], rel=0.01)
+    # Across the rod the pin stands on one side as the crank turns forward, on the other as it turns back.
+    sliding = np.where(np.arange(73) > 36, -1.0, 1.0) * np.sign(np.cos(angle))
+    across = -tilt * ROD * np.cos(lean)
+    along, expected = SIDE * math.cos(off), SIDE * math.sin(off) * sliding
+    height = -along * np.sin(lean) + expected * np.cos(lean)
+    assert across[clear] == pytest.approx(height[clear], abs=0.01 * SIDE)
+
+
+def test_slow_dynamic_runs_pass_through_the_equilibria() -> None:
+    drawn = press(radial="20 um", friction_coefficient="0.1", **PIN)
+    found, moved = static(drawn, positions=50), td.simulate(drawn)
+    times = column(found, "time")
+    error = np.interp(times, column(moved, "time"), of(moved, "output_error", "way"))
+    # The dynamic run begins at rest in its equilibrium and makes no impacts under this load.
+    assert of(found, "output_error", "way") == pytest.approx(error, rel=2e-3)
+    numbers = [summarise(result)["force_mean_N_wrist"] for result in (found, moved)]
+    assert numbers[0] == pytest.approx(numbers[1], rel=2e-3)
+    worn = [summarise(result)["wear_depth_nm_wrist"] for result in (found, moved)]
+    assert worn[0] == pytest.approx(worn[1], rel=0.02)
+
+
+def ideal(**run: object) -> td.Mechanism:
+    """Return a slider-crank of ideal joints, not redundant, under all kinds of forces."""
+    return (
+        td.Mechanism(
+            "Ideal",
+            gravity="0, -9.81, 0 m/s^2",
+            run={"cycles": 1, "output_interval": "2 ms", **run},
+            solver={"rtol": 1e-11},
+        )
+        .body("crank", mass="0.3 kg", centre="10, 5, 0 mm", **BAR)
+        .body("rod", mass="0.2 kg", centre="110, 3, 0 mm", **BAR)
+        .body("slider", mass="0.14 kg", centre="170, 0, 0 mm", **BAR)
+        .revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .spherical("crankpin", "crank", "rod", point="50, 0, 0 mm")
+        .universal("wrist", "rod", "slider", point="170, 0, 0 mm", axis=[0, 1, 0], second_axis=[0, 0, 1])
+        .prismatic("guide", "ground", "slider", point="170, 0, 0 mm", axis=[1, 0, 0])
+        .drive("motor", "main", speed="600 rpm")
+        .load(
+            "push",
+            "slider",
+            direction=[-1, 0, 0],
+            force={"value": "100 N", "amplitude": "50 N", "angular_frequency": "30 rad/s"},
+        )
+        .spring(
+            "return",
+            "ground",
+            "rod",
+            first_point="110, 100, 0 mm",
+            second_point="110, 0, 0 mm",
+            stiffness="2 N/mm",
+        )
+        .output("way", "slider", along=[1, 0, 0])
+        .output("lean", "rod", quantity="angle", along=[0, 0, 1])
+        .output("stroke", "slider", quantity="distance", reference_point="0, 0, 0 mm", point="170, 0, 0 mm")
+        .output("speed", "slider", quantity="velocity", along=[1, 0, 0])
+    )
+
+
+def test_inverse_dynamics_equals_a_dynamic_run() -> None:
+    known, integrated = (td.simulate(ideal(analysis=name)) for name in ("kinematic", "dynamic"))
+    assert column(known, "time") == pytest.approx(column(integrated, "time"))
+    for name in ("position", "velocity", "acceleration", "reaction_force_global", "drive_moment"):
+        found, expected = column(known, name), column(integrated, name)
+        assert np.max(np.abs(found - expected)) < 1e-8 * np.max(np.abs(expected)), name
+    assert known.attrs["warnings"] == "[]"
+
+
+def test_velocity_ratios_are_those_of_the_closed_form() -> None:
+    result = td.simulate(ideal(analysis="kinematic"))
+    angle = 2.0 * np.pi * 10.0 * column(result, "time")
+    lean = -np.arcsin(CRANK * np.sin(angle) / ROD)
+    leaning = -CRANK * np.cos(angle) / (ROD * np.cos(lean))
+    sliding = -CRANK * np.sin(angle) - ROD * np.sin(lean) * leaning
+    ratio = dict(
+        zip(result["output"].values.tolist(), column(result, "output_ratio")[:, :, 0].T, strict=True)
+    )
+    assert ratio["way"] == pytest.approx(sliding, abs=1e-10)
+    assert ratio["stroke"] == pytest.approx(sliding, abs=1e-10)
+    assert ratio["speed"] == pytest.approx(sliding, abs=1e-10)
+    assert ratio["lean"] == pytest.approx(leaning, abs=1e-9)
+
+
+def test_ratios_are_known_where_a_drive_rests() -> None:
+    drawn = (
+        td.Mechanism("Swing", run={"cycles": 1, "analysis": "kinematic"})
+        .body("arm", mass="1 kg", centre="100, 0, 0 mm", **BAR)
+        .revolute("hinge", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .drive("motor", "hinge", angle={"value": "0 deg", "swing": "30 deg", "angular_frequency": "3 rad/s"})
+        .output("tip", "arm", point="200, 0, 0 mm", along=[0, 1, 0])
+        .output("turn", "arm", quantity="angle", along=[0, 0, 1])
+    )
+    result = td.simulate(drawn)
+    ratio = column(result, "output_ratio")[:, :, 0]
+    angle = of(result, "output_value", "turn")
+    assert abs(column(result, "relative_rate")[0, 0, 2]) < 1e-12
+    assert ratio[:, 1] == pytest.approx(1.0, abs=1e-12)
+    assert ratio[:, 0] == pytest.approx(0.2 * np.cos(angle), abs=1e-12)
+
+
+def carriage(**more: object) -> td.Mechanism:
+    """Return a driven wheel, and beside it a carriage on a rail that a spring of 2 N/mm holds."""
+    drawn = (
+        td.Mechanism("Carriage", run={"cycles": 1, "positions": 8, "analysis": "static", **more})
+        .body("wheel", mass="1 kg", centre="0, 0, 0 mm", **BAR)
+        .body("carriage", mass="1 kg", centre="0, 200, 0 mm", **BAR)
+        .revolute("axle", "ground", "wheel", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .prismatic("rail", "ground", "carriage", point="0, 200, 0 mm", axis=[1, 0, 0])
+        .drive("motor", "axle", speed="60 rpm")
+        .load("push", "carriage", direction=[1, 0, 0], force="30 N")
+        .output("way", "carriage", along=[1, 0, 0])
+    )
+    points = {"first_point": "-100, 200, 0 mm", "second_point": "0, 200, 0 mm"}
+    return drawn.spring("spring", "ground", "carriage", stiffness="2 N/mm", **points)
+
+
+def test_freedoms_that_springs_hold_find_their_equilibrium() -> None:
+    result = td.simulate(carriage())
+    assert of(result, "output_value", "way") == pytest.approx(np.full(9, 15e-3), rel=1e-9)
+    assert column(result, "velocity")[:, 1] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
+    result = td.simulate(carriage().case().replace({"springs.spring.stiffness": "0 N/mm"}))
+    assert "no static equilibrium: body carriage" in result.attrs["failure"]
+    assert result.sizes["time"] == 0
+
+
+def test_an_overloaded_joint_has_no_equilibrium() -> None:
+    drawn = (
+        press(radial="20 um", **PIN)
+        .case()
+        .replace({"loads.push.force.value": "1e7 N", "run.analysis": "static"})
+    )
+    result = td.simulate(drawn)
+    assert "with drive motor at 0°, no static equilibrium was found" in result.attrs["failure"]
+
+
+@pytest.mark.parametrize("analysis", ["static", "kinematic"])
+def test_a_mechanism_without_a_prescribed_motion_is_refused(analysis: str) -> None:
+    pendulum = (
+        td.Mechanism("Pendulum", run={"duration": "20 ms", "analysis": analysis})
+        .body("arm", mass="1 kg", centre="100, 0, 0 mm", **BAR)
+        .revolute("hinge", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .drive("motor", "hinge", torque="1 N m")
+    )
+    with pytest.raises(InputError, match="no drive prescribes a motion"):
+        td.simulate(pendulum)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"run.directions": "both"}, "only a static analysis"),
+        ({"run.analysis": "static", "wear.cycles": "10"}, "choose dynamic"),
+    ],
+)
+def test_what_an_analysis_does_not_do_is_refused(changes: dict[str, str], said: str) -> None:
+    with pytest.raises(TribodynError, match=said):
+        td.load_case("slider-crank", changes)
+
+
+def test_an_oil_film_has_no_static_equilibrium() -> None:
+    oiled = press(radius="9.5 mm", radial="20 um", length="20 mm").case()
+    case = oiled.replace({"joints.wrist.film.viscosity": "0.01 Pa s", "run.analysis": "static"})
+    with pytest.raises(TribodynError, match="carries by motion alone"):
+        td.simulate(case)
+
+
+def signals() -> Signals:
+    """Return a sine beside a polynomial, a table, and a table that repeats."""
+    chance = np.random.default_rng(1)
+    found = SignalList()
+    one = np.array([np.inf])
+    found.add(Pieces(one, np.zeros(1), chance.normal(size=(1, 5)), (0.7, 3.0, 0.4)))
+    until, left = np.array([0.0, 0.5, np.inf]), np.array([0.0, 0.0, 0.5])
+    found.add(Pieces(until, left, chance.normal(size=(3, 5)), (0.0, 0.0, 0.0)), np.array([0.0, 0.5]))
+    until, left = np.array([0.4, np.inf]), np.array([0.1, 0.4])
+    found.add(Pieces(until, left, chance.normal(size=(2, 5)), (0.0, 0.0, 0.0), period=0.9))
+    return found.records()
+
+
+def test_backward_signals_have_the_values_of_the_opposite_time() -> None:
+    forward = signals()
+    reverse = backward(forward, [0, 1, 2])
+    assert reverse.kinks == pytest.approx([-0.5, 0.0])
+    for number in range(3):
+        for x in np.random.default_rng(2).uniform(0.01, 3.0, 50):
+            value, rate, second = evaluate(forward, number, x, x)
+            assert evaluate(reverse, number, -x, -x) == pytest.approx(
+                (value, -rate, second), rel=1e-9, abs=1e-9
+            )
+    kept = backward(forward, [1])
+    assert evaluate(kept, 0, 0.3, 0.3) == evaluate(forward, 0, 0.3, 0.3)
