@@ -32,13 +32,10 @@ from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.run_keys import ROWS, Integration, NodeKeys, RunKeys
 
-
 _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
 _OF_WEAR: Final = ("wear.specific_wear_rate", "wear.partner_wear_rate", "wear.final_roughness")
 _CLEARANCE: Final = re.compile(r"(joints\.[^.]+\.clearance\.).+")
-
-
 
 
 class _Parts(RoughCase):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from typing import Any, Final
 
@@ -20,7 +20,6 @@ from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes
 from tribodyn.mechanisms.bushing import of_expansion
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.general import checks
-from tribodyn.mechanisms.general.actions import GIVEN
 from tribodyn.mechanisms.general.analysis import NOTES, analysed
 from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
@@ -30,11 +29,10 @@ from tribodyn.mechanisms.general.element_numbers import transmitted
 from tribodyn.mechanisms.general.films import film_columns, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
-from tribodyn.mechanisms.general.ideal_motion import compared
-from tribodyn.mechanisms.general.kinematics import velocity_ratios
 from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
+from tribodyn.mechanisms.general.output_columns import output_columns, output_coordinates
 from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
 from tribodyn.mechanisms.general.positions import Course
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
@@ -345,13 +343,9 @@ class MechanismSystem:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
         if not self.outputs:
             return {}, ()
-        names = ("position", "orientation", "velocity", "angular_velocity")
-        motion = Motion(*(found.bodies[name] for name in names))
+        motion = Motion(**{field.name: found.bodies[field.name] for field in fields(Motion)})
         course = Course(run.solution.t, self.case.turn)
-        columns, notes = compared(self.assembly, self.outputs, course, motion)
-        if self._analysis == "kinematic":
-            columns["output_ratio"] = velocity_ratios(self.assembly, self.outputs, course.times)
-        return columns, notes
+        return output_columns(self.assembly, self.outputs, course, motion, self._analysis)
 
     def _clearances(self) -> FloatArray:
         real = self.model.clearances
@@ -373,11 +367,7 @@ class MechanismSystem:
         }
         if self.model.elements:
             parts["element"] = [element.name for element in self.model.elements]
-        if self.outputs:
-            parts["output"] = [output.name for output in self.outputs]
-            parts["output_unit"] = [output.unit for output in self.outputs]
-        if self.outputs and self._analysis == "kinematic":
-            parts["drive"] = [name for name, keys in self.case.drives.items() if GIVEN[keys.gives][1] < 2]
+        parts |= output_coordinates(self.case, self.outputs)
         parts |= self._reversals.coordinates(float(run.solution.t_end))
         if not self.real:
             return dict(parts)
