@@ -275,8 +275,8 @@ class MechanismSystem:
 
     @cached_property
     def _reversals(self) -> Reversals:
-        # Where all joints are ideal, no impacts follow.
-        drives = tuple(self.case.drives.values()) if self.real else ()
+        # No impacts follow where all joints are ideal, and none are computed where nothing is integrated.
+        drives = tuple(self.case.drives.values()) if self.real and self._analysis == "dynamic" else ()
         return Reversals(drives, self.period, self.case.duration)
 
     def _contacts(self, model: Model) -> Contacts:
