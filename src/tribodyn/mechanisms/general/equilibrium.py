@@ -68,7 +68,7 @@ _FAR: Final = 0.5
 """Part of the largest gap of a joint that a step may not pass."""
 
 
-class Loads:
+class JointLoads:
     """The loads on bodies that are displaced within the clearances.
 
     Parameters
@@ -308,7 +308,7 @@ def _spaces(matrix: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:
     return rows[:rank].T, rows[rank:].T
 
 
-def settled(loads: Loads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:
+def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:
     """Move the bodies to where their loads balance; return the state there, or None.
 
     Parameters
@@ -331,7 +331,7 @@ def settled(loads: Loads, *, change: float = _SETTLED, near: float = 0.0) -> Flo
     return None
 
 
-def _newton(loads: Loads, soft: float, least: float) -> tuple[int, float, float]:
+def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, float]:
     """Make steps until one changes nothing; return their number and changes, and the stiffness of springs.
 
     Springs under all nodes, of stiffness ``soft`` [N/m] in each joint, hold a step where contact does not.

@@ -20,7 +20,7 @@ from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import DEPENDENT, System
 from tribodyn.mechanisms.general.cycle import closes, lead, placed
 from tribodyn.mechanisms.general.outputs import Motion, Output, rotations
-from tribodyn.mechanisms.general.positions import Course
+from tribodyn.mechanisms.general.positions import DrivePath
 
 _STEP: Final = 1.0e-4
 """Displacement along a freedom by which outputs are tried, in units of the size or radians."""
@@ -44,7 +44,7 @@ class IdealOutputs:
     notes: tuple[str, ...]
 
 
-def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], course: Course) -> IdealOutputs:
+def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath) -> IdealOutputs:
     """Return the outputs as they are with ideal joints.
 
     Parameters
@@ -53,20 +53,20 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], course: Course)
         The mechanism, without findings.
     outputs
         To be evaluated.
-    course
+    path
         The times, n_t of them.
     """
-    n_t = course.times.size
+    n_t = path.times.size
     unknown = np.full((n_t, 1), np.nan)
     if assembly.strain:
         reason = "ideal joints cannot follow the drives, so outputs have no ideal value and no error"
         return IdealOutputs((unknown,) * len(outputs), (reason,))
-    times, where = np.unique(course.of_drives, return_inverse=True)
+    times, where = np.unique(path.of_drives, return_inverse=True)
     mechanism = IdealMechanism(assembly)
     states = mechanism.follow(times)
     free = mechanism.leaves_free(outputs, times, states)
     known = where < len(states)
-    motion = motion_of(states[where[known]], course.forward[known])
+    motion = motion_of(states[where[known]], path.forward[known])
     found = []
     for output, is_free in zip(outputs, free, strict=True):
         components = output.components(motion)
@@ -86,7 +86,7 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], course: Course)
 
 
 def compared(
-    assembly: Assembly, outputs: Sequence[Output], course: Course, motion: Motion
+    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, motion: Motion
 ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
     """Return the columns of outputs, each of shape (n_t, n_outputs), and notes.
 
@@ -96,12 +96,12 @@ def compared(
         The mechanism, without findings.
     outputs
         At least one.
-    course
+    path
         Times of the motion, n_t of them.
     motion
         Of the mechanism with clearance.
     """
-    ideal = ideal_outputs(assembly, outputs, course)
+    ideal = ideal_outputs(assembly, outputs, path)
     real = [output.components(motion) for output in outputs]
     pairs = list(zip(outputs, real, ideal.components, strict=True))
     return {

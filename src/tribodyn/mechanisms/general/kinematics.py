@@ -28,7 +28,7 @@ from tribodyn.mechanisms.general.ideal_motion import (
     unreached,
 )
 from tribodyn.mechanisms.general.outputs import Output
-from tribodyn.mechanisms.general.positions import Course, walked
+from tribodyn.mechanisms.general.positions import DrivePath, walked
 
 
 def require_motion(assembly: Assembly) -> None:
@@ -77,7 +77,7 @@ def follow_drives(
             raise IntegrationFailure(float(times[number]), unreached(times, found))
         return np.asarray(states[number])
 
-    return walked(problem, Course(times), known, picture_times, progress)
+    return walked(problem, DrivePath(times), known, picture_times, progress)
 
 
 def velocity_ratios(assembly: Assembly, outputs: Sequence[Output], times: FloatArray) -> FloatArray:

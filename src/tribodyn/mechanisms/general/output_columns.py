@@ -11,16 +11,16 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.kinematics import velocity_ratios
 from tribodyn.mechanisms.general.outputs import Motion, Output
-from tribodyn.mechanisms.general.positions import Course
+from tribodyn.mechanisms.general.positions import DrivePath
 
 
 def output_columns(
-    assembly: Assembly, outputs: Sequence[Output], course: Course, motion: Motion, analysis: str
+    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, motion: Motion, analysis: str
 ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
     """Return outputs with their ideal values and errors, of a kinematic analysis their ratios, and notes."""
-    columns, notes = compared(assembly, outputs, course, motion)
+    columns, notes = compared(assembly, outputs, path, motion)
     if analysis == "kinematic":
-        columns["output_ratio"] = velocity_ratios(assembly, outputs, course.times)
+        columns["output_ratio"] = velocity_ratios(assembly, outputs, path.times)
     return columns, notes
 
 

@@ -28,7 +28,7 @@ BROKEN: Final = "a joint has come apart"
 
 
 @dataclass(frozen=True)
-class Course:
+class DrivePath:
     """Times of positions, and where the drives are then.
 
     Attributes
@@ -71,7 +71,7 @@ class States(Protocol):
 
 def walked(
     problem: Problem,
-    course: Course,
+    path: DrivePath,
     states: States,
     picture_times: FloatArray,
     progress: Callable[[float], None] | None,
@@ -82,7 +82,7 @@ def walked(
     ----------
     problem
         The mechanism; its memory is changed.
-    course
+    path
         Times of the rows.
     states
         Of the mechanism at these times.
@@ -91,30 +91,30 @@ def walked(
     progress
         Called with each time reached.
     """
-    begin, walk = time.perf_counter(), _Walk(problem, course)
-    nearest = np.abs(course.times[:, None] - picture_times).argmin(axis=0) if course.times.size else []
+    begin, walk = time.perf_counter(), _Walk(problem, path)
+    nearest = np.abs(path.times[:, None] - picture_times).argmin(axis=0) if path.times.size else []
     shown, failure, reached = np.unique(nearest).astype(int), None, 0
     pictures = np.zeros((shown.size, *problem.field_shape))
     y = problem.y0.copy()
     try:
-        for k in range(course.times.size):
+        for k in range(path.times.size):
             y = walk.put(k, states(k))
             for place in np.flatnonzero(shown == k):
                 walk.picture(k, y, pictures[place])
             reached = k + 1
             if progress is not None:
-                progress(float(course.times[k]))
+                progress(float(path.times[k]))
     except IntegrationFailure as error:
         failure = str(error)
     except Stopped:
         failure = INTERRUPTED
     taken = shown[shown < reached]
     return Solution(
-        t=course.times[:reached],
+        t=path.times[:reached],
         rows=walk.rows[:reached],
-        picture_times=course.times[taken],
+        picture_times=path.times[taken],
         pictures=pictures[: taken.size],
-        t_end=float(course.times[reached - 1]) if reached else 0.0,
+        t_end=float(path.times[reached - 1]) if reached else 0.0,
         y_end=y,
         statistics=Statistics(steps=reached, wall_time=time.perf_counter() - begin),
         failure=failure,
@@ -124,17 +124,17 @@ def walked(
 class _Walk:
     """Calls the functions of a problem at one state after the other."""
 
-    def __init__(self, problem: Problem, course: Course) -> None:
-        self.problem, self.course, self.memory = problem, course, problem.memory
+    def __init__(self, problem: Problem, path: DrivePath) -> None:
+        self.problem, self.path, self.memory = problem, path, problem.memory
         self.functions = machine_code(problem, kernel_types(problem))
         self.data: MechanismData = problem.data
-        self.clock, self.last = course.of_drives * course.forward, 0.0
-        self.rows = np.empty((course.times.size, problem.n_observed))
+        self.clock, self.last = path.of_drives * path.forward, 0.0
+        self.rows = np.empty((path.times.size, problem.n_observed))
 
     def put(self, k: int, state: FloatArray) -> FloatArray:
         """Put the mechanism into a state and fill its row; return the state on the constraints."""
         t, y, memory = float(self.clock[k]), state.copy(), self.memory
-        if k > 0 and self.course.forward[k] < self.course.forward[k - 1]:
+        if k > 0 and self.path.forward[k] < self.path.forward[k - 1]:
             self._turn_back()
         kinks = self.data.signals.kinks
         if k == 0 or np.any((kinks > self.last) & (kinks <= t)):
@@ -144,7 +144,7 @@ class _Walk:
         self.functions.observe(t, y, self.data, memory, self.rows[k])
         self.functions.accept(t, y, self.data, memory)
         if memory.now.course.broken != INTACT:
-            raise IntegrationFailure(float(self.course.times[k]), BROKEN)
+            raise IntegrationFailure(float(self.path.times[k]), BROKEN)
         self.last = t
         return y
 
@@ -155,7 +155,7 @@ class _Walk:
     def _turn_back(self) -> None:
         """Go on with the time reversed, from where the drives turn."""
         self.data = in_reverse(self.data)
-        self.last = -self.course.turn
+        self.last = -self.path.turn
         self.functions.enter(self.last, self.memory.settled.copy(), self.data, self.memory)
 
 

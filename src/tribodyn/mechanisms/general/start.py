@@ -10,7 +10,7 @@ from __future__ import annotations
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.equilibrium import Loads, settled
+from tribodyn.mechanisms.general.equilibrium import JointLoads, settled
 from tribodyn.mechanisms.general.speeds import speeds_of
 
 
@@ -30,4 +30,4 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     ideal = System(assembly.model.counterpart)
     ideal.adopt(assembly.state)
     ideal.close()
-    return settled(Loads(assembly, ideal, speeds_of(assembly.model)))
+    return settled(JointLoads(assembly, ideal, speeds_of(assembly.model)))

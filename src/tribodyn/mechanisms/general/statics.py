@@ -21,11 +21,11 @@ from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.cycle import closes, placed, where_drives_are
-from tribodyn.mechanisms.general.equilibrium import Loads, settled
+from tribodyn.mechanisms.general.equilibrium import JointLoads, settled
 from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanisms.general.kinematics import require_motion
 from tribodyn.mechanisms.general.outputs import rotations
-from tribodyn.mechanisms.general.positions import Course, walked
+from tribodyn.mechanisms.general.positions import DrivePath, walked
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that is none."""
@@ -72,11 +72,11 @@ def find_equilibria(
     times, picture_times, progress
         As for :func:`tribodyn.mechanisms.general.positions.walked`.
     """
-    course = Course(times, turn)
-    return walked(problem, course, _Equilibria(assembly, course), picture_times, progress)
+    path = DrivePath(times, turn)
+    return walked(problem, path, _Equilibria(assembly, path), picture_times, progress)
 
 
-class _Loads(Loads):
+class _LedLoads(JointLoads):
     """The loads on bodies whose drives are led along, by compiled solutions."""
 
     def __init__(self, assembly: Assembly, ideal_rank: int) -> None:
@@ -104,22 +104,22 @@ class _Loads(Loads):
 class _Equilibria:
     """Finds the equilibrium at one position after the other, each from the one before."""
 
-    def __init__(self, assembly: Assembly, course: Course) -> None:
-        times, self._where = np.unique(course.of_drives, return_inverse=True)
+    def __init__(self, assembly: Assembly, path: DrivePath) -> None:
+        times, self._where = np.unique(path.of_drives, return_inverse=True)
         mechanism = IdealMechanism(assembly)
         found = mechanism.follow(times)
-        self._course, self._bodies = course, assembly.model.bodies
+        self._path, self._bodies = path, assembly.model.bodies
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
-        self._loads = _Loads(assembly, mechanism.rank)
+        self._loads = _LedLoads(assembly, mechanism.rank)
 
     def __call__(self, number: int) -> FloatArray:
         """Return the equilibrium at a position, see :class:`~.positions.States`."""
-        k, t = int(self._where[number]), float(self._course.of_drives[number])
+        k, t = int(self._where[number]), float(self._path.of_drives[number])
         if k >= len(self._ideal):
-            raise IntegrationFailure(float(self._course.times[number]), self._reason)
-        centred, direction = self._ideal[k], float(self._course.forward[number])
+            raise IntegrationFailure(float(self._path.times[number]), self._reason)
+        centred, direction = self._ideal[k], float(self._path.forward[number])
         starts = [self._expected(number), centred] if self._ways else [centred]
         for start in starts:
             self._loads.at(t, start.ravel(), direction)
@@ -160,4 +160,4 @@ class _Equilibria:
 
     def _failure(self, number: int, words: str) -> IntegrationFailure:
         where = where_drives_are(self._loads.ideal)
-        return IntegrationFailure(float(self._course.times[number]), f"with {where}, {words}")
+        return IntegrationFailure(float(self._path.times[number]), f"with {where}, {words}")

@@ -34,7 +34,7 @@ from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.output_columns import output_columns, output_coordinates
 from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
-from tribodyn.mechanisms.general.positions import Course
+from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.start import initial_state
@@ -344,8 +344,8 @@ class MechanismSystem:
         if not self.outputs:
             return {}, ()
         motion = Motion(**{field.name: found.bodies[field.name] for field in fields(Motion)})
-        course = Course(run.solution.t, self.case.turn)
-        return output_columns(self.assembly, self.outputs, course, motion, self._analysis)
+        path = DrivePath(run.solution.t, self.case.turn)
+        return output_columns(self.assembly, self.outputs, path, motion, self._analysis)
 
     def _clearances(self) -> FloatArray:
         real = self.model.clearances
