@@ -136,7 +136,8 @@ def followed(
         ends = _ends(keys[f"{path}.{VALUES}"], table.values) if len(axes) == 1 else ()
         for over, knots in axes.items():
             along = "" if over == "times" else names.get(path, "")
-            yield FollowedTable(path, over, knots, ends, along, _period(over, knots, cycle), duration)
+            again = knots[-1] if over == "times" and getattr(table, "cyclic", False) else cycle
+            yield FollowedTable(path, over, knots, ends, along, _period(over, knots, again), duration)
 
 
 def _period(over: str, knots: tuple[float, ...], cycle: float | None) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final, TypeVar
+from typing import Any, Final, Protocol, TypeVar, runtime_checkable
 
 from tribodyn.cases.case import Case, with_entries
 from tribodyn.cases.columns import KNOTS, VALUES
@@ -47,6 +47,14 @@ class Doors:
     arguments: Mapping[str, tuple[str, tuple[float, float]]]
     beside: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     around: tuple[str, ...] = ()
+
+
+@runtime_checkable
+class Controlled(Protocol):
+    """A case that takes functions in the place of controllers."""
+
+    def with_controllers(self, functions: Mapping[str, OwnFunction]) -> Case:
+        """Return the case with functions by the names of controllers; refuse those that do not fit."""
 
 
 _Any = TypeVar("_Any", bound=Case)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 from tribodyn.cases.beyond import whole_turns
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.columns import KNOTS, MAP, TABLE, TIMES, VALUES, TableProblem, check, check_map
-from tribodyn.cases.fields import Numbers, choice, file, name, quantity, series
+from tribodyn.cases.fields import Numbers, choice, file, name, quantity, series, switch
 from tribodyn.cases.units import unit_of
 
 if TYPE_CHECKING:
@@ -238,6 +238,7 @@ class _Course(_Timed):
         None, "of amplitude or swing", "", unit="rad/s", gt=0, example="1 rad/s"
     )
     phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
+    cyclic: bool | None = switch(None, "whether a table over time repeats after its length", "")
     angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 360 deg"')
     positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
     speeds: Numbers | None = series("of values", "", unit="rad/s", example='"0, 10, 20 rad/s"')
@@ -251,13 +252,17 @@ class _Course(_Timed):
     def _check_given(self) -> None:
         moving = self.amplitude is not None or self.swing is not None
         demand(self.value is not None or moving or bool(self.values), "value", "give a value, or a table")
+        timed = self.over == TIMES and not self.knots[0]
+        demand(timed or not self.cyclic, "cyclic", "a cyclic table is one over times that begin at 0 s")
         key = "swing" if self.swing is not None else "amplitude"
         demand(not moving or self.angular_frequency is not None, key, "this needs an angular_frequency")
         self._check_over()
 
     @property
     def period(self) -> float | None:
-        """Time after which a sinusoid comes again [s]; None for what has none."""
+        """Time after which a sinusoid or a cyclic table comes again [s]; None for what has none."""
+        if self.cyclic:
+            return self.knots[-1]
         return None if self.angular_frequency is None else 2.0 * math.pi / self.angular_frequency
 
     @property
@@ -271,13 +276,23 @@ class _Course(_Timed):
 
         mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.angular_frequency or 0.0
         if self.values:
-            return turning(self.curve(closed=self.turns > 0), self.turns)
+            return turning(self.curve(closed=self.turns > 0 or bool(self.cyclic)), self.turns)
         if self.swing is not None:
             half = 0.5 * self.swing
             return sinusoid(mean + half, -half, frequency, phase + 0.5 * math.pi)
         if self.amplitude is not None:
             return sinusoid(mean, self.amplitude, frequency, phase)
         return constant(mean)
+
+    def over_run(self, duration: float, *, rising: bool = False) -> Signal:
+        """Return what it is over a run [s]; a cyclic table that is ``rising`` goes on from where it ends."""
+        from tribodyn.core.signals import for_each_cycle
+
+        if not self.cyclic:
+            return self.signal()
+        values = self.values or (0.0,)
+        rise = values[-1] - values[0] if rising else 0.0
+        return for_each_cycle(self.signal(), self.knots[-1], duration, rise)
 
 
 _MAPPED: Final = (

@@ -43,6 +43,15 @@ class InputError(TribodynError):
         return (self,)
 
 
+@contextmanager
+def below(path: str) -> Iterator[None]:
+    """Put the keys of errors that the block raises below the path of a table."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.reason, key=".".join(filter(None, (path, error.key)))) from None
+
+
 MOST_HINTS: Final = 5
 """For how many of them what was meant is looked for, which takes as long as reading a whole case."""
 

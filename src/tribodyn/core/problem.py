@@ -11,7 +11,8 @@ The rules
    the same numbers twice.
 2. ``enter`` is called once at the start of every segment (the initial time and each
    breakpoint), before any other call in that segment. What is constant over a
-   segment, such as the direction of motion, is set there.
+   segment, such as the direction of motion, is set there. Then ``sample``, which is plain Python, may
+   set what controllers hold over the segment; if it has, ``enter`` is called once more.
 3. After a step is accepted, the step is walked once from its beginning to its end.
    For each part of it (parts end at output times and at the end of the step)
    ``advance`` adds the path integrals of that part: works, heats, sliding loads.
@@ -180,6 +181,9 @@ class Problem:
         Returns the solution where states are not integrated but known or in equilibrium; its arguments are
         the times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial
         value problem.
+    sample
+        ``sample(t, y)`` sets in the memory what is held until the next sampling time, and tells whether it
+        has; ``None`` where nothing is.
     """
 
     functions: CompiledFunctions
@@ -199,6 +203,7 @@ class Problem:
     following: Following | None = None
     longest_step: float = math.inf
     solved: Callable[[FloatArray, FloatArray, Callable[[float], None] | None], Solution] | None = None
+    sample: Callable[[float, FloatArray], bool] | None = None
 
 
 @dataclass

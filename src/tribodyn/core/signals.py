@@ -51,6 +51,13 @@ class Signal:
         """Return the values of a table, shape of ``places``."""
         return np.asarray(self._curve(np.clip(places, self.knots[0], self.knots[-1])))
 
+    def at(self, place: float) -> float:
+        """Return the value at one place."""
+        c = self.coefficients
+        if self.kind == "table":
+            return float(self(np.array([place]))[0])
+        return float(c[0] if self.kind == "constant" else c[0] + c[1] * math.sin(c[2] * place + c[3]))
+
     def slope(self, places: FloatArray, order: int) -> FloatArray:
         """Return derivatives of a table of some order inside it, shape of ``places``."""
         return np.asarray(self._curve(places, order))
@@ -65,7 +72,7 @@ class Signal:
     @property
     def at_start(self) -> float:
         """Value of a table at zero."""
-        return float(self(np.zeros(1))[0])
+        return self.at(0.0)
 
     def zeros(self, order: int) -> FloatArray:
         """Return where a derivative of a table of some order is zero, shape (m,); begins of zero pieces."""
@@ -181,16 +188,19 @@ def pulse(begin: float, length: float, height: float) -> Signal:
     return spline(begin + length * phase, height * np.sin(np.pi * phase) ** 2, closed=True)
 
 
-def repeated(signal: Signal, n: int) -> Signal:
-    """Return a table ``n`` times, one after the other."""
+def repeated(signal: Signal, n: int, rise: float = 0.0) -> Signal:
+    """Return a table ``n`` times, one after the other, each time higher by ``rise``."""
     length = signal.knots[-1] - signal.knots[0]
     shifts = length * np.arange(n)[:, None]
     knots = (shifts + signal.knots[None, :-1]).ravel()
+    coefficients = np.tile(signal.coefficients, n)
+    coefficients[-1] += np.repeat(rise * np.arange(n), signal.knots.size - 1)
     return replace(
         signal,
-        coefficients=np.tile(signal.coefficients, n),
+        coefficients=coefficients,
         knots=np.append(knots, signal.knots[-1] + shifts[-1]),
-        kinks=np.unique(shifts + signal.kinks[None]),
+        # Where one ends the next begins, at one instant and not at two that differ by rounding.
+        kinks=np.append((shifts + signal.kinks[None, :-1]).ravel(), signal.kinks[-1] + shifts[-1]),
     )
 
 
@@ -199,9 +209,9 @@ def turning(signal: Signal, turns: int) -> Signal:
     return replace(signal, period=2.0 * math.pi * turns)
 
 
-def for_each_cycle(signal: Signal, cycle: float, duration: float) -> Signal:
-    """Return a table over one cycle [s] once for each cycle of a run."""
-    return repeated(signal, max(1, math.ceil(duration / cycle * (1.0 - _ROUNDING))))
+def for_each_cycle(signal: Signal, cycle: float, duration: float, rise: float = 0.0) -> Signal:
+    """Return a table over one cycle [s] once for each cycle of a run; ``rise`` as for :func:`repeated`."""
+    return repeated(signal, max(1, math.ceil(duration / cycle * (1.0 - _ROUNDING))), rise)
 
 
 def summed(parts: Sequence[tuple[Signal, float]]) -> Signal:

@@ -121,6 +121,8 @@ class Walk:
     def enter(self) -> None:
         """Begin a segment; refuse one whose first rate is not finite, which SciPy would try for ever."""
         self.functions.enter(self.t, self.y, self.problem.data, self.problem.memory)
+        if self.problem.sample is not None and self.problem.sample(self.t, self.y):
+            self.functions.enter(self.t, self.y, self.problem.data, self.problem.memory)
         kept = self.n_rows, self.n_pictures
         if self.marks[self.next_mark] <= self.t:  # only at the initial time; later ones are taken
             # At once, since a rate may leave in the memory what no row is to be made of.

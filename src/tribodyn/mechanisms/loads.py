@@ -36,12 +36,11 @@ def parts_of(
         Of the run [s].
     """
     for key, signal in load.given.items():
+        cycle = signal.period if signal.cyclic else period
         for product in signal.products():
             yield (
                 np.array(load.shares(key)),
-                tuple(
-                    (over_run(found, over, period, duration), coordinates[over]) for found, over in product
-                ),
+                tuple((over_run(found, over, cycle, duration), coordinates[over]) for found, over in product),
             )
 
 

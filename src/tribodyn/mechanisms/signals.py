@@ -13,6 +13,8 @@ from tribodyn.core.signals import Signal
 from tribodyn.kernels import signals as kinds
 
 NO_KINKS: Final = np.empty(0)
+_SAME: Final = 1.0e-12
+"""Share of a time by which two instants may differ that are one but for rounding."""
 
 
 @dataclass(frozen=True)
@@ -134,4 +136,6 @@ class SignalList:
             pieces.until[first:last], pieces.left[first:last] = one.until, one.left
             pieces.c[first:last] = one.polynomial
             first = last
-        return kinds.Signals(signals, pieces, np.unique(np.concatenate([np.zeros(0), *self.kinks])))
+        kinks = np.unique(np.concatenate([np.zeros(0), *self.kinks]))
+        apart = np.diff(kinks, prepend=-np.inf) > _SAME * np.abs(kinks)
+        return kinds.Signals(signals, pieces, kinks[apart])

@@ -9,7 +9,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from tribodyn.cases.functions import OwnFunction, with_functions
+from tribodyn.cases.case import Case
+from tribodyn.cases.functions import Controlled, OwnFunction, with_functions
 from tribodyn.cases.groups import Contact
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
@@ -26,8 +27,6 @@ from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 if TYPE_CHECKING:
     import xarray as xr
 
-    from tribodyn.cases.case import Case
-
 
 def simulate(
     case: AnyCase,
@@ -38,6 +37,7 @@ def simulate(
     law: OwnLaw | None = None,
     drive: OwnFunction | None = None,
     loads: Mapping[str, OwnFunction] | None = None,
+    controllers: Mapping[str, OwnFunction] | None = None,
 ) -> xr.Dataset:
     """Simulate a case.
 
@@ -67,6 +67,11 @@ def simulate(
         shaft, in N and N m; in a user-defined mechanism the names of its loads. Their arguments are named
         ``t`` and ``theta_v`` or ``theta_a``, of a shaft or of the joint that a load follows ``angle``. They
         are tabulated; the case in the result holds the tables.
+    controllers
+        Functions by the names of the controllers of a user-defined mechanism. They are evaluated at sampling
+        times alone and return a torque [N m] or force [N]. Their arguments are ``t``, ``angle`` and
+        ``speed`` or ``position`` and ``velocity`` of the joint, and names of outputs, SI units. The case in
+        the result does not hold them.
 
     Returns
     -------
@@ -81,7 +86,7 @@ def simulate(
     Stopped
         If ``stop`` was true before anything was computed.
     """
-    case = case_of(case)
+    case = with_controllers(case_of(case), controllers or {})
     # Equations do not depend on the law, and who compiles them could not import it.
     session = _prepared(case, stop)
     with asked(stop), one_thread():
@@ -90,6 +95,15 @@ def simulate(
         session = session if chosen is case else _session(chosen)
         session = replace(session, progress=progress, stop=stop)
         return _simulated(session, None if checkpoint is None else Path(checkpoint))
+
+
+def with_controllers(case: Case, functions: Mapping[str, OwnFunction]) -> Case:
+    """Return a case with functions of controllers; refuse those that it has no place for, or lacks."""
+    if isinstance(case, Controlled):
+        return case.with_controllers(functions)
+    if functions:
+        raise InputError(f'a case of the kind "{case.kind()}" has no controllers', key="controllers")
+    return case
 
 
 def _with_law(case: Case, law: OwnLaw) -> Case:

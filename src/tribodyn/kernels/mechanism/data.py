@@ -100,11 +100,11 @@ Parameters: Final = record_type(("values", "f8", (N_PARAMETERS,)))
 """Parameters of a force law, which reads them by the names of its own record."""
 
 Law: Final = record_type(
-    *((name, "f8") for name in ("position", "rate", "entry_rate")),
+    *((name, "f8") for name in ("position", "rate", "entry_rate", "held")),
     ("table", "f8", (2,)),
     ("table_slope", "f8"),
     *((name, "f8") for name in ("force", "in_position", "in_rate")),
-    *((name, "f8") for name in ("stored", "damping", "friction", "touching")),
+    *((name, "f8") for name in ("stored", "damping", "friction", "supplied", "touching")),
 )
 """A force law at one instant.
 
@@ -112,14 +112,16 @@ position, rate
     Coordinate of its element, zero as drawn (a distance: from its length), and rate of it: [m], or [rad].
 entry_rate
     Rate with which contact began, kept while ``touching`` is not 0; 0 without contact.
+held
+    Output of a controller, constant from one sampling time to the next [N], or [N m].
 table, table_slope
-    Value of its table at the position and integral from zero; slope of the value.
+    Value of its table at the position, or at the rate, and integral from zero; slope of the value.
 force
     Force along the coordinate [N], or moment [N m]: positive where it makes the coordinate grow.
 in_position, in_rate
     Derivatives of the force.
-stored, damping, friction
-    Stored energy [J]; powers that damping and friction turn into heat [W].
+stored, damping, friction, supplied
+    Stored energy [J]; powers that damping and friction turn into heat, and power of a drive [W].
 touching
     1 where a contact of one side is closed.
 """
@@ -141,6 +143,7 @@ Coupling: Final = record_type(
     ("law", "i8"),
     ("parameters", Parameters),
     ("table", "i8", (2,)),
+    ("over_rate", "i8"),
     ("first_row", "i8"),
     ("row_kind", "i8", (6,)),
     ("row_axis", "i8", (6,)),
@@ -184,9 +187,9 @@ first_leg, next_leg
     Of a leg of an element: the coupling that is its first leg, ``NONE`` for that one itself; the next leg.
 along, about
     Of a leg: coefficients of the displacement [1] and of the angle [m/rad] in the equation of its element.
-law, parameters, table
-    Of the legs of an element with a force law: its address (0 without one), its parameters, and the signals
-    of its table and of the integral of it.
+law, parameters, table, over_rate
+    Of the legs of an element with a force law: its address (0 without one), its parameters, the signals
+    of its table and of the integral of it, and 1 where the table is one over the rate of the coordinate.
 row_kind, row_axis, row_other, row_signal
     Of each row: its kind, axis of the socket, axis of the shaft, number of the signal it follows.
 force

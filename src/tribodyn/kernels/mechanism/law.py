@@ -18,7 +18,7 @@ from numba.extending import intrinsic
 
 from tribodyn.core.quantities import Record, RecordType
 from tribodyn.kernels.jit import entry, kernel
-from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, Law
+from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, WORK, Law
 from tribodyn.kernels.signals import Signals, evaluate
 
 Function: TypeAlias = Callable[[Any, Any], None]
@@ -78,18 +78,19 @@ def fill_law(coupling: Record, now: Record, signals: Signals) -> None:
     """Fill the force of an element from its coordinate, with its derivatives, energy and powers."""
     law = now.law
     law.position, law.rate = now.residual[0], now.rate[0]
+    place = law.rate if coupling.over_rate == 1 else law.position
     for i in range(2):
         law.table[i] = 0.0
         if coupling.table[i] != NONE:
-            value, slope, _ = evaluate(signals, coupling.table[i], law.position, law.position)
+            value, slope, _ = evaluate(signals, coupling.table[i], place, place)
             law.table[i] = value
             if i == 0:
                 law.table_slope = slope
     law.force = law.in_position = law.in_rate = law.stored = law.damping = law.friction = 0.0
-    law.touching = 0.0
+    law.supplied = law.touching = 0.0
     _call(coupling.law, coupling.parameters, law)
     now.stored = law.stored
-    now.powers[DAMPING], now.powers[FRICTION] = law.damping, law.friction
+    now.powers[DAMPING], now.powers[FRICTION], now.powers[WORK] = law.damping, law.friction, law.supplied
 
 
 @kernel

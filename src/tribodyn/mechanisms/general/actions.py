@@ -45,6 +45,8 @@ UNITS: Final = {
     "force": "N",
 }
 """Units of what drives give."""
+_ROUNDED: Final = 1.0e-9
+"""Share of a turn by which rounded angles may miss whole turns."""
 COORDINATE_OF: Final = {
     "angles": "angle",
     "speeds": "angle",
@@ -71,6 +73,17 @@ class DriveKeys(NamedGroup):
         words = f'a drive gives one of {", ".join(GIVEN)}, such as speed = "100 rpm"'
         demand(len(given) == 1, given[1] if given[1:] else "speed", words)
         demand(self.signal.over in ("", "times"), f"{given[0]}.{self.signal.over}", "a drive follows time")
+        self._check_cyclic()
+
+    def _check_cyclic(self) -> None:
+        """Refuse a cyclic motion that jumps; an angle may go on by whole turns."""
+        level, values = GIVEN[self.gives][1], self.signal.values
+        if not (self.signal.cyclic and values) or level > 1:
+            return
+        turns = (values[-1] - values[0]) / (2.0 * math.pi) if self.gives == "angle" else 0.0
+        closes = abs(turns - round(turns)) < _ROUNDED if turns else values[-1] == values[0]
+        words = "a cyclic motion ends where it begins" + (", or whole turns on" if turns else "")
+        demand(closes, f"{self.gives}.values", words)
 
     @property
     def gives(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Final
 
 from pydantic import BaseModel
@@ -48,11 +49,12 @@ class Argument:
         return self if self.required or not needed else Argument(self.annotation, self.text, True)
 
 
-def arguments_of(model: type[BaseModel]) -> dict[str, Argument]:
+@cache
+def arguments_of(model: type[BaseModel]) -> Mapping[str, Argument]:
     """Return the keyword arguments for the keys and tables of a model, in their order."""
     keys, tables = keys_of(model), dict(groups_of(model))
     replaceable = {key for pair in getattr(model, "ALTERNATIVES", ()) for key in pair}
-    found = {}
+    found: dict[str, Argument] = {}
     for name, info in model.model_fields.items():
         if f"{name}.{ANY_NAME}" in tables:
             text = f"{_sentence(info.description or '')} Tables by their names."

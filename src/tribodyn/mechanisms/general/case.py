@@ -7,25 +7,27 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
-from pydantic import create_model
+from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
-from tribodyn.cases.functions import Doors
+from tribodyn.cases.functions import Doors, OwnFunction
 from tribodyn.cases.groups import Contact, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.known import demand_known
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import below
+from tribodyn.mechanisms.base import plain
 from tribodyn.mechanisms.general import solids
 from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
+from tribodyn.mechanisms.general.elements.controller import Controller, check_functions
 from tribodyn.mechanisms.general.kinds import GROUND, KINDS
 from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
@@ -79,6 +81,8 @@ class MechanismCase(_WithElements):
     wear: Wear = Wear()
     solver: Integration = Integration()
     run: RunKeys = RunKeys()
+
+    _functions: Mapping[str, OwnFunction] = PrivateAttr(default_factory=dict)
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -163,6 +167,19 @@ class MechanismCase(_WithElements):
     def doors(self) -> Doors:
         """Return where functions for the drive and for loads go."""
         return doors_of(self.drives, self.loads, self.span)
+
+    @property
+    def functions(self) -> Mapping[str, OwnFunction]:
+        """Python functions in the place of controllers, by name."""
+        return self._functions
+
+    def with_controllers(self, functions: Mapping[str, OwnFunction]) -> Self:
+        """Return the case with functions in the place of controllers, of those without a gain at least."""
+        controllers = {name: keys for _, name, keys in self.elements() if isinstance(keys, Controller)}
+        check_functions(controllers, functions, self.joints, map(plain, self.outputs))
+        copied = self.model_copy()
+        copied._functions = dict(functions)
+        return copied
 
     @property
     def period(self) -> float | None:
@@ -289,10 +306,8 @@ class MechanismCase(_WithElements):
             for key, bodies in keys.named_bodies.items():
                 for body in bodies:
                     demand_known(body, (GROUND, *self.bodies), f"{path}.{key}", "body")
-            try:
+            with below(path):
                 equations = keys.equations(self.joints)
-            except InputError as error:
-                raise InputError(error.reason, key=f"{path}.{error.key}") from None
             words = "a wear campaign counts angles anew in each cycle; leave out gears with backlash"
             coupled = any(len(one.legs) > 1 and one.law is not None for one in equations)
             demand(not coupled or self.wear.cycles == 0, path, words)
@@ -306,9 +321,12 @@ class MechanismCase(_WithElements):
         check_output_interval(self.output_interval, self.duration)
         words = 'only a static analysis passes its positions in both directions; give run.analysis = "static"'
         demand(run.directions == "forward" or run.analysis == "static", "run.directions", words)
+        for table, name, keys in self.elements():
+            with below(f"{table}.{name}"):
+                keys.check_run(self.span, dynamic=run.analysis == "dynamic", campaign=self.wear.cycles > 0)
         for name, drive in self.drives.items():
             knots = drive.signal.knots
-            if knots and GIVEN[drive.gives][1] == 0:
+            if knots and GIVEN[drive.gives][1] == 0 and not drive.signal.cyclic:
                 words = f"the table holds {knots[0]:g} s to {knots[-1]:g} s, the run takes {self.span:g} s"
                 inside = knots[0] <= 0.0 and knots[-1] >= self.span
                 demand(inside, f"drives.{name}.{drive.gives}.times", words)

@@ -178,7 +178,8 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
     for film, number in enumerate(model.oiled):
         records[number].film = film
     for drive in case.drives.values():
-        _add_drive(records[model.joints.index(drive.joint)], case.joints[drive.joint], drive, signals)
+        record = records[model.joints.index(drive.joint)]
+        _add_drive(record, case.joints[drive.joint], drive, case.span, signals)
     others = iter(records[len(case.joints) :])
     for spring in case.springs.values():
         _fill_spring(next(others), model, spring)
@@ -250,12 +251,13 @@ def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) 
     record.n_rows = record.n_terms = m + 1
 
 
-def _add_drive(record: Any, joint: JointKeys, drive: DriveKeys, signals: SignalList) -> None:
+def _add_drive(record: Any, joint: JointKeys, drive: DriveKeys, duration: float, signals: SignalList) -> None:
     """Add a drive: a row for motion, an effort for torque or force.
 
     It moves the second body against the first; where that carries the socket, the shaft goes the other way.
     """
-    signal, (coordinate, level) = drive.signal.signal(), GIVEN[drive.gives]
+    coordinate, level = GIVEN[drive.gives]
+    signal = drive.signal.over_run(duration, rising=drive.gives == "angle")
     pieces = pieces_of(signal)
     if joint.sign < 0.0:
         pieces = negated(pieces)
@@ -312,7 +314,7 @@ def _fill_law(record: Any, law: ForceLaw, signals: SignalList) -> None:
     record.law, record.n_rows = address_of(law.function, fields), 0
     record.parameters.values[: len(law.parameters)] = list(law.parameters.values())
     if law.table is not None:
-        pieces = pieces_of(law.table)
+        pieces, record.over_rate = pieces_of(law.table), int(law.over_rate)
         record.table[:] = signals.add(pieces), signals.add(integral_of(pieces))
 
 

@@ -22,9 +22,11 @@ from scipy.spatial.transform import Rotation
 
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND
 from tribodyn.mechanisms.general.output_keys import UNITS, OutputKeys
+from tribodyn.mechanisms.general.skeleton import rotated
 
 
 @dataclass(frozen=True)
@@ -172,6 +174,13 @@ def outputs_of(case: MechanismCase) -> tuple[Output, ...]:
         )
         for name, keys in case.outputs.items()
     )
+
+
+def motion_of(state: FloatArray) -> Motion:
+    """Return the motion at one instant, shapes (1, n_bodies, …), from the state (13 n_bodies,)."""
+    parts = np.split(state.reshape(1, -1, N_STATES), [ORIENTATION, VELOCITY, TURNING], axis=2)
+    position, orientation, velocity, turning = parts
+    return Motion(position, orientation, velocity, rotated(orientation, turning))
 
 
 def _rotation(motion: Motion, body: int) -> Rotation:

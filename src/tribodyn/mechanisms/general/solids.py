@@ -13,7 +13,7 @@ from typing import Any, Final
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import Vector
 from tribodyn.cases.keys import Value
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import below
 
 Given = Mapping[str, Any]
 """Values of the keys of a body [SI]."""
@@ -41,10 +41,8 @@ def of_bodies(given: Mapping[str, Value]) -> dict[str, Value]:
     for prefix in _with_shape(given):
         keys = {path.removeprefix(prefix): value for path, value in given.items() if path.startswith(prefix)}
         if keys["shape"] in NEEDED:
-            try:
+            with below(prefix.rstrip(".")):
                 check(keys)
-            except InputError as error:
-                raise InputError(error.reason, key=f"{prefix}{error.key}") from None
             found |= {prefix + key: value for key, value in of_body(keys).items()}
     return found
 

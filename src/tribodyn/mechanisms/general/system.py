@@ -37,6 +37,7 @@ from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.reversals import Reversals
+from tribodyn.mechanisms.general.sampling import sampled
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.variables import (
     AXES,
@@ -147,6 +148,7 @@ class MechanismSystem:
         )
         if self._analysis != "dynamic":
             return analysed(problem, self.assembly, self._analysis, self.case.turn)
+        problem = sampled(problem, self.model, self.outputs)
         return replace(problem, following=self._following(duration))
 
     def _following(self, duration: float) -> Following | None:

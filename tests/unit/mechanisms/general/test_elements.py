@@ -143,7 +143,10 @@ def test_teeth_load_the_wheels_and_not_the_body_that_carries_them(kind: type[Ele
 
 
 def problem_of(kind: type[ElementKeys], *, dense: bool) -> Problem:
-    return mechanism_problem(assembled(kind), duration=1.0, rtol=1e-6, dense=dense)
+    problem = mechanism_problem(assembled(kind), duration=1.0, rtol=1e-6, dense=dense)
+    # What a controller holds.
+    problem.memory.now.couplings.law.held[:] = 0.3
+    return problem
 
 
 def rates(problem: Problem, y: FloatArray) -> FloatArray:
@@ -191,7 +194,7 @@ def test_the_power_of_a_force_is_what_it_stores_and_turns_into_heat(kind: type[E
     law, found, step = problem.memory.now.couplings[number].law, [], 1e-6
     assert law.rate != 0.0
     assert law.force != 0.0
-    power, heat = law.force * law.rate, law.damping + law.friction
+    power, heat, supplied = law.force * law.rate, law.damping + law.friction, law.supplied.copy()
     slopes = law.in_position.copy(), law.in_rate.copy()
     at, speed = law.position.copy(), law.rate.copy()
     for position, rate in ((step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step)):
@@ -201,7 +204,7 @@ def test_the_power_of_a_force_is_what_it_stores_and_turns_into_heat(kind: type[E
         found.append((float(law.stored), float(law.force)))
     (more, push), (less, pull), (_, faster), (_, slower) = found
     assert heat >= 0.0
-    assert power == pytest.approx(-heat - (more - less) / (2.0 * step) * speed, rel=1e-6)
+    assert power == pytest.approx(supplied - heat - (more - less) / (2.0 * step) * speed, rel=1e-6)
     size = abs(push) / step
     assert slopes[0] == pytest.approx((push - pull) / (2.0 * step), rel=1e-5, abs=1e-9 * size)
     assert slopes[1] == pytest.approx((faster - slower) / (2.0 * step), rel=1e-5, abs=1e-9 * size)
@@ -284,6 +287,7 @@ _POINTS = [
     ('between = ["crank", "rocker"]', 'between = ["crank", "crank"]', "between", "twice the same body"),
     ("100, 60, 20 mm", "0, 30, 0 mm", "second_point", "both ends are at one point"),
 ]
+_CURVE = 'torque = { speeds = "-100, 0, 100, 200 rad/s", values = "3, 2, 1.2, 0 N m" }'
 _OF_ANGLE = ('input = { type = "revolute"', 'input = { type = "prismatic"', "joint", "a joint with an angle")
 WRONG: dict[str, list[tuple[str, str, str, str]]] = {
     "distance": _POINTS,
@@ -301,6 +305,22 @@ WRONG: dict[str, list[tuple[str, str, str, str]]] = {
     "friction": [
         ('radius = "10 mm"\n', "", "radius", "needs the radius at which it slides"),
         ("static_coefficient = 0.15", "static_coefficient = 0.05", "static_coefficient", "below that of"),
+    ],
+    "motor": [
+        _OF_ANGLE,
+        (_CURVE, "", "stall_torque", "say what it gives: stall_torque and no_load_speed"),
+        (_CURVE, 'stall_torque = "2 N m"', "no_load_speed", "a straight line needs its no_load_speed"),
+        (_CURVE, 'stall_torque = "2 N m"\nno_load_speed = "-9 rpm"', "no_load_speed", "or both below"),
+        (_CURVE, 'torque = "2 N m"', "torque", "a table over speeds; a constant one is a drive"),
+    ],
+    "controller": [
+        _OF_ANGLE,
+        ('angle = "20 deg"\n', "", "angle", "say what it controls, such as angle"),
+        ('angle_gain = "2 N m/rad"', 'speed_gain = "2 N m s/rad"', "speed_gain", "has the gain angle_gain"),
+        ('torque_limit = "1 N m"', 'force_limit = "1 N"', "force_limit", "this controller gives a torque"),
+        ('angle = "20 deg"', 'angle = { angles = "0, 9 deg", values = "0, 9 deg" }', "angle", "follows time"),
+        ('sampling_time = "5 ms"', 'sampling_time = "1 ns"', "sampling_time", "allowed are 100000"),
+        ('sampling_time = "5 ms"', 'sampling_time = "0 s"', "sampling_time", "> 0"),
     ],
 }
 """Of each kind: what is replaced in its example, by what, and which key is refused with which reason."""

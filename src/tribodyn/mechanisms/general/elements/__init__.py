@@ -21,6 +21,8 @@ NAMES: Final = (
     "stop",
     "drag",
     "joint_friction",
+    "motor",
+    "controller",
 )
 """Modules of this package; each holds the class of its name."""
 

@@ -86,11 +86,14 @@ class ForceLaw:
         Their names and values, at most ``N_PARAMETERS``.
     table
         A function of the coordinate, which the law finds evaluated.
+    over_rate
+        Whether it is a function of the rate of the coordinate instead.
     """
 
     function: Callable[[Any, Any], None]
     parameters: Mapping[str, float]
     table: Signal | None = None
+    over_rate: bool = False
 
 
 @dataclass(frozen=True)
@@ -169,6 +172,9 @@ class ElementKeys(NamedGroup):
         if law is None:
             return None
         return ForceLaw(law, {key: value for key, value in self if isinstance(value, float)})
+
+    def check_run(self, duration: float, *, dynamic: bool, campaign: bool) -> None:
+        """Refuse a run over some time [s] that does not suit the element; by default none is refused."""
 
     def equations(self, joints: Joints) -> tuple[Equation, ...]:
         """Return the equations: one, unless a member says otherwise."""
