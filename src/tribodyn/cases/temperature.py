@@ -58,6 +58,14 @@ class PropertiesKeys(Group):
             if values
         }
 
+    def at(self, temperature: float, prefix: str) -> dict[str, float]:
+        """Return the values at a temperature of the bushing [K], by the keys that take them.
+
+        ``prefix`` is what the keys of this table begin with. Raises ``InputError`` outside of the table.
+        """
+        given = {key: getattr(self, key) for key in _FOLLOWING if getattr(self, key) is not None}
+        return _values_at(self.temperatures, given, temperature, prefix)
+
     def derived(self) -> dict[str, str]:
         """Return from where the values of keys come that follow from these tables."""
         given = (key for key in _FOLLOWING if getattr(self, key) is not None)
@@ -166,31 +174,32 @@ class Temperature(Temperatures):
     properties: PropertiesKeys = PropertiesKeys()
 
     @staticmethod
-    def resolve(given: Mapping[str, Value]) -> dict[str, Value]:
-        """Return the material at the temperature of the bushing, where a table gives it."""
-        prefix = "temperature.properties."
-        places = given.get(f"{prefix}temperatures")
-        columns = {key: given[prefix + key] for key in _FOLLOWING if prefix + key in given}
-        if places is None or not columns:
-            demand(not columns, f"{prefix}temperatures", "one for each value is needed")
-            return {}
-        at_assembly = given.get("temperature.assembly", 293.15)
-        table = cast("Numbers | None", given.get(f"{OVER_TIME}.bushing.values"))
-        where = table[0] if table else given.get("temperature.bushing", at_assembly)
-        return {
-            _FOLLOWING[key]: _between(
-                cast("Numbers", places), cast("Numbers", values), cast("float", where), key
-            )
-            for key, values in columns.items()
-        }
+    def resolve(given: Mapping[str, Value], prefix: str = "temperature.") -> dict[str, Value]:
+        """Return the material at the temperature of the bushing, where a table gives it.
+
+        ``prefix`` is what the keys of these temperatures begin with.
+        """
+        properties = f"{prefix}properties."
+        columns = {key: given[properties + key] for key in _FOLLOWING if properties + key in given}
+        at_assembly = given.get(f"{prefix}assembly", 293.15)
+        table = cast("Numbers | None", given.get(f"{prefix}over_time.bushing.values"))
+        where = table[0] if table else given.get(f"{prefix}bushing", at_assembly)
+        places = cast("Numbers | None", given.get(f"{properties}temperatures"))
+        values = cast("Mapping[str, Numbers]", columns)
+        return dict(_values_at(places, values, cast("float", where), properties))
+
+    def material(self, prefix: str = "temperature.") -> dict[str, float]:
+        """Return the properties at the start of a run, by the keys that take them; ``prefix`` as for keys."""
+        return self.properties.at(self.at_start["bushing"] or self.assembly, f"{prefix}properties.")
+
+    @property
+    def properties_at_start(self) -> dict[str, tuple[float, float]]:
+        """Properties at assembly and at the start of a run, by keys; of tables that hold both."""
+        return self.properties.values_at(self.assembly, self.at_start["bushing"] or self.assembly)
 
     def dimensions(self, joint: PlainJoint, surfaces: Surfaces) -> BushingGeometry:
         """Return the dimensions of the joint of a case at these temperatures, see :meth:`hot`."""
-        # Imported here: reading a case needs no compiled code.
-        from tribodyn.joints import BushingGeometry
-
-        cold = BushingGeometry(joint.clearance, joint.radius, joint.length)
-        return self.hot(cold, surfaces, joint.liner)
+        return self.hot(cold_geometry(joint), surfaces, joint.liner)
 
 
 class OverTime(Group):
@@ -221,8 +230,12 @@ class ChangingTemperature(Temperature):
         """Temperature of each part where a run begins [K]."""
         return super().at_start | {part: table.curve().at_start for part, table in self.tables.items()}
 
-    def opening(self, joint: PlainJoint, surfaces: Surfaces) -> Signal | None:
-        """Return what the clearance has more than at the start, over time [m, s]; None where it keeps still.
+    def opening(
+        self, cold: BushingGeometry, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
+    ) -> Signal | None:
+        """Return what the clearance has more than at the start, over time [m, s]; None where it is constant.
+
+        Arguments as for :meth:`hot`.
 
         Raises
         ------
@@ -231,42 +244,88 @@ class ChangingTemperature(Temperature):
         """
         if not self.tables:
             return None
-        from tribodyn.core.signals import summed
-        from tribodyn.joints import BushingGeometry
         from tribodyn.joints.expansion import clearance_rates
 
-        cold = BushingGeometry(joint.clearance, joint.radius, joint.length)
-        rates = clearance_rates(cold, self._casing(surfaces, joint.liner, Names()))
+        rates = clearance_rates(cold, self._casing(surfaces, liner, names))
         for part, table in self.tables.items():
-            key = f"{OVER_TIME}.{part}"
+            key = f"{names.temperature}over_time.{part}"
             words = 'a free bushing follows no casing: temperature.fit = "bonded" is needed'
             demand(part in rates, key, words)
             demand(table.knots[0] == 0.0, key, f"the table begins at {table.knots[0]:g} s, a run at 0 s")
-        factors = {part: rates[part] * self._expansion(part, surfaces, Names()) for part in self.tables}
-        whole = summed([(table.curve(), factors[part]) for part, table in self.tables.items()])
+        return self._change(rates, surfaces, names)
+
+    def play_opening(
+        self, length: float, play: float, surfaces: Surfaces, names: Names = Names()
+    ) -> Signal | None:
+        """Return what the play along the axis has more than at the start, over time [m, s]; None if constant.
+
+        Parameters
+        ----------
+        length, play
+            Of the bore, and what the shaft has more between its flanges, at assembly [m].
+        surfaces, names
+            As for :meth:`hot`.
+        """
+        bore = "bushing" if self.fit == "free" else "casing"
+        return self._change({"trunnion": length + play, bore: -length}, surfaces, names)
+
+    def _change(self, rates: Mapping[str, float], surfaces: Surfaces, names: Names) -> Signal | None:
+        """Return Σ rate αΔT [m] over time, zero at the start, of those parts whose temperature changes."""
+        from tribodyn.core.signals import summed
+
+        tables = {part: table for part, table in self.tables.items() if part in rates}
+        if not tables:
+            return None
+        factors = {part: rates[part] * self._expansion(part, surfaces, names) for part in tables}
+        whole = summed([(table.curve(), factors[part]) for part, table in tables.items()])
         return replace(whole, coefficients=whole.coefficients - [[0.0], [0.0], [0.0], [whole.at_start]])
 
-    def check(self, joint: PlainJoint, surfaces: Surfaces, duration: float) -> None:
+    def check(
+        self,
+        cold: BushingGeometry,
+        surfaces: Surfaces,
+        liner: LinerKeys,
+        duration: float,
+        names: Names = Names(),
+    ) -> None:
         """Refuse temperatures that leave no clearance in a run of ``duration`` [s]."""
-        opening = self.opening(joint, surfaces)
+        opening = self.opening(cold, surfaces, liner, names)
         if opening is None:
             return
-        clearance = self.dimensions(joint, surfaces).clearance
+        clearance = self.hot(cold, surfaces, liner, names).clearance
         when, least = opening.least(duration)
         words = (
             f"the joint would seize: {when:.4g} s after the start the trunnion is "
             f"{-1e6 * (clearance + least):.3g} um larger in radius than its bushing"
         )
-        demand(clearance + least > 0.0, OVER_TIME, words)
+        demand(clearance + least > 0.0, f"{names.temperature}over_time", words)
 
 
-def _between(places: Numbers, values: Numbers, at: float, key: str) -> float:
-    """Return the value of a table at a temperature [K]."""
-    path = f"temperature.properties.{key}"
+def cold_geometry(joint: PlainJoint) -> BushingGeometry:
+    """Return the dimensions of a joint at assembly."""
+    # Imported here: reading a case needs no compiled code.
+    from tribodyn.joints import BushingGeometry
+
+    return BushingGeometry(joint.clearance, joint.radius, joint.length)
+
+
+def _values_at(
+    places: Numbers | None, columns: Mapping[str, Numbers], at: float, prefix: str
+) -> dict[str, float]:
+    """Return the values of tables at a temperature [K], by the keys that take them."""
+    demand(places is not None or not columns, f"{prefix}temperatures", "one for each value is needed")
+    return {
+        _FOLLOWING[key]: _between(places or (), values, at, f"{prefix}{key}", f"{prefix}temperatures")
+        for key, values in columns.items()
+    }
+
+
+def _between(places: Numbers, values: Numbers, at: float, path: str, key: str) -> float:
+    """Return the value of a table at a temperature [K]; ``key`` is that of its places."""
     demand(len(values) == len(places), path, f"there are {len(values)} values for {len(places)} temperatures")
     demand(
         len(places) > 1 and all(a < b for a, b in itertools.pairwise(places)),
-        "temperature.properties.temperatures",
+        key,
         "two temperatures at least, each above the one before it",
     )
     demand(

@@ -14,6 +14,7 @@ from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
+from tribodyn.core.signals import Signal
 from tribodyn.core.stopping import ask
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
@@ -74,6 +75,9 @@ class Clearance(SurfaceLaw):
         Whether the shaft is meant to slide along its axis, however far.
     film
         Oil film in the bore of a cylinder; None where it is dry.
+    openings
+        What temperatures add to the radial clearance and to the play along the axis over time [m, s]; None
+        where these are constant.
     """
 
     shape: Shape
@@ -83,6 +87,7 @@ class Clearance(SurfaceLaw):
     liner: Liner | None = None
     slides: bool = False
     film: Film | None = None
+    openings: tuple[Signal | None, Signal | None] = (None, None)
 
 
 @dataclass(frozen=True)
@@ -172,6 +177,7 @@ def join(where: Sequence[Place], laws: Sequence[SurfaceLaw], wear: FloatArray | 
         first_row = record["last_row"]
         record["first_node"], record["last_node"] = place.nodes.start, place.nodes.stop
         record["tilt"], record["area"] = place.surface.tilt, place.surface.area.sum()
+        record["opens"] = place.surface.opens
         record["slides"] = 1.0 if place.surface.slides else 0.0
         record["lean"], record["along"] = place.surface.lean, 1.0
         tables.fill(record, laws[place.joint].table)

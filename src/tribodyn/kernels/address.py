@@ -14,6 +14,12 @@ import numba.experimental.function_type  # noqa: F401  # tells numba of such fun
 from numba.core.types import WrapperAddressProtocol
 
 
+def address_of(compiled: Any, signature: Any) -> int:
+    """Return where the machine code of an ``entry`` of :mod:`tribodyn.kernels.jit` is, for a signature."""
+    result = compiled.get_compile_result(signature)
+    return int(result.library.get_pointer_to_function(result.fndesc.llvm_cfunc_wrapper_name))
+
+
 class ByAddress(WrapperAddressProtocol):
     """A compiled function as a field of what kernels read; its type says nothing of which function it is.
 
@@ -42,6 +48,4 @@ class ByAddress(WrapperAddressProtocol):
 
     @cached_property
     def _address(self) -> int:
-        compiled: Any = self.function
-        result = compiled.get_compile_result(self._signature)
-        return int(result.library.get_pointer_to_function(result.fndesc.llvm_cfunc_wrapper_name))
+        return address_of(self.function, self._signature)

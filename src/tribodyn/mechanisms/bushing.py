@@ -135,36 +135,36 @@ def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> lis
     ``clearance`` is that over the rows of a run [m], where it does not keep still.
     """
     if clearance is not None and clearance.size:
-        begin, end, least = (f"{1e6 * c:.4g} um" for c in (clearance[0], clearance[-1], clearance.min()))
-        return [
-            f"Temperatures take the clearance from {begin} to {end}; it is {least} at least. Radius, length, "
-            "contact law, friction and wear coefficient stay those of the start."
-        ]
+        return [of_clearances(float(clearance[0]), float(clearance[-1]), float(clearance.min()))]
     hot = case.temperature.dimensions(case.joint, case.surfaces).clearance
-    words = of_expansion(case.joint.clearance, hot)
-    if not words:
-        return []
-    material = _of_material(case)
-    return [f"{words} Of the material change {', '.join(material)}." if material else words]
+    found = {
+        path: values
+        for path, values in case.temperature.properties_at_start.items()
+        if attrgetter(path)(case) == values[1]
+    }
+    words = of_heat(case.joint.clearance, hot, found)
+    return [words] if words else []
 
 
-def of_expansion(cold: float, hot: float) -> str:
-    """Return that the clearance [m] is another one in the run; an empty text where it is not."""
+def of_clearances(begin: float, end: float, least: float) -> str:
+    """Return that a clearance follows temperatures, from its values at begin and end and its least [m]."""
+    first, last, lowest = (f"{1e6 * clearance:.4g} um" for clearance in (begin, end, least))
+    return (
+        f"Temperatures take the clearance from {first} to {last}; it is {lowest} at least. Radius, length, "
+        "contact law, friction and wear coefficient stay those of the start."
+    )
+
+
+def of_heat(cold: float, hot: float, material: Mapping[str, tuple[float, float]]) -> str:
+    """Return that the clearance [m] is another one in the run; an empty text where it is not.
+
+    ``material`` are values of the bushing at assembly and in the run, by keys.
+    """
     if hot == cold:
         return ""
-    return f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."
-
-
-def _of_material(case: HasBushing) -> list[str]:
-    """Return what the temperature changes of the material, as far as a case takes it from its tables."""
-    temperature = case.temperature
-    now = temperature.at_start["bushing"] or temperature.assembly
-    found = temperature.properties.values_at(temperature.assembly, now)
-    return [
-        f"{path} by {100.0 * (hot / cold - 1.0):+.3g} %"
-        for path, (cold, hot) in found.items()
-        if hot != cold and attrgetter(path)(case) == hot
-    ]
+    words = f"At the temperatures of the run the clearance is {hot * 1e6:.4g} um, not {cold * 1e6:.4g} um."
+    changed = [f"{path} by {100.0 * (b / a - 1.0):+.3g} %" for path, (a, b) in material.items() if a != b]
+    return f"{words} Of the material change {', '.join(changed)}." if changed else words
 
 
 def loading(law: ContactLaw, touch: Touch, pressure: float, separation: float) -> dict[str, float]:

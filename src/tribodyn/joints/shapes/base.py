@@ -38,6 +38,8 @@ class Surface:
         Whether the nodes stay where they are on the socket while the shaft slides through it.
     lean
         Radius ρ of the second-order term of the tilt [m], see ``kernels/joints/surface/tilt.py``.
+    opens
+        How much of a change of the radial clearance and of the play along the axis its gaps gain [1].
     """
 
     name: str
@@ -50,6 +52,7 @@ class Surface:
     axes: dict[str, FloatArray]
     slides: bool = False
     lean: float = 0.0
+    opens: tuple[float, float] = (1.0, 0.0)
 
     @property
     def field_shape(self) -> tuple[int, ...]:

@@ -99,8 +99,15 @@ class Cylinder:
         barrel = replace(barrel, gap=barrel.gap + measured, slides=lean > 0.0, lean=lean)
         return (
             barrel,
-            *(self._face(end, gap).surface(f"{end} face", grid) for end, gap in self.faces.items()),
+            *(
+                replace(self._face(end, gap).surface(f"{end} face", grid), opens=(0.0, self._share(gap)))
+                for end, gap in self.faces.items()
+            ),
         )
+
+    def _share(self, gap: float) -> float:
+        """Return the share of a face in a change of the play; none of one alone, which the shaft rests on."""
+        return gap / sum(self.faces.values()) if len(self.faces) == 2 else 0.0
 
     def _face(self, end: str, gap: float) -> Annulus:
         assert self.flange is not None

@@ -78,16 +78,18 @@ WORK: Final = 0
 DAMPING: Final = 1
 FRICTION: Final = 2
 FILM: Final = 3
-N_POWERS: Final = 4
+EXPANSION: Final = 4
+N_POWERS: Final = 5
 """Powers of a coupling, and their number."""
 
 Constants: Final = record_type(
     ("gravity", "f8", (3,)),
     ("size", "f8"),
-    *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work")),
+    *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work", "n_reactive")),
 )
 """Gravity [m/s²], size of the mechanism [m], number of all constraint rows and of those that are independent,
-of nodes, and of the blocks that hold the work space of solutions."""
+of nodes, of the blocks that hold the work space of solutions, and of couplings whose forces follow
+reactions."""
 
 Body: Final = record_type(
     ("mass", "f8"), ("inertia", "f8", (3, 3)), ("inverse", "f8", (3, 3)), ("centre", "f8", (3,))
@@ -100,7 +102,7 @@ Parameters: Final = record_type(("values", "f8", (N_PARAMETERS,)))
 """Parameters of a force law, which reads them by the names of its own record."""
 
 Law: Final = record_type(
-    *((name, "f8") for name in ("position", "rate", "entry_rate", "held")),
+    *((name, "f8") for name in ("position", "rate", "entry_rate", "held", "normal")),
     ("table", "f8", (2,)),
     ("table_slope", "f8"),
     *((name, "f8") for name in ("force", "in_position", "in_rate")),
@@ -114,6 +116,8 @@ entry_rate
     Rate with which contact began, kept while ``touching`` is not 0; 0 without contact.
 held
     Output of a controller, constant from one sampling time to the next [N], or [N m].
+normal
+    Force across the axis of the joint whose reaction it follows [N]; 0 without one.
 table, table_slope
     Value of its table at the position, or at the rate, and integral from zero; slope of the value.
 force
@@ -165,6 +169,9 @@ Coupling: Final = record_type(
     ("effort", "i8", (2,)),
     ("contact", "i8"),
     ("film", "i8"),
+    ("opening", "i8", (2,)),
+    ("load_of", "i8"),
+    ("push", "f8", (3,)),
     ("rows_block", "i8", (2, 2)),
     ("bodies_block", "i8", (2,)),
 )
@@ -210,6 +217,12 @@ effort
     Signals of torque about and force along the axis.
 contact, film
     Number among the joints with clearance, and among those with an oil film.
+opening
+    Signals of the radial and of the axial opening of a clearance.
+load_of
+    Of the first leg of an element whose force law follows the reaction of a joint: that joint.
+push
+    Of a leg: force on its shaft in the axes of the socket, over the size of the multiplier that it follows.
 rows_block
     Blocks (rows, body) and (body, rows) for socket and shaft.
 bodies_block
@@ -254,6 +267,7 @@ CouplingNow: Final = record_type(
     ("scale", "f8", (6,)),
     ("dependent", "f8", (6,)),
     ("multiplier", "f8", (6,)),
+    ("pushing", "f8"),
     ("wrench", "f8", (6,)),
     ("effort", "f8", (2,)),
     ("constraint", "f8", (6,)),
@@ -297,8 +311,8 @@ prescribed
 compliance, scale, dependent
     Of each row: see ``kernels/mechanism/solution.py``; inverse of the mass that it moves; 1 if it follows
     from others.
-multiplier
-    Of each row.
+multiplier, pushing
+    Of each row; size of the first from which a leg's ``push`` was taken.
 wrench, constraint
     By forces and by constraints, those of drives included.
 effort
@@ -311,7 +325,8 @@ Kq, Kv, Gq, Gv
 angle, angle_mark
     Angle of the shaft about the axis with its whole turns, and the one that turns are counted from.
 powers, stored
-    What drives and loads put in, what damping, friction and oil film turn into heat [W]; stored energy [J].
+    What drives and loads put in, what damping, friction and oil film turn into heat, and what temperatures do
+    to the energy stored in contact [W]; stored energy [J].
 law
     Of the first leg of an element with a force law.
 """

@@ -8,8 +8,6 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import (
-    ANGLE,
-    DIRECTION,
     N_STATES,
     TURNING,
     Now,
@@ -17,7 +15,13 @@ from tribodyn.kernels.mechanism.data import (
     Pattern,
 )
 from tribodyn.kernels.mechanism.redundancy import choose_rows
-from tribodyn.kernels.mechanism.solution import close, correct_velocities, kinematics, mark_angles
+from tribodyn.kernels.mechanism.solution import (
+    close,
+    correct_velocities,
+    kinematics,
+    largest_residual,
+    mark_angles,
+)
 from tribodyn.kernels.mechanism.vectors import turn
 from tribodyn.kernels.signals import Signals
 
@@ -60,12 +64,12 @@ def follow(
     for k in range(first, times.size):
         kinematics(parts, now, signals, times[k])
         mark_angles(now.couplings)
-        if not _gap(parts, now) <= most:
+        if not largest_residual(parts, now, parts.constants.size) <= most:
             return k
         if parts.constants.rank < parts.constants.n_rows:
             choose_rows(parts, now, matrix)
         close(parts, now, signals, pattern, blocks, times[k])
-        if not _gap(parts, now) <= closed:
+        if not largest_residual(parts, now, parts.constants.size) <= closed:
             return k
         _stop(now.bodies)
         kinematics(parts, now, signals, times[k])
@@ -75,19 +79,6 @@ def follow(
             body, begin = now.bodies[b], N_STATES * b + TURNING
             turn(body.A, body.w, motion[k, begin : begin + 3])
     return times.size
-
-
-@kernel
-def _gap(parts: Parts, now: Now) -> float:
-    """Return the largest residual, of ways in units of the size."""
-    largest = 0.0
-    for k in range(parts.couplings.size):
-        coupling = parts.couplings[k]
-        for m in range(coupling.n_rows):
-            is_turn = coupling.row_kind[m] in (DIRECTION, ANGLE)
-            unit = 1.0 if is_turn else parts.constants.size
-            largest = max(largest, abs(now.couplings[k].residual[m]) / unit)
-    return largest
 
 
 @kernel

@@ -21,6 +21,7 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
     DAMPING,
+    EXPANSION,
     FOLLOWED,
     FOLLOWED_SPEED,
     FRICTION,
@@ -39,7 +40,7 @@ from tribodyn.kernels.mechanism.data import (
     MechanismData,
     MechanismMemory,
 )
-from tribodyn.kernels.signals import evaluate
+from tribodyn.kernels.signals import Signals, evaluate
 
 
 @inlined
@@ -62,6 +63,7 @@ def force(
     elif kind in (LOAD_GROUND, LOAD_BODY, LOAD_MOTION, LOAD_LINE):
         _load(coupling, now, memory.now.couplings, data, t, within)
     elif kind == CONTACT:
+        _open(coupling, now.pose, data.signals, t, within)
         _contact(coupling.contact, now, data.contact, memory.contact, mode)
     if coupling.film != NONE:
         scratch, oil = memory.contact.scratch, memory.oil
@@ -74,6 +76,14 @@ def force(
             entry = 5 if axis == 0 else 2
             now.wrench[entry] += value
             now.powers[WORK] += value * now.twist[entry]
+
+
+@kernel
+def _open(coupling: Record, pose: Record, signals: Signals, t: float, within: float) -> None:
+    """Fill what temperatures have done to the clearance of a joint."""
+    for i in range(2):
+        if coupling.opening[i] != NONE:
+            pose.opening[i], pose.v_opening[i], _ = evaluate(signals, coupling.opening[i], t, within)
 
 
 @inlined
@@ -89,6 +99,7 @@ def _contact(j: int, now: Record, joints: SurfaceData, memory: SurfaceMemory, mo
             now.stored += report.energy_contact
             now.powers[DAMPING] += report.damping_power
             now.powers[FRICTION] -= report.friction_power
+            now.powers[EXPANSION] += report.expansion_power
     else:
         surfaces.wrench(joints, memory, j, now.pose, now.wrench)
 

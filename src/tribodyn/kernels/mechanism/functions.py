@@ -7,6 +7,8 @@ from typing import Final
 
 from mebdf.kernels.arrays import copy
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.film.report import film_pressure
+from tribodyn.kernels.film.several import film_at, memory_at
 from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.joints.film import note_film_peaks
 from tribodyn.kernels.joints.surface import joint as surfaces
@@ -169,10 +171,15 @@ def touch(data: MechanismData, memory: MechanismMemory, at_start: float) -> None
 def picture(
     t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, fields: FloatArray
 ) -> None:
-    """Fill the contact pressure at the nodes of all joints [Pa], shape (n_nodes,)."""
+    """Fill the contact pressure at the nodes of all joints [Pa], and behind them that of all films."""
     for k in range(data.parts.couplings.size):
         if data.parts.couplings[k].force == CONTACT:
             pose = memory.now.couplings[k].pose
             surfaces.pressure_field(
                 data.contact, memory.contact, data.parts.couplings[k].contact, pose, fields
             )
+    n_theta, n_z = data.films.wear_node.shape[1:]
+    for k in range(data.films.constants.size):
+        first = data.contact.nodes.shape[1] + k * n_theta * n_z
+        field = fields[first : first + n_theta * n_z].reshape((n_z, n_theta))
+        film_pressure(film_at(data.films, k), memory_at(memory.films, k), field)

@@ -17,6 +17,7 @@ from numba.core import types
 from numba.extending import intrinsic
 
 from tribodyn.core.quantities import Record, RecordType
+from tribodyn.kernels import address
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, WORK, Law
 from tribodyn.kernels.signals import Signals, evaluate
@@ -45,12 +46,8 @@ def address_of(function: Function, parameters: RecordType) -> int:
         _laws[len(_laws) + 1] = lambda held, law: function(held.values[:n].view(parameters)[0], law)
         return len(_laws)
     compiled = entry(function)
-    signature = numba.from_dtype(parameters), numba.from_dtype(Law)
-    compiled.compile(signature)
-    found = compiled.overloads[signature]
-    address: int = found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)
     _kept.append(compiled)
-    return address
+    return address.address_of(compiled, types.void(numba.from_dtype(parameters), numba.from_dtype(Law)))
 
 
 _kept: Final[list[Any]] = []
@@ -86,6 +83,14 @@ def fill_law(coupling: Record, now: Record, signals: Signals) -> None:
             law.table[i] = value
             if i == 0:
                 law.table_slope = slope
+    law.normal = 0.0
+    call_law(coupling, now)
+
+
+@kernel
+def call_law(coupling: Record, now: Record) -> None:
+    """Fill the force of an element from the arguments that its law holds."""
+    law = now.law
     law.force = law.in_position = law.in_rate = law.stored = law.damping = law.friction = 0.0
     law.supplied = law.touching = 0.0
     _call(coupling.law, coupling.parameters, law)

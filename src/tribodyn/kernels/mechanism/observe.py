@@ -15,6 +15,7 @@ from tribodyn.kernels.mechanism.data import (
     ANGLE,
     CONTACT,
     DAMPING,
+    EXPANSION,
     FILM,
     FRICTION,
     NONE,
@@ -51,6 +52,7 @@ def _whole(data: Parts, memory: Now, books: Any, out: Record) -> None:
     course, n = memory.course, data.couplings.size
     out.energy_kinetic, out.energy_gravity = course.kinetic, course.potential
     out.energy_stored = out.work_in = out.heat_damping = out.heat_friction = out.heat_film = 0.0
+    out.work_expansion = 0.0
     out.gap = out.gap_rate = 0.0
     for k in range(n):
         now, book = memory.couplings[k], books[k]
@@ -59,6 +61,7 @@ def _whole(data: Parts, memory: Now, books: Any, out: Record) -> None:
         out.heat_damping += book.sums[DAMPING]
         out.heat_friction += book.sums[FRICTION]
         out.heat_film += book.sums[FILM]
+        out.work_expansion += book.sums[EXPANSION]
         for m in range(data.couplings[k].n_rows):
             out.gap = max(out.gap, abs(now.residual[m]))
             out.gap_rate = max(out.gap_rate, abs(now.rate[m]))

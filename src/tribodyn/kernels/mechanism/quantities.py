@@ -15,6 +15,7 @@ WHOLE: Final = (
     Quantity("heat_damping", "J", "heat of dampers and contact damping"),
     Quantity("heat_friction", "J", "heat of friction"),
     Quantity("heat_film", "J", "heat of oil films"),
+    Quantity("work_expansion", "J", "work of temperatures on what contacts store"),
     Quantity("momentum_x", "kg m s-1", "momentum along x"),
     Quantity("momentum_y", "kg m s-1", "momentum along y"),
     Quantity("momentum_z", "kg m s-1", "momentum along z"),

@@ -14,10 +14,16 @@ shares them among dependent rows by least norm.
 On the constraints a state is put the shortest way by mass, as impulses of the joints would: near a position
 in which rows become dependent corrections are large, and any other metric would change the motion that is
 free.
+
+Forces that follow reactions, such as friction of an ideal joint, are taken from the solution before, until
+they no longer change.
+
+One file because all of these steps share the factors of one linear system.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray
@@ -27,7 +33,9 @@ from tribodyn.kernels.mechanism.blocks import factorise, solve
 from tribodyn.kernels.mechanism.bodies import collect, move, own_force, place
 from tribodyn.kernels.mechanism.constraints import fill_rows, prescribe
 from tribodyn.kernels.mechanism.data import (
+    ANGLE,
     COORDINATE,
+    DIRECTION,
     NONE,
     REPORTS,
     WORK,
@@ -38,7 +46,7 @@ from tribodyn.kernels.mechanism.data import (
     Pattern,
 )
 from tribodyn.kernels.mechanism.forces import force
-from tribodyn.kernels.mechanism.law import fill_law
+from tribodyn.kernels.mechanism.law import call_law, fill_law
 from tribodyn.kernels.mechanism.relative import relative_motion
 from tribodyn.kernels.signals import Signals
 
@@ -47,6 +55,9 @@ SOFT: Final = 1.0
 """Compliances of rows, in units of the inverse mass that a row moves."""
 ROUNDS: Final = 3
 MOST_CORRECTIONS: Final = 6
+MOST_ROUNDS: Final = 60
+SETTLED: Final = 1.0e-13
+"""Rounds in which forces that follow reactions must settle, and the relative change from which they have."""
 CLOSED: Final = 1.0e-14
 """Residual of constraints, relative to the size of the mechanism, that is none."""
 
@@ -197,11 +208,61 @@ def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatAr
         for m in range(coupling.n_rows):
             now.rest[coupling.node, m] = now.couplings[k].gamma[m]
     solve_rows(parts, now, pattern, blocks, 1.0)
+    for k in range(parts.couplings.size):
+        _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
+    if parts.constants.n_reactive > 0:
+        _settle_reactive(parts, now, pattern, blocks)
     for b in range(parts.bodies.size):
         for i in range(6):
             now.bodies[b].acceleration[i] = now.x[b, i]
+
+
+@kernel
+def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+    """Solve again until forces that follow reactions no longer change; NaN where they never settle."""
     for k in range(parts.couplings.size):
-        _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
+        now.couplings[k].pushing = 0.0
+    rounds = 0
+    while _add_reactive(parts, now) > SETTLED:
+        rounds += 1
+        if rounds > MOST_ROUNDS:
+            now.x[0, 0] = math.nan
+            break
+        solve_rows(parts, now, pattern, blocks, 1.0)
+        for k in range(parts.couplings.size):
+            _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
+    for k in range(parts.couplings.size):
+        for i in range(3):
+            now.couplings[k].constraint[i] += parts.couplings[k].push[i] * now.couplings[k].pushing
+
+
+@kernel
+def _add_reactive(parts: Parts, now: Now) -> float:
+    """Let forces follow the reactions of the last solution; return their largest change over the largest."""
+    change = largest = 0.0
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.rest[b, i] = now.bodies[b].force[i]
+    for k in range(parts.couplings.size):
+        coupling, state = parts.couplings[k], now.couplings[k]
+        if coupling.load_of != NONE:
+            reaction, before = now.couplings[coupling.load_of].constraint, state.law.normal
+            state.law.normal = math.hypot(reaction[0], reaction[1])
+            change = max(change, abs(state.law.normal - before))
+            largest = max(largest, state.law.normal)
+            call_law(coupling, state)
+        push = coupling.push
+        if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
+            size = abs(state.multiplier[0])
+            change, largest = max(change, abs(size - state.pushing)), max(largest, size)
+            state.pushing = size
+            for i in range(3):
+                for j in range(6):
+                    if coupling.socket < parts.bodies.size:
+                        now.rest[coupling.socket, j] += state.H[i, j] * push[i] * size
+                    if coupling.shaft < parts.bodies.size:
+                        now.rest[coupling.shaft, j] += state.H[i, 6 + j] * push[i] * size
+    return change / largest if largest > 0.0 else 0.0
 
 
 @kernel
@@ -227,18 +288,28 @@ def accelerations(data: MechanismData, memory: MechanismMemory, t: float, y: Flo
 
 
 @kernel
+def largest_residual(parts: Parts, now: Now, unit: float) -> float:
+    """Return the largest residual of the constraints, angles in radians and lengths in a ``unit`` [m]."""
+    largest = 0.0
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        for m in range(coupling.n_rows):
+            size = 1.0 if coupling.row_kind[m] in (DIRECTION, ANGLE) else unit
+            largest = max(largest, abs(now.couplings[k].residual[m]) / size)
+    return largest
+
+
+@kernel
 def _gap(parts: Parts, now: Now) -> float:
     """Fill the right-hand side of a correction of positions; return the largest residual."""
     for b in range(parts.bodies.size):
         for i in range(6):
             now.rest[b, i] = 0.0
-    largest = 0.0
     for k in range(parts.couplings.size):
-        coupling, state = parts.couplings[k], now.couplings[k]
+        coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
-            now.rest[coupling.node, m] = -state.residual[m]
-            largest = max(largest, abs(state.residual[m]))
-    return largest
+            now.rest[coupling.node, m] = -now.couplings[k].residual[m]
+    return largest_residual(parts, now, 1.0)
 
 
 @kernel

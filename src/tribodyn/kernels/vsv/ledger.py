@@ -86,8 +86,7 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     powers.work_friction = memory.joint.scratch.report.friction_power
     powers.work_collar_friction = f_cz * collar[THETA_V] * omega_v
     powers.work_collar_tilt = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
-    load, speed = memory.joint.surface.scratch.rigid_load, memory.joint.scratch.pose.v_opening
-    powers.work_expansion = -speed * load if speed != 0.0 else 0.0
+    powers.work_expansion = memory.joint.surface.reports[0].expansion_power
 
 
 @kernel

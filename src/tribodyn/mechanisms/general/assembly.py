@@ -133,6 +133,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
         taking_part = _taking_part(system, dependent)
         names = dict.fromkeys(model.constraint(k)[0].removeprefix("joint ") for k, _ in taking_part)
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
+        findings += _loads_not_unique(model, redundancy)
     contradictions = _contradictions(system, dependent)
     findings += contradictions
     ideal_rank, ideal = rank, None
@@ -190,6 +191,20 @@ def _taking_part(system: System, dependent: FloatArray) -> list[tuple[int, int]]
     """Return the rows that depend on each other, as joint and row."""
     taking_part = np.max(np.abs(dependent), axis=0) > DEPENDENT
     return [row for row, part in zip(system.rows, taking_part, strict=True) if part]
+
+
+def _loads_not_unique(model: Model, redundancy: Redundancy) -> list[ModelError]:
+    """Return the elements that follow a reaction which is not unique."""
+    return [
+        ModelError(
+            f"{element.keys.TABLE}.{element.name}.normal_load",
+            f"the reaction of {law.load_of} is not unique: no friction follows from it; give normal_load, "
+            f"or let joints hold less: {', '.join(redundancy.joints)}",
+        )
+        for element in model.elements
+        for equation in element.equations
+        if (law := equation.law) is not None and law.load_of in redundancy.joints
+    ]
 
 
 def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:

@@ -20,6 +20,7 @@ from tribodyn.cases.known import demand_known
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
+from tribodyn.cases.temperature import Temperature
 from tribodyn.core.errors import below
 from tribodyn.mechanisms.base import plain
 from tribodyn.mechanisms.general import solids
@@ -107,9 +108,11 @@ class MechanismCase(_WithElements):
                 taken = {path: known[path] for path in (_FRICTION, *_OF_WEAR) if path in known}
                 found |= {prefix + path: value for path, value in taken.items() if prefix + path not in known}
         for joint in {match[1] for path in known if (match := _CLEARANCE.fullmatch(path))}:
+            hot = Temperature.resolve(known, f"{joint}temperature.")
+            at = next((value for path, value in hot.items() if path.endswith(_FRICTION)), None)
             pair = known.get(f"{joint}pair")
             path = _FRICTION if pair is None else f"{_PAIRS}.{pair}.{_FRICTION}"
-            value = known.get(path, found.get(path))
+            value = known.get(path, found.get(path)) if at is None else at
             if value is not None and joint + _FRICTION not in known:
                 found[joint + _FRICTION] = value
         return found
@@ -157,7 +160,14 @@ class MechanismCase(_WithElements):
             for key, signal in load.given.items()
         }
         along = {path: self.loads[path.split(".")[1]].along or "" for path in loads}
+        warm = {
+            f"joints.{name}.clearance.temperature.over_time.{part}": table
+            for name, joint in self.joints.items()
+            if joint.real is not None
+            for part, table in joint.real.temperature.tables.items()
+        }
         yield from followed(self, drives, self.span)
+        yield from followed(self, warm, self.span)
         yield from followed(self, loads, self.span, cycle=self.period, follows=along)
 
     def idle(self) -> tuple[str, ...]:
@@ -349,3 +359,7 @@ class MechanismCase(_WithElements):
         cycles = self.run.cycles or 0.5
         words = "a wear campaign needs whole cycles here: the last of them is the first whose wear counts"
         demand(cycles == int(cycles), "run.cycles", words)
+        for name, joint in self.joints.items():
+            words = "a wear campaign takes its cycles one by one: temperatures that last are needed"
+            tables = {} if joint.real is None else joint.real.temperature.tables
+            demand(not tables, f"joints.{name}.clearance.temperature.over_time", words)

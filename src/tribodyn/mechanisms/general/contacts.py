@@ -56,7 +56,11 @@ class Contacts:
         return [_touch(self.clearances[place.joint], place) for place in self.places]
 
     def numbers_of(
-        self, data: SurfaceData, rows: Mapping[str, FloatArray], peaks: Mapping[str, FloatArray]
+        self,
+        data: SurfaceData,
+        rows: Mapping[str, FloatArray],
+        peaks: Mapping[str, FloatArray],
+        openings: FloatArray,
     ) -> dict[str, FloatArray]:
         """Return how the surfaces were loaded and what the grid makes of it, shape (n_surfaces,) each.
 
@@ -68,6 +72,9 @@ class Contacts:
             Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
         peaks
             What was largest or least of each surface.
+        openings
+            What temperatures have added to radial clearances and plays [m], shape (n_t, n_joints, 2), of the
+            joints with clearance.
         """
         loads = [
             loading(self.clearances[place.joint].law, touch, pressure, separation)
@@ -75,7 +82,7 @@ class Contacts:
                 self.places, self.touches, peaks["pressure_peak"], peaks["separation_least"], strict=True
             )
         ]
-        error, at_rest = self._on_finer_grid(data, rows)
+        error, at_rest = self._on_finer_grid(data, rows, openings)
         return {
             "roughness": np.array(data.surfaces["roughness"]),
             "hardness_share": np.array([load["hardness_share"] for load in loads]),
@@ -111,7 +118,7 @@ class Contacts:
         ]
 
     def _on_finer_grid(
-        self, data: SurfaceData, rows: Mapping[str, FloatArray]
+        self, data: SurfaceData, rows: Mapping[str, FloatArray], openings: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return the error of the contact force, and the pressure of surfaces at rest, of each surface.
 
@@ -134,7 +141,7 @@ class Contacts:
             if clearance.contact != SURFACE:
                 continue
             own = slice(int(data.joints[j]), int(data.joints[j + 1]))
-            poses = [_pose(rows, number, int(row)) for row in some]
+            poses = [_pose(rows, number, int(row), openings[row, j]) for row in some]
             pairs = [[_force(*grid, j, pose, own) for grid in grids] for pose in poses if not skip()]
             if len(pairs) < len(poses):
                 at_rest[own] = np.nan
@@ -144,7 +151,8 @@ class Contacts:
             off = np.max(np.linalg.norm(forces[:, 0] - forces[:, 1], axis=-1), axis=0)
             error[own] = off / largest if largest > 0.0 else 0.0
             hardest = int(np.argmax(rows["pressure_max"][:, number]))
-            at_rest[own] = _reported(*grids[1], j, _pose(rows, number, hardest))["p_max"][own]
+            pose = _pose(rows, number, hardest, openings[hardest, j])
+            at_rest[own] = _reported(*grids[1], j, pose)["p_max"][own]
         return error, at_rest
 
     def _finer(self, data: SurfaceData) -> SurfaceData:
@@ -175,11 +183,13 @@ def _resampled(depth: FloatArray, place: Place, there: Place) -> FloatArray:
     return resampled(depth.reshape(place.surface.field_shape), rows, fine_rows, fine_angles.size).ravel()
 
 
-def _pose(rows: Mapping[str, FloatArray], number: int, row: int) -> Record:
+def _pose(rows: Mapping[str, FloatArray], number: int, row: int, opening: FloatArray) -> Record:
     """Return the attitude of the shaft of a joint, at rest."""
     tilt_x, tilt_y = rows["tilt_x"][row, number], rows["tilt_y"][row, number]
     axes = frame(np.array([tilt_y, -tilt_x, 1.0]), np.array([1.0, 0.0, 0.0]))
-    return pose_at(rows["displacement"][row, number], axes)
+    pose = pose_at(rows["displacement"][row, number], axes)
+    pose.opening[:] = opening
+    return pose
 
 
 def _reported(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> Record:

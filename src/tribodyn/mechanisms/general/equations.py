@@ -65,6 +65,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     constants = new_record(kinds.Constants)
     constants.gravity[:] = model.case.gravity
     constants.n_rows = constants.rank = int(np.sum(couplings.n_rows))
+    constants.n_reactive = int(np.sum((couplings.load_of != NONE) | couplings.push.any(axis=1)))
     constants.n_nodes = max(len(model.bodies), 1 + int(np.max(couplings.node, initial=NONE)))
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
     constants.size = _size(model)
@@ -169,12 +170,17 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
         "bodies_block",
         "first_leg",
         "next_leg",
+        "opening",
+        "load_of",
     ):
         records[name][:] = NONE
     for record, (name, joint) in zip(records, case.joints.items(), strict=False):
         _fill_joint(record, model, name, joint)
     for contact, number in enumerate(model.real):
         records[number].force, records[number].contact = kinds.CONTACT, contact
+        for which, opening in enumerate(model.clearances[model.joints[number]].openings):
+            if opening is not None:
+                records[number].opening[which] = signals.add(pieces_of(opening), opening.kinks)
     for film, number in enumerate(model.oiled):
         records[number].film = film
     for drive in case.drives.values():
@@ -295,7 +301,7 @@ def _fill_elements(records: Any, model: Model, signals: SignalList) -> None:
             record = records[number]
             _fill_leg(record, model, leg)
             if equation.law is not None:
-                _fill_law(record, equation.law, signals)
+                _fill_law(record, model, equation.law, signals)
             if number > first:
                 record.n_rows, record.first_leg, records[number - 1].next_leg = 0, first, number
             number += 1
@@ -305,14 +311,18 @@ def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
     """Fill one term of the equation of an element."""
     _place(record, model, leg.bodies, leg.points, (leg.axes, leg.axes))
     record.along[:], record.about, record.length = leg.along, leg.about, leg.length
+    if leg.push is not None:
+        record.push[:] = leg.push
     _add_row(record, _MEASURES[leg.measure], 2, 0)
 
 
-def _fill_law(record: Any, law: ForceLaw, signals: SignalList) -> None:
+def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList) -> None:
     """Fill the force law of an element; its equation is no constraint."""
     fields = record_type(*((name, "f8") for name in law.parameters))
     record.law, record.n_rows = address_of(law.function, fields), 0
     record.parameters.values[: len(law.parameters)] = list(law.parameters.values())
+    if law.load_of:
+        record.load_of = model.joints.index(law.load_of)
     if law.table is not None:
         pieces, record.over_rate = pieces_of(law.table), int(law.over_rate)
         record.table[:] = signals.add(pieces), signals.add(integral_of(pieces))

@@ -6,8 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.film.data import FilmData
+from tribodyn.mechanisms.general.maps import Floats
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.variables import OIL
 
@@ -31,3 +34,35 @@ def film_peaks(oil: Any, model: Model) -> dict[str, FloatArray]:
         found[name] = np.full(len(model.joints), np.nan)
         found[name][model.oiled] = np.where(np.isfinite(oil["peaks"][name]), oil["peaks"][name], np.nan)
     return found
+
+
+def film_coordinates(films: FilmData, model: Model) -> dict[str, ArrayLike]:
+    """Return names of the joints with a film and places of its nodes; nothing without films."""
+    if not model.oiled:
+        return {}
+    n_theta = films.wear_node.shape[1]
+    return {
+        "film": [model.joints[number] for number in model.oiled],
+        "film_angle": 2.0 * np.pi * np.arange(n_theta) / n_theta,
+        "film_place": np.array(films.z_node),
+    }
+
+
+def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
+    """Return pressure fields of films by name, nothing without films.
+
+    Of a film with a groove the field is NaN: its nodes turn with the groove.
+
+    Parameters
+    ----------
+    films
+        What kernels read of all films.
+    pictures
+        Fields over the nodes of all films [Pa], shape (n_frames, n_nodes).
+    """
+    n, n_theta, n_z = films.wear_node.shape
+    if not films.constants.size:
+        return {}
+    maps = pictures.reshape(-1, n, n_z, n_theta).transpose(0, 1, 3, 2).copy()
+    maps[:, films.constants["groove"] == 1] = np.nan
+    return {"film_pressure_cycle": maps}

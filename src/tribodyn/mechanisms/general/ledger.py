@@ -10,7 +10,7 @@ from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
 
 WHOLE: Final = Ledger(
     title="Whole mechanism",
-    put_in={"energy_in": "drives and loads, in"},
+    put_in={"energy_in": "drives and loads, in", "energy_expansion": "expansion, in"},
     gained={
         "energy_kinetic": "kinetic",
         "energy_gravity": "gravity",
@@ -30,13 +30,18 @@ TERMS: Final = {
     "energy_gravity": EnergyTerm("energy_gravity", since_start=True),
     "energy_stored": EnergyTerm("energy_stored"),
     "energy_in": EnergyTerm("work_in"),
+    "energy_expansion": EnergyTerm("work_expansion"),
     "energy_friction": EnergyTerm("heat_friction"),
     "energy_damping": EnergyTerm("heat_damping"),
     "energy_film": EnergyTerm("heat_film"),
 }
 
 
-def ledger_columns(whole: Mapping[str, FloatArray], *, oiled: bool) -> dict[str, FloatArray]:
-    """Return the energy columns [J], each of shape (n_t,), from what is observed of the whole."""
-    terms = {name: term for name, term in TERMS.items() if oiled or name != "energy_film"}
+def ledger_columns(whole: Mapping[str, FloatArray], *, oiled: bool, opening: bool) -> dict[str, FloatArray]:
+    """Return the energy columns [J], each of shape (n_t,), from what is observed of the whole.
+
+    Those of films and of clearances that follow temperatures are left out where there are none.
+    """
+    left_out = {"energy_film": not oiled, "energy_expansion": not opening}
+    terms = {name: term for name, term in TERMS.items() if not left_out.get(name, False)}
     return energy_columns(whole, terms, LEDGERS)

@@ -24,7 +24,7 @@ from tribodyn.cases.fields import (
 )
 from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.joint import SURFACE, FormKeys, LinerKeys
-from tribodyn.cases.temperature import Temperatures
+from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanisms.general.film import check_film
 from tribodyn.mechanisms.general.kinds import KINDS, NEEDED
 
@@ -105,7 +105,7 @@ class ClearanceKeys(NamedGroup):
     )
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
-    temperature: Temperatures = Temperatures()
+    temperature: ChangingTemperature = ChangingTemperature()
     ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "assumed")
     nodes_around: int | None = count(
         None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
@@ -246,6 +246,8 @@ class JointKeys(NamedGroup):
         if self.film is not None:
             shape, keys = "" if self.clearance is None else self.shape, self.clearance or ClearanceKeys()
             check_film(self.type, shape, keys.pin_length, keys.form)
+            words = "an oil film has one viscosity and one clearance: give constant temperatures"
+            demand(not keys.temperature.tables, "clearance.temperature.over_time", words)
 
     def _check_spring(self) -> None:
         keys = ("stiffness", "damping", "angular_stiffness", "angular_damping")

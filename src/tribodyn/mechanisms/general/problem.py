@@ -90,7 +90,7 @@ def mechanism_problem(
         relative=np.tile(np.repeat([0.0, 1.0], [VELOCITY, N_STATES - VELOCITY]), n),
         state_names=tuple(f"{name} of {body}" for body in assembly.model.bodies for name in STATES),
         n_observed=N_WHOLE + n * N_BODY + data.parts.couplings.size * N_COUPLING,
-        field_shape=(data.contact.nodes.shape[1],),
+        field_shape=(data.contact.nodes.shape[1] + data.films.wear_node.size,),
         algebra=None if dense else _algebra(data),
         longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
     )

@@ -402,7 +402,7 @@ class Signatures:
         name: str,
         *,
         joint: str,
-        normal_load: str,
+        normal_load: str | None = ...,
         radius: str | None = ...,
         friction_coefficient: float | str | None = ...,
         static_coefficient: float | str | None = ...,

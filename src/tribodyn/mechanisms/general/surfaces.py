@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Final, TypeVar
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from tribodyn.cases.groups import Surfaces
 from tribodyn.cases.temperature import Names
 from tribodyn.contact import Liner
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingGeometry, Friction
 from tribodyn.joints.clearances import Clearance, table_of
 from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
@@ -25,7 +26,7 @@ from tribodyn.mechanisms.general.pairs import PairKeys
 from tribodyn.mechanisms.general.parts import FLANGE, ClearanceKeys, JointKeys
 from tribodyn.mechanisms.general.races import axes_of
 
-_Round = TypeVar("_Round", Cylinder, Sphere, Ball)
+_Round: TypeAlias = Cylinder | Sphere | Ball
 NOT_WORN: Final[Mapping[str, float]] = {}
 
 
@@ -39,7 +40,8 @@ def bearings(case: MechanismCase) -> dict[str, Bearing]:
 
 
 def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
-    pair, shape = case.of_pair(keys), _hot(case, name, keys, _cylinder(keys))
+    pair, shape = material_of(case, name), _hot(case, name, keys, _cylinder(keys))
+    assert isinstance(shape, Cylinder)
     return Bearing(
         contact=pair.contact,
         pair=pair.surface_pair,
@@ -50,9 +52,32 @@ def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
     )
 
 
-def run_in(pair: PairKeys | MechanismCase, depth: float) -> PairKeys | MechanismCase:
-    """Return surfaces, contact law and wear with the roughness that a mean wear depth [m] leaves."""
-    return pair.model_copy(update={"surfaces": pair.surfaces.run_in(depth, pair.wear.final_roughness)})
+def material_of(case: MechanismCase, name: str, depth: float = 0.0) -> PairKeys | MechanismCase:
+    """Return surfaces, contact law and wear of a joint at the temperature of its bushing.
+
+    Parameters
+    ----------
+    case
+        The mechanism.
+    name
+        Of a joint with clearance.
+    depth
+        Mean wear depth that has run its surfaces in [m].
+    """
+    keys = case.joints[name].real
+    assert keys is not None
+    pair = case.of_pair(keys)
+    at = keys.temperature.material(f"joints.{name}.clearance.temperature.")
+    ends = {path.rpartition(".")[2]: value for path, value in at.items()}
+    of_bushing: dict[str, float] = {key: ends[key] for key in ("young_modulus", "hardness") if key in ends}
+    bushing = pair.surfaces.bushing.model_copy(update=of_bushing)
+    surfaces = pair.surfaces.model_copy(update={"bushing": bushing})
+    rate: dict[str, float] = {key: ends[key] for key in ("specific_wear_rate",) if key in ends}
+    update = {
+        "surfaces": surfaces.run_in(depth, pair.wear.final_roughness),
+        "wear": pair.wear.model_copy(update=rate),
+    }
+    return pair.model_copy(update=update)
 
 
 def clearances_of(case: MechanismCase, depths: Mapping[str, float] = NOT_WORN) -> dict[str, Clearance]:
@@ -70,7 +95,7 @@ def clearances_of(case: MechanismCase, depths: Mapping[str, float] = NOT_WORN) -
 def _clearance(
     case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys, depth: float
 ) -> Clearance:
-    pair = run_in(case.of_pair(keys), depth)
+    pair = material_of(case, name, depth)
     contact, surfaces = pair.contact, pair.surface_pair
     grid, law = case.solver.grid, contact.law_of(surfaces)
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
@@ -96,6 +121,7 @@ def _clearance(
         liner=liner,
         slides="position" in KINDS[joint.type].coordinates,
         film=_film(joint, shape, pair.surfaces),
+        openings=_openings(case, name, joint, keys),
     )
 
 
@@ -108,7 +134,7 @@ def _film(joint: JointKeys, shape: Shape, surfaces: Surfaces) -> Film | None:
 
 
 def _liner(case: MechanismCase, name: str, keys: ClearanceKeys) -> Liner | None:
-    soft = case.of_pair(keys).surfaces.bushing
+    soft = material_of(case, name).surfaces.bushing
     return keys.liner.layer(soft, f"joints.{name}.clearance.liner")
 
 
@@ -118,12 +144,15 @@ def _shape(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys
         facets = _facets(case, joint, keys)
         edge = keys.mesh_edge or float(np.ptp(facets.reshape(-1, 3), axis=0).max())
         return Mesh(facets, _given(keys.gap), edge)
+    return _hot(case, name, keys, _cold(joint, keys))
+
+
+def _cold(joint: JointKeys, keys: ClearanceKeys) -> _Round:
+    """Return the round shape of a clearance as drawn."""
     if joint.shape == "cylinder":
-        return _hot(case, name, keys, _cylinder(keys))
+        return _cylinder(keys)
     radius, clearance = _given(keys.radius), _given(keys.radial)
-    if joint.shape == "sphere":
-        return _hot(case, name, keys, Sphere(radius, clearance, keys.band))
-    return _hot(case, name, keys, Ball(radius, clearance))
+    return Sphere(radius, clearance, keys.band) if joint.shape == "sphere" else Ball(radius, clearance)
 
 
 def _cylinder(keys: ClearanceKeys) -> Cylinder:
@@ -163,12 +192,8 @@ def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _
     temperature = keys.temperature
     if not temperature.changes:
         return cold
-    joint = f"joints.{name}.clearance."
-    names = Names(
-        f"{joint}radial", joint, f"{joint}temperature.", "" if keys.pair is None else f"pairs.{keys.pair}."
-    )
-    surfaces, length = case.of_pair(keys).surfaces, cold.length if isinstance(cold, Cylinder) else 0.0
-    geometry = BushingGeometry(cold.clearance, cold.radius, length)
+    names, surfaces = _names(name, keys), case.of_pair(keys).surfaces
+    geometry = _geometry(cold)
     warm = temperature.hot(geometry, surfaces, keys.liner, names)
     shape = replace(cold, radius=warm.radius, clearance=warm.clearance)
     if not isinstance(shape, Cylinder):
@@ -177,11 +202,48 @@ def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _
     sizes: dict[str, Any] = {"length": warm.length}
     if len(shape.faces) == 2:
         play = sum(shape.faces.values())
-        left = (length + play) * (1.0 + strain) - warm.length
+        left = (geometry.length + play) * (1.0 + strain) - warm.length
         words = f"the joint would seize along its axis: more than {1e6 * (play - left):.3g} um of play"
-        demand(left > 0.0, f"{joint}temperature", f"{words} are needed at assembly")
+        demand(left > 0.0, names.temperature.removesuffix("."), f"{words} are needed at assembly")
         gaps = {key: getattr(shape, key) for key in ("axial", "axial_upper", "axial_lower")}
         sizes |= {key: gap * left / play for key, gap in gaps.items() if gap is not None}
     if shape.pin_length is not None:
         sizes["pin_length"] = shape.pin_length * (1.0 + strain)
     return replace(shape, **sizes)
+
+
+def _names(name: str, keys: ClearanceKeys) -> Names:
+    """Return what the keys of a joint begin with, for refusals."""
+    joint = f"joints.{name}.clearance."
+    pair = "" if keys.pair is None else f"pairs.{keys.pair}."
+    return Names(f"{joint}radial", joint, f"{joint}temperature.", pair)
+
+
+def _geometry(shape: _Round) -> BushingGeometry:
+    """Return the dimensions of a round shape that temperatures change."""
+    length = shape.length if isinstance(shape, Cylinder) else 0.0
+    return BushingGeometry(shape.clearance, shape.radius, length)
+
+
+def _openings(
+    case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys
+) -> tuple[Signal | None, Signal | None]:
+    """Return what temperatures over time add to the radial clearance and to the play along the axis."""
+    temperature = keys.temperature
+    if not temperature.tables:
+        return None, None
+    names, surfaces, cold = _names(name, keys), case.of_pair(keys).surfaces, _cold(joint, keys)
+    geometry = _geometry(cold)
+    temperature.check(geometry, surfaces, keys.liner, case.duration, names)
+    radial, axial = temperature.opening(geometry, surfaces, keys.liner, names), None
+    if isinstance(cold, Cylinder) and len(cold.faces) == 2:
+        axial = temperature.play_opening(cold.length, sum(cold.faces.values()), surfaces, names)
+        hot = _hot(case, name, keys, cold)
+        assert isinstance(hot, Cylinder)
+        when, least = axial.least(case.duration) if axial is not None else (0.0, 0.0)
+        left = 1e6 * (sum(hot.faces.values()) + least)
+        words = (
+            f"the joint would seize along its axis: {when:.4g} s after the start {-left:.3g} um are missing"
+        )
+        demand(left > 0.0, f"{names.temperature}over_time", words)
+    return radial, axial

@@ -17,7 +17,6 @@ from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
 from tribodyn.kernels.mechanism.quantities import OF_SECOND
 from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
-from tribodyn.mechanisms.bushing import of_expansion
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.general import checks
 from tribodyn.mechanisms.general.analysis import NOTES, analysed
@@ -26,12 +25,13 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
 from tribodyn.mechanisms.general.element_numbers import transmitted
-from tribodyn.mechanisms.general.films import film_columns, film_peaks
+from tribodyn.mechanisms.general.films import film_columns, film_coordinates, film_maps, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
-from tribodyn.mechanisms.general.ledger import WHOLE, ledger_columns
+from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
+from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
 from tribodyn.mechanisms.general.output_columns import output_columns, output_coordinates
 from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
@@ -39,6 +39,7 @@ from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem,
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.sampling import sampled
 from tribodyn.mechanisms.general.start import initial_state
+from tribodyn.mechanisms.general.surfaces import material_of
 from tribodyn.mechanisms.general.variables import (
     AXES,
     ENTRIES,
@@ -121,9 +122,7 @@ class MechanismSystem:
         """Specific wear rates of socket and shaft at the nodes [m²/N], shape (n_nodes,) each."""
         rates = np.zeros((2, self.maps.area.size))
         for surface in self.maps.places:
-            clearance = self.case.joints[self.real[surface.joint][0]].clearance
-            assert clearance is not None
-            wear = self.case.of_pair(clearance).wear
+            wear = material_of(self.case, self.real[surface.joint][0]).wear
             rates[:, surface.nodes] = [[wear.specific_wear_rate], [wear.partner_wear_rate]]
         return rates[0], rates[1]
 
@@ -133,7 +132,7 @@ class MechanismSystem:
         coarse = replace(self, case=self.case.with_plain_grids())
         touches = zip(coarse.maps.names, coarse._contacts(coarse.model).touches, strict=True)
         rough = [text for name, touch in touches for text in named(name, [of_clearance(touch)])]
-        return [*coarse.assembly.remarks, *rough, *coarse._of_temperatures()]
+        return [*coarse.assembly.remarks, *rough, *of_temperatures(coarse.model)]
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
@@ -222,26 +221,34 @@ class MechanismSystem:
         """Return what the mechanism knows about a run."""
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
-        ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled))
+        ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
         energy = self._energy_missed(ledger, found)
         if not energy:
             del ledger[WHOLE.residual]
         peaks = self._peaks(run)
         worn = self._worn(depth_of(run.problem.data.contact, self.maps.places))
         contacts = self._contacts(worn)
-        of_contacts = contacts.numbers_of(run.problem.data.contact, found.couplings, peaks) if peaks else {}
+        of_contacts = (
+            contacts.numbers_of(
+                run.problem.data.contact, found.couplings, peaks, openings(worn, run.solution.t)
+            )
+            if peaks
+            else {}
+        )
         return ResultPart(
             coordinates=self._coordinates(run),
             columns={
                 **found.bodies,
                 **self._of_joints(found),
                 **transmitted(self.model, found.couplings),
+                **radial_clearances(self.model, run.solution.t),
                 **of_outputs,
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
             fields={
                 "clearance": self._clearances(),
+                **self._film_pressure(run),
                 **peaks,
                 **of_contacts,
                 **flash_temperatures(worn, self.maps.places, contacts.touches, found.couplings),
@@ -267,7 +274,7 @@ class MechanismSystem:
             ),
             notes=[
                 *NOTES[self._analysis],
-                *self._of_temperatures(),
+                *of_temperatures(self.model),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
                 *self._reversals.notes(float(run.solution.t_end), carried=run.carried),
@@ -285,16 +292,6 @@ class MechanismSystem:
         """Return the contacts of all joints of the mechanism as drawn or worn."""
         clearances = tuple(model.clearances.values())
         return Contacts(clearances, tuple(self.model.real), self.maps.names, self.maps.places)
-
-    def _of_temperatures(self) -> list[str]:
-        """Return which clearances are other ones at the temperatures of the run."""
-        keys = ((name, self.case.joints[name].clearance, clearance) for name, clearance in self.real)
-        return [
-            text
-            for name, cold, hot in keys
-            if cold is not None and cold.radial is not None
-            for text in named(name, [of_expansion(cold.radial, hot.shape.clearance)])
-        ]
 
     def _failure(self, run: FinishedRun) -> str:
         """Return why the run stopped before its end, empty if it did not."""
@@ -370,6 +367,7 @@ class MechanismSystem:
         if self.model.elements:
             parts["element"] = [element.name for element in self.model.elements]
         parts |= output_coordinates(self.case, self.outputs)
+        parts |= film_coordinates(run.problem.data.films, self.model)
         parts |= self._reversals.coordinates(float(run.solution.t_end))
         if not self.real:
             return dict(parts)
@@ -388,11 +386,16 @@ class MechanismSystem:
     def _pressure(self, run: FinishedRun) -> dict[str, Any]:
         if not self.real:
             return {}
-        pictures = run.solution.pictures[self._playback(run)].astype(np.float32)
+        pictures = run.solution.pictures[self._playback(run), : self.maps.n_nodes].astype(np.float32)
         return {"pressure_cycle": self.maps(pictures)}
 
+    def _film_pressure(self, run: FinishedRun) -> dict[str, Any]:
+        """Return the pressure of the films at the frames of the playback; nothing without films."""
+        pictures = run.solution.pictures[self._playback(run), self.maps.n_nodes :].astype(np.float32)
+        return film_maps(run.problem.data.films, pictures)
 
-_IN_LEDGER: Final = ("energy_gravity", "work_in", "heat_damping", "heat_friction", "heat_film")
+
+_IN_LEDGER: Final = frozenset(term.row for term in TERMS.values())
 """What reaches the user under the names of the ledger instead."""
 
 SYSTEM: Final = MechanismSystem

@@ -153,11 +153,21 @@ VARIABLES: Final[dict[str, Variable]] = {
     **of_reversals_described(REVERSAL_PEAKS, ("joint",)),
     **described(WHOLE),
     "energy_in": Variable("J", "work of drives and loads since the start"),
+    "energy_expansion": Variable("J", "work of temperatures on what contacts store"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
     "energy_friction": Variable("J", "heat of friction since the start"),
     "energy_film": Variable("J", "heat of oil films since the start"),
     "energy_residual": Variable("J", "what the energy ledger misses"),
     "pressure_cycle": Variable("Pa", "contact pressure over one cycle", (*FRAME, *_MAP)),
+    "film": Variable("", "joint with an oil film", ("film",), named=True),
+    "film_angle": Variable(
+        "rad", "angle of the nodes of a film about the axis of the joint", ("film_angle",)
+    ),
+    "film_place": Variable("m", "height of the nodes of a film", ("film", "film_row")),
+    "film_pressure_cycle": Variable(
+        "Pa", "pressure of an oil film over one cycle", (*FRAME, "film", "film_angle", "film_row")
+    ),
+    "radial_clearance": Variable("m", "radial clearance at the temperatures of the time", (*TIME, "joint")),
     "wear_depth": Variable("m", "wear depth, after the campaign or, estimated, after this run", _MAP),
     "partner_wear_depth": Variable("m", "part of wear_depth worn off the partner of the bushing", _MAP),
     "stage_depth": Variable("m", "wear depth, selected", (*STAGE, *_MAP)),

@@ -13,7 +13,7 @@ from tribodyn.joints.clearances import Place
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.model import Model
-from tribodyn.mechanisms.general.surfaces import clearances_of, run_in
+from tribodyn.mechanisms.general.surfaces import clearances_of, material_of
 from tribodyn.wear import loaded_depth
 
 
@@ -48,6 +48,6 @@ def worn_model(model: Model, places: Sequence[Place], depth: FloatArray | None) 
 def least_roughness(case: MechanismCase) -> float:
     """Return the least combined rms roughness that a joint with clearance comes to [m]; 1 without any."""
     worn = math.inf if case.wear.running_in else 0.0
-    keys = [joint.real for joint in case.joints.values() if joint.real is not None]
-    pairs = [run_in(case.of_pair(clearance), worn) for clearance in keys]
+    real = [name for name, joint in case.joints.items() if joint.real is not None]
+    pairs = [material_of(case, name, worn) for name in real]
     return min((pair.surface_pair.roughness_rms for pair in pairs), default=1.0)

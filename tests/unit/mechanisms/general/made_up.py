@@ -72,6 +72,9 @@ def result(failure: str = "") -> xr.Dataset:
             "column": np.arange(12.0),
             "row_place": np.array([[-0.01, -0.005, 0.005, 0.01], [0.0095, 0.011, 0.013, 0.014]]),
             "column_angle": np.array([theta, theta]),
+            "film": ["wrist"],
+            "film_angle": theta,
+            "film_place": np.array([[-0.01, 0.0, 0.01]]),
         },
         columns={
             **columns,
@@ -82,6 +85,7 @@ def result(failure: str = "") -> xr.Dataset:
         fields={
             "clearance": np.array([np.nan, np.nan, 20e-6, np.nan]),
             "pressure_cycle": pressure,
+            "film_pressure_cycle": barrel[:, None, :, None] * np.array([0.0, 1.0, 0.0]),
             "pressure_peak": np.array([4e7, np.nan]),
             "film_pressure_peak": np.array([np.nan, np.nan, 2e7, np.nan]),
             "wear_depth": 1e-9 * pressure.max(axis=0) / 4e7,

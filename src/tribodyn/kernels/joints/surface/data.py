@@ -35,6 +35,7 @@ Surface: Final = record_type(
     *((name, "f8") for name in ("points", "radius", "clearance")),
     ("heights", "f8", (N_POINTS,)),
     ("reach", "f8", (2,)),
+    ("opens", "f8", (2,)),
 )
 """One surface.
 
@@ -68,6 +69,8 @@ points, radius, clearance, heights
     clearance [m]; heights of their centres along the axis [m]. The table then holds the force of a point [N].
 reach
     How far the shaft may be displaced across and along the axis [m]; beyond, it has left its socket.
+opens
+    How much of the radial and of the axial opening of its joint its gaps gain [1].
 """
 
 Row: Final = record_type(

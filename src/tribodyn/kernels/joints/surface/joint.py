@@ -30,8 +30,11 @@ from tribodyn.kernels.joints.surface.wrench import wrench as surface_wrench
 @kernel
 def _look(surface: Record, scratch: Record, pose: Record) -> None:
     """Fill tilt and station of the scratch."""
+    opens, station = surface.opens, scratch.station
     fill_tilt(surface.tilt, pose.rotation, pose.w, scratch.tilt)
-    fill_station(surface.slides, pose, scratch.tilt, scratch.station)
+    fill_station(surface.slides, pose, scratch.tilt, station)
+    station.opening = opens[0] * pose.opening[0] + opens[1] * pose.opening[1]
+    station.v_opening = opens[0] * pose.v_opening[0] + opens[1] * pose.v_opening[1]
 
 
 @kernel
@@ -75,6 +78,7 @@ def fill_report(data: SurfaceData, s: int, memory: SurfaceMemory) -> None:
         point.add_points(data, s, memory, memory.scratch.station, 0.0, 1.0)
     else:
         over_surface.report(data, s, memory, memory.scratch.station)
+    memory.reports[s].expansion_power = -memory.scratch.station.v_opening * memory.scratch.rigid_load
 
 
 @kernel

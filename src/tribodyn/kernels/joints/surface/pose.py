@@ -11,7 +11,14 @@ from typing import Final
 
 from tribodyn.core.quantities import record_type
 
-Pose: Final = record_type(("d", "f8", (3,)), ("rotation", "f8", (3, 3)), ("v", "f8", (3,)), ("w", "f8", (3,)))
+Pose: Final = record_type(
+    ("d", "f8", (3,)),
+    ("rotation", "f8", (3, 3)),
+    ("v", "f8", (3,)),
+    ("w", "f8", (3,)),
+    ("opening", "f8", (2,)),
+    ("v_opening", "f8", (2,)),
+)
 """
 d
     From O to P [m].
@@ -22,6 +29,8 @@ v
     Velocity of P relative to the socket [m/s].
 w
     Angular velocity of the shaft relative to the socket [rad/s].
+opening, v_opening
+    What temperatures have added to the radial clearance and to the play along the axis [m], and the rates.
 """
 
 TURN: Final = 3

@@ -25,6 +25,7 @@ REPORTED: Final = (
     Quantity("damping_power", "W", "power of the damping pressure, turned into heat"),
     Quantity("friction_power", "W", "power of friction, negative: turned into heat"),
     Quantity("energy_contact", "J", "energy stored in the contact"),
+    Quantity("expansion_power", "W", "power of an opening clearance on what the contact stores"),
     Quantity("p_max", "Pa", "peak contact pressure, edges included"),
     Quantity("separation_min", "m", "smallest gap, negative where mean surfaces overlap"),
     Quantity("tensile_clip_share", "1", "share of the contact area where the clip of tensile pressure acts"),

@@ -62,6 +62,8 @@ class Leg:
         Distance that counts as zero [m].
     reported
         Direction of the force that results hold, in the same axes, shape (3,); None for that of ``along``.
+    push
+        Force on the second body in the same axes over |λ|, beside that of λ, shape (3,); None for none.
     """
 
     bodies: tuple[str, str]
@@ -72,6 +74,7 @@ class Leg:
     measure: Literal["coordinate", "distance", "path"] = "coordinate"
     length: float = 0.0
     reported: FloatArray | None = None
+    push: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -88,12 +91,15 @@ class ForceLaw:
         A function of the coordinate, which the law finds evaluated.
     over_rate
         Whether it is a function of the rate of the coordinate instead.
+    load_of
+        Ideal joint whose reaction across its axis the law finds as ``normal``; empty for none.
     """
 
     function: Callable[[Any, Any], None]
     parameters: Mapping[str, float]
     table: Signal | None = None
     over_rate: bool = False
+    load_of: str = ""
 
 
 @dataclass(frozen=True)

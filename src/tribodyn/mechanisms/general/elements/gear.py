@@ -11,7 +11,7 @@ The multiplier is the tangential tooth force. Nothing acts on the carrier but th
 With backlash j the sum is no constraint but the path of the teeth along the pitch circles, zero in the middle
 of the gap. Beyond ±j/2 a flank is in contact, by the law of a limit stop. Its normal is turned by the
 pressure angle α: the tooth force F pushes the wheels apart with F tan α; nearer to each other they have less
-play.
+play. Teeth without backlash push the wheels apart with |λ| tan α where the pressure angle is given.
 """
 
 from __future__ import annotations
@@ -45,6 +45,8 @@ from tribodyn.mechanisms.general.elements.base import (
 )
 from tribodyn.mechanisms.general.elements.stop import LEAST_RATE, damping_of, one_sided
 
+PRESSURE_ANGLE = math.radians(20.0)
+"""Of teeth with backlash, where a case does not say it [rad]."""
 _OFFSET = 1.0e-9
 """Distance between parallel axes, over that between all joints, up to which they are one axis."""
 
@@ -102,14 +104,19 @@ torque = "0.2 N m"
     )
     restitution: float = number(1.0, "restitution meant, of teeth with backlash", "assumed", gt=0, le=1)
 
-    pressure_angle: float = quantity(
-        "20 deg", "pressure angle, of teeth with backlash", "assumed", ge=0, lt="60 deg"
+    pressure_angle: float | None = quantity(
+        None,
+        "pressure angle, by which teeth push the wheels apart; without it 20 deg with backlash, else none",
+        "",
+        ge=0,
+        lt="60 deg",
+        example="20 deg",
     )
 
     def equations(self, joints: Joints) -> tuple[Equation, ...]:
         """Return the constraint, or one contact for each flank of teeth with backlash."""
         if self.backlash is None:
-            return super().equations(joints)
+            return (Equation(self._pushing(joints), None),)
         demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")
         words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
         demand(self._pitch(joints) is not None, "backlash", words)
@@ -126,16 +133,31 @@ torque = "0.2 N m"
         )
         return tuple(Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
 
+    def _pushing(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the legs of the constraint, whose force pushes the wheels apart as well."""
+        legs = self.legs(joints)
+        if not self.pressure_angle:
+            return legs
+        words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
+        demand(self._pitch(joints) is not None, "pressure_angle", words)
+        pushes = self._pushes(legs, self.pressure_angle)
+        return tuple(replace(wheel, push=push) for wheel, push in zip(legs, pushes, strict=True))
+
     def _flank(self, legs: tuple[Leg, ...], side: float) -> tuple[Leg, ...]:
-        """Return the legs of one flank: its contact pushes the wheels apart as well."""
+        """Return the legs of one flank: its contact, with λ below zero, pushes the wheels apart as well."""
+        angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
+        return tuple(
+            replace(wheel, along=side * wheel.along - push, about=side * wheel.about, reported=wheel.along)
+            for wheel, push in zip(legs, self._pushes(legs, angle), strict=True)
+        )
+
+    @staticmethod
+    def _pushes(legs: tuple[Leg, ...], angle: float) -> tuple[FloatArray, FloatArray]:
+        """Return the forces that push both wheels apart, over the tooth force."""
         towards = [np.cross(wheel.along, [0.0, 0.0, wheel.about]) for wheel in legs]
         apart = min(towards, key=lambda arm: float(np.linalg.norm(arm)))
         apart = apart / np.linalg.norm(apart) * (1.0 if apart is towards[0] else -1.0)
-        shares = (math.tan(self.pressure_angle) * apart, -math.tan(self.pressure_angle) * apart)
-        return tuple(
-            replace(wheel, along=side * wheel.along + share, about=side * wheel.about, reported=wheel.along)
-            for wheel, share in zip(legs, shares, strict=True)
-        )
+        return -math.tan(angle) * apart, math.tan(angle) * apart
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return one leg for each wheel."""

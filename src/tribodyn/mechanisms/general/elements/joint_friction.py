@@ -1,6 +1,7 @@
-"""Friction in an ideal joint: Coulomb, Stribeck and viscous parts under a stated normal load.
+"""Friction in an ideal joint by its reaction or a stated load: Coulomb, Stribeck and viscous parts.
 
-With the sliding speed v, at a radius where the joint turns, and the normal load N,
+With the sliding speed v, at a radius where the joint turns, and the normal load N, which is stated or the
+size of the joint's own reaction across its axis,
 
     F = N (μ + (μ_s − μ) exp(−(v/v_s)²)) v/√(v² + u_s²) + c v
 
@@ -25,8 +26,10 @@ def regularised(joint: Any, law: Any) -> None:
     square = v * v + slip * slip
     direction = v / math.sqrt(square)
     share = math.exp(-((v / joint.stribeck_velocity) ** 2))
-    limit = joint.moving + joint.sticking * share
-    fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * joint.sticking * share
+    load = joint.normal_load + law.normal
+    moving, sticking = joint.friction_coefficient * load, joint.breakaway * load
+    limit = moving + sticking * share
+    fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * sticking * share
     law.force = -limit * direction - joint.viscous * v
     law.in_rate = -fall * direction - limit * slip * slip / (square * math.sqrt(square)) - joint.viscous
     law.friction = limit * direction * v
@@ -34,7 +37,7 @@ def regularised(joint: Any, law: Any) -> None:
 
 
 class JointFriction(OfJointKeys):
-    """Friction in an ideal joint under a stated normal load: Coulomb, Stribeck and viscous parts."""
+    """Friction in an ideal joint, by its reaction or a stated load: Coulomb, Stribeck and viscous parts."""
 
     TABLE: ClassVar[str] = "frictions"
     METHOD: ClassVar[str] = "friction"
@@ -60,8 +63,12 @@ joint = "input"
 torque = "0.2 N m"
 """
 
-    normal_load: float = quantity(
-        None, "load N on the sliding surfaces", "", ge=0, example="40 N", required=True
+    normal_load: float | None = quantity(
+        None,
+        "load N on the sliding surfaces; the reaction of the joint across its axis without it",
+        "",
+        ge=0,
+        example="40 N",
     )
     radius: float | None = quantity(
         None, "radius at which a turning joint slides; a sliding joint has none", "", gt=0, example="10 mm"
@@ -87,15 +94,22 @@ torque = "0.2 N m"
         return (self.leg_of(joints, "angle", "friction at a radius", self.radius),)
 
     def force_law(self, joints: Joints) -> ForceLaw:
-        """Return the law with both limits of friction [N]."""
+        """Return the law, with what the static coefficient is above that of sliding."""
         static = self.friction_coefficient if self.static_coefficient is None else self.static_coefficient
+        joint, own = joints[self.joint], self.normal_load is None
+        words = f"{self.joint} has clearance, and with it friction of its own: leave out this friction"
+        demand(not own or joint.real is None, "joint", words)
+        words = f"a {joint.type} joint has no reaction across its axis: give normal_load"
+        demand(not own or joint.type != "planar", "normal_load", words)
         return ForceLaw(
             regularised,
             {
-                "moving": self.friction_coefficient * self.normal_load,
-                "sticking": (static - self.friction_coefficient) * self.normal_load,
+                "normal_load": self.normal_load or 0.0,
+                "friction_coefficient": self.friction_coefficient,
+                "breakaway": static - self.friction_coefficient,
                 "stribeck_velocity": self.stribeck_velocity,
                 "slip_velocity": self.slip_velocity,
                 "viscous": self.viscous,
             },
+            load_of=self.joint if own else "",
         )

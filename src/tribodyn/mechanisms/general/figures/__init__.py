@@ -21,6 +21,7 @@ FIGURES: Final[dict[str, Family]] = {
         chart.family(CLEARANCES),
         chart.family(FILMS),
         joints.PRESSURE,
+        joints.FILM_PRESSURE,
         joints.WEAR,
         energy.family(LEDGERS),
         wear.HISTORY,

@@ -98,6 +98,15 @@ PRESSURE: Final = Family(
         draw_maps, "pressure_cycle", "Contact pressure, largest in the cycle", "contact pressure", "MPa"
     ),
 )
+FILM_PRESSURE: Final = Family(
+    name="film_maps",
+    title="Film pressure, largest in the cycle",
+    caption="Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
+    needs=("film_pressure_cycle", "film"),
+    draw=partial(
+        draw_maps, "film_pressure_cycle", "Film pressure, largest in the cycle", "film pressure", "MPa"
+    ),
+)
 WEAR: Final = Family(
     name="wear_maps",
     title="Wear depth",

@@ -16,7 +16,7 @@ from tribodyn.mechanisms.general.sections.charts import (
     MOTION,
     OUTPUT_ERRORS,
 )
-from tribodyn.mechanisms.general.sections.joints import ORBITS, PRESSURE, REACTIONS, WEAR
+from tribodyn.mechanisms.general.sections.joints import FILM_PRESSURE, ORBITS, PRESSURE, REACTIONS, WEAR
 from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY
@@ -26,7 +26,7 @@ CHAPTERS: Final = (
         "playback",
         "One cycle",
         "Everything in this part shows the same moment. Move the slider, or press play.",
-        (mechanism.SECTION, ORBITS, PRESSURE),
+        (mechanism.SECTION, ORBITS, PRESSURE, FILM_PRESSURE),
         playback=True,
     ),
     Chapter(

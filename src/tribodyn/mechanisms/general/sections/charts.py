@@ -56,12 +56,16 @@ def joint_forces(dataset: xr.Dataset) -> list[Panel]:
 
 
 def clearances(dataset: xr.Dataset) -> list[Panel]:
-    """Return how far shafts leave the middle of their bores [µm], and peak pressures [MPa]."""
+    """Return how far shafts leave the middle of their bores [µm], peak pressures [MPa], clearances [µm]."""
     real = np.isfinite(dataset["clearance"].values)
     names = [name for name, wanted in zip(_names(dataset, "joint"), real, strict=True) if wanted]
+    warming = []
+    if "radial_clearance" in dataset:
+        warming = [("clearance [µm]", curves(names, 1e6 * dataset["radial_clearance"].values[:, real]))]
     return _panels(
         ("offset [µm]", curves(names, 1e6 * offset(dataset)[:, real])),
         ("peak pressure [MPa]", curves(names, 1e-6 * dataset["pressure_max"].values[:, real])),
+        *warming,
     )
 
 

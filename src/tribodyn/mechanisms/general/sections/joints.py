@@ -89,6 +89,13 @@ def pressures(dataset: xr.Dataset) -> Payload | None:
     return _maps(dataset, "pressure_cycle", lambda _: ("MPa", 1e6), "contact pressure", 1.6)
 
 
+def film_pressures(dataset: xr.Dataset) -> Payload | None:
+    """Return the frames of pressure of every oil film [MPa]."""
+    if dataset["film_pressure_cycle"].shape[0] < 2:
+        return None
+    return _maps(dataset, "film_pressure_cycle", lambda _: ("MPa", 1e6), "film pressure", 1.6)
+
+
 def wear(dataset: xr.Dataset) -> Payload | None:
     """Return the wear depth of every surface as one picture each, in a unit that fits."""
     return _maps(dataset, "wear_depth", fitting_unit, "wear depth", 1.0)
@@ -116,6 +123,11 @@ def _maps(
 def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
     """Yield each surface's name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows)."""
     field = np.nan_to_num(dataset[name].values)
+    if "film" in dataset[name].dims:
+        theta = dataset["film_angle"].values
+        for k, film in enumerate(dataset["film"].values):
+            yield f"{film}:film", dataset["film_place"].values[k], theta, field[:, k]
+        return
     field = field if field.ndim == 4 else field[None]
     for k, surface in enumerate(dataset["surface"].values):
         place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
@@ -153,6 +165,15 @@ PRESSURE: Final = Section(
     widget="choice",
     data=pressures,
     still="pressure_maps",
+)
+FILM_PRESSURE: Final = Section(
+    name="film_pressure",
+    title="Film pressure",
+    caption="Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
+    needs=("film_pressure_cycle", "frame_time", "film"),
+    widget="choice",
+    data=film_pressures,
+    still="film_maps",
 )
 WEAR: Final = Section(
     name="wear",

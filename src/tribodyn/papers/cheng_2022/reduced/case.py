@@ -18,7 +18,7 @@ from tribodyn.cases.groups import (
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
-from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature
+from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature, cold_geometry
 from tribodyn.core.errors import Faults
 from tribodyn.papers.cheng_2022.reduced.actions import (
     COMPONENTS,
@@ -351,7 +351,7 @@ class VsvCase(BushingCase):
 
     def _check_temperature(self) -> None:
         """Check that temperatures over time leave a clearance, and belong to one run."""
-        self.temperature.check(self.joint, self.surfaces, self.duration)
+        self.temperature.check(cold_geometry(self.joint), self.surfaces, self.joint.liner, self.duration)
         words = "a wear campaign takes its cycles one by one: temperatures that last are needed"
         demand(self.wear.cycles == 0 or not self.temperature.tables, OVER_TIME, words)
 

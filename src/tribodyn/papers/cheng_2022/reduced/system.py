@@ -11,6 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tribodyn.cases.temperature import cold_geometry
 from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
@@ -80,7 +81,7 @@ def vsv_of(case: VsvCase) -> Vsv:
         collar_radius=case.joint.collar_radius,
         joint=bushing_of(case),
     )
-    opening = case.temperature.opening(case.joint, case.surfaces)
+    opening = case.temperature.opening(cold_geometry(case.joint), case.surfaces, case.joint.liner)
     return replace(vsv, terms=tuple(terms_of(case, vsv.vane_arm)), opening=opening)
 
 
