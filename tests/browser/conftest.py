@@ -203,6 +203,8 @@ def opened(browser: Browser) -> Iterator[Callable[..., Reader]]:
             page.add_init_script(NO_WEBGL)
         watched.append((path, Watched(page), elsewhere))
         page.goto(path.as_uri())
+        if page.locator("#page-data").count():
+            page.wait_for_selector("html.alive")
         return Reader(page)
 
     yield open_page

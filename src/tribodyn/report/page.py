@@ -19,7 +19,7 @@ from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.results import Headline, json_attribute
 from tribodyn.results.summary import caution
-from tribodyn.views.encode import safe_json
+from tribodyn.views.encode import inside_page
 from tribodyn.views.numbers import in_words
 from tribodyn.views.playback import clock
 
@@ -133,7 +133,7 @@ def page(template: str = "page.html", *, payload: Mapping[str, Any] | None, **co
     )
     return environment.get_template(template).render(
         inside=assets.inside(bool(payload)),
-        payload=safe_json(payload) if payload else "",
+        payload=inside_page(payload) if payload else "",
         **content,
     )
 

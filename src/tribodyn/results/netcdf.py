@@ -104,8 +104,11 @@ def _declared(variable: netCDF4.Variable[Any]) -> int:
         raise ValueError(f"{brief(variable.name)} holds neither numbers nor texts")
     blocks = variable.chunking()
     block = math.prod(blocks) if isinstance(blocks, list) else 0
-    # A number of any size may become a double when its scale is applied.
-    return max(math.prod(variable.shape), block) * max(variable.dtype.itemsize, 8)
+    scaled = {"scale_factor", "add_offset"}
+    masked = {"_FillValue", "missing_value"} if variable.dtype.kind != "f" else set()
+    # Such numbers become doubles, whatever their size.
+    size = 8 if (scaled | masked) & {*variable.ncattrs()} else 0
+    return max(math.prod(variable.shape), block) * max(variable.dtype.itemsize, size)
 
 
 def _text_size(variable: netCDF4.Variable[Any], room: int, content: bytes) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from tribodyn.results import netcdf
 from tribodyn.results.netcdf import MOST_TEXTS, dataset_of, netcdf_content
 from tribodyn.studies.plan import MOST_POINTS
 
@@ -67,3 +68,11 @@ def test_more_texts_than_a_sweep_has_points_are_refused_unread() -> None:
     content = netcdf_content(xr.Dataset({"a": (("x", "y"), texts)}, attrs={"long": "x" * 1_000_000}))
     with pytest.raises(ValueError, match="a holds more than 100000 texts"):
         dataset_of(content)
+
+
+@pytest.mark.parametrize("kind", ["float32", "float64", "int32", "uint8"])
+def test_what_was_written_is_read_however_large(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(netcdf, "MOST_COMPRESSED", 1000)
+    values = np.arange(100_000).astype(kind)
+    content = netcdf_content(xr.Dataset({"x": ("time", values)}))
+    np.testing.assert_array_equal(dataset_of(content)["x"].values, values)

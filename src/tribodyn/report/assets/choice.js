@@ -9,8 +9,11 @@ widgets.choice = (box) => {
   tools(box, chooser);
   box.append(holder);
 
-  const part = (data) => data.parts[Math.min(Number(select.value), data.parts.length - 1)];
-  const give = () => state.inner.take(part(state.data), state.ghosts.map((one) => ({ ...one, data: part(one.data) })));
+  const part = (data) => data.parts[data.names.indexOf(select.value)];
+  const give = () => {
+    const ghosts = state.ghosts.map((one) => ({ ...one, data: part(one.data) }));
+    state.inner.take(part(state.data), ghosts.filter((one) => one.data));
+  };
   const make = () => {
     holder.replaceChildren();
     state.inner = widgets[state.data.widget](holder);
@@ -27,7 +30,9 @@ widgets.choice = (box) => {
     if (names === state.named) return give();
     state.named = names;
     label.textContent = data.label[0].toUpperCase() + data.label.slice(1);
-    select.replaceChildren(...data.names.map((name, k) => element("option", { value: k }, name)));
+    const before = select.value;
+    select.replaceChildren(...data.names.map((name) => element("option", { value: name }, name)));
+    select.value = data.names.includes(before) ? before : data.names[0];
     select.disabled = data.names.length < 2;
     return make();
   };

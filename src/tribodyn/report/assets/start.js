@@ -16,19 +16,14 @@ function isNarrow() {
 
 const KINDS = { f32: Float32Array, f64: Float64Array, u8: Uint8Array };
 
-/** Turn packed arrays back into typed arrays, everywhere in a document: texts, or places in a buffer after `base`. */
-function unpack(node, buffer = null, base = 0) {
+/** Turn places in a buffer after `base` into typed arrays, everywhere in a document. */
+function unpack(node, buffer, base) {
   if (node === null || typeof node !== "object") return node;
   if (Array.isArray(node)) return node.map((one) => unpack(one, buffer, base));
   const keys = Object.keys(node);
-  if (keys.length === 1 && keys[0] in KINDS) return unpacked(KINDS[keys[0]], node[keys[0]], buffer, base);
+  const Kind = keys.length === 1 && KINDS[keys[0]];
+  if (Kind) return new Kind(buffer, base + node[keys[0]][0], node[keys[0]][1]);
   return Object.fromEntries(keys.map((key) => [key, unpack(node[key], buffer, base)]));
-}
-
-/** Return an array from a text, or as a view of a buffer. */
-function unpacked(Kind, content, buffer, base) {
-  if (typeof content !== "string") return new Kind(buffer, base + content[0], content[1]);
-  return new Kind(Uint8Array.from(atob(content), (c) => c.charCodeAt(0)).buffer);
 }
 
 /** Make an element with attributes and children; texts stay texts, and styles need no leave of the page's policy. */

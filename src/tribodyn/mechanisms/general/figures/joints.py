@@ -22,14 +22,16 @@ from tribodyn.views.unrolled import best_cut, rolled
 from tribodyn.views.wear import fitting_unit
 
 _ACROSS: Final = 3
-"""Panels beside each other."""
+"""Panels beside each other; one less where their names are long."""
+_LONG: Final = 16
 
 
 def draw_orbits(dataset: xr.Dataset) -> Figure:
     """Draw the path of each shaft in its clearance circle [µm]."""
-    joints = real_joints(dataset)
-    figure, panels = _grid(dataset, ORBITS.title, len(joints), 2.9)
-    for axes, joint in zip(panels, joints, strict=False):
+    chosen = real_joints(dataset)
+    names = [str(dataset["joint"].values[joint]) for joint in chosen.joints]
+    figure, panels = _grid(dataset, f"{ORBITS.title}{chosen.which}", names, 2.9)
+    for axes, joint in zip(panels, chosen.joints, strict=False):
         x, y = (1e6 * dataset["displacement"].values[:, joint, i] for i in range(2))
         clearance = 1e6 * float(dataset["clearance"].values[joint])
         reach = 1.25 * max(clearance, peak(x), peak(y))
@@ -46,7 +48,8 @@ def draw_orbits(dataset: xr.Dataset) -> Figure:
 def draw_maps(name: str, title: str, label: str, unit: str, dataset: xr.Dataset) -> Figure:
     """Draw the largest values of a field on every surface that is not empty."""
     found = [part for part in surfaces(dataset, name) if part[3].max(initial=0.0) > 0.0]
-    figure, panels = _grid(dataset, title, len(found), 2.2)
+    names = [surface for surface, *_ in found]
+    figure, panels = _grid(dataset, f"{title}{real_joints(dataset).which}", names, 2.2)
     for axes, (surface, place, theta, fields) in zip(panels, found, strict=False):
         field = fields.max(axis=0)
         shown, size = (unit, 1e6) if unit else fitting_unit(float(field.max()))
@@ -68,9 +71,12 @@ def _draw_map(axes: Axes, place: FloatArray, theta: FloatArray, field: FloatArra
     axes.set_xlim(angle[0], angle[-1])
 
 
-def _grid(dataset: xr.Dataset, title: str, n: int, height: float) -> tuple[Figure, Sequence[Axes]]:
-    """Return a sheet of panels, those that nothing is drawn in taken away."""
-    columns = min(max(n, 1), _ACROSS)
+def _grid(
+    dataset: xr.Dataset, title: str, names: Sequence[str], height: float
+) -> tuple[Figure, Sequence[Axes]]:
+    """Return a sheet of panels for names, those that nothing is drawn in taken away."""
+    n, longest = len(names), max(map(len, names), default=0)
+    columns = min(max(n, 1), _ACROSS - (longest > _LONG))
     rows = -(-max(n, 1) // columns)
     figure = sheet(dataset, title, 0.5 + height * rows)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()

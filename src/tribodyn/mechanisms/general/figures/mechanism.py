@@ -16,6 +16,8 @@ from tribodyn.mechanisms.general.sections.mechanism import at_frames
 from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 
 TITLE: Final = "The mechanism in its cycle"
+_NAMED: Final = 16
+"""Bodies up to which these and their joints are named: names of more would lie on each other."""
 _MOMENTS: Final = 8
 """Moments that are drawn, evenly over the playback, all but the first pale."""
 
@@ -68,7 +70,7 @@ def draw_at(
         for point in points if len(points) > 2 else points[:1]:
             other = hub if len(points) > 2 else points[1]
             axes.plot(*np.array([other, point]).T, color=colour, linewidth=1.8 if colour == INK else 1.0)
-        if colour == INK:
+        if colour == INK and len(drawn.bodies) <= _NAMED:
             axes.annotate(
                 drawn.bodies[body], hub, xytext=(5, -9), textcoords="offset points", size=SMALL, color=GREY
             )
@@ -87,8 +89,9 @@ def draw_joints(
     for (x, y), marks in there.items():
         rim = VERMILION if any(mark.real for mark in marks) else INK
         axes.plot(x, y, "o", ms=7, mfc="white", mec=rim, mew=1.4, zorder=4)
-        names = ", ".join(mark.name for mark in marks)
-        axes.annotate(names, (x, y), xytext=(6, 6), textcoords="offset points", size=SMALL)
+        if len(drawn.bodies) <= _NAMED:
+            names = ", ".join(mark.name for mark in marks)
+            axes.annotate(names, (x, y), xytext=(6, 6), textcoords="offset points", size=SMALL)
 
 
 FAMILY: Final = Family(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.views.bushing import Unrolled
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
 from tribodyn.views.encode import packed
@@ -18,6 +19,8 @@ from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, shares
 from tribodyn.views.wear import fitting_unit
 
+MOST: Final = 8
+"""Joints that are shown one by one; of more, those that are loaded most."""
 _AXES: Final = "xyz"
 LAID_FLAT: Final = (
     "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
@@ -29,9 +32,49 @@ WORN: Final = (
 )
 
 
-def real_joints(dataset: xr.Dataset) -> list[int]:
-    """Return the numbers of the joints with clearance."""
-    return np.flatnonzero(np.isfinite(dataset["clearance"].values)).tolist()
+@dataclass(frozen=True)
+class Detailed:
+    """The joints that a large mechanism is shown by.
+
+    Attributes
+    ----------
+    joints
+        Their numbers, in the order of the case.
+    of
+        How many there are of their kind.
+    by
+        What is largest in these.
+    """
+
+    joints: list[int]
+    of: int
+    by: str
+
+    @property
+    def which(self) -> str:
+        """Say that others are left out, as an addition to a title; nothing where none are."""
+        left_out = len(self.joints) < self.of
+        return f", {len(self.joints)} joints of {self.of} with the largest {self.by}" if left_out else ""
+
+
+def real_joints(dataset: xr.Dataset) -> Detailed:
+    """Return the joints with clearance, of many those that are pressed hardest."""
+    real = np.flatnonzero(np.isfinite(dataset["clearance"].values))
+    pressure = (
+        dataset["pressure_max"].values if "pressure_max" in dataset else np.zeros((1, dataset.sizes["joint"]))
+    )
+    return _largest(real, np.nan_to_num(pressure).max(axis=0, initial=0.0), "pressures")
+
+
+def loaded_joints(dataset: xr.Dataset) -> Detailed:
+    """Return the joints, of many those that carry most."""
+    force = np.linalg.norm(np.nan_to_num(dataset["reaction_force"].values), axis=-1).max(axis=0, initial=0.0)
+    return _largest(np.arange(force.size), force, "forces")
+
+
+def _largest(joints: IntArray, values: FloatArray, by: str) -> Detailed:
+    order = np.argsort(-values[joints], kind="stable")[:MOST]
+    return Detailed(np.sort(joints[order]).tolist(), joints.size, by)
 
 
 def _names(dataset: xr.Dataset) -> list[str]:
@@ -39,13 +82,16 @@ def _names(dataset: xr.Dataset) -> list[str]:
 
 
 def reactions(dataset: xr.Dataset) -> Payload | None:
-    """Return force and moment of every joint over time, in its own axes."""
+    """Return force and moment of joints over time, in their own axes."""
     force, moment = dataset["reaction_force"].values, dataset["reaction_moment"].values
+    names, chosen = _names(dataset), loaded_joints(dataset)
     parts = {
-        name: over_time(dataset, [_vector("force [N]", force[:, j]), _vector("moment [N m]", moment[:, j])])
-        for j, name in enumerate(_names(dataset))
+        names[j]: over_time(
+            dataset, [_vector("force [N]", force[:, j]), _vector("moment [N m]", moment[:, j])]
+        )
+        for j in chosen.joints
     }
-    return choice("lines", "joint", parts)
+    return choice("lines", f"joint{chosen.which}", parts)
 
 
 def _vector(label: str, values: FloatArray) -> Panel:
@@ -61,8 +107,9 @@ def orbits(dataset: xr.Dataset) -> Payload | None:
     times = playback_times(dataset)
     if times.size < 2:
         return None
-    names = _names(dataset)
-    return choice("orbit", "joint", {names[j]: _orbit(dataset, j, times) for j in real_joints(dataset)})
+    names, chosen = _names(dataset), real_joints(dataset)
+    parts = {names[j]: _orbit(dataset, j, times) for j in chosen.joints}
+    return choice("orbit", f"joint{chosen.which}", parts)
 
 
 def _orbit(dataset: xr.Dataset, joint: int, times: FloatArray) -> dict[str, Any]:
@@ -117,23 +164,32 @@ def _maps(
         parts[surface] = laid.payload(
             fields / size, label, unit, lambda peaks: room * float(np.median(peaks[peaks > 0.0]))
         )
-    return choice("field", "surface", parts)
+    return choice("field", f"surface{real_joints(dataset).which}", parts)
 
 
 def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
-    """Yield each surface's name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows)."""
-    field = np.nan_to_num(dataset[name].values)
+    """Yield name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows), of the surfaces.
+
+    Of many joints, those of the joints that are pressed hardest.
+    """
+    names = _names(dataset)
+    chosen = [names[j] for j in real_joints(dataset).joints]
     if "film" in dataset[name].dims:
         theta = dataset["film_angle"].values
         for k, film in enumerate(dataset["film"].values):
-            yield f"{film}:film", dataset["film_place"].values[k], theta, field[:, k]
+            if str(film) in chosen:
+                field = np.nan_to_num(dataset[name].isel(film=k).values)
+                yield f"{film}:film", dataset["film_place"].values[k], theta, field
         return
-    field = field if field.ndim == 4 else field[None]
     for k, surface in enumerate(dataset["surface"].values):
+        if str(surface).rpartition(":")[0] not in chosen:
+            continue
+        field = np.nan_to_num(dataset[name].isel(surface=k).values)
+        field = field if field.ndim == 3 else field[None]
         place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
         rows, columns = np.append(np.diff(place) > 0.0, True), np.append(np.diff(theta) > 0.0, True)
         if np.count_nonzero(rows) > 1:
-            own = field[:, k][:, rows][:, :, columns]
+            own = field[:, rows][:, :, columns]
             yield str(surface), place[rows], theta[columns], own.transpose(0, 2, 1)
 
 
