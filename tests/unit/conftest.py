@@ -167,7 +167,12 @@ def _fields(t: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]
         "z": z,
     }
     worn = 1e-12 * (_pressure(theta, z, 1.0, 1.0) + _pressure(theta, z, -1.0, 0.7)) / 90e6
-    return coordinates, {"pressure": pressure, "pressure_cycle": film, "wear_depth": worn}
+    return coordinates, {
+        "pressure": pressure,
+        "pressure_cycle": film,
+        "wear_depth": worn,
+        "partner_wear_depth": 0.2 * worn,
+    }
 
 
 @pytest.fixture(scope="session")

@@ -24,6 +24,8 @@ from tribodyn.mechanisms.checks import instant, named, of_contact, of_damping_pr
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.wear import resampled
 
+_NOTED: Final = 4
+"""Surfaces of which the same is noted."""
 _SAMPLES: Final = 24
 _FINER: Final = 4
 _FORCE: Final = ("F_cx", "F_cy", "F_cz")
@@ -109,13 +111,17 @@ class Contacts:
         return said
 
     def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:
-        """Return what to read the pressures of each surface with."""
-        pairs = zip(self.names, peaks["pressure_peak"], found["pressure_at_rest"], strict=True)
-        return [
-            text
-            for name, peak, at_rest in pairs
-            for text in named(name, [of_damping_pressure(float(peak), float(at_rest))])
-        ]
+        """Return what to read the pressures with, of many surfaces those in which damping carries most."""
+        pressure, at_rest = peaks["pressure_peak"], found["pressure_at_rest"]
+        said = {
+            s: text
+            for s, name in enumerate(self.names)
+            for text in named(name, [of_damping_pressure(float(pressure[s]), float(at_rest[s]))])
+        }
+        most = sorted(said, key=lambda s: float(at_rest[s] - pressure[s]))[:_NOTED]
+        left_out = len(said) - len(most)
+        more = [f"The same of {left_out} more surfaces, where damping carries less."] if left_out else []
+        return [said[s] for s in sorted(most)] + more
 
     def _on_finer_grid(
         self, data: SurfaceData, rows: Mapping[str, FloatArray], openings: FloatArray
