@@ -38,6 +38,23 @@ def test_errors_of_two_joints_add_up(folder: Path) -> None:
     assert way.together == pytest.approx(sum(alone.values()), rel=0.01)
 
 
+def test_superposition_is_that_of_the_closed_form(folder: Path) -> None:
+    # A rod that carries no other load: clearance over cos β for each pin, and the sum of both together.
+    drawn = press(radial="20 um", friction_coefficient="0", **PIN)
+    drawn = drawn.clearance("crankpin", radial="40 um", friction_coefficient="0", **PIN)
+    found = {one.output: one for one in contributions(drawn.case(), directory=folder / "smooth", workers=0)}
+    way = found["way"]
+    assert way.causes == ("clearance", "tilt", "friction")
+    assert way.estimated == pytest.approx(60.0 * (1.0 - (CRANK / ROD) ** 2) ** -0.25, rel=2e-3)
+    share = dict(zip(way.joints, way.estimate, strict=True))
+    assert share["crankpin"] == pytest.approx([2.0 / 3.0, 0.0, 0.0], abs=2e-3)
+    assert share["wrist"] == pytest.approx([1.0 / 3.0, 0.0, 0.0], abs=2e-3)
+    # Roughness of 1.6 µm holds both pins apart, which makes the simulated error smaller.
+    simulated = dict(zip(way.joints, way.shares, strict=True))
+    assert simulated["crankpin"] == pytest.approx(share["crankpin"].sum(), abs=0.03)
+    assert 0.0 < way.estimated - way.together < 2.0 * 4.0 * 1.634
+
+
 def test_shares_are_those_of_results_in_the_folder(folder: Path) -> None:
     # The runs of the test above are found again; the folder holds one result for each run.
     drawn = press(radial="20 um", **PIN).clearance("crankpin", radial="40 um", **PIN)

@@ -243,3 +243,28 @@ def test_backward_signals_have_the_values_of_the_opposite_time() -> None:
             )
     kept = backward(forward, [1])
     assert evaluate(kept, 0, 0.3, 0.3) == evaluate(forward, 0, 0.3, 0.3)
+
+
+def test_superposition_shows_tilt_and_friction() -> None:
+    # A lever on one bearing of 20 mm, pushed 50 mm beside its middle: the shaft lies on both ends, tilted by
+    # twice the clearance over the length. Pushed in the middle it lies straight, at the angle of friction.
+    def lever(height: str) -> xr.Dataset:
+        drawn = (
+            td.Mechanism("Lever", run={"cycles": 1, "output_interval": "50 ms", "analysis": "kinematic"})
+            .body("lever", mass="1 g", centre="0, 0, 0 mm", inertia="1e-9, 1e-9, 1e-9 kg m^2")
+            .revolute("pivot", "ground", "lever", point="0, 0, 0 mm", axis=[0, 0, 1])
+            .clearance("pivot", radial="20 um", friction_coefficient=str(FRICTION), **PIN)
+            .drive("motor", "pivot", speed="60 rpm")
+            .load("push", "lever", direction=[1, 0, 0], point=f"0, 0, {height}", force="100 N")
+            .output("top", "lever", point="0, 0, 100 mm", along=[1, 0, 0])
+            .output("side", "lever", point="0, 0, 0 mm", along=[0, 1, 0])
+        )
+        return td.simulate(drawn)
+
+    straight, tilted = (column(lever(height), "error_estimate")[:, :, 0] for height in ("0 mm", "50 mm"))
+    angle = math.atan(FRICTION)
+    assert straight[:, 0, 0] == pytest.approx(20e-6, rel=1e-3)
+    assert straight[:, 0, 1] == pytest.approx(0.0, abs=1e-10)
+    assert straight[:, 0, 2] == pytest.approx(20e-6 * (math.cos(angle) - 1.0), rel=1e-3)
+    assert np.abs(straight[:, 1, 2]) == pytest.approx(20e-6 * math.sin(angle), rel=1e-3)
+    assert tilted[:, 0, 1] == pytest.approx(100e-3 * 2.0 * 20e-6 / 20e-3, rel=2e-2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
@@ -55,11 +56,17 @@ def execute(args: Namespace) -> int:
 def _tell(one: OutputShares, console: Console) -> None:
     """Print the shares of the joints in the error of an output, the largest first."""
     unit = one.unit
-    console.say(f"\nError of {one.output}, root mean square: {one.together:.4g} {unit}\n")
-    console.say(f"  {'joint':<24}{'alone':>12} {unit:<6}{'share':>10}")
+    known = math.isfinite(one.estimated)
+    console.say(f"\nError of {one.output}, root mean square: {one.together:.4g} {unit}")
+    if known:
+        console.say(f"By superposition of smooth, rigid joints: {one.estimated:.4g} {unit}")
+    heads = ("by superposition", *one.causes) if known else ()
+    console.say(f"\n  {'joint':<24}{'alone':>12} {unit:<6}{'share':>10}" + "".join(f"{h:>18}" for h in heads))
     for k in (-one.shares).argsort():
-        console.say(f"  {one.joints[k]:<24}{one.alone[k]:>12.4g} {unit:<6}{one.shares[k]:>9.1%}")
-    console.say(f"  {'only together':<24}{'':>12} {'':<6}{one.interaction:>9.1%}")
+        parts = (one.estimate[k].sum(), *one.estimate[k]) if known else ()
+        row = f"  {one.joints[k]:<24}{one.alone[k]:>12.4g} {unit:<6}{one.shares[k]:>10.1%}"
+        console.say(row + "".join(f"{part:>18.1%}" for part in parts))
+    console.say(f"  {'only together':<24}{'':>12} {'':<6}{one.interaction:>10.1%}")
 
 
 def _as_json(one: OutputShares) -> dict[str, object]:
@@ -69,4 +76,13 @@ def _as_json(one: OutputShares) -> dict[str, object]:
         "alone": dict(zip(one.joints, one.alone.tolist(), strict=True)),
         "shares": dict(zip(one.joints, one.shares.tolist(), strict=True)),
         "interaction": one.interaction,
+        "superposition": {
+            "together": one.estimated,
+            "shares": {
+                joint: dict(zip(one.causes, parts.tolist(), strict=True))
+                for joint, parts in zip(one.joints, one.estimate, strict=True)
+            },
+        }
+        if math.isfinite(one.estimated)
+        else None,
     }

@@ -9,10 +9,14 @@ several cycles without the first),
 A share is the part of the mean square error that varies together with the error of that joint (a variance is
 divided into covariances in the same way); it is below zero for a joint that compensates others. The
 interaction is what joints cause only together.
+
+Beside it stands the estimate by superposition (:mod:`tribodyn.mechanisms.general.superposition`), which takes
+one kinematic analysis: smooth, rigid surfaces, every shaft against one side of its bore.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,6 +33,7 @@ from tribodyn.mechanisms.results import read
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, settled
 from tribodyn.results.store import POINTS
+from tribodyn.simulation import simulate
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of
 from tribodyn.studies.sweep import Means, Watcher, run
 
@@ -54,6 +59,12 @@ class OutputShares:
         The same with all.
     shares
         Part of the mean square error that each joint causes [1], shape (n_joints,).
+    estimated
+        Root mean square error with all joints by superposition, in that unit; NaN where there is none.
+    estimate
+        Part of its mean square that each joint causes [1], shape (n_joints, n_causes).
+    causes
+        What that is divided into: clearance, tilt, friction; empty without an estimate.
     """
 
     output: str
@@ -62,6 +73,9 @@ class OutputShares:
     alone: FloatArray
     together: float
     shares: FloatArray
+    estimated: float
+    estimate: FloatArray
+    causes: tuple[str, ...]
 
     @property
     def interaction(self) -> float:
@@ -112,7 +126,8 @@ def contributions(
         if text:
             raise TribodynError(f"a run failed: {text}")
     whole, *alone = (read(folder / POINTS / point.name) for point in plan.points)
-    shares = [_shares_of(str(output), whole, alone, joints) for output in whole["output"].values]
+    ideal = _kinematic(chosen)
+    shares = [_shares_of(str(output), whole, alone, joints, ideal) for output in whole["output"].values]
     known = tuple(one for one in shares if np.isfinite(one.together))
     if not known:
         raise TribodynError("no output has an ideal value that it could be compared with")
@@ -148,13 +163,37 @@ def _plan(case: Case, joints: Sequence[str]) -> SweepPlan:
     return plan_of(case, (Axis("run", columns),))
 
 
+def _kinematic(case: Case) -> xr.Dataset | None:
+    """Return the kinematic analysis of a case; None where it has none."""
+    try:
+        return simulate(case.replace({"run.analysis": "kinematic", "run.directions": "forward"}))
+    except InputError:
+        return None
+
+
+def _estimated(output: str, joints: tuple[str, ...], ideal: xr.Dataset | None) -> tuple[float, FloatArray]:
+    """Return the root mean square error by superposition [SI], and its shares, (n_joints, n_causes)."""
+    if ideal is None or ideal.attrs["failure"]:
+        return math.nan, np.zeros((len(joints), 0))
+    parts = ideal["error_estimate"].sel(output=output, joint=list(joints)).values
+    time, total = column(ideal, "time"), parts.sum(axis=(1, 2))
+    square = _mean(time, total * total)
+    found = [[_mean(time, one * total) / square for one in of_joint.T] for of_joint in parts.swapaxes(0, 1)]
+    return math.sqrt(square), np.array(found)
+
+
 def _shares_of(
-    output: str, whole: xr.Dataset, alone: Sequence[xr.Dataset], joints: tuple[str, ...]
+    output: str,
+    whole: xr.Dataset,
+    alone: Sequence[xr.Dataset],
+    joints: tuple[str, ...],
+    ideal: xr.Dataset | None,
 ) -> OutputShares:
     time, error = settled(whole, column(whole, "time")), settled(whole, _error(whole, output))
     errors = [np.interp(time, column(one, "time"), _error(one, output)) for one in alone]
     square = _mean(time, error * error)
     unit = ERROR_UNITS[str(whole["output_unit"].sel(output=output).values)]
+    estimated, estimate = _estimated(output, joints, ideal)
     return OutputShares(
         output,
         unit.shown,
@@ -162,6 +201,9 @@ def _shares_of(
         unit.scale * np.array([np.sqrt(_mean(time, one * one)) for one in errors]),
         unit.scale * float(np.sqrt(square)),
         np.array([_mean(time, one * error) / square for one in errors]),
+        unit.scale * estimated,
+        estimate,
+        () if ideal is None else tuple(ideal["cause"].values.tolist())[: estimate.shape[1]],
     )
 
 

@@ -17,18 +17,16 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.ideal_motion import (
     IdealMechanism,
     in_body_axes,
-    in_global_axes,
-    motion_of,
     unreached,
 )
 from tribodyn.mechanisms.general.outputs import Output
 from tribodyn.mechanisms.general.positions import DrivePath, walked
+from tribodyn.mechanisms.general.superposition import responses
 
 
 def require_motion(assembly: Assembly) -> None:
@@ -98,20 +96,8 @@ def velocity_ratios(assembly: Assembly, outputs: Sequence[Output], times: FloatA
         In the units of output and drive, shape (n_t, n_outputs, n_drives); NaN where joints do not close.
     """
     mechanism = IdealMechanism(assembly)
-    states, system = mechanism.follow(times), mechanism.system
-    driven = [system.rows.index((k, m)) for k, m, _ in system.drive_rows()]
-    signs = [assembly.model.joint(k).sign for k, _, _ in system.drive_rows()]
-    found = np.full((times.size, len(outputs), len(driven)), np.nan)
-    moved = np.zeros((len(driven), *states.shape))
-    for i, state in enumerate(states):
-        mechanism.put(times[i], state)
-        scaled, root, length = system.scaled()
-        velocities = root @ (system.inverse(scaled) / length)[:, driven] * signs
-        for d, velocity in enumerate(velocities.T):
-            parts = velocity.reshape(-1, 6)
-            system.now.bodies.v[:-1], system.now.bodies.w[:-1] = parts[:, :3], parts[:, 3:]
-            collect(system.now.bodies, moved[d, i])
-    for d, of_drive in enumerate(moved):
-        motion = motion_of(in_global_axes(of_drive))
-        found[: len(states), :, d] = np.stack([output.rate(motion) for output in outputs], axis=1)
-    return found
+    rows = mechanism.system.drive_rows()
+    unit_rates = np.zeros((len(mechanism.system.rows), len(rows)))
+    for drive, (k, m, _) in enumerate(rows):
+        unit_rates[mechanism.system.rows.index((k, m)), drive] = assembly.model.joint(k).sign
+    return responses(mechanism, outputs, times, lambda position: unit_rates)

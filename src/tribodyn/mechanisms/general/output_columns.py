@@ -2,26 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.shapes import Ball, Cylinder, Sphere
 from tribodyn.mechanisms.general.actions import GIVEN
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.ideal_motion import compared
+from tribodyn.mechanisms.general.ideal_motion import IdealMechanism
 from tribodyn.mechanisms.general.kinematics import velocity_ratios
-from tribodyn.mechanisms.general.outputs import Motion, Output
-from tribodyn.mechanisms.general.positions import DrivePath
+from tribodyn.mechanisms.general.model import model_of
+from tribodyn.mechanisms.general.outputs import Output
+from tribodyn.mechanisms.general.superposition import CAUSES, JointReaction, superposed
+
+_SIGNED: Final = ("distance", "angle")
+"""Quantities whose errors have a sign without a direction."""
 
 
-def output_columns(
-    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, motion: Motion, analysis: str
-) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
-    """Return outputs with their ideal values and errors, of a kinematic analysis their ratios, and notes."""
-    columns, notes = compared(assembly, outputs, path, motion)
-    if analysis == "kinematic":
-        columns["output_ratio"] = velocity_ratios(assembly, outputs, path.times)
-    return columns, notes
+def kinematic_columns(
+    assembly: Assembly, outputs: Sequence[Output], times: FloatArray, couplings: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return velocity ratios of outputs, and their errors by superposition of the joints with clearance.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism of ideal joints.
+    outputs
+        At least one.
+    times
+        Rising, from 0 [s], shape (n_t,).
+    couplings
+        What is observed of joints, see :class:`~.variables.Observed`.
+    """
+    case = assembly.model.case
+    shape = (times.size, len(outputs), len(case.joints), len(CAUSES))
+    estimate, real = np.zeros(shape), {}
+    for name, clearance in model_of(case).clearances.items():
+        k, keys = assembly.model.joints.index(name), case.joints[name].clearance
+        known = clearance.film is None and isinstance(clearance.shape, (Cylinder, Sphere, Ball))
+        estimate[:, :, k] = 0.0 if known else np.nan
+        if known and keys is not None:
+            force, moment = couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k]
+            spin = couplings["relative_rate"][:, k, 2]
+            real[k] = JointReaction(clearance, keys.friction_coefficient, force, moment, spin)
+    if real:
+        estimate[:, :, list(real)] = superposed(IdealMechanism(assembly), outputs, times, real)
+    signed = [output.keys.quantity in _SIGNED or output.keys.along is not None for output in outputs]
+    estimate[:, ~np.array(signed)] = np.nan
+    return {
+        "output_ratio": velocity_ratios(assembly, outputs, times),
+        "error_estimate": estimate,
+    }
 
 
 def output_coordinates(case: MechanismCase, outputs: Sequence[Output]) -> dict[str, list[str]]:
@@ -32,5 +67,5 @@ def output_coordinates(case: MechanismCase, outputs: Sequence[Output]) -> dict[s
     return {
         "output": [output.name for output in outputs],
         "output_unit": [output.unit for output in outputs],
-        **({"drive": drives} if case.run.analysis == "kinematic" else {}),
+        **({"drive": drives, "cause": list(CAUSES)} if case.run.analysis == "kinematic" else {}),
     }

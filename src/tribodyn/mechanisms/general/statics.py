@@ -120,7 +120,7 @@ class _Equilibria:
         if k >= len(self._ideal):
             raise IntegrationFailure(float(self._path.times[number]), self._reason)
         centred, direction = self._ideal[k], float(self._path.forward[number])
-        starts = [self._expected(number), centred] if self._ways else [centred]
+        starts = [*(self._displaced(number, ways) for ways in self._expected()), centred]
         for start in starts:
             self._loads.at(t, start.ravel(), direction)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
@@ -133,10 +133,15 @@ class _Equilibria:
             "contact law do not balance the loads",
         )
 
-    def _expected(self, number: int) -> FloatArray:
-        """Return the ideal state, displaced as the equilibria before suggest, shape (n_bodies, 13)."""
+    def _expected(self) -> list[FloatArray]:
+        """Return displacements that the equilibria before suggest, the best first, (n_bodies, 6) each."""
+        if len(self._ways) < 2:
+            return self._ways
+        return [2.0 * self._ways[-1] - self._ways[-2], self._ways[-1]]
+
+    def _displaced(self, number: int, ways: FloatArray) -> FloatArray:
+        """Return the ideal state, displaced, shape (n_bodies, 13)."""
         found = self._ideal[self._where[number]].copy()
-        ways = self._ways[-1] if len(self._ways) < 2 else 2.0 * self._ways[-1] - self._ways[-2]
         found[:, :ORIENTATION] += ways[:, :3]
         turned = Rotation.from_rotvec(ways[:, 3:]) * rotations(found[:, ORIENTATION:VELOCITY])
         found[:, ORIENTATION:VELOCITY] = np.roll(turned.as_quat(), 1, axis=1)

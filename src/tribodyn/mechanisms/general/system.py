@@ -28,11 +28,12 @@ from tribodyn.mechanisms.general.element_numbers import transmitted
 from tribodyn.mechanisms.general.films import film_columns, film_coordinates, film_maps, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
+from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
-from tribodyn.mechanisms.general.output_columns import output_columns, output_coordinates
+from tribodyn.mechanisms.general.output_columns import kinematic_columns, output_coordinates
 from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
@@ -344,7 +345,10 @@ class MechanismSystem:
             return {}, ()
         motion = Motion(**{field.name: found.bodies[field.name] for field in fields(Motion)})
         path = DrivePath(run.solution.t, self.case.turn)
-        return output_columns(self.assembly, self.outputs, path, motion, self._analysis)
+        columns, notes = compared(self.assembly, self.outputs, path, motion)
+        if self._analysis == "kinematic":
+            columns |= kinematic_columns(self.assembly, self.outputs, path.times, found.couplings)
+        return columns, notes
 
     def _clearances(self) -> FloatArray:
         real = self.model.clearances

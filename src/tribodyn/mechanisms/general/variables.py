@@ -22,6 +22,7 @@ ENTRIES: Final = ("w", *AXES)
 _VECTOR: Final = ("axis",)
 _ELEMENT: Final = (*TIME, "element")
 _OUTPUT: Final = (*TIME, "output")
+_CAUSE: Final = (*TIME, "output", "joint", "cause")
 _RATIO: Final = (*TIME, "output", "drive")
 _QUATERNION: Final = ("entry",)
 _COMPONENTS: Final = {1: (), 3: _VECTOR, 4: _QUATERNION}
@@ -101,6 +102,10 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
     "output_ideal": Variable("1", "value with ideal joints and the same drives, in its unit", _OUTPUT),
     "output_error": Variable("1", "difference from the ideal motion, in the unit of the output", _OUTPUT),
     "drive": Variable("", "name of the drive", ("drive",), named=True, names="drives"),
+    "cause": Variable("", "what an estimated error is divided into", ("cause",), named=True),
+    "error_estimate": Variable(
+        "1", "error that a joint causes, by superposition, in the unit of the output", _CAUSE
+    ),
     "output_ratio": Variable("1", "rate of the output for a unit rate of one drive, SI units", _RATIO),
 }
 """Of what is compared with the ideal motion; an error in all directions is the length of a vector."""

@@ -66,6 +66,7 @@ def result(failure: str = "") -> xr.Dataset:
             "entry": ["w", "x", "y", "z"],
             "output": ["slider"],
             "output_unit": ["m"],
+            "cause": ["clearance", "tilt", "friction"],
             "frame": np.arange(float(N)),
             "frame_time": t,
             "row": np.arange(4.0),
@@ -81,6 +82,7 @@ def result(failure: str = "") -> xr.Dataset:
             **energy,
             **{name: zero for name in rest},
             "output_error": 2e-5 * np.cos(turn)[:, None],
+            "error_estimate": 1e-5 * np.cos(turn)[:, None, None, None] * np.ones((1, 4, 3)),
         },
         fields={
             "clearance": np.array([np.nan, np.nan, 20e-6, np.nan]),

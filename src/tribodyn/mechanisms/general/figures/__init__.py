@@ -8,13 +8,21 @@ from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Animation, Family
 from tribodyn.mechanisms.general.figures import film, joints, mechanism, solids
 from tribodyn.mechanisms.general.ledger import LEDGERS
-from tribodyn.mechanisms.general.sections.charts import CLEARANCES, FILMS, JOINT_FORCES, MOTION, OUTPUT_ERRORS
+from tribodyn.mechanisms.general.sections.charts import (
+    CLEARANCES,
+    ERROR_ESTIMATES,
+    FILMS,
+    JOINT_FORCES,
+    MOTION,
+    OUTPUT_ERRORS,
+)
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         mechanism.FAMILY,
         chart.family(OUTPUT_ERRORS),
+        chart.family(ERROR_ESTIMATES),
         chart.family(JOINT_FORCES),
         chart.family(MOTION),
         joints.ORBITS,

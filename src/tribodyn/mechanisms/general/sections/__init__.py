@@ -11,6 +11,7 @@ from tribodyn.mechanisms.general.sections import mechanism
 from tribodyn.mechanisms.general.sections.charts import (
     CLEARANCES,
     ENERGY,
+    ERROR_ESTIMATES,
     FILMS,
     JOINT_FORCES,
     MOTION,
@@ -35,6 +36,7 @@ CHAPTERS: Final = (
         OVER_TIME,
         (
             OUTPUT_ERRORS.section,
+            ERROR_ESTIMATES.section,
             REACTIONS,
             JOINT_FORCES.section,
             CLEARANCES.section,

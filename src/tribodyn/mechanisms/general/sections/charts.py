@@ -80,6 +80,29 @@ def output_errors(dataset: xr.Dataset) -> list[Panel]:
     return _panels(*panels)
 
 
+def error_estimates(dataset: xr.Dataset) -> list[Panel]:
+    """Return the errors that joints cause by superposition, a panel for each output [µm, °]."""
+    names = _names(dataset, "joint")
+    error = dataset["error_estimate"].values.sum(axis=-1)
+    units = [ERROR_UNITS[str(unit)] for unit in dataset["output_unit"].values]
+    return _panels(
+        *(
+            (f"error of {output} [{unit.shown}]", curves(names, unit.scale * error[:, k]))
+            for k, (output, unit) in enumerate(zip(_names(dataset, "output"), units, strict=True))
+        )
+    )
+
+
+ERROR_ESTIMATES: Final = Chart(
+    name="error_estimates",
+    title="Errors by superposition",
+    caption=(
+        "Error of each output that a joint causes by itself: smooth, rigid surfaces, the shaft against the "
+        "side of its bore that carries the reaction of the ideal joint."
+    ),
+    needs=("error_estimate", "output_unit", "output", "joint"),
+    panels=error_estimates,
+)
 OUTPUT_ERRORS: Final = Chart(
     name="output_errors",
     title="Errors of the outputs",
