@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from typing import Any, Final
@@ -223,8 +223,9 @@ class MechanismSystem:
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
-        energy = self._energy_missed(ledger, found)
-        if not energy:
+        energy = {WHOLE.attribute: WHOLE.fraction(ledger, self._least_energy(found))}
+        if self._analysis != "dynamic":
+            energy.clear()
             del ledger[WHOLE.residual]
         peaks = self._peaks(run)
         worn = self._worn(depth_of(run.problem.data.contact, self.maps.places))
@@ -310,12 +311,6 @@ class MechanismSystem:
         return (
             float(np.max(np.abs(forces), initial=0.0)) * self.case.solver.rtol * length_scale(self.assembly)
         )
-
-    def _energy_missed(self, ledger: Mapping[str, FloatArray], found: Observed) -> dict[str, float]:
-        """Return what the energy ledger misses, of its largest term; nothing where nothing is integrated."""
-        if self._analysis != "dynamic":
-            return {}
-        return {WHOLE.attribute: WHOLE.fraction(ledger, self._least_energy(found))}
 
     def _began(self, run: FinishedRun) -> dict[str, str]:
         """Return how a dynamic run with clearances began."""
