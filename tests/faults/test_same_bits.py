@@ -1,7 +1,7 @@
-"""The same case gives the same bits in every process of a machine, and with machine code for every processor.
+"""The same case gives the same bits in every process of a machine, and as on another processor.
 
-What kernels do not compile may still differ from one processor to another: elementary functions of the C
-library, NumPy and SciPy.
+Machine code is made for other processors, and NumPy, OpenBLAS and the C library are kept from using what this
+processor has beyond the oldest one that they support.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from llvmlite.binding import get_host_cpu_features
+from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
 from tribodyn.mechanisms.catalogue import built_in
 
@@ -52,6 +53,14 @@ PROCESSORS = {"generic": (), "haswell": AVX2, "skylake-avx512": AVX512}
 """Processors by LLVM's names, with what they need of this machine."""
 
 
+OLDEST = {
+    "NPY_DISABLE_CPU_FEATURES": " ".join(name for name in __cpu_dispatch__ if __cpu_features__[name]),
+    "OPENBLAS_CORETYPE": "Prescott",
+    "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable,-AVX512F",
+}
+"""Environment in which libraries choose functions as on the oldest processor."""
+
+
 def numbers(script: str, *arguments: str, **environment: str) -> dict[str, object]:
     """Return all numbers of a run in a process of its own; as text they read back exactly."""
     command = [sys.executable, "-c", script, *arguments]
@@ -63,12 +72,12 @@ def numbers(script: str, *arguments: str, **environment: str) -> dict[str, objec
 
 
 def hashes(processor: str, cache: Path, *cases: str) -> dict[str, object]:
-    """Return the hashes of short runs with machine code for a processor.
+    """Return the hashes of short runs with machine code for a processor, and libraries as on the oldest one.
 
     Without an empty list of features numba would add all that this machine has.
     """
-    environment = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(cache)}
-    found = numbers(BEGIN + HASHES, *cases, **environment)
+    compiled = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(cache)}
+    found = numbers(BEGIN + HASHES, *cases, **compiled, **OLDEST)
     assert found.pop("processor") == processor
     return found
 
@@ -91,9 +100,37 @@ def test_the_first_run_of_all_is_the_second_to_the_bit(tmp_path: Path) -> None:
     assert numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path)) == first
 
 
+LIBM = [b"sin", b"cos", b"tan", b"atan", b"atan2", b"exp", b"log", b"pow", b"tanh", b"hypot"]
+
+
 def test_code_for_another_processor_changes_no_bit_of_a_journal(tmp_path: Path) -> None:
     # The integrator and a joint; other cases take minutes to compile.
     assert hashes("generic", tmp_path, "journal-dry") == hashes_here("journal-dry")
+    compiled = list(tmp_path.rglob("*.nbc"))
+    assert compiled
+    # Names of external functions stand in the table of symbols.
+    assert not [name for path in compiled for name in LIBM if b"\0" + name + b"\0" in path.read_bytes()]
+
+
+FUNCTIONS = """
+import hashlib, json, math, sys
+import numpy as np
+x = np.random.default_rng(1).uniform(0.1, 9.0, 20000)
+matrix = x[:10000].reshape(100, 100)
+found = {
+    "C library": [math.exp(value) for value in x],
+    "NumPy": (np.tanh(x) + np.exp(x)).tolist(),
+    "OpenBLAS": (matrix @ matrix).tolist(),
+}
+hashes = {name: hashlib.sha256(repr(values).encode()).hexdigest() for name, values in found.items()}
+json.dump(hashes, sys.stdout)
+"""
+
+
+@pytest.mark.skipif(not get_host_cpu_features().get("fma", False), reason="needs a processor with FMA")
+def test_these_libraries_do_choose_by_the_processor() -> None:
+    here, there = numbers(FUNCTIONS), numbers(FUNCTIONS, **OLDEST)
+    assert all(here[library] != there[library] for library in here)
 
 
 @pytest.mark.long

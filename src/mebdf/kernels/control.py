@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mebdf.arrays import FloatArray
 from mebdf.kernels import state as at
 from mebdf.kernels.coefficients import SCALARS
+from mebdf.kernels.elementary import power
 from mebdf.kernels.history import rescale
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.mass import weigh
@@ -151,7 +152,7 @@ def newton_failed(state: Numbers, rows: FloatArray, massive: bool) -> None:
 def growth(rows: FloatArray, weight: int, k: int, safety: float) -> float:
     """Return by how much the step could grow with ``k`` back values."""
     error = SCALARS[k, 3] * norm(rows, at.HISTORY + k + 1, weight)
-    return 1.0 / (safety * error ** (1.0 / (k + 1)) + 1.0e-6)
+    return 1.0 / (safety * power(error, 1.0 / (k + 1)) + 1.0e-6)
 
 
 @kernel

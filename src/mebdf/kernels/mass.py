@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels.elementary import power
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.state import ERROR_WEIGHT, POWER, ROW_WEIGHT, TESTED, WEIGHT, Y
 
@@ -62,7 +63,7 @@ def weigh(mass: FloatArray, places: NDArray[np.int64], rows: FloatArray, h: floa
     """
     n = rows.shape[1]
     for i in range(n):
-        rows[WEIGHT, i] *= min(abs(h), 1.0) ** rows[POWER, i]
+        rows[WEIGHT, i] *= power(min(abs(h), 1.0), rows[POWER, i])
         rows[ERROR_WEIGHT, i] = rows[TESTED, i] * rows[WEIGHT, i]
     for i in range(n):
         scale = 0.0

@@ -24,6 +24,7 @@ from mebdf.kernels.acceptance import (
 )
 from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from mebdf.kernels.control import CAUTION, error_weight, newton_failed, norm, reject
+from mebdf.kernels.elementary import power
 from mebdf.kernels.history import push
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.mass import is_algebraic, multiply, product
@@ -329,7 +330,7 @@ def _test_error(
     error = SCALARS[k, 3] * norm(rows, at.STAGE_HISTORY + k + 1, weight)
     state.error = error
     if error > 1.0 and state.fixed == 0 and not _is_of_the_start(state, rows, mass, places, error):
-        shrink = 1.0 / (state.settings.shrink * error ** (1.0 / (k + 1)))
+        shrink = 1.0 / (state.settings.shrink * power(error, 1.0 / (k + 1)))
         reject(state, rows, min(0.9, max(0.1, shrink)), at.STAGE_HISTORY + k + 1, weight)
     elif state.last == 1:
         state.phase = ACCEPT

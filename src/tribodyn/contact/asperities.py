@@ -8,6 +8,7 @@ lies y_s below, and the asperities spread by σ_s < σ. With ξβσ of the surfa
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, replace
@@ -97,7 +98,8 @@ class AsperityLaw(ContactLaw):
         """The surfaces, with the spread of the asperity heights for a roughness."""
         if self.separation_from == "asperities":
             return self.pair
-        share = (1.0 - 3.717e-4 / self.pair.asperity_parameter**2) ** 0.5
+        eta = self.pair.asperity_parameter
+        share = math.sqrt(1.0 - 3.717e-4 / (eta * eta))
         first, second = self.pair.roughness
         return replace(self.pair, roughness=(share * first, share * second))
 

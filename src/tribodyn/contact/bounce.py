@@ -14,9 +14,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
 from scipy.optimize import brentq
 
+from mebdf.kernels.elementary import portable
 from tribodyn.contact.base import DESIGN_PRESSURE
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
@@ -131,7 +131,7 @@ def calibrating_scale(
         return 0.0
 
     def excess(logarithm: float) -> float:
-        scale = float(np.exp(logarithm))
+        scale = float(portable.exp(logarithm))
         made = bounce(table, onset=onset, design_pressure=design_pressure, scale=scale)
         return made.restitution - restitution
 
@@ -140,4 +140,4 @@ def calibrating_scale(
         low -= 2.0
     while excess(high) > 0.0:
         high += 2.0
-    return float(np.exp(brentq(excess, low, high, xtol=1.0e-7)))
+    return float(portable.exp(brentq(excess, low, high, xtol=1.0e-7)))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import lambertw
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 
 
@@ -84,7 +85,7 @@ def gonthier(restitution: FloatArray) -> FloatArray:
 
 def zhiying_qishao(restitution: FloatArray) -> FloatArray:
     """Return a = 3(1 − e²) exp(2(1 − e))/4, shape of ``restitution`` [1]."""
-    return np.asarray(lankarani_nikravesh(restitution) * np.exp(2.0 * (1.0 - restitution)))
+    return np.asarray(lankarani_nikravesh(restitution) * portable.exp(2.0 * (1.0 - restitution)))
 
 
 def flores(restitution: FloatArray) -> FloatArray:
@@ -99,8 +100,8 @@ def hu_guo(restitution: FloatArray) -> FloatArray:
 
 def kelvin_voigt(restitution: FloatArray) -> FloatArray:
     """Return 2ζ of ln e = −πζ/√(1 − ζ²), half a period of damped oscillation, shape of ``restitution``."""
-    logarithm = np.log(restitution)
-    return np.asarray(-2.0 * logarithm / np.hypot(np.pi, logarithm))
+    logarithm = portable.log(restitution)
+    return np.asarray(-2.0 * logarithm / portable.hypot(np.pi, logarithm))
 
 
 def calibrated(restitution: FloatArray) -> FloatArray:
@@ -115,14 +116,14 @@ def calibrated(restitution: FloatArray) -> FloatArray:
         middle = 0.5 * (low + high)
         too_lively = _restitution_of(middle) > restitution
         low, high = np.where(too_lively, middle, low), np.where(too_lively, high, middle)
-    return np.where(restitution < 1.0, -high / np.expm1(-high) - 1.0, 0.0)
+    return np.where(restitution < 1.0, -high / portable.expm1(-high) - 1.0, 0.0)
 
 
 def _restitution_of(t: FloatArray) -> FloatArray:
     """Return e = (1 − t/(exp(t) − 1)) / (t/(1 − exp(−t)) − 1), shape of ``t`` > 0."""
     # The powers of −t alone: exp(t) overflows for the smallest restitutions.
-    share = -t / np.expm1(-t)
-    return np.asarray((1.0 - share * np.exp(-t)) / (share - 1.0))
+    share = -t / portable.expm1(-t)
+    return np.asarray((1.0 - share * portable.exp(-t)) / (share - 1.0))
 
 
 DAMPING_FACTORS: dict[str, DampingFactor] = {
@@ -149,7 +150,7 @@ def rebound(ratio: FloatArray) -> FloatArray:
     """
     ratio = np.asarray(ratio, dtype=np.float64)
     damped = np.where(ratio > 0.0, ratio, 1.0)
-    argument = -(1.0 + damped) * np.exp(-1.0 - damped)
+    argument = -(1.0 + damped) * portable.exp(-1.0 - damped)
     return np.where(ratio > 0.0, (1.0 + lambertw(argument, k=0).real) / damped, 1.0)
 
 
@@ -158,4 +159,4 @@ def dashpot_rebound(damping_ratio: FloatArray) -> FloatArray:
 
     The contact ends where it began, at δ = 0, and the dashpot may pull before.
     """
-    return np.asarray(np.exp(-np.pi * damping_ratio / np.sqrt(1.0 - damping_ratio**2)))
+    return np.asarray(portable.exp(-np.pi * damping_ratio / np.sqrt(1.0 - damping_ratio**2)))

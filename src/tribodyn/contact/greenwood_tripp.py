@@ -32,14 +32,14 @@ class GreenwoodTripp(ContactLaw):
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
         """Return the pressure [Pa], shape of ``h_star`` [1]."""
         pair = self.pair
-        stress = 16.0 * math.sqrt(2.0) / 15.0 * math.pi * pair.asperity_parameter**2
+        stress = 16.0 * math.sqrt(2.0) / 15.0 * math.pi * (pair.asperity_parameter * pair.asperity_parameter)
         stress *= pair.composite_modulus * math.sqrt(pair.roughness_rms / pair.asperity_radius)
         return stress * asperity_integral(h_star, 2.5, 0.0, math.inf)
 
     def real_area_fraction(self, h_star: FloatArray) -> FloatArray:
         """Return the real contact area over the nominal one [1], shape of ``h_star`` [1]."""
-        meetings = (math.pi * self.pair.asperity_parameter) ** 2
-        return meetings * asperity_integral(h_star, 2.0, 0.0, math.inf)
+        meetings = math.pi * self.pair.asperity_parameter
+        return meetings * meetings * asperity_integral(h_star, 2.0, 0.0, math.inf)
 
     def contact_count(self, h_star: FloatArray) -> FloatArray:
         """Return the number of contacts per area [1/m²], shape of ``h_star`` [1]."""

@@ -20,6 +20,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.contact.asperities import AsperityLaw, Regime
 from tribodyn.contact.quadrature import height_integral
 from tribodyn.core.arrays import FloatArray
@@ -42,7 +43,7 @@ class JacksonGreen(AsperityLaw):
     @property
     def _yield_factor(self) -> float:
         """C [1], ν of the softer body."""
-        return 1.295 * math.exp(0.736 * self.pair.poisson_ratio[1])
+        return 1.295 * float(portable.exp(0.736 * self.pair.poisson_ratio[1]))
 
     @property
     def _yield_strain(self) -> float:
@@ -52,13 +53,13 @@ class JacksonGreen(AsperityLaw):
     @property
     def _growth(self) -> float:
         """B [1]."""
-        return 0.14 * math.exp(23.0 * min(self._yield_strain, LARGEST_STRAIN))
+        return 0.14 * float(portable.exp(23.0 * min(self._yield_strain, LARGEST_STRAIN)))
 
     @property
     def _critical(self) -> float:
         """δ_c over the spread of the asperities [1]."""
         slope = 0.5 * math.pi * self._yield_factor * self._yield_strain
-        return slope**2 * self.pair.asperity_radius / self.summits.roughness_rms
+        return (slope * slope) * self.pair.asperity_radius / self.summits.roughness_rms
 
     @property
     def regimes(self) -> tuple[Regime, ...]:
@@ -74,12 +75,12 @@ class JacksonGreen(AsperityLaw):
         flat, edge = math.pi * self.summits.asperity_parameter, ELASTIC * self._critical
         return (
             Regime(flat, 1.0, 0.0, edge),
-            Regime(flat * edge**-self._growth, 1.0 + self._growth, edge, math.inf),
+            Regime(flat * portable.power(edge, -self._growth), 1.0 + self._growth, edge, math.inf),
         )
 
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
         """Return P_k [Pa], shape of ``h_star`` [1]."""
-        stress = self.regimes[0].stress * self._critical**1.5
+        stress = self.regimes[0].stress * portable.power(self._critical, 1.5)
         beyond = height_integral(
             self.above_summits(h_star),
             lambda s: self._relative_load(s / self._critical),
@@ -91,7 +92,9 @@ class JacksonGreen(AsperityLaw):
     def _relative_load(self, w: FloatArray) -> FloatArray:
         """Return F/F_c [1] beyond the elastic range, shape of ``w`` [1]."""
         slope = 0.5 * math.pi * self._yield_factor * self._yield_strain
-        flattening = slope * np.sqrt(w) * (w / ELASTIC) ** (0.5 * self._growth)
-        hardness = 2.84 * -np.expm1(-0.82 * flattening**-0.7)
-        plastic = 4.0 * hardness / self._yield_factor * -np.expm1(-(w ** (5.0 / 9.0)) / 25.0) * w
-        return np.asarray(np.exp(-0.25 * w ** (5.0 / 12.0)) * w**1.5 + plastic)
+        flattening = slope * np.sqrt(w) * portable.power(w / ELASTIC, 0.5 * self._growth)
+        hardness = 2.84 * -portable.expm1(-0.82 * portable.power(flattening, -0.7))
+        plastic = (
+            4.0 * hardness / self._yield_factor * -portable.expm1(-portable.power(w, 5.0 / 9.0) / 25.0) * w
+        )
+        return np.asarray(portable.exp(-0.25 * portable.power(w, 5.0 / 12.0)) * w * np.sqrt(w) + plastic)

@@ -16,6 +16,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
+from mebdf.kernels.elementary import portable
 from tribodyn.contact.asperities import AsperityLaw, Regime
 
 
@@ -44,9 +45,9 @@ class KogutEtsion(AsperityLaw):
         plastic = 2.0 * math.pi * pair.hardness * pair.asperity_parameter
         yielding = plastic * pair.hardness_coefficient / 3.0
         return Regimes(
-            Regime(yielding * d**-0.5, 1.5, 0.0, d),
-            Regime(yielding * 1.03 * d**-0.425, 1.425, d, 6.0 * d),
-            Regime(yielding * 1.40 * d**-0.263, 1.263, 6.0 * d, 110.0 * d),
+            Regime(yielding * portable.power(d, -0.5), 1.5, 0.0, d),
+            Regime(yielding * 1.03 * portable.power(d, -0.425), 1.425, d, 6.0 * d),
+            Regime(yielding * 1.40 * portable.power(d, -0.263), 1.263, 6.0 * d, 110.0 * d),
             Regime(plastic, 1.0, 110.0 * d, math.inf),
         )
 
@@ -57,7 +58,7 @@ class KogutEtsion(AsperityLaw):
         flat = math.pi * pair.asperity_parameter
         return Regimes(
             Regime(flat, 1.0, 0.0, d),
-            Regime(0.93 * flat * d**-0.136, 1.136, d, 6.0 * d),
-            Regime(0.94 * flat * d**-0.146, 1.146, 6.0 * d, 110.0 * d),
+            Regime(0.93 * flat * portable.power(d, -0.136), 1.136, d, 6.0 * d),
+            Regime(0.94 * flat * portable.power(d, -0.146), 1.146, 6.0 * d, 110.0 * d),
             Regime(2.0 * flat, 1.0, 110.0 * d, math.inf),
         )

@@ -94,13 +94,14 @@ def lined(table: ContactTable, stiffness: float) -> ContactTable:
     gap: FloatArray = table.h_last - step * np.arange(count, -1, -1, dtype=np.float64)
     s = _separations(gap, separations, pressure, stiffness)
     share = 1.0 / (1.0 - pressure(s, 1) / stiffness)
-    bend = share**3 * pressure(s, 2) / stiffness
+    cube = share * share * share
+    bend = cube * pressure(s, 2) / stiffness
     nodes = np.column_stack(
         [
             pressure(s),
             step * share * pressure(s, 1),
             share**2 * damping(s),
-            step * (share**3 * damping(s, 1) + 2.0 * share * bend * damping(s)),
+            step * (cube * damping(s, 1) + 2.0 * share * bend * damping(s)),
         ]
     )
     return table_of_nodes(float(gap[0]), step, nodes)

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from scipy.special import erfc
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quadrature import gauss_legendre
 
@@ -19,12 +19,12 @@ _DECAY: Final = 40.0
 
 def density(z: FloatArray) -> FloatArray:
     """Return the standard normal density Φ(z), any shape."""
-    return np.asarray(np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi))
+    return np.asarray(portable.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi))
 
 
 def exceedance(z: FloatArray) -> FloatArray:
     """Return ∫_z^∞ Φ, the share of asperities higher than ``z``, any shape."""
-    return np.asarray(0.5 * erfc(z / np.sqrt(2.0)))
+    return np.asarray(0.5 * portable.erfc(z / np.sqrt(2.0)))
 
 
 def asperity_integral(
@@ -43,8 +43,8 @@ def asperity_integral(
     upper limit is cut where the density has died away.
     """
     h, t, half = _nodes(h_star, lower, upper)
-    integrand = 2.0 * t ** (2.0 * power + 1.0) * weight(h + t**2)
-    return np.asarray(half[..., 0] * (integrand @ _WEIGHTS))
+    integrand = 2.0 * portable.power(t, 2.0 * power + 1.0) * weight(h + t**2)
+    return np.asarray(half[..., 0] * np.sum(integrand * _WEIGHTS, axis=-1))
 
 
 def height_integral(
@@ -56,7 +56,7 @@ def height_integral(
     """
     h, t, half = _nodes(h_star, lower, upper)
     s = t**2
-    return np.asarray(half[..., 0] * ((2.0 * t * load(s) * density(h + s)) @ _WEIGHTS))
+    return np.asarray(half[..., 0] * np.sum(2.0 * t * load(s) * density(h + s) * _WEIGHTS, axis=-1))
 
 
 def _nodes(h_star: FloatArray, lower: float, upper: float) -> tuple[FloatArray, FloatArray, FloatArray]:

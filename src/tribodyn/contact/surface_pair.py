@@ -49,7 +49,7 @@ class SurfacePair:
     def composite_modulus(self) -> float:
         """E = 1/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂] [Pa]."""
         compliance = (
-            (1.0 - nu**2) / modulus
+            (1.0 - (nu * nu)) / modulus
             for modulus, nu in zip(self.young_modulus, self.poisson_ratio, strict=True)
         )
         return 1.0 / sum(compliance)
@@ -68,7 +68,7 @@ class SurfacePair:
     def critical_interference(self) -> float:
         """δ_c = (πKH/2E)² β [m], at which an asperity begins to yield."""
         ratio = math.pi * self.hardness_coefficient * self.hardness / (2.0 * self.composite_modulus)
-        return ratio**2 * self.asperity_radius
+        return (ratio * ratio) * self.asperity_radius
 
     @property
     def critical_interference_star(self) -> float:

@@ -102,7 +102,9 @@ def _check_onset(onset: float, smoothing_width: float) -> None:
 def _values_and_rises(values: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return values and step·slope at the nodes, shapes (n + 1,), from values on three more at each end."""
     beyond = _CENTRAL_DIFFERENCE.size // 2
-    return values[beyond:-beyond], np.correlate(values, _CENTRAL_DIFFERENCE, mode="valid")
+    n = values.size - 2 * beyond
+    rises = sum(weight * values[k : k + n] for k, weight in enumerate(_CENTRAL_DIFFERENCE))
+    return values[beyond:-beyond], np.asarray(rises)
 
 
 def _energy_from_above(pressure: FloatArray, rise: FloatArray, step: float) -> FloatArray:

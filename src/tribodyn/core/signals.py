@@ -184,8 +184,10 @@ def polyline(knots: ArrayLike, values: ArrayLike, corner: float) -> Signal:
 
 def pulse(begin: float, length: float, height: float) -> Signal:
     """Return height sin²(π (x − begin)/length) over one pulse, and zero elsewhere, as a table."""
+    from mebdf.kernels.elementary import portable
+
     phase = np.linspace(0.0, 1.0, 65)
-    return spline(begin + length * phase, height * np.sin(np.pi * phase) ** 2, closed=True)
+    return spline(begin + length * phase, height * portable.sin(np.pi * phase) ** 2, closed=True)
 
 
 def repeated(signal: Signal, n: int, rise: float = 0.0) -> Signal:

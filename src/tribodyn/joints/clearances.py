@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mebdf.kernels.elementary import portable
 from tribodyn.contact import Liner
 from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
@@ -246,7 +247,7 @@ def _reach(clearance: Clearance, nodes: FloatArray) -> tuple[float, float]:
     meant to slide, when nothing of it is left in the bore.
     """
     x, y, z = nodes[kernel.POSITION : kernel.NORMAL]
-    across = float(np.max(np.hypot(x, y)) + np.max(nodes[kernel.GAP]))
+    across = float(np.max(portable.hypot(x, y)) + np.max(nodes[kernel.GAP]))
     # Faces have no height: they stop the shaft themselves.
     return across, np.inf if clearance.slides or not np.ptp(z) else float(np.ptp(z))
 

@@ -18,8 +18,8 @@ from functools import lru_cache
 from typing import Final, Protocol
 
 import numpy as np
-from scipy.special import lambertw
 
+from mebdf.kernels.elementary import portable
 from tribodyn.contact import OURS
 from tribodyn.contact.base import MEMORYLESS, ContactLaw
 from tribodyn.contact.liner import Liner, lined
@@ -29,6 +29,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable
 
 INTERVALS: Final = 4096
+_ITERATIONS: Final = 8
+"""Far from the branch point at −1/e: the argument is above −2/e²."""
 
 
 class Cylinders(Protocol):
@@ -59,7 +61,8 @@ def lankarani_nikravesh(depth: FloatArray, modulus: float, cylinders: Cylinders)
     """Return force and slope at penetrations ``depth`` [m], shape (n,); ``modulus`` is composite [Pa]."""
     radius = cylinders.radius * cylinders.bore_radius / cylinders.clearance
     stiffness = 4.0 / 3.0 * modulus * math.sqrt(radius)
-    return stiffness * depth**1.5, 1.5 * stiffness * depth**0.5
+    root = np.sqrt(depth)
+    return stiffness * depth * root, 1.5 * stiffness * root
 
 
 def johnson(depth: FloatArray, modulus: float, cylinders: Cylinders) -> Curve:
@@ -68,14 +71,22 @@ def johnson(depth: FloatArray, modulus: float, cylinders: Cylinders) -> Curve:
     With x = f/(4πEc) the formula is x ln(ex) = −δ/4c, solved by the Lambert W function: ln(ex) = W₋₁(−eδ/4c).
     """
     compliance = 1.0 / (math.pi * modulus)
-    straight = 8.0 * cylinders.clearance * math.exp(-3.0)
+    straight = 8.0 * cylinders.clearance * portable.exp(-3.0)
     curved = np.clip(depth, 1e-300, straight)
-    logarithm = lambertw(-math.e * curved / (4.0 * cylinders.clearance), k=-1).real
-    load = 4.0 * cylinders.clearance / compliance * np.exp(logarithm - 1.0)
+    logarithm = _lower_lambert(-math.e * curved / (4.0 * cylinders.clearance))
+    load = 4.0 * cylinders.clearance / compliance * portable.exp(logarithm - 1.0)
     slope = 1.0 / (compliance * (-1.0 - logarithm))
     load = load + slope * np.maximum(depth - straight, 0.0)
     touching = depth > 0.0
     return cylinders.length * load * touching, cylinders.length * slope * touching
+
+
+def _lower_lambert(a: FloatArray) -> FloatArray:
+    """Return the w ≤ −1 with w eʷ = a, −1/e < a < 0, by Newton's method for w + ln(w/a) = 0."""
+    w = portable.log(-a) - portable.log(-portable.log(-a))
+    for _ in range(_ITERATIONS):
+        w = w * (1.0 - portable.log(w / a)) / (1.0 + w)
+    return np.asarray(w)
 
 
 POINT_CONTACTS: dict[str, Callable[[FloatArray, float, Cylinders], Curve]] = {

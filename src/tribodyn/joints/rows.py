@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
@@ -63,7 +64,7 @@ def _check_ring(row: Record, nodes: FloatArray) -> None:
 def _around(node: NDArray[np.int64], count: int) -> FloatArray:
     """Return cosine and sine of the angles of nodes in a ring of ``count``, and zeros, shape (3, n)."""
     theta = 2.0 * np.pi * node / count
-    return np.stack([np.cos(theta), np.sin(theta), np.zeros(theta.size)])
+    return np.stack([portable.cos(theta), portable.sin(theta), np.zeros(theta.size)])
 
 
 def angles_of(rows: Rows) -> FloatArray:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
+from mebdf.kernels.elementary import portable
 from tribodyn.contact.liner import Liner
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE
@@ -63,4 +63,5 @@ class Touch:
         peak = float(pressure_and_damping(table, gap / self.roughness)[0])
         pressing = int((table.nodes[:, 0] > _EDGE * peak).sum())
         edge = self.roughness * (table.h_first + (pressing - 1) / table.inverse_step)
-        return self.bore_radius * math.acos(min(max((clearance - edge) / (clearance - gap), -1.0), 1.0))
+        cosine = min(max((clearance - edge) / (clearance - gap), -1.0), 1.0)
+        return self.bore_radius * float(portable.acos(cosine))

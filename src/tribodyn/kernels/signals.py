@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final, NamedTuple
 
+from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import record_type
 from tribodyn.kernels.jit import kernel
@@ -60,7 +61,7 @@ def evaluate(signals: Signals, number: int, x: float, within: float) -> tuple[fl
     amplitude, frequency = signal.sine[0], signal.sine[1]
     if amplitude != 0.0:
         phase = frequency * x + signal.sine[2]
-        value += amplitude * math.sin(phase)
-        rate += amplitude * frequency * math.cos(phase)
-        second -= amplitude * frequency * frequency * math.sin(phase)
+        value += amplitude * sin(phase)
+        rate += amplitude * frequency * cos(phase)
+        second -= amplitude * frequency * frequency * sin(phase)
     return value, rate, second

@@ -9,8 +9,10 @@ from typing import Final
 import numpy as np
 from scipy.optimize import brentq, root
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.kernels import dense
 from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.lubrication.film import Film
 from tribodyn.lubrication.state import FilmState, film_state
@@ -52,7 +54,7 @@ class FilmEquilibrium:
     @property
     def eccentricity(self) -> float:
         """Distance of the centre from the axis of the bushing [m]."""
-        return float(np.hypot(*self.position))
+        return float(portable.hypot(*self.position))
 
     @property
     def eccentricity_ratio(self) -> float:
@@ -114,8 +116,8 @@ def film_equilibrium(film: Film, load: tuple[float, float], *, omega: float) -> 
         raise InputError(f"given {omega:g} rad/s; a film carries by rotation only", key="omega")
     at = _Evaluations(film.data(), film.memory(), float(omega))
     distance = _distance(film, at, size)
-    turned = math.atan2(load[1], load[0]) + at(np.array([distance, 0.0])).attitude_angle
-    position = _balanced(film, at, load, distance * np.array([math.cos(turned), math.sin(turned)]))
+    turned = portable.atan2(load[1], load[0]) + at(np.array([distance, 0.0])).attitude_angle
+    position = _balanced(film, at, load, distance * np.array([portable.cos(turned), portable.sin(turned)]))
     return FilmEquilibrium(film, load, omega, position, at(position))
 
 
@@ -167,7 +169,7 @@ def _balanced(film: Film, at: _Evaluations, load: tuple[float, float], guess: Fl
         missed, stiffness = residual(found)
     except InputError:
         raise _too_coarse(film, size) from None
-    if not np.linalg.norm(np.linalg.solve(stiffness, missed)) < _SETTLED:
+    if not dense.norm(dense.solve(stiffness, missed)) < _SETTLED:
         raise _too_coarse(film, size)
     return clearance * found
 
@@ -180,9 +182,9 @@ def _farthest(film: Film) -> tuple[float, bool]:
     """
     roughness, angle = film.roughness.combined, _THIN_CELLS * 2.0 * math.pi / film.grid.theta
     end = (1.0 - _MARGIN) * film.clearance + _DEEPEST * roughness
-    if roughness >= end * angle**2:
+    if roughness >= end * angle * angle:
         return end, True
-    return film.clearance / (1.0 + 0.5 * angle**2), False
+    return film.clearance / (1.0 + 0.5 * angle * angle), False
 
 
 def _too_much(at: _Evaluations, size: float) -> InputError:

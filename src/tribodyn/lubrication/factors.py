@@ -31,9 +31,11 @@ from typing import Final
 import numpy as np
 from scipy.optimize import brentq
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quadrature import gauss_legendre
+from tribodyn.kernels import dense
 from tribodyn.kernels.film.data import FlowTable
 
 
@@ -69,7 +71,8 @@ class Roughness:
         """Shares (σ_1/σ)² and (σ_2/σ)² of the variance [1]; halves for smooth surfaces."""
         if self.combined == 0.0:
             return 0.5, 0.5
-        return (self.rms[0] / self.combined) ** 2, (self.rms[1] / self.combined) ** 2
+        first, second = self.rms[0] / self.combined, self.rms[1] / self.combined
+        return first * first, second * second
 
 
 PEKLENIK: Final = (1 / 9, 1 / 6, 1 / 3, 1.0, 3.0, 6.0, 9.0)
@@ -112,14 +115,16 @@ def shear_factor(separation: FloatArray, peklenik: float) -> FloatArray:
 
 def _pressure_row(h: FloatArray, row: int) -> FloatArray:
     c, r, _ = PRESSURE[row]
-    return np.asarray(1.0 - c * np.exp(-r * h) if PEKLENIK[row] <= 1.0 else 1.0 + c * h**-r)
+    return np.asarray(
+        1.0 - c * portable.exp(-r * h) if PEKLENIK[row] <= 1.0 else 1.0 + c * portable.power(h, -r)
+    )
 
 
 def _shear_row(h: FloatArray, row: int) -> FloatArray:
     a, alpha_1, alpha_2, alpha_3, _ = SHEAR[row]
     low = np.minimum(h, BRANCH)
-    below = a * low**alpha_1 * np.exp(-alpha_2 * low + alpha_3 * low**2)
-    return np.asarray(below * np.exp(-0.25 * np.maximum(h - BRANCH, 0.0)))
+    below = a * portable.power(low, alpha_1) * portable.exp(-alpha_2 * low + alpha_3 * low**2)
+    return np.asarray(below * portable.exp(-0.25 * np.maximum(h - BRANCH, 0.0)))
 
 
 def _between(rows: Callable[[FloatArray, int], FloatArray], h: FloatArray, peklenik: float) -> FloatArray:
@@ -129,7 +134,7 @@ def _between(rows: Callable[[FloatArray, int], FloatArray], h: FloatArray, pekle
             f"a Peklenik number of {peklenik:g}; the flow factors are known from 1/9 to 9",
             key="film.peklenik",
         )
-    place = float(np.interp(np.log(peklenik), np.log(PEKLENIK), np.arange(len(PEKLENIK))))
+    place = float(np.interp(portable.log(peklenik), portable.log(PEKLENIK), np.arange(len(PEKLENIK))))
     row = min(int(place), len(PEKLENIK) - 2)
     share = place - row
     if share == 0.0:
@@ -144,7 +149,7 @@ _SERIES: Final = (1.0, 1 / 9, 1 / 33, 5 / 429)
 def couette_factor(separation: FloatArray) -> FloatArray:
     """Return φ_f at H = h/σ > 0, with z = H/3."""
     z = np.asarray(separation, dtype=np.float64) / 3.0
-    far = np.polynomial.polynomial.polyval(np.maximum(z, 10.0) ** -2, _SERIES)
+    far = np.polynomial.polynomial.polyval(1.0 / np.maximum(z, 10.0) ** 2, _SERIES)
     return np.where(
         z <= 1.0, _touching(np.minimum(z, 1.0)), np.where(z < 10.0, _apart(np.clip(z, 1.0, 10.0)), far)
     )
@@ -153,19 +158,23 @@ def couette_factor(separation: FloatArray) -> FloatArray:
 def _touching(z: FloatArray) -> FloatArray:
     """φ_f where the highest asperities touch."""
     tail = -55.0 + z * (132.0 + z * (345.0 + z * (-160.0 + z * (-405.0 + z * (60.0 + 147.0 * z)))))
-    return np.asarray(35.0 / 32.0 * z * ((1.0 - z**2) ** 3 * np.log(300.0 * (z + 1.0)) + tail / 60.0))
+    return np.asarray(35.0 / 32.0 * z * (_cube(1.0 - z**2) * portable.log(300.0 * (z + 1.0)) + tail / 60.0))
 
 
 def _apart(z: FloatArray) -> FloatArray:
     """φ_f where they do not."""
     gap = np.maximum(z - 1.0, 1e-300)
     tail = z / 15.0 * (66.0 + z**2 * (30.0 * z**2 - 80.0))
-    return np.asarray(35.0 / 32.0 * z * ((1.0 - z**2) ** 3 * np.log((z + 1.0) / gap) + tail))
+    return np.asarray(35.0 / 32.0 * z * (_cube(1.0 - z**2) * portable.log((z + 1.0) / gap) + tail))
+
+
+def _cube(x: FloatArray) -> FloatArray:
+    return x * x * x
 
 
 def pressure_shear_factor(separation: FloatArray) -> FloatArray:
     """Return φ_fp = 1 − 1.40 exp(−0.66 H), isotropic."""
-    return np.asarray(1.0 - 1.40 * np.exp(-0.66 * np.asarray(separation, dtype=np.float64)))
+    return np.asarray(1.0 - 1.40 * portable.exp(-0.66 * np.asarray(separation, dtype=np.float64)))
 
 
 COEFFICIENTS: Final = (-0.6912, 0.782, -0.304, 0.0401)
@@ -180,7 +189,7 @@ def contact_factor(separation: FloatArray) -> FloatArray:
     that it has no jump.
     """
     h = np.clip(separation, 0.0, 3.0)
-    return np.minimum(np.exp(np.polynomial.polynomial.polyval(h, COEFFICIENTS)), 1.0)
+    return np.asarray(np.minimum(portable.exp(np.polynomial.polynomial.polyval(h, COEFFICIENTS)), 1.0))
 
 
 def reach() -> float:
@@ -194,7 +203,7 @@ def mean_gap_nodes() -> tuple[FloatArray, FloatArray, FloatArray]:
     points, weights = gauss_legendre(8)
     half = 0.5 * (h[1] - h[0])
     samples = contact_factor((h[:-1] + half)[:, None] + half * points)
-    pieces = half * samples @ weights
+    pieces = half * dense.product(samples, weights)
     above = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
     return h, h[-1] - above, contact_factor(h)
 
@@ -226,8 +235,8 @@ def _factor_pieces(roughness: Roughness) -> FloatArray:
     # Inside by a hair: at a node each side keeps its own formula.
     inverse = np.maximum((left + points) / _PER_UNIT, 1.0 / _FAR)
     values = np.stack(_factors(roughness, 1.0 / inverse), axis=1)
-    to_coefficients = np.linalg.inv(np.vander(points, increasing=True))
-    return np.ascontiguousarray(values @ to_coefficients.T)
+    to_coefficients = dense.inverse(np.vander(points, increasing=True))
+    return np.ascontiguousarray(dense.product(values, to_coefficients.T))
 
 
 def _factors(roughness: Roughness, h: FloatArray) -> tuple[FloatArray, ...]:

@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.arrays import new_record
@@ -148,9 +149,9 @@ class Film:
     def _columns(self) -> NDArray[np.void]:
         """Return cosines and sines of the grid."""
         columns = np.zeros(self.grid.theta, dtype=Column)
-        columns["cos_node"], columns["sin_node"] = np.cos(self.theta), np.sin(self.theta)
+        columns["cos_node"], columns["sin_node"] = portable.cos(self.theta), portable.sin(self.theta)
         face = self.theta + np.pi / self.grid.theta
-        columns["cos_face"], columns["sin_face"] = np.cos(face), np.sin(face)
+        columns["cos_face"], columns["sin_face"] = portable.cos(face), portable.sin(face)
         return columns
 
     def _wear(self, wear: FloatArray | None) -> FloatArray:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.film.data import (
@@ -116,4 +116,4 @@ def film_state(
 def _attitude_angle(out: FloatArray, y: FloatArray) -> float:
     along = -(out[0] * y[0] + out[1] * y[1])
     across = -(out[0] * y[1] - out[1] * y[0])
-    return math.atan2(across, along)
+    return float(portable.atan2(across, along))

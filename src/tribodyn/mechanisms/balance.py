@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import ask
+from tribodyn.kernels import dense
 
 _MAX_ITERATIONS: Final = 4000
 """A step passes less than σ, and the way through the widest clearances is some hundreds of that."""
@@ -54,7 +55,7 @@ def damped_newton(
         # A little stiffness where there is none lets the shaft move to where there is some.
         floor = 1.0e-6 * np.abs(jacobian[:2, :2]).max(initial=1.0)
         damped = jacobian - np.diag(floor / scale**2)
-        step = np.asarray(np.linalg.solve(damped, -load), dtype=np.float64)
+        step = np.asarray(dense.solve(damped, -load), dtype=np.float64)
         length = float(np.abs(step / scale).max())
         if not np.isfinite(length):
             return None
@@ -69,11 +70,11 @@ def _line_search(
     residual: Residual, q: FloatArray, step: FloatArray, load: FloatArray, scale: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Halve the step up to five times until the residual is smaller; then take it all the same."""
-    size = float(np.linalg.norm(load * scale))
+    size = float(dense.norm(load * scale))
     share = 1.0
     for _ in range(5):
         trial, gradient = residual(q + share * step)
-        if np.linalg.norm(trial * scale) < size:
+        if dense.norm(trial * scale) < size:
             break
         share *= 0.5
     return q + share * step, trial, gradient

@@ -10,6 +10,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases import groups
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.temperature import Temperature
@@ -279,6 +280,6 @@ def grid_force_error(
         row = int(i)
         y = _attitude(rows, row)
         exact = joint_wrench(_at(fine, clearance, row), y)[:2]
-        largest = max(largest, float(np.hypot(*exact)))
-        error = max(error, float(np.hypot(*(joint_wrench(_at(coarse, clearance, row), y)[:2] - exact))))
+        largest = max(largest, float(portable.hypot(*exact)))
+        error = max(error, float(portable.hypot(*(joint_wrench(_at(coarse, clearance, row), y)[:2] - exact))))
     return error / largest if largest > 0.0 else 0.0

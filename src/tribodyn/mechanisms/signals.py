@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import signals as kinds
@@ -67,7 +68,7 @@ def integral_of(pieces: Pieces) -> Pieces:
     amplitude, frequency, phase = pieces.sine
     sine = (amplitude / frequency, frequency, phase - 0.5 * np.pi) if amplitude != 0.0 else (0.0, 0.0, 0.0)
     at_zero = int(np.searchsorted(pieces.until, 0.0, side="right"))
-    start = _value(polynomial[at_zero], -pieces.left[at_zero]) + sine[0] * np.sin(sine[2])
+    start = _value(polynomial[at_zero], -pieces.left[at_zero]) + sine[0] * portable.sin(sine[2])
     polynomial[:, 0] -= start
     return Pieces(pieces.until, pieces.left, polynomial, sine)
 

@@ -18,6 +18,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 
 _HIGHEST: Final = 8.0
@@ -49,7 +50,7 @@ def worn_roughness(roughness: float, depth: float, final: float) -> float:
         low, high = (level, high) if deeper else (low, level)
     level = 0.5 * (low + high)
     above = _above(level)
-    square = 1.0 - above - level * _density(level) + level**2 * above - worn**2
+    square = 1.0 - above - level * _density(level) + level * level * above - worn * worn
     return max(roughness * math.sqrt(max(square, 0.0)), final)
 
 
@@ -68,11 +69,11 @@ def loaded_depth(depth: FloatArray, node_area: FloatArray) -> float:
 
 
 def _density(x: float) -> float:
-    return math.exp(-0.5 * x * x) / math.sqrt(2.0 * math.pi)
+    return float(portable.exp(-0.5 * x * x) / math.sqrt(2.0 * math.pi))
 
 
 def _above(x: float) -> float:
-    return 0.5 * math.erfc(x / math.sqrt(2.0))
+    return float(0.5 * portable.erfc(x / math.sqrt(2.0)))
 
 
 def _depth(level: float) -> float:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes.base import Points, Surface, check_positive, no_points
 from tribodyn.joints.shapes.rings import Rings, across
@@ -45,14 +46,18 @@ class Ball:
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the band, weighed by the area of the bore."""
         n_theta, n_z = grid
-        band = math.acos(1.0 - self.clearance / self.radius) if self.band is None else self.band
-        edge = self.radius * math.sin(band)
+        band = portable.acos(1.0 - self.clearance / self.radius) if self.band is None else self.band
+        edge = self.radius * portable.sin(band)
         z, weight = across(-edge, edge, n_z)
-        ones, latitude = np.ones(z.size), np.arcsin(z / self.radius)
+        ones, latitude = np.ones(z.size), portable.asin(z / self.radius)
         rings = Rings(
-            self.radius * np.cos(latitude), z, ones, 0.0 * ones, (self.radius + self.clearance) * weight
+            self.radius * portable.cos(latitude),
+            z,
+            ones,
+            0.0 * ones,
+            (self.radius + self.clearance) * weight,
         )
-        gap = self.clearance + self.radius * (1.0 - np.cos(latitude))
+        gap = self.clearance + self.radius * (1.0 - portable.cos(latitude))
         return (rings.surface("ball", ("latitude", latitude), gap, n_theta, NO_TILT),)
 
     def points(self) -> Points:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quadrature import gauss_legendre_between
 from tribodyn.joints.shapes.base import Surface
@@ -63,7 +64,7 @@ class Rings:
             What turning does to the gaps.
         """
         theta = 2.0 * np.pi * np.arange(n_theta) / n_theta
-        around = np.stack([np.cos(theta), np.sin(theta), np.zeros(n_theta)])
+        around = np.stack([portable.cos(theta), portable.sin(theta), np.zeros(n_theta)])
         ones = np.ones(n_theta)
 
         def spread(radial: FloatArray, axial: FloatArray) -> FloatArray:

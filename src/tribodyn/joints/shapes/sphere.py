@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes.base import Points, Surface, check_positive
 from tribodyn.joints.shapes.rings import Rings, across
@@ -40,11 +41,12 @@ class Sphere:
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the band; weights are Gauss's in the sine of the latitude, over which area is uniform."""
         n_theta, n_latitude = grid
-        sine, weight = across(-math.sin(self.band), math.sin(self.band), n_latitude)
+        sine, weight = across(-portable.sin(self.band), portable.sin(self.band), n_latitude)
         cosine = np.sqrt(1.0 - sine**2)
-        strip = (self.radius + self.clearance) ** 2 * weight
+        bore = self.radius + self.clearance
+        strip = bore * bore * weight
         rings = Rings(self.radius * cosine, self.radius * sine, cosine, sine, strip)
-        return (rings.surface("race", ("latitude", np.arcsin(sine)), self.clearance, n_theta, NO_TILT),)
+        return (rings.surface("race", ("latitude", portable.asin(sine)), self.clearance, n_theta, NO_TILT),)
 
     def points(self) -> Points:
         """Return the one sphere; its force acts wherever the ball is, on the race or beside it."""

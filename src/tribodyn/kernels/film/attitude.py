@@ -11,8 +11,7 @@ Except for the last term the gap is linear in the chart. The derivatives in t ar
 
 from __future__ import annotations
 
-import math
-
+from mebdf.kernels.elementary import hypot, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
 
@@ -23,7 +22,7 @@ def chart_of(y: FloatArray, u: FloatArray) -> None:
     for k in range(2):
         u[k] = y[k]
         u[4 + k] = y[4 + k]
-        t = math.tan(y[2 + k])
+        t = tan(y[2 + k])
         u[2 + k] = t
         u[6 + k] = y[6 + k] * (1.0 + t * t)
 
@@ -44,7 +43,7 @@ def from_chart(u: FloatArray, y: FloatArray, chart: FloatArray, jacobian: FloatA
 @kernel
 def groove_direction(u: FloatArray) -> tuple[float, float]:
     """Return cosine and sine of the angle of the largest gap in the middle; of angle 0 if centred."""
-    e = math.hypot(u[0], u[1])
+    e = hypot(u[0], u[1])
     if e == 0.0:
         return 1.0, 0.0
     return u[0] / e, u[1] / e

@@ -7,9 +7,9 @@ axis. A node lies at −r_j (cos θ, sin θ), so that θ is the direction of the
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
+from mebdf.kernels.elementary import tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
@@ -50,7 +50,7 @@ class BushingData(NamedTuple):
 def _look(joint: BushingData, memory: JointMemory, pose: Record) -> None:
     """Fill tilt and station of the surface."""
     tilt, station = memory.surface.scratch.tilt, memory.surface.scratch.station
-    tan_x, tan_y = math.tan(pose.phi_x), math.tan(pose.phi_y)
+    tan_x, tan_y = tan(pose.phi_x), tan(pose.phi_y)
     tilt.phi[0], tilt.phi[1] = tan_x, tan_y
     tilt.rate[0], tilt.rate[1] = (1.0 + tan_x * tan_x) * pose.w_x, (1.0 + tan_y * tan_y) * pose.w_y
     station.d[0], station.d[1] = pose.d_x, pose.d_y

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Final, NamedTuple
 
+from mebdf.kernels.elementary import hypot
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
@@ -80,9 +80,9 @@ def note_extremes(memory: JointMemory, h: float) -> None:
 @kernel
 def fill_watched(report: Record, y: FloatArray, watched: Record) -> None:
     """Fill the sizes whose peaks are kept from the report at a state ``y`` (8,)."""
-    watched.contact_force = math.hypot(report.F_cx, report.F_cy)
-    watched.rigid_force = math.hypot(report.F_kx, report.F_ky)
-    watched.damping_force = math.hypot(report.F_cx - report.F_kx, report.F_cy - report.F_ky)
+    watched.contact_force = hypot(report.F_cx, report.F_cy)
+    watched.rigid_force = hypot(report.F_kx, report.F_ky)
+    watched.damping_force = hypot(report.F_cx - report.F_kx, report.F_cy - report.F_ky)
     watched.pressure = report.p_max
-    watched.eccentricity = math.hypot(y[0], y[1])
-    watched.tilt = math.hypot(y[2], y[3])
+    watched.eccentricity = hypot(y[0], y[1])
+    watched.tilt = hypot(y[2], y[3])

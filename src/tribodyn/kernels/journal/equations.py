@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 
+from mebdf.kernels.elementary import hypot, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_following, add_terms, follow, held, norm, oppose
@@ -89,10 +90,10 @@ def place(data: JournalData, t: float, y: FloatArray, memory: JournalMemory) -> 
 @kernel
 def least_gap(joint: BushingData, state: FloatArray) -> float:
     """Return the smallest gap between the mean planes of the unworn bushing [m]; it lies on an edge."""
-    tan_x, tan_y = math.tan(state[2]), math.tan(state[3])
+    tan_x, tan_y = tan(state[2]), tan(state[3])
     half = joint.z[joint.z.size - 1]
-    low = math.hypot(state[0] + half * tan_y, state[1] + half * tan_x)
-    high = math.hypot(state[0] - half * tan_y, state[1] - half * tan_x)
+    low = hypot(state[0] + half * tan_y, state[1] + half * tan_x)
+    high = hypot(state[0] - half * tan_y, state[1] - half * tan_x)
     return joint.clearance - max(low, high)
 
 
@@ -126,8 +127,8 @@ def gather(data: JournalData, memory: JournalMemory) -> None:
     """Fill ``scratch.total`` (4,) with loads, gyroscopic moments and the wrenches on the journal."""
     scratch, constants = memory.scratch, data.constants
     state, total, force, film = scratch.state, scratch.total, scratch.wrench, scratch.film
-    sec2_x = 1.0 + math.tan(state[2]) ** 2
-    sec2_y = 1.0 + math.tan(state[3]) ** 2
+    sec2_x = 1.0 + tan(state[2]) ** 2
+    sec2_y = 1.0 + tan(state[3]) ** 2
     spin, load = constants.spin_inertia * scratch.speed, scratch.load
     total[0] = load[0] + force[0] + film[0]
     total[1] = load[1] + force[1] + film[1]
@@ -166,7 +167,7 @@ def forces_and_gradient(data: JournalData, t: float, y: FloatArray, memory: Jour
             jacobian[i, 4 + k] += scratch.resistance[i, k]
     spin = data.constants.spin_inertia * scratch.speed
     for i in (2, 3):
-        tangent = math.tan(scratch.state[i])
+        tangent = tan(scratch.state[i])
         sec2 = 1.0 + tangent * tangent
         for k in range(8):
             jacobian[i, k] *= sec2

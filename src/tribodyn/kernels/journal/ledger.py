@@ -6,8 +6,7 @@ centre, the tilts and the angle of the rotation.
 
 from __future__ import annotations
 
-import math
-
+from mebdf.kernels.elementary import hypot, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
@@ -48,7 +47,7 @@ def fill_forces(memory: JournalMemory) -> None:
     """Fill the forces on the coordinates from the scratch arrays of this instant, one coordinate a row."""
     forces, out, film = memory.books.forces[NOW], memory.joint.scratch.report, memory.scratch.film
     state, load = memory.scratch.state, memory.scratch.load
-    sec2_x, sec2_y = 1.0 + math.tan(state[2]) ** 2, 1.0 + math.tan(state[3]) ** 2
+    sec2_x, sec2_y = 1.0 + tan(state[2]) ** 2, 1.0 + tan(state[3]) ** 2
     damping = (out.F_kx - out.F_cx, out.F_ky - out.F_cy, out.M_kx - out.M_jcx, out.M_ky - out.M_jcy, 0.0)
     friction = (out.F_fx, out.F_fy, out.M_fx, out.M_fy, out.M_jf)
     scale = (1.0, 1.0, sec2_x, sec2_y, 1.0)
@@ -67,7 +66,7 @@ def _evaluate_mark(data: JournalData, t: float, y: FloatArray, memory: JournalMe
     evaluate(data, t, y, memory)
     watched, film = memory.peaks.values[NOW].view(Watched)[0], memory.scratch.film
     fill_watched(memory.joint.scratch.report, memory.scratch.state, watched.joint)
-    watched.film.film_force = math.hypot(film[0], film[1])
+    watched.film.film_force = hypot(film[0], film[1])
     fill_motion(memory.scratch, memory.books.motion[NOW])
     fill_forces(memory)
 

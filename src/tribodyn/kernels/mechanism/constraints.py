@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 
+from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
@@ -67,7 +68,7 @@ def _direction(
         w[coupling.row_axis[m]] = 1.0
         return
     angle, speed, acceleration = now.prescribed[m, 0], now.prescribed[m, 1], now.prescribed[m, 2]
-    w[0], w[1] = -math.sin(angle), math.cos(angle)
+    w[0], w[1] = -sin(angle), cos(angle)
     rate[0], rate[1] = -speed * w[1], speed * w[0]
     second[0], second[1] = (
         -acceleration * w[1] - speed * speed * w[0],

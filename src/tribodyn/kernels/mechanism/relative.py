@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
+from mebdf.kernels.elementary import atan2
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
@@ -74,7 +75,7 @@ def relative_motion(coupling: Record, now: Record, bodies: Any) -> None:
         now.twist[i], now.twist[3 + i] = pose.v[i], pose.w[i]
     _fill_bias(coupling, now, shaft)
     _fill_map(coupling, now)
-    raw = math.atan2(pose.rotation[1, 0], pose.rotation[0, 0])
+    raw = atan2(pose.rotation[1, 0], pose.rotation[0, 0])
     now.angle = raw + WHOLE_TURN * round((now.angle_mark - raw) / WHOLE_TURN)
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Final
 
+from mebdf.kernels.elementary import hypot
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
@@ -54,6 +54,6 @@ def _watch_surfaces(
         if memory.reports[s].separation_min < surface.h_first * surface.roughness:
             course.broken, course.broken_at = OVERLAPPED, s
             return
-        if math.hypot(d[0], d[1]) > surface.reach[0] or abs(d[2]) > surface.reach[1]:
+        if hypot(d[0], d[1]) > surface.reach[0] or abs(d[2]) > surface.reach[1]:
             course.broken, course.broken_at = LEFT, s
             return

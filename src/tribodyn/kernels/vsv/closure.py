@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 
@@ -16,9 +17,9 @@ CONVERGED = 1.0e-10
 def sinusoid(mechanism: Record, t: float) -> tuple[float, float, float]:
     """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] of the paper's drive at ``t`` [s]."""
     nu = mechanism.angular_frequency
-    cos, sin = math.cos(nu * t), math.sin(nu * t)
-    theta = mechanism.start_angle + mechanism.speed_amplitude / nu * (1.0 - cos)
-    return theta, mechanism.speed_amplitude * sin, mechanism.speed_amplitude * nu * cos
+    cosine, sine = cos(nu * t), sin(nu * t)
+    theta = mechanism.start_angle + mechanism.speed_amplitude / nu * (1.0 - cosine)
+    return theta, mechanism.speed_amplitude * sine, mechanism.speed_amplitude * nu * cosine
 
 
 @kernel
@@ -36,8 +37,8 @@ def ideal_guess(mechanism: Record, theta_a: float) -> float:
 @inlined
 def crank_end(mechanism: Record, theta_a: float) -> tuple[float, float]:
     """Return x and z of S1 [m], the end of the crank."""
-    s1_x = mechanism.pivot_x - mechanism.l_1 * math.sin(theta_a)
-    s1_z = mechanism.pivot_z + mechanism.l_1 * math.cos(theta_a)
+    s1_x = mechanism.pivot_x - mechanism.l_1 * sin(theta_a)
+    s1_z = mechanism.pivot_z + mechanism.l_1 * cos(theta_a)
     return s1_x, s1_z
 
 
@@ -62,8 +63,8 @@ def closure_residual(
     theta_v: float,
 ) -> tuple[float, float]:
     """Return (|S1S2|² − l_2²)/2 [m²], S1 at (s1_x, s1_z), and its derivative in θ_v [m²/rad]."""
-    sin_v = math.sin(theta_v)
-    cos_v = math.cos(theta_v)
+    sin_v = sin(theta_v)
+    cos_v = cos(theta_v)
     x3 = e_x + mechanism.l_4 * cos_v - mechanism.half_length * tan_y
     y3 = e_y + mechanism.l_4 * sin_v - mechanism.half_length * tan_x
     z3 = mechanism.l_3 + mechanism.l_4 * (sin_v * tan_x + cos_v * tan_y)

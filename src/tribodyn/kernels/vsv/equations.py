@@ -9,8 +9,7 @@ of the lever force.
 
 from __future__ import annotations
 
-import math
-
+from mebdf.kernels.elementary import cos, sin, tan, tanh
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_terms, follow
@@ -96,8 +95,8 @@ def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -
     theta_v = motion[THETA_V, VALUE]
     test[THETA_V, 2] = 1.0
     for row in (E_X, OV_X):
-        test[row, 2] = mechanism.l_4 * math.sin(theta_v)
-        test[row + 1, 2] = -mechanism.l_4 * math.cos(theta_v)
+        test[row, 2] = mechanism.l_4 * sin(theta_v)
+        test[row + 1, 2] = -mechanism.l_4 * cos(theta_v)
     test[PHI_X, 3] = 1.0
     test[OV_Y, 3] = motion[OV_Y, 3]
     test[PHI_Y, 4] = 1.0
@@ -107,9 +106,9 @@ def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -
 @kernel
 def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, float]:
     """Return x and z of the ring's mass centre relative to its axis [m]."""
-    radius = 0.5 * l_3 * math.cos(0.5 * ring_angle)
+    radius = 0.5 * l_3 * cos(0.5 * ring_angle)
     angle = theta_b - 0.5 * ring_angle
-    return -radius * math.sin(angle), radius * math.cos(angle)
+    return -radius * sin(angle), radius * cos(angle)
 
 
 @kernel
@@ -121,7 +120,7 @@ def fill_air(data: VsvData, t: float, memory: VsvMemory) -> None:
     for k in range(air.size):
         air[k] = 0.0
     past = (theta_v - mechanism.switch_angle) / mechanism.switch_width
-    air[AIR_X] = mechanism.air_force_x * math.tanh(past)
+    air[AIR_X] = mechanism.air_force_x * tanh(past)
     air[AIR_Y] = mechanism.air_force_y
     air[AIR_M] = -mechanism.air_moment * direction
     follow(places, segment, TIME, t)
@@ -148,8 +147,8 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     direction, air = memory.regime[0], scratch.air
     for row in range(N_BODY):
         force[row] = mechanism.weight[row]
-    tan_x = math.tan(y[2])
-    tan_y = math.tan(y[3])
+    tan_x = tan(y[2])
+    tan_y = tan(y[3])
     force[E_X] = scratch.wrench[0]
     force[E_Y] = scratch.wrench[1]
     force[PHI_X] = (1.0 + tan_x * tan_x) * (scratch.wrench[2] + air[BEND_X])
@@ -192,7 +191,7 @@ def collar_share(test: FloatArray, collar: FloatArray, i: int) -> float:
 @kernel
 def lever_lift(exact: float, theta_b: float) -> float:
     """Return tan θ_b, the vertical per horizontal force of the frictionless pin; 0 in ``paper``."""
-    return math.tan(theta_b) if exact > 0.0 else 0.0
+    return tan(theta_b) if exact > 0.0 else 0.0
 
 
 @kernel
@@ -296,8 +295,8 @@ def fill_load_gradient(
     """Fill columns 1 to 8 with ∂(generalised joint and collar forces)/∂y, the motion table held fixed."""
     mechanism, scratch = data.mechanism, memory.scratch
     motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
-    sec2_x = 1.0 + math.tan(y[2]) ** 2
-    sec2_y = 1.0 + math.tan(y[3]) ** 2
+    sec2_x = 1.0 + tan(y[2]) ** 2
+    sec2_y = 1.0 + tan(y[3]) ** 2
     lift = lever_lift(mechanism.exact, motion[THETA_B, VALUE]) if f_cz > 0.0 else 0.0
     free_slip = 1.0 if memory.regime[1] == 0.0 else 0.0
     collar_xx, collar_yy, collar_xy = thrust.stiffness(data.collar, y[2], y[3], f_cz)

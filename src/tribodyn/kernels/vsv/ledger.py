@@ -7,8 +7,7 @@ N q̇.
 
 from __future__ import annotations
 
-import math
-
+from mebdf.kernels.elementary import tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import TIME, add_following
@@ -77,7 +76,7 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     motion, collar = scratch.motion, scratch.collar
     omega_v, f_cz = motion[THETA_V, VELOCITY], scratch.f_cz
     air = scratch.air
-    sec2_x, sec2_y = 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2
+    sec2_x, sec2_y = 1.0 + tan(y[2]) ** 2, 1.0 + tan(y[3]) ** 2
     powers.work_drive = drive_moment(scratch) * motion[THETA_A, VELOCITY]
     powers.work_loads = (
         air[AIR_X] * motion[OV_X, VELOCITY] + air[AIR_Y] * motion[OV_Y, VELOCITY] + air[AIR_M] * omega_v
@@ -92,7 +91,7 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
 @kernel
 def fill_joint_forces(y: FloatArray, out: Record, forces: FloatArray) -> None:
     """Fill the forces of damping and friction on the clearance coordinates, one coordinate a row."""
-    sec2_x, sec2_y = 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2
+    sec2_x, sec2_y = 1.0 + tan(y[2]) ** 2, 1.0 + tan(y[3]) ** 2
     on_x, on_y = forces[0].view(Forces)[0], forces[1].view(Forces)[0]
     about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
     on_x.heat_damping, on_x.work_clearance_friction = out.F_kx - out.F_cx, out.F_fx
@@ -123,8 +122,8 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
         for j in range(4):
             here[MOMENTUM, j] += momentum * motion[row, 1 + j]
     about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
-    about_x.work_clearance_loads += (1.0 + math.tan(y[2]) ** 2) * scratch.air[BEND_X]
-    about_y.work_clearance_loads += (1.0 + math.tan(y[3]) ** 2) * scratch.air[BEND_Y]
+    about_x.work_clearance_loads += (1.0 + tan(y[2]) ** 2) * scratch.air[BEND_X]
+    about_y.work_clearance_loads += (1.0 + tan(y[3]) ** 2) * scratch.air[BEND_Y]
     about_x.work_clearance_collar += scratch.f_cz * collar[PHI_X]
     about_y.work_clearance_collar += scratch.f_cz * collar[PHI_Y]
 
@@ -137,7 +136,7 @@ def _fill_swing(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     clear(air)
     n = actions.terms.size
     add_following(actions.signals, actions.terms, 0, n, memory.regime[0], TIME, scratch.places, air)
-    sec2 = (0.0, 0.0, 1.0 + math.tan(y[2]) ** 2, 1.0 + math.tan(y[3]) ** 2)
+    sec2 = (0.0, 0.0, 1.0 + tan(y[2]) ** 2, 1.0 + tan(y[3]) ** 2)
     for j in range(4):
         for k in (SWING, RATE):
             swing[k, j] = (

@@ -7,11 +7,11 @@ shifts O2 by (e_x/2, e_y/2) and O3 by (e_x/2, e_y), Appendix 2.
 
 from __future__ import annotations
 
-import math
 from typing import Final, TypeAlias
 
 import numpy as np
 
+from mebdf.kernels.elementary import atan2, cos, sin, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
@@ -84,8 +84,8 @@ def _fill_trunnion(mechanism: Record, y: FloatArray, motion: FloatArray) -> None
         motion[E_X + k, VELOCITY] = y[4 + k]
         motion[E_X + k, VALUE] = y[k]
     arm = mechanism.vane_arm
-    tan_x = math.tan(y[2])
-    tan_y = math.tan(y[3])
+    tan_x = tan(y[2])
+    tan_y = tan(y[3])
     sec2_x = 1.0 + tan_x * tan_x
     sec2_y = 1.0 + tan_y * tan_y
     motion[OV_X, 1] = 1.0
@@ -116,18 +116,18 @@ def fill_rods(
 ) -> None:
     """Fill the rows of crank, drag link, ring and vane rotation from the closure."""
     theta_a, omega_a, alpha_a = crank
-    tan_x = math.tan(phi_x)
-    tan_y = math.tan(phi_y)
+    tan_x = tan(phi_x)
+    tan_y = tan(phi_y)
     sec2_x = 1.0 + tan_x * tan_x
     sec2_y = 1.0 + tan_y * tan_y
     theta_v = vane_angle(mechanism, theta_a, e_x, e_y, tan_x, tan_y)
-    sin_v = math.sin(theta_v)
-    cos_v = math.cos(theta_v)
+    sin_v = sin(theta_v)
+    cos_v = cos(theta_v)
     l_4 = mechanism.l_4
     half = mechanism.half_length
 
-    sin_a = math.sin(theta_a)
-    cos_a = math.cos(theta_a)
+    sin_a = sin(theta_a)
+    cos_a = cos(theta_a)
     s1_x = mechanism.pivot_x - mechanism.l_1 * sin_a
     s1_z = mechanism.pivot_z + mechanism.l_1 * cos_a
     s1_x_a = -mechanism.l_1 * cos_a
@@ -137,7 +137,7 @@ def fill_rods(
     y3 = e_y + l_4 * sin_v - half * tan_x
     z3 = mechanism.l_3 + l_4 * (sin_v * tan_x + cos_v * tan_y)
     r2 = x3 * x3 + z3 * z3
-    theta_b = math.atan2(-x3, z3)
+    theta_b = atan2(-x3, z3)
     s2_x, s2_z = ring_end(mechanism, x3, z3)
     d_x = s2_x - s1_x
     d_y = y3 - l_4
@@ -222,9 +222,9 @@ def _fill_bodies(
     mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
 ) -> None:
     """Fill S2, the mass centres O1, O2, O3 and the direction n of the drag link."""
-    radius = 0.5 * mechanism.l_3 * math.cos(0.5 * mechanism.ring_angle)
-    o3_x = -radius * math.sin(theta_b - 0.5 * mechanism.ring_angle)
-    o3_z = radius * math.cos(theta_b - 0.5 * mechanism.ring_angle)
+    radius = 0.5 * mechanism.l_3 * cos(0.5 * mechanism.ring_angle)
+    o3_x = -radius * sin(theta_b - 0.5 * mechanism.ring_angle)
+    o3_z = radius * cos(theta_b - 0.5 * mechanism.ring_angle)
     for k in range(7):
         b_k = motion[THETA_B, k]
         motion[S2_X, k] = -s2_z * b_k

@@ -7,11 +7,11 @@ independently of the projected equations, and gives the reactions.
 
 from __future__ import annotations
 
-import math
 from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import cos, sin, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
@@ -85,8 +85,8 @@ def _inertia_and_weight(mechanism: Record, motion: FloatArray, matrix: FloatArra
 def _crank(mechanism: Record, motion: FloatArray, matrix: FloatArray) -> None:
     """Equations 20 to 25; arms from the mass centre O_1."""
     theta_a = motion[THETA_A, VALUE]
-    x_a = 0.5 * mechanism.l_1 * math.sin(theta_a)
-    z_a = -0.5 * mechanism.l_1 * math.cos(theta_a)
+    x_a = 0.5 * mechanism.l_1 * sin(theta_a)
+    z_a = -0.5 * mechanism.l_1 * cos(theta_a)
     x_1, z_1 = -x_a, -z_a
     matrix[0, F_AX] = 1.0
     matrix[0, F_21] = 1.0
@@ -171,11 +171,11 @@ def _vane(
     motion, collar, joint = scratch.motion, scratch.collar, scratch.wrench
     air, theta_v = scratch.air, motion[THETA_V, VALUE]
     f_x, f_y = air[AIR_X], air[AIR_Y]
-    tan_x, tan_y = math.tan(y[2]), math.tan(y[3])
+    tan_x, tan_y = tan(y[2]), tan(y[3])
     sec2_x, sec2_y = 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
     arm_x, arm_y = mechanism.vane_arm * sec2_x, mechanism.vane_arm * sec2_y
     lever = mechanism.exact
-    sin_v, cos_v = math.sin(theta_v), math.cos(theta_v)
+    sin_v, cos_v = sin(theta_v), cos(theta_v)
 
     matrix[17, F_43] = -1.0
     rhs[17, 0] -= joint[0] + f_x
@@ -207,7 +207,7 @@ def _vane(
     rhs[22, 0] -= joint[4] + air[AIR_M]
 
     matrix[23, F_43 + 2] = 1.0
-    matrix[23, F_43] = -lever * math.tan(motion[THETA_B, VALUE])
+    matrix[23, F_43] = -lever * tan(motion[THETA_B, VALUE])
 
 
 @kernel

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.kernels.film.data import CONVERGED
@@ -113,7 +114,7 @@ def _left(problem: Problem, model: Model, name: str, surface: int) -> str:
     joint, d = model.case.joints[name], problem.memory.now.couplings[model.joints.index(name)].pose.d
     socket, shaft = joint.between if joint.sign > 0.0 else joint.between[::-1]
     across, along = problem.data.contact.surfaces[surface]["reach"]
-    off, reach, way = float(np.hypot(d[0], d[1])), across, "across"
+    off, reach, way = float(portable.hypot(d[0], d[1])), across, "across"
     if abs(float(d[2])) > along:
         off, reach, way = abs(float(d[2])), along, "along"
     hold = f'; joints.{name}.clearance.axial = "50 um" would hold it' if joint.type == "revolute" else ""

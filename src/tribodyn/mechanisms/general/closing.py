@@ -12,6 +12,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import move, place
 from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, Parts
 from tribodyn.kernels.mechanism.follow import follow
@@ -160,15 +161,15 @@ class System:
         root = np.zeros((6 * self.n, 6 * self.n))
         for b, body in enumerate(self.parts.bodies):
             root[6 * b : 6 * b + 3, 6 * b : 6 * b + 3] = np.eye(3) / np.sqrt(body.mass)
-            values, vectors = np.linalg.eigh(body.inertia)
-            turned = vectors @ np.diag(values**-0.5) @ vectors.T
+            values, vectors = dense.eigh(body.inertia)
+            turned = dense.product(dense.product(vectors, np.diag(1.0 / np.sqrt(values))), vectors.T)
             root[6 * b + 3 : 6 * b + 6, 6 * b + 3 : 6 * b + 6] = turned
         return root
 
     def scaled(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return G over the metric with rows of length one, the metric and the lengths."""
         root = self.metric
-        g = self.matrix() @ root
+        g = dense.product(self.matrix(), root)
         length = np.linalg.norm(g, axis=1)
         length[length == 0.0] = 1.0
         return g / length[:, None], root, length
@@ -187,13 +188,13 @@ class System:
         if rows is None and self.known_rank is not None:
             return self.known_rank
         given = self.over_sizes(self.matrix() if rows is None else rows)
-        return rank_of(np.asarray(np.linalg.svd(given, compute_uv=False), np.float64))
+        return rank_of(dense.svd(given)[1])
 
     def inverse(self, scaled: FloatArray, rows: FloatArray | None = None) -> FloatArray:
         """Return the pseudo-inverse of rows that were scaled by mass, of the rank of ``rows`` or of all."""
         rank = self.rank(rows)
-        u, values, v = np.linalg.svd(scaled, full_matrices=False)
-        return np.asarray((v[:rank].T / values[:rank]) @ u[:, :rank].T)
+        u, values, v = dense.svd(scaled)
+        return np.asarray(dense.product(v[:rank].T / values[:rank], u[:, :rank].T))
 
     def step(self, change: FloatArray) -> None:
         """Move the bodies by a change (6 n,), not too far at once."""
@@ -245,7 +246,7 @@ class System:
         """Return displacements that leave the joints closed, ways over the size, shape (n, 6 n_bodies)."""
         if not self.rows:
             return np.eye(6 * self.n)
-        return np.asarray(np.linalg.svd(self.over_sizes(self.matrix()))[2][rank:])
+        return dense.svd(self.over_sizes(self.matrix()))[2][rank:]
 
     def time_to_move(self, change: float) -> float:
         """Return the time in which no drive moves more than that, ways in units of the size [s]."""
@@ -259,8 +260,8 @@ class System:
     def wander(self, chance: np.random.Generator) -> bool:
         """Move the bodies some way along the freedoms that are left; tell whether there are any."""
         g, root, _ = self.scaled()
-        free = np.eye(6 * self.n) - self.inverse(g) @ g
-        way = root @ free @ chance.normal(size=6 * self.n)
+        free = np.eye(6 * self.n) - dense.product(self.inverse(g), g)
+        way = dense.product(dense.product(root, free), chance.normal(size=6 * self.n))
         ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
         if np.max(ways) <= CLOSED:
             return False
@@ -276,8 +277,8 @@ class System:
             if least < CLOSED:
                 break
             g, root, length = self.scaled()
-            change = self.inverse(g) @ (-self.entries("residual") / length)
-            self.step(root @ change)
+            change = dense.product(self.inverse(g), -self.entries("residual") / length)
+            self.step(dense.product(root, change))
             if (gap := self.gap()) < least:
                 least, nearest = gap, self.position()
         self.restore(nearest)
@@ -340,7 +341,7 @@ class System:
             return element
         name = self.model.joints[worst]
         now = self.now.couplings[worst]
-        way = float(np.linalg.norm(now.pose.d[_HELD.get(self.model.kind(name), slice(3))]))
+        way = float(dense.norm(now.pose.d[_HELD.get(self.model.kind(name), slice(3))]))
         first, second = self.model.case.joints[name].between
         text = (
             f"joint {name} between {first} and {second} does not close: when all joints are nearest to "
@@ -392,9 +393,9 @@ class System:
 
     def _rank(self) -> tuple[int, FloatArray]:
         """Return rank and vanishing combinations of the rows, each of length one, here."""
-        u, values, _ = np.linalg.svd(self.over_sizes(self.matrix()))
+        _, values, left = dense.svd(self.over_sizes(self.matrix()).T)
         rank = rank_of(values)
-        return rank, u[:, rank:].T
+        return rank, left[rank:]
 
     def unequal(self, rank: int) -> tuple[list[ModelError], list[str]]:
         """Return a finding, or a warning, where bodies that ideal joints connect differ too much in mass.
@@ -404,8 +405,8 @@ class System:
         """
         if rank == 0:
             return [], []
-        places = np.linalg.svd(self.over_sizes(self.matrix()), compute_uv=False)
-        u, values, _ = np.linalg.svd(self.scaled()[0])
+        places = dense.svd(self.over_sizes(self.matrix()))[1]
+        u, values, _ = dense.svd(self.scaled()[0])
         share, of_places = float(values[rank - 1]) ** 2, float(places[rank - 1] / places[0]) ** 2
         lost = (HARD / (HARD + share)) ** ROUNDS
         if lost < _INEXACT or share > _BY_MASS * of_places:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.elements.base import Leg
 from tribodyn.mechanisms.general.model import Model
 
@@ -34,7 +35,7 @@ def _along(leg: Leg, couplings: Mapping[str, FloatArray], number: int) -> FloatA
     force = couplings["reaction_force"][:, number]
     if leg.measure == "coordinate":
         along = leg.along if leg.reported is None else leg.reported
-        found = force @ along if np.any(along) else np.full(len(force), np.nan)
+        found = dense.product(force, along) if np.any(along) else np.full(len(force), np.nan)
         return np.asarray(found)
     way = couplings["displacement" if leg.measure == "distance" else "relative_velocity"][:, number]
     size = np.linalg.norm(way, axis=-1)

@@ -14,6 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
+from tribodyn.kernels import dense
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.joints.film import new_oil
@@ -132,7 +133,7 @@ def _size(model: Model) -> float:
     points = [body.centre for body in case.bodies.values()]
     points += [point for joint in case.joints.values() for point in joint.points]
     points += [point for spring in case.springs.values() for point in spring.points]
-    return float(np.linalg.norm(np.ptp(np.array(points), axis=0))) or 1.0
+    return float(dense.norm(np.ptp(np.array(points), axis=0))) or 1.0
 
 
 def _bodies(model: Model) -> Any:
@@ -141,7 +142,7 @@ def _bodies(model: Model) -> Any:
     for record, body in zip(records, model.case.bodies.values(), strict=True):
         inertia = _inertia(body)
         record.mass, record.centre[:] = body.mass, body.centre
-        record.inertia[:], record.inverse[:] = inertia, np.linalg.inv(inertia)
+        record.inertia[:], record.inverse[:] = inertia, dense.inverse(inertia)
     return records
 
 
@@ -149,7 +150,7 @@ def _inertia(body: BodyKeys) -> FloatArray:
     """Return the inertia about the mass centre, along the axes of the drawing [kg m²], shape (3, 3)."""
     first, second = unit(body.first_axis, "first_axis"), unit(body.second_axis, "second_axis")
     axes = np.column_stack([first, second, np.cross(first, second)])
-    inertia = axes @ np.diag(body.inertia) @ axes.T
+    inertia = dense.product(dense.product(axes, np.diag(body.inertia)), axes.T)
     return np.asarray(0.5 * (inertia + inertia.T))
 
 

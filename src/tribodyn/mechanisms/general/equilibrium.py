@@ -19,6 +19,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.stopping import ask
 from tribodyn.integrate.binding import kernel_types, machine_code
+from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism import newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import (
@@ -122,17 +123,20 @@ class JointLoads:
         self.begin_to_move()
         collect(self.ideal.now.bodies, self.state)
         g, self.root, length = self.ideal.scaled()
-        u, values, rows = np.linalg.svd(g)
+        u, values, rows = dense.svd(g)
         rank = self.ideal.rank()
         self.held, free = rows[:rank].T, rows[rank:].T
-        asked = u[:, :rank].T @ (self.ideal.entries("gamma") / length)
-        self.wanted = self.held @ (asked / values[:rank])
+        asked = dense.product(u[:, :rank].T, self.ideal.entries("gamma") / length)
+        self.wanted = dense.product(self.held, asked / values[:rank])
         # Where real joints hold something, so do the ideal ones.
-        _, allowed = _spaces(self.real.scaled()[0] @ self.held, self.real.rank())
+        _, allowed = _spaces(dense.product(self.real.scaled()[0], self.held), self.real.rank())
         self.velocity = self.slipping = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
         carried, self.adrift = self._divided(free)
-        motions = np.hstack([self.held @ allowed, carried])
-        self.motions, self.asked = self.root @ motions, motions.T @ (self.held @ (self.held.T @ self.wanted))
+        motions = np.hstack([dense.product(self.held, allowed), carried])
+        self.motions, self.asked = (
+            dense.product(self.root, motions),
+            dense.product(motions.T, dense.product(self.held, dense.product(self.held.T, self.wanted))),
+        )
         if np.any(self._slips() > _MOVING):
             self.ahead = self.velocity
         else:
@@ -153,9 +157,9 @@ class JointLoads:
         if not (self.freedoms and free.size):
             return free[:, :0], free
         self._evaluate(self.velocity)
-        values, vectors = np.linalg.eigh(self._held_by(self.root @ free, self.springs))
+        values, vectors = dense.eigh(self._held_by(dense.product(self.root, free), self.springs))
         held = values > _FLOOR * np.max(values, initial=_TINY)
-        return free @ vectors[:, held], free @ vectors[:, ~held]
+        return dense.product(free, vectors[:, held]), dense.product(free, vectors[:, ~held])
 
     def unbalanced(self) -> int | None:
         """Return the number of a body that loads push along a freedom which nothing holds; None without one.
@@ -163,18 +167,23 @@ class JointLoads:
         What slip decides does not count: a body that is free to spin finds the speed at which it vanishes.
         """
         loads = self._evaluate(np.zeros_like(self.velocity))
-        pushed = self.root @ (self.adrift @ (self.adrift.T @ (self.root @ loads)))
-        if np.linalg.norm(pushed) <= _ADRIFT * np.linalg.norm(self.root @ (self.root @ loads)):
+        pushed = dense.product(
+            self.root,
+            dense.product(self.adrift, dense.product(self.adrift.T, dense.product(self.root, loads))),
+        )
+        if dense.norm(pushed) <= _ADRIFT * dense.norm(
+            dense.product(self.root, dense.product(self.root, loads))
+        ):
             return None
-        return int(np.argmax(np.linalg.norm((self.root @ pushed).reshape(-1, 6), axis=1)))
+        return int(np.argmax(np.linalg.norm((dense.product(self.root, pushed)).reshape(-1, 6), axis=1)))
 
     def _ahead(self) -> FloatArray:
         """Return velocities along the accelerations that motion begins with, shape (n, 6), or none."""
-        free = self.root @ self._evaluated()
-        begins = self.wanted + free - self.held @ (self.held.T @ free)
-        if np.linalg.norm(begins) <= _ROUNDING * np.linalg.norm(free):
+        free = dense.product(self.root, self._evaluated())
+        begins = self.wanted + free - dense.product(self.held, dense.product(self.held.T, free))
+        if dense.norm(begins) <= _ROUNDING * dense.norm(free):
             return self.velocity
-        self.slipping = (self.root @ begins).reshape(-1, 6)
+        self.slipping = dense.product(self.root, begins).reshape(-1, 6)
         slips = self._slips()
         moving = slips[slips > _MOVING * np.max(slips, initial=0.0)]
         return self.slipping * (_SLIDING / moving.min() if moving.size else 0.0)
@@ -195,7 +204,7 @@ class JointLoads:
         """Return what a wrench of some couplings does to the bodies, shape (6 n,)."""
         force, wrenches, arms = np.zeros((self.n + 1, 6)), self.couplings[wrench], self.couplings["H"]
         for k in couplings.tolist():
-            push = wrenches[k] @ arms[k]
+            push = dense.product(wrenches[k], arms[k])
             socket, shaft = self.ends[k]
             force[socket] += push[:6]
             force[shaft] += push[6:]
@@ -223,8 +232,8 @@ class JointLoads:
 
     def residual(self) -> FloatArray:
         """Return the loads that do not balance, over the motions that clearances allow, shape (m,)."""
-        found = np.asarray(self.motions.T @ self._evaluated() - self.asked)
-        self.largest = max(self.largest, float(np.linalg.norm(found)))
+        found = np.asarray(dense.product(self.motions.T, self._evaluated()) - self.asked)
+        self.largest = max(self.largest, float(dense.norm(found)))
         return found
 
     def stiffness(self) -> tuple[FloatArray, FloatArray]:
@@ -232,8 +241,8 @@ class JointLoads:
         m = self.motions.shape[1]
         even = np.zeros((m, m))
         for contact in self.contacts:
-            way = contact.root @ self._way(contact.coupling, self.motions)
-            even += way.T @ way
+            way = dense.product(contact.root, self._way(contact.coupling, self.motions))
+            even += dense.product(way.T, way)
         acting = np.flatnonzero(self.data.parts.couplings.force != NOTHING)
         return self._held_by(self.motions, acting), even
 
@@ -242,7 +251,7 @@ class JointLoads:
         total = np.zeros((motions.shape[1], motions.shape[1]))
         for k in couplings.tolist():
             way = self._way(k, motions)
-            total -= way.T @ self.couplings["slope"][k, :, :6] @ way
+            total -= dense.product(dense.product(way.T, self.couplings["slope"][k, :, :6]), way)
         for first in self.laws[self.data.parts.couplings.first_leg[self.laws] == NONE].tolist():
             row = self._row(first, motions)
             total -= self.couplings[first].law.in_position * np.outer(row, row)
@@ -250,7 +259,7 @@ class JointLoads:
 
     def _row(self, leg: int, motions: FloatArray) -> FloatArray:
         """Return what motions do to the coordinate of an element from a leg on, shape (m,)."""
-        row = np.asarray(self.couplings[leg].N[0] @ self._way(leg, motions))
+        row = np.asarray(dense.product(self.couplings[leg].N[0], self._way(leg, motions)))
         following = int(self.data.parts.couplings[leg].next_leg)
         return row if following == NONE else np.asarray(row + self._row(following, motions))
 
@@ -260,7 +269,7 @@ class JointLoads:
         for side, body in enumerate(self.ends[coupling]):
             if body < self.n:
                 own = motions[6 * body : 6 * body + 6]
-                ways += arms[:, 6 * side : 6 * side + 6] @ own
+                ways += dense.product(arms[:, 6 * side : 6 * side + 6], own)
         return ways
 
     def _place(self, contact: JointNodes) -> FloatArray:
@@ -274,17 +283,17 @@ class JointLoads:
     def change(self, step: FloatArray) -> tuple[float, float]:
         """Return by how much a step (m,) changes gaps at most, over the roughness and over gaps as drawn."""
         ask()
-        moved = self.motions @ step
+        moved = dense.product(self.motions, step)
         over_roughness = over_gap = 0.0
         for contact in self.contacts:
-            change = np.abs(contact.gradient @ self._way(contact.coupling, moved))
+            change = np.abs(dense.product(contact.gradient, self._way(contact.coupling, moved)))
             over_roughness = max(over_roughness, float(np.max(change / contact.roughness)))
             over_gap = max(over_gap, float(np.max(change) / np.max(contact.drawn)))
         return over_roughness, over_gap
 
     def move(self, step: FloatArray) -> None:
         """Displace the bodies by a step (m,)."""
-        change, bodies = self.motions @ step, self.memory.now.bodies
+        change, bodies = dense.product(self.motions, step), self.memory.now.bodies
         place(self.state, bodies)
         for b in range(self.n):
             move(bodies[b], change[6 * b : 6 * b + 6], np.zeros(4))
@@ -304,7 +313,7 @@ class JointLoads:
 
 def _spaces(matrix: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:
     """Return orthonormal columns that span the rows of a matrix, and what is at right angles to them."""
-    _, _, rows = np.linalg.svd(matrix)
+    _, _, rows = dense.svd(matrix)
     return rows[:rank].T, rows[rank:].T
 
 
@@ -342,18 +351,18 @@ def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, f
         stiffness, even = loads.stiffness()
         soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
         for _ in range(_MOST_STEPS):
-            step = np.asarray(np.linalg.lstsq(stiffness + soft * even, residual, rcond=None)[0], np.float64)
+            step = dense.lstsq(stiffness + soft * even, residual)
             change, way = loads.change(step)
             if way < _FAR:
                 loads.move(step)
                 after = loads.residual()
-                if after @ step >= -_BACK * (residual @ step):
+                if dense.product(after, step) >= -_BACK * dense.product(residual, step):
                     break
                 loads.move(-step)
             soft *= _STIFFER
         else:
             return _MOST_STEPS, math.inf, soft
         residual, soft, moved = after, soft / _SOFTER, moved + change
-        if change < least and np.linalg.norm(after) <= _BALANCED * loads.largest:
+        if change < least and dense.norm(after) <= _BALANCED * loads.largest:
             return steps, moved, soft
     return _MOST_STEPS, math.inf, soft

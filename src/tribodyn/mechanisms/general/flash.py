@@ -15,6 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, Place
 from tribodyn.joints.shapes import Surface
 from tribodyn.joints.touch import Touch
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.flash import flash_of, has_conductors
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.model import Model
@@ -108,5 +109,5 @@ def _sliding(surfaces: Sequence[Surface], row: Mapping[str, FloatArray]) -> floa
         if surface.gap[k] - near[k] < least:
             least, n = float(surface.gap[k] - near[k]), surface.normal[k]
             slip = v - z * np.cross(w, u) + np.cross(w, surface.position[k])
-            sliding = float(np.linalg.norm(slip - n * (n @ slip)))
+            sliding = float(dense.norm(slip - n * (dense.product(n, slip))))
     return sliding

@@ -15,6 +15,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.shapes import Cylinder, Mesh
+from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import DIRECTION, POINT
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.model import Model
@@ -94,7 +95,7 @@ class Misfit:
         """Return the step to where weighted rows miss least, shape (6 n,)."""
         rows = self.system.matrix() * self._units / self.system.row_units[:, None]
         asked = -weight * self._residuals()
-        found = np.linalg.lstsq(weight[:, None] * rows, asked, rcond=1e-13)[0]
+        found = dense.lstsq(weight[:, None] * rows, asked, rcond=1e-13)
         change: FloatArray = np.multiply(found, self._units)
         return change
 

@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.kernels import dense
 from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 
@@ -52,14 +53,16 @@ class JointNodes:
     @cached_property
     def root(self) -> FloatArray:
         """Square root of the stiffness of springs under all nodes, 1 N/m altogether, shape (6, 6)."""
-        values, vectors = np.linalg.eigh(self.gradient.T @ self.gradient / self.drawn.size)
+        values, vectors = dense.eigh(dense.product(self.gradient.T, self.gradient) / self.drawn.size)
         return np.asarray(np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T)
 
     def gaps(self, place: FloatArray) -> FloatArray:
         """Return the gaps [m] at displacement and tilt (d, φ), shape (6,)."""
-        axis = self.gradient[:, :3] @ np.array([place[4], -place[3], 1.0])
+        axis = dense.product(self.gradient[:, :3], np.array([place[4], -place[3], 1.0]))
         squares = 0.5 * self.lean * (axis - self.gradient[:, 2]) ** 2
-        return np.asarray(self.drawn - self.gradient @ place + self.slides * place[2] * axis - squares)
+        return np.asarray(
+            self.drawn - dense.product(self.gradient, place) + self.slides * place[2] * axis - squares
+        )
 
 
 def nodes_of(joints: SurfaceData, couplings: IntArray) -> list[JointNodes]:

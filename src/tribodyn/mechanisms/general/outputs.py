@@ -20,8 +20,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND
@@ -86,7 +88,7 @@ class Output:
         if self.keys.quantity == "distance":
             return np.asarray(np.linalg.norm(point, axis=1, keepdims=True))
         found = rate if self.keys.quantity == "velocity" else point
-        return found if self.keys.along is None else (found @ self._along)[:, None]
+        return found if self.keys.along is None else (dense.product(found, self._along))[:, None]
 
     def as_place(self) -> Output:
         """Return the position whose rate a velocity is; any other output itself."""
@@ -118,7 +120,7 @@ class Output:
         if self.keys.quantity == "distance" or self.keys.along is None:
             length = np.linalg.norm(point, axis=1)
             return np.asarray(np.sum(point * rate, axis=1) / np.where(length > 0.0, length, np.nan))
-        return np.asarray(rate @ self._along)
+        return np.asarray(dense.product(rate, self._along))
 
     @property
     def _along(self) -> FloatArray:
@@ -128,7 +130,7 @@ class Output:
     def _angle(self, motion: Motion) -> FloatArray:
         """Return the angle about the axis, without jumps [rad], shape (n_t,)."""
         q = self._relative(motion)
-        return np.asarray(np.unwrap(2.0 * np.arctan2(q[:, :3] @ self._along, q[:, 3])))
+        return np.asarray(np.unwrap(2.0 * portable.atan2(dense.product(q[:, :3], self._along), q[:, 3])))
 
     def _relative(self, motion: Motion) -> FloatArray:
         """Return the quaternions that turn the reference to the body, scalar last, shape (n_t, 4)."""
@@ -144,8 +146,8 @@ class Output:
             q[:, 3],
         )
         scalar_rate = -np.sum(spin * vector, axis=1)
-        rate = (scalar[:, None] * spin + np.cross(spin, vector)) @ self._along
-        twist = vector @ self._along
+        rate = dense.product(scalar[:, None] * spin + np.cross(spin, vector), self._along)
+        twist = dense.product(vector, self._along)
         return np.asarray((scalar * rate - twist * scalar_rate) / (scalar**2 + twist**2))
 
     def _point_in_reference(self, motion: Motion) -> tuple[FloatArray, FloatArray]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
+from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
@@ -138,7 +139,7 @@ def _scales(assembly: Assembly, duration: float) -> FloatArray:
     speed = max(
         float(np.max(np.linalg.norm(state[:, VELOCITY:TURNING], axis=1))),
         size * float(np.max(np.linalg.norm(state[:, TURNING:], axis=1))),
-        float(np.sqrt(np.linalg.norm(assembly.model.case.gravity) * size)),
+        float(np.sqrt(dense.norm(assembly.model.case.gravity) * size)),
         size / duration,
     )
     return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])

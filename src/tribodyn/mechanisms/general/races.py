@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kinds import GROUND
 from tribodyn.mechanisms.general.parts import JointKeys
@@ -28,8 +29,8 @@ def axes_of(case: MechanismCase, joint: JointKeys) -> FloatArray:
     if second is not None:
         return np.array([first, second])
     across = np.eye(3)[int(np.argmin(np.abs(first)))]
-    second = across - first * (first @ across)
-    return np.array([first, second / np.linalg.norm(second)])
+    second = across - first * dense.product(first, across)
+    return np.array([first, second / dense.norm(second)])
 
 
 def _race_axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
@@ -44,19 +45,19 @@ def _race_axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
     first: FloatArray | None = None
     for place in _places(case, joint):
         way = np.array(place) - point
-        length = float(np.linalg.norm(way))
+        length = float(dense.norm(way))
         if length == 0.0:
             continue
         if first is None:
             first = way / length
             continue
         normal = np.cross(first, way / length)
-        if np.linalg.norm(normal) > _PARALLEL:
-            return np.array([normal / np.linalg.norm(normal), first])
+        if dense.norm(normal) > _PARALLEL:
+            return np.array([normal / dense.norm(normal), first])
     if first is None:
         return np.eye(3)[[2, 0]]
     across = np.cross(first, np.eye(3)[int(np.argmin(np.abs(first)))])
-    return np.array([across / np.linalg.norm(across), first])
+    return np.array([across / dense.norm(across), first])
 
 
 def _places(case: MechanismCase, joint: JointKeys) -> Iterator[tuple[float, float, float]]:

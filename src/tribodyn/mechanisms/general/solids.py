@@ -90,9 +90,9 @@ Solid = tuple[float, Vector, dict[str, Any]]
 
 def _round(length: float, radius: float, inner: float = 0.0) -> tuple[float, Vector]:
     """Return volume and inertia per mass of a hollow cylinder along the first axis."""
-    squares = radius**2 + inner**2
-    across = squares / 4.0 + length**2 / 12.0
-    return math.pi * (radius**2 - inner**2) * length, (squares / 2.0, across, across)
+    squares = (radius * radius) + (inner * inner)
+    across = squares / 4.0 + (length * length) / 12.0
+    return math.pi * ((radius * radius) - (inner * inner)) * length, (squares / 2.0, across, across)
 
 
 def _rod(given: Given) -> Solid:

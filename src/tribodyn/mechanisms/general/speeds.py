@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.closing import DEPENDENT, System
 from tribodyn.mechanisms.general.misfit import Misfit
 from tribodyn.mechanisms.general.model import Model, ModelError
@@ -51,7 +52,7 @@ class _Rows:
 
     def missed_by(self, velocity: FloatArray) -> float:
         """Return the largest residual."""
-        return float(np.max(np.abs(self.matrix @ velocity - self.target), initial=0.0))
+        return float(np.max(np.abs(dense.product(self.matrix, velocity) - self.target), initial=0.0))
 
 
 def start(
@@ -71,10 +72,13 @@ def start(
         Whether this counterpart can move as its drives do; its rows must then be satisfied exactly.
     """
     exact, root = _rows(system, speeds), system.metric
-    scaled = exact.matrix @ root
+    scaled = dense.product(exact.matrix, root)
     length = np.maximum(np.linalg.norm(scaled, axis=1, keepdims=True), _TINY)
-    velocity = root @ (
-        system.inverse(scaled / length, exact.matrix if speeds else None) @ (exact.target / length[:, 0])
+    velocity = dense.product(
+        root,
+        dense.product(
+            system.inverse(scaled / length, exact.matrix if speeds else None), exact.target / length[:, 0]
+        ),
     )
     missed = exact.missed_by(velocity)
     if ideal is not None:
@@ -110,12 +114,13 @@ def _guided(exact: _Rows, held: _Rows, velocity: FloatArray, root: FloatArray, i
     system = ideal.system
     n_exact = system.rank(exact.matrix)
     n_held = system.rank(np.vstack([exact.matrix, held.matrix])) - n_exact
-    _, _, directions = np.linalg.svd(exact.matrix @ root)
-    free = root @ directions[n_exact:].T
+    _, _, directions = dense.svd(dense.product(exact.matrix, root))
+    free = dense.product(root, directions[n_exact:].T)
     weights = ideal.weights / system.row_units
-    u, values, v = np.linalg.svd(weights[:, None] * (held.matrix @ free), full_matrices=False)
-    missing = weights * (held.target - held.matrix @ velocity)
-    change: FloatArray = free @ (v[:n_held].T @ ((u[:, :n_held].T @ missing) / values[:n_held]))
+    u, values, v = dense.svd(weights[:, None] * dense.product(held.matrix, free))
+    missing = weights * (held.target - dense.product(held.matrix, velocity))
+    shares = dense.product(u[:, :n_held].T, missing) / values[:n_held]
+    change: FloatArray = dense.product(free, dense.product(v[:n_held].T, shares))
     return change
 
 

@@ -17,6 +17,7 @@ from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingGeometry, Friction
 from tribodyn.joints.clearances import Clearance, table_of
 from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
+from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
 from tribodyn.mechanisms.bushing import Bearing
 from tribodyn.mechanisms.general.case import MechanismCase
@@ -180,7 +181,7 @@ def _given(size: float | None) -> float:
 def _facets(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> FloatArray:
     """Return the triangles of a mesh in the axes of the joint, shape (n, 3, 3)."""
     corners = np.array(keys.facets).reshape(-1, 3, 3)
-    return np.ascontiguousarray((corners - np.array(joint.point)) @ frame(*axes_of(case, joint)))
+    return np.ascontiguousarray(dense.product(corners - np.array(joint.point), frame(*axes_of(case, joint))))
 
 
 def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _Round:

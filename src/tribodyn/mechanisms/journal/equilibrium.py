@@ -12,8 +12,10 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.kernels import dense
 from tribodyn.kernels.journal.data import JournalData, JournalMemory
 from tribodyn.kernels.journal.equations import least_gap
 from tribodyn.kernels.journal.functions import static_residual
@@ -49,7 +51,7 @@ class Equilibrium:
     @property
     def eccentricity(self) -> float:
         """Distance of the centre from the axis of the bushing [m]."""
-        return float(np.hypot(self.attitude[0], self.attitude[1]))
+        return float(portable.hypot(self.attitude[0], self.attitude[1]))
 
     @property
     def friction_coefficient(self) -> float:
@@ -68,7 +70,7 @@ class Equilibrium:
         return self._share(self.film)
 
     def _share(self, wrench: FloatArray) -> float:
-        return -float(wrench[:2] @ self.journal.loads.direction) / self.journal.loads.force
+        return -float(dense.product(wrench[:2], self.journal.loads.direction)) / self.journal.loads.force
 
 
 def equilibrium(
@@ -108,7 +110,7 @@ def equilibrium(
         if q is not None and _in_range(data, memory):
             return _described(turning, data, memory, q)
     raise InputError(
-        f"no equilibrium was found: {np.hypot(*load):.4g} N may be more than this bearing can carry",
+        f"no equilibrium was found: {portable.hypot(*load):.4g} N may be more than this bearing can carry",
         key="loads.force_x",
     )
 
@@ -130,7 +132,7 @@ def _in_range(data: JournalData, memory: JournalMemory) -> bool:
 
 def _starts(journal: Journal, load: FloatArray) -> list[FloatArray]:
     """Lay the journal against the bushing in the direction of the load [N], shape (2,)."""
-    size = float(np.hypot(*load))
+    size = float(portable.hypot(*load))
     direction = load / size if size > 0.0 else np.array([1.0, 0.0])
     clearance, roughness = journal.joint.geometry.clearance, journal.joint.roughness
     depths = [max(clearance - depth * roughness, 0.1 * clearance) for depth in _START_DEPTHS]

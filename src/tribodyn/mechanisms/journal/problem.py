@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
@@ -132,7 +133,7 @@ def journal_problem(
 
 def _check_inside(journal: Journal, y0: FloatArray) -> None:
     """Refuse a start at which the mean planes of journal and bushing overlap."""
-    e = float(np.hypot(y0[0], y0[1]))
+    e = float(portable.hypot(y0[0], y0[1]))
     clearance = journal.joint.geometry.clearance
     if e >= clearance:
         raise InputError(

@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.beyond import FollowedTable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, Stopped
@@ -151,7 +152,7 @@ class JournalSystem:
         if table.over == "speeds":
             return np.asarray(rows["omega"])
         if table.over == "velocities":
-            return np.asarray(np.hypot(rows["e_x_dot"], rows["e_y_dot"]))
+            return np.asarray(portable.hypot(rows["e_x_dot"], rows["e_y_dot"]))
         spin = self.journal.spin
         return angle(constant(self.journal.speed) if spin is None else spin, times)
 
@@ -199,7 +200,7 @@ class JournalSystem:
         """Return the time after which the centre stays near the static equilibrium; NaN if it never does."""
         if balance is None or not run.solution.complete:
             return np.nan
-        off = np.hypot(rows["e_x"] - balance.attitude[0], rows["e_y"] - balance.attitude[1])
+        off = portable.hypot(rows["e_x"] - balance.attitude[0], rows["e_y"] - balance.attitude[1])
         outside = np.flatnonzero(off > SETTLED * self.journal.joint.geometry.clearance)
         if not outside.size:
             return 0.0

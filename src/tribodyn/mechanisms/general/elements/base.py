@@ -20,11 +20,13 @@ from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, name, names, quantity, vector
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.joints import frame
 from tribodyn.mechanisms.general.kinds import KINDS
 from tribodyn.mechanisms.general.parts import POINT, JointKeys
@@ -115,7 +117,7 @@ def leg(
 ) -> Leg:
     """Return a leg about an axis; ``axis`` and ``along`` in the drawing, shape (3,)."""
     axes = frame(axis, np.zeros(3))
-    return Leg(bodies, points, axes, axes.T @ along, about)
+    return Leg(bodies, points, axes, dense.product(axes.T, along), about)
 
 
 def of_points(
@@ -209,7 +211,7 @@ class PointsKeys(ElementKeys):
         """Return the leg from the first point to the second."""
         demand(self.between[0] != self.between[1], "between", "this is twice the same body; name two bodies")
         points = np.array([self.first_point, self.second_point])
-        drawn = float(np.linalg.norm(points[1] - points[0]))
+        drawn = float(dense.norm(points[1] - points[0]))
         demand(drawn > 0.0, "second_point", "both ends are at one point; draw them apart")
         return (of_points(self.between, points, "distance", self.length or drawn),)
 
@@ -283,18 +285,19 @@ def axis_of(joint: JointKeys) -> FloatArray:
 
 def are_parallel(first: FloatArray, second: FloatArray) -> bool:
     """Tell whether two axes are parallel, in whichever sense."""
-    return float(np.linalg.norm(np.cross(first, second))) < PARALLEL
+    return float(dense.norm(np.cross(first, second))) < PARALLEL
 
 
 def size_of(joints: Joints) -> float:
     """Return the distance over which joints are spread [m]."""
     points = np.array([joint.point for joint in joints.values()])
-    return float(np.linalg.norm(np.ptp(points, axis=0))) or _SIZE
+    return float(dense.norm(np.ptp(points, axis=0))) or _SIZE
 
 
 def circle(centre: FloatArray, axis: FloatArray, radius: float) -> FloatArray:
     """Return points of a closed circle [m], shape (n, 3)."""
     axes, turn = frame(axis, np.zeros(3)), np.linspace(0.0, 2.0 * np.pi, 49)
     return np.asarray(
-        centre + radius * (np.outer(np.cos(turn), axes[:, 0]) + np.outer(np.sin(turn), axes[:, 1]))
+        centre
+        + radius * (np.outer(portable.cos(turn), axes[:, 0]) + np.outer(portable.sin(turn), axes[:, 1]))
     )

@@ -16,16 +16,17 @@ play. Teeth without backlash push the wheels apart with |λ| tan α where the pr
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import choice, names, number, quantity
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.elements.base import (
     ElementKeys,
     Equation,
@@ -155,9 +156,9 @@ torque = "0.2 N m"
     def _pushes(legs: tuple[Leg, ...], angle: float) -> tuple[FloatArray, FloatArray]:
         """Return the forces that push both wheels apart, over the tooth force."""
         towards = [np.cross(wheel.along, [0.0, 0.0, wheel.about]) for wheel in legs]
-        apart = min(towards, key=lambda arm: float(np.linalg.norm(arm)))
-        apart = apart / np.linalg.norm(apart) * (1.0 if apart is towards[0] else -1.0)
-        return -math.tan(angle) * apart, math.tan(angle) * apart
+        apart = min(towards, key=lambda arm: float(dense.norm(arm)))
+        apart = apart / dense.norm(apart) * (1.0 if apart is towards[0] else -1.0)
+        return -portable.tan(angle) * apart, portable.tan(angle) * apart
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return one leg for each wheel."""
@@ -177,10 +178,10 @@ torque = "0.2 N m"
                 leg((base, wheels[1]), points[1], other, none, size),
             )
         # Both wheels are held where the plane of the teeth, that of the first joint, meets their axes.
-        points[1] = points[1] + axis * ((points[0][0] - points[1][0]) @ axis)
+        points[1] = points[1] + axis * (dense.product(points[0][0] - points[1][0], axis))
         arms = [pitch - point[0] for point in points]
-        teeth = np.cross(axis, arms[0]) / np.linalg.norm(arms[0])
-        lever = [float(np.cross(axis, arm) @ teeth) for arm in arms]
+        teeth = np.cross(axis, arms[0]) / dense.norm(arms[0])
+        lever = [float(dense.product(np.cross(axis, arm), teeth)) for arm in arms]
         return (
             leg((base, wheels[0]), points[0], axis, -teeth, -lever[0]),
             leg((base, wheels[1]), points[1], axis, teeth, lever[1]),
@@ -209,8 +210,8 @@ torque = "0.2 N m"
         axis = axis_of(first)
         points = [origin(joint, self._carrier(joints))[0] for joint in (first, second)]
         apart = points[1] - points[0]
-        apart = apart - axis * (axis @ apart)
-        if are_parallel(axis, axis_of(second)) and np.linalg.norm(apart) > _OFFSET * size_of(joints):
+        apart = apart - axis * (dense.product(axis, apart))
+        if are_parallel(axis, axis_of(second)) and dense.norm(apart) > _OFFSET * size_of(joints):
             words = "wheels of a ratio of 1 on two axes have no pitch point; external gears have one below 0"
             demand(self.ratio != 1.0, "ratio", words)
             return np.asarray(points[0] + self.ratio / (self.ratio - 1.0) * apart)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from typing import Any, ClassVar
 
+from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import number, quantity
 from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
@@ -25,7 +26,7 @@ def regularised(joint: Any, law: Any) -> None:
     v, slip = law.rate, joint.slip_velocity
     square = v * v + slip * slip
     direction = v / math.sqrt(square)
-    share = math.exp(-((v / joint.stribeck_velocity) ** 2))
+    share = exp(-((v / joint.stribeck_velocity) ** 2))
     load = joint.normal_load + law.normal
     moving, sticking = joint.friction_coefficient * load, joint.breakaway * load
     limit = moving + sticking * share

@@ -17,6 +17,7 @@ import numpy as np
 
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, quantity
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.elements.base import (
     PARALLEL,
     ElementKeys,
@@ -84,7 +85,7 @@ torque = "0.2 N m"
         base = carrier(self.joints, joints)
         axis, along = axis_of(bearing), axis_of(guide)
         words = "the axis of the pinion and that of the rack must be at right angles"
-        demand(abs(float(axis @ along)) < PARALLEL, "joints", words)
+        demand(abs(float(dense.product(axis, along))) < PARALLEL, "joints", words)
         centre = origin(bearing, base)
         teeth = centre[0] + self.radius * np.cross(along, axis)
         # A gap in the drawing of the guide stays one.

@@ -16,6 +16,7 @@ from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable, power
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import choice, number, quantity
 from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
@@ -30,7 +31,7 @@ def one_sided(stop: Any, law: Any) -> None:
     if not depth > 0.0:
         return
     law.touching = 1.0
-    elastic = stop.scale * depth**stop.exponent
+    elastic = stop.scale * power(depth, stop.exponent)
     law.stored = elastic * depth / (stop.exponent + 1.0)
     known = law.entry_rate
     entry = max(known if known > 0.0 else abs(speed), stop.least_rate)
@@ -133,7 +134,7 @@ torque = "0.2 N m"
                 "at": at,
                 "side": 1.0 if self.side == "above" else -1.0,
                 "exponent": self.exponent,
-                "scale": stiffness * self.depth ** (1.0 - self.exponent),
+                "scale": stiffness * portable.power(self.depth, 1.0 - self.exponent),
                 "damping": damping_of(self.damping_factor, self.restitution),
                 "least_rate": self.least_rate,
             },

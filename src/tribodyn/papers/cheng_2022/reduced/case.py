@@ -94,7 +94,7 @@ def _rod_inertias(given: Mapping[str, Value]) -> dict[str, Value]:
         assert isinstance(mass, float)
         assert isinstance(length, float)
         if any(f"mechanism.{key}" in given for key in keys) and mass > 0.0 and length > 0.0:
-            found[f"mechanism.{rod}_inertia"] = mass * length**2 / 3.0
+            found[f"mechanism.{rod}_inertia"] = mass * length * length / 3.0
     return found
 
 

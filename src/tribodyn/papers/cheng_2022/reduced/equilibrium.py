@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -101,5 +102,5 @@ def _starts(data: VsvData, memory: VsvMemory, t: float) -> list[FloatArray]:
 
 def _along(direction: FloatArray, length: float) -> FloatArray:
     """Return the vector of a length along another one; along the first axis if that one is zero."""
-    angle = math.atan2(direction[1], direction[0])
-    return length * np.array([math.cos(angle), math.sin(angle)])
+    angle = portable.atan2(direction[1], direction[0])
+    return length * np.array([portable.cos(angle), portable.sin(angle)])

@@ -10,6 +10,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from scipy.interpolate import PPoly
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.signals import Signal
@@ -84,18 +85,18 @@ class CrankMotion:
     def crank_range(self, duration: float) -> tuple[float, float]:
         """Return the smallest and the largest crank angle in a run of ``duration`` [s] [rad]."""
         phase = min(self.angular_frequency * duration, math.pi)
-        far = self.start_angle + 0.5 * self.swing * (1.0 - math.cos(phase))
+        far = self.start_angle + 0.5 * self.swing * (1.0 - portable.cos(phase))
         return min(self.start_angle, far), max(self.start_angle, far)
 
     def angle(self, times: FloatArray) -> FloatArray:
         """Return the crank angle [rad] at times [s]."""
         return np.asarray(
-            self.start_angle + 0.5 * self.swing * (1.0 - np.cos(self.angular_frequency * times))
+            self.start_angle + 0.5 * self.swing * (1.0 - portable.cos(self.angular_frequency * times))
         )
 
     def speed(self, times: FloatArray) -> FloatArray:
         """Return the speed of the crank [rad/s] at times [s]."""
-        return np.asarray(self.speed_amplitude * np.sin(self.angular_frequency * times))
+        return np.asarray(self.speed_amplitude * portable.sin(self.angular_frequency * times))
 
     def turns(self, duration: float) -> FloatArray:
         """Return the times at which the crank reverses [s], from 0 to just beyond the run."""
@@ -104,7 +105,7 @@ class CrankMotion:
 
     def passes(self, angles: FloatArray, duration: float) -> FloatArray:
         """Return the times at which the crank passes given angles [s], in no order."""
-        after = np.arccos(1.0 - (angles - self.start_angle) / (0.5 * self.swing)) / self.angular_frequency
+        after = portable.acos(1.0 - (angles - self.start_angle) / (0.5 * self.swing)) / self.angular_frequency
         return np.asarray((self.turns(duration)[::2, None] + np.concatenate([after, -after])).ravel())
 
     @property
@@ -247,23 +248,23 @@ class Vsv:
     @property
     def crank_inertia(self) -> float:
         """About the axis through its mass centre [kg m²]."""
-        shift = self.inertias.m_1 * self.lengths.l_1**2 / 4.0
+        shift = self.inertias.m_1 * self.lengths.l_1 * self.lengths.l_1 / 4.0
         return self.inertias.J_1 - (shift if self.exact else 0.0)
 
     @property
     def link_inertia(self) -> float:
         """Across the drag link, about its mass centre [kg m²]."""
-        shift = self.inertias.m_2 * self.lengths.l_2**2 / 4.0
+        shift = self.inertias.m_2 * self.lengths.l_2 * self.lengths.l_2 / 4.0
         return self.inertias.J_2 - (shift if self.exact else 0.0)
 
     @property
     def ring_inertia(self) -> float:
         """Of the ring about the axis through its mass centre [kg m²]."""
-        arm = 0.5 * self.lengths.l_3 * math.cos(0.5 * self.lengths.phi)
-        return self.inertias.J_3 - (self.inertias.m_3 * arm**2 if self.exact else 0.0)
+        arm = 0.5 * self.lengths.l_3 * portable.cos(0.5 * self.lengths.phi)
+        return self.inertias.J_3 - (self.inertias.m_3 * arm * arm if self.exact else 0.0)
 
     @property
     def vane_inertia(self) -> float:
         """Across the vane, about its mass centre [kg m²]."""
-        shift = self.inertias.m_v * self.lengths.l_v**2 / 4.0
+        shift = self.inertias.m_v * self.lengths.l_v * self.lengths.l_v / 4.0
         return self.inertias.J_v - (shift if self.exact else 0.0)

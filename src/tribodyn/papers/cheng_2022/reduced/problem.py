@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
@@ -66,11 +67,11 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         l_2=lengths.l_2,
         l_3=lengths.l_3,
         l_4=lengths.l_4,
-        pivot_x=lengths.l_m * math.cos(lengths.gamma),
-        pivot_z=lengths.l_m * math.sin(lengths.gamma),
+        pivot_x=lengths.l_m * portable.cos(lengths.gamma),
+        pivot_z=lengths.l_m * portable.sin(lengths.gamma),
         ring_angle=lengths.phi,
-        ring_sin=math.sin(lengths.phi),
-        ring_cos=math.cos(lengths.phi),
+        ring_sin=portable.sin(lengths.phi),
+        ring_cos=portable.cos(lengths.phi),
         half_length=0.5 * vsv.joint.geometry.length,
         vane_arm=vsv.vane_arm,
         m_1=inertias.m_1,

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import bisect
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
@@ -26,13 +27,13 @@ _MEETING: Final = 1.0e-4
 
 def closure(lengths: Lengths, theta_a: FloatArray, theta_v: FloatArray) -> FloatArray:
     """Return |S1S2|² − l_2² [m²] of the ideal mechanism, Eqs. 12 to 18; arguments broadcast [rad]."""
-    s1_x = lengths.l_m * math.cos(lengths.gamma) - lengths.l_1 * np.sin(theta_a)
-    s1_z = lengths.l_m * math.sin(lengths.gamma) + lengths.l_1 * np.cos(theta_a)
-    theta_b = np.arctan2(-lengths.l_4 * np.cos(theta_v), lengths.l_3)
-    d_x = lengths.l_3 * np.sin(lengths.phi - theta_b) - s1_x
-    d_y = lengths.l_4 * np.sin(theta_v) - lengths.l_4
-    d_z = lengths.l_3 * np.cos(lengths.phi - theta_b) - s1_z
-    return np.asarray(d_x**2 + d_y**2 + d_z**2 - lengths.l_2**2)
+    s1_x = lengths.l_m * portable.cos(lengths.gamma) - lengths.l_1 * portable.sin(theta_a)
+    s1_z = lengths.l_m * portable.sin(lengths.gamma) + lengths.l_1 * portable.cos(theta_a)
+    theta_b = portable.atan2(-lengths.l_4 * portable.cos(theta_v), lengths.l_3)
+    d_x = lengths.l_3 * portable.sin(lengths.phi - theta_b) - s1_x
+    d_y = lengths.l_4 * portable.sin(theta_v) - lengths.l_4
+    d_z = lengths.l_3 * portable.cos(lengths.phi - theta_b) - s1_z
+    return np.asarray(d_x**2 + d_y**2 + d_z**2 - lengths.l_2 * lengths.l_2)
 
 
 def sense(lengths: Lengths) -> float:
@@ -42,7 +43,7 @@ def sense(lengths: Lengths) -> float:
     pivot's side of the ring's arm. The slope keeps its sign until the assemblies merge, so that one motion
     never mixes them, and changes it with x → −x, as it must. Derived in the theory manual.
     """
-    return 1.0 if math.cos(lengths.gamma + lengths.phi) >= 0.0 else -1.0
+    return 1.0 if portable.cos(lengths.gamma + lengths.phi) >= 0.0 else -1.0
 
 
 def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
@@ -72,7 +73,7 @@ def _bracket(lengths: Lengths, sign: float, theta_a: FloatArray) -> FloatArray:
     scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)
     above = sign * closure(lengths, theta_a[:, None], scan[None, :]) > 0.0
     crossing = ~above[:, :-1] & above[:, 1:]
-    first = np.argmax(np.where(crossing, np.sin(0.5 * (scan[:-1] + scan[1:])), -math.inf), axis=1)
+    first = np.argmax(np.where(crossing, portable.sin(0.5 * (scan[:-1] + scan[1:])), -math.inf), axis=1)
     return np.where(crossing.any(axis=1), [scan[first], scan[first + 1]], np.nan)
 
 
@@ -138,11 +139,11 @@ def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, flo
 
 def crank_lever(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
     """Return S1S2 · ∂S1/∂θ_a [m²] of the ideal mechanism: zero where the crank can move without the vane."""
-    theta_b = np.arctan2(-lengths.l_4 * np.cos(ideal_vane_angle(lengths, theta_a)), lengths.l_3)
-    d_x = lengths.l_3 * np.sin(lengths.phi - theta_b) - lengths.l_m * math.cos(lengths.gamma)
-    d_z = lengths.l_3 * np.cos(lengths.phi - theta_b) - lengths.l_m * math.sin(lengths.gamma)
+    theta_b = portable.atan2(-lengths.l_4 * portable.cos(ideal_vane_angle(lengths, theta_a)), lengths.l_3)
+    d_x = lengths.l_3 * portable.sin(lengths.phi - theta_b) - lengths.l_m * portable.cos(lengths.gamma)
+    d_z = lengths.l_3 * portable.cos(lengths.phi - theta_b) - lengths.l_m * portable.sin(lengths.gamma)
     # From the pivot instead of S1: the crank itself is across its own derivative.
-    return np.asarray(-lengths.l_1 * (d_x * np.cos(theta_a) + d_z * np.sin(theta_a)))
+    return np.asarray(-lengths.l_1 * (d_x * portable.cos(theta_a) + d_z * portable.sin(theta_a)))
 
 
 @lru_cache(maxsize=64)
@@ -177,7 +178,7 @@ def at_limit(mechanism: Record, theta_a: float, y: FloatArray) -> bool:
         Crank angle [rad] and state, shape (8,).
     """
     s1 = crank_end(mechanism, theta_a)
-    place = (float(y[0]), float(y[1]), math.tan(y[2]), math.tan(y[3]))
+    place = (float(y[0]), float(y[1]), portable.tan(y[2]), portable.tan(y[3]))
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
     missing = [closure_residual(mechanism, *s1, *place, theta_v)[0] for theta_v in turn]
     return bool(-min(missing) < _MEETING * max(missing))

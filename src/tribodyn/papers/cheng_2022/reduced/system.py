@@ -11,6 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.temperature import cold_geometry
 from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
@@ -187,7 +188,7 @@ class VsvSystem:
             "wear_pressure_max": of_run(run.problem.memory.peaks, WATCHED)["pressure_peak"],
             "wear_pressure_mean": _mean(t, rows["p_max"]),
             "wear_roughness": float(run.problem.data.joint.roughness),
-            "wear_force_mean": _mean(t, np.hypot(rows["F_cx"], rows["F_cy"])),
+            "wear_force_mean": _mean(t, portable.hypot(rows["F_cx"], rows["F_cy"])),
             "wear_angle_error_max": float(np.abs(error).max()),
             "wear_angle_error_rms": _mean(t, error**2) ** 0.5,
         }

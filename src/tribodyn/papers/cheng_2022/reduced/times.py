@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Following
 from tribodyn.kernels.vsv.quantities import OBSERVED
@@ -103,5 +104,5 @@ def _forward(lengths: Lengths, drive: CrankMotion, switch: float) -> tuple[float
     wanted = _wanted(float(vane[0]), float(vane[-1]), switch)
     order = np.argsort(vane)
     angle = np.interp(wanted, vane[order], crank[order])
-    phase = np.arccos(np.clip(1.0 - (angle - drive.start_angle) / (0.5 * drive.swing), -1.0, 1.0))
+    phase = portable.acos(np.clip(1.0 - (angle - drive.start_angle) / (0.5 * drive.swing), -1.0, 1.0))
     return tuple((phase / drive.angular_frequency).tolist())

@@ -1,0 +1,135 @@
+"""Dense linear algebra before a run: what NumPy leaves to libraries that round differently on each processor.
+
+Small matrices only. Arguments and results are those of the functions of these names in NumPy.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.linalg import solve_in_place
+
+_ROUNDING: Final = 2.0**-52
+_MOST_SWEEPS: Final = 60
+
+
+def product(first: Any, second: Any) -> Any:
+    """Return the matrix product; the second array has one or two dimensions. Sums run in order."""
+    a, b = np.asarray(first, np.float64), np.asarray(second, np.float64)
+    rows, columns = a.reshape(-1, a.shape[-1]), b[:, None] if b.ndim == 1 else b
+    out = np.empty((rows.shape[0], columns.shape[1]))
+    _multiply(np.ascontiguousarray(rows), np.ascontiguousarray(columns), out)
+    return out.reshape(a.shape[:-1] + b.shape[1:])[()]
+
+
+def norm(values: Any) -> float:
+    """Return the root of the sum of all squares."""
+    flat = np.ravel(np.asarray(values, np.float64))
+    return math.sqrt(product(flat, flat))
+
+
+def solve(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Return x of matrix x = right, (n, n) and (n,) or (n, m); not finite where the matrix is singular."""
+    columns = right.reshape(len(right), -1).copy()
+    solve_in_place(np.array(matrix, np.float64), columns, 0, columns.shape[1])
+    return columns.reshape(right.shape)
+
+
+def inverse(matrix: FloatArray) -> FloatArray:
+    """Return the inverse of a matrix (n, n)."""
+    return solve(matrix, np.eye(len(matrix)))
+
+
+def svd(matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return U (m, k), singular values (k,), falling, and Vᵀ (n, n) of a matrix (m, n), k = min(m, n).
+
+    By rotations of pairs of columns: Hestenes (1958), J. SIAM 6, 51. Columns of U that belong to the value
+    zero are zero; rows of Vᵀ from the k-th on span what the matrix takes to zero.
+    """
+    m, n = matrix.shape
+    columns, right = np.array(matrix.T, np.float64, order="C"), np.eye(n)
+    _orthogonalise(columns, right)
+    sizes = np.sqrt(np.add.reduce(columns * columns, axis=1))
+    order = np.argsort(-sizes, kind="stable")
+    sizes, columns, k = sizes[order], columns[order], min(m, n)
+    left = columns[:k] / np.where(sizes[:k] > 0.0, sizes[:k], 1.0)[:, None]
+    return np.ascontiguousarray(left.T), sizes[:k], right[order]
+
+
+def eigh(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return eigenvalues (n,), rising, and eigenvectors as columns (n, n) of a symmetric matrix.
+
+    They are singular values of a matrix without negative ones: where Gershgorin's circles do not exclude those,
+    of the matrix plus a multiple of unity.
+    """
+    diagonal, sizes = np.diag(matrix), np.add.reduce(np.abs(matrix), axis=1)
+    shift = float(np.max(sizes - np.abs(diagonal) - diagonal, initial=0.0))
+    _, values, vectors = svd(matrix + shift * np.eye(len(matrix)))
+    return values[::-1] - shift, np.ascontiguousarray(vectors[::-1].T)
+
+
+def lstsq(matrix: FloatArray, right: FloatArray, rcond: float | None = None) -> FloatArray:
+    """Return the shortest x (n,) with the least |matrix x − right|.
+
+    Singular values below ``rcond`` times the largest count as zero.
+    """
+    left, values, vectors = svd(matrix)
+    least = (_ROUNDING * max(matrix.shape) if rcond is None else rcond) * values.max(initial=0.0)
+    kept = values > least
+    shares = product(left.T, right)[kept] / values[kept]
+    return np.asarray(product(shares, vectors[: values.size][kept]))
+
+
+@kernel
+def _multiply(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    for i in range(a.shape[0]):
+        for j in range(b.shape[1]):
+            out[i, j] = 0.0
+        for k in range(a.shape[1]):
+            for j in range(b.shape[1]):
+                out[i, j] += a[i, k] * b[k, j]
+
+
+@kernel
+def _inner(a: FloatArray, b: FloatArray) -> float:
+    total = 0.0
+    for i in range(a.size):
+        total += a[i] * b[i]
+    return total
+
+
+@kernel
+def _rotate(rows: FloatArray, p: int, q: int, c: float, s: float) -> None:
+    for i in range(rows.shape[1]):
+        first, second = rows[p, i], rows[q, i]
+        rows[p, i], rows[q, i] = c * first - s * second, s * first + c * second
+
+
+@kernel
+def _orthogonalise(columns: FloatArray, right: FloatArray) -> None:
+    """Turn columns, kept as rows (n, m), in pairs until all are orthogonal; ``right`` (n, n) with them."""
+    n = columns.shape[0]
+    whole = 0.0
+    for p in range(n):
+        whole += _inner(columns[p], columns[p])
+    for _ in range(_MOST_SWEEPS):
+        turned = False
+        for p in range(n - 1):
+            for q in range(p + 1, n):
+                first, second = _inner(columns[p], columns[p]), _inner(columns[q], columns[q])
+                across = _inner(columns[p], columns[q])
+                if abs(across) <= _ROUNDING * max(math.sqrt(first) * math.sqrt(second), _ROUNDING * whole):
+                    continue
+                turned = True
+                ratio = (second - first) / (2.0 * across)
+                tangent = math.copysign(1.0, ratio) / (abs(ratio) + math.sqrt(1.0 + ratio * ratio))
+                c = 1.0 / math.sqrt(1.0 + tangent * tangent)
+                _rotate(columns, p, q, c, c * tangent)
+                _rotate(right, p, q, c, c * tangent)
+        if not turned:
+            return

@@ -1,0 +1,65 @@
+"""Dense linear algebra against NumPy's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
+
+SIZES = [(3, 3, 3), (5, 8, 4), (8, 5, 4), (30, 36, 25), (4, 4, 0)]
+"""Rows, columns and rank."""
+ROUNDING = 1e-13
+"""A hundred roundings and more: sums of 36 products, some ten sweeps of rotations."""
+
+
+def matrix(m: int, n: int, rank: int) -> FloatArray:
+    """Return a matrix of a rank."""
+    chance = np.random.default_rng(m + n)
+    return np.asarray(chance.normal(size=(m, rank)) @ chance.normal(size=(rank, n)))
+
+
+@pytest.mark.parametrize(("m", "n", "rank"), SIZES)
+def test_singular_values(m: int, n: int, rank: int) -> None:
+    a = matrix(m, n, rank)
+    u, values, v = dense.svd(a)
+    size = max(values[0], 1.0)
+    k = min(m, n)
+    assert (u.shape, values.shape, v.shape) == ((m, k), (k,), (n, n))
+    assert values == pytest.approx(np.linalg.svd(a, compute_uv=False), abs=ROUNDING * size)
+    assert (u * values) @ v[:k] == pytest.approx(a, abs=ROUNDING * size)
+    assert v @ v.T == pytest.approx(np.eye(n), abs=ROUNDING)
+    assert u[:, :rank].T @ u[:, :rank] == pytest.approx(np.eye(rank), abs=ROUNDING)
+    assert a @ v[rank:].T == pytest.approx(0.0, abs=ROUNDING * size)
+
+
+@pytest.mark.parametrize(("m", "n", "rank"), SIZES[:-1])
+def test_least_squares(m: int, n: int, rank: int) -> None:
+    a, b = matrix(m, n, rank), np.arange(1.0, m + 1.0)
+    assert dense.lstsq(a, b) == pytest.approx(np.linalg.lstsq(a, b)[0], rel=1e-9, abs=1e-9)
+
+
+def test_eigenvalues_rise() -> None:
+    a = matrix(5, 5, 5)
+    values, vectors = dense.eigh(a @ a.T)
+    assert np.all(np.diff(values) > 0.0)
+    assert vectors @ np.diag(values) @ vectors.T == pytest.approx(a @ a.T, rel=1e-9)
+    indefinite = a + a.T
+    assert dense.eigh(indefinite)[0] == pytest.approx(np.linalg.eigvalsh(indefinite), abs=1e-12)
+
+
+def test_solutions_and_inverses() -> None:
+    a = matrix(6, 6, 6)
+    for right in (np.arange(6.0), np.arange(12.0).reshape(6, 2)):
+        assert a @ dense.solve(a, right) == pytest.approx(right, abs=1e-10)
+    assert a @ dense.inverse(a) == pytest.approx(np.eye(6), abs=1e-10)
+    assert not np.isfinite(dense.solve(np.zeros((2, 2)), np.ones(2))).any()
+
+
+def test_products_have_the_shapes_of_numpy() -> None:
+    a, b, c = np.arange(6.0).reshape(2, 3), np.arange(3.0), np.arange(24.0).reshape(2, 4, 3)
+    for first, second in ((a, b), (b, a.T), (a, a.T), (b, b), (c, a.T)):
+        # Whole numbers: products and sums are exact.
+        assert np.array_equal(dense.product(first, second), first @ second)
+    assert dense.norm(a) == pytest.approx(np.linalg.norm(a), rel=1e-15)
