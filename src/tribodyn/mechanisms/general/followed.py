@@ -9,6 +9,7 @@ import numpy as np
 from tribodyn.cases.beyond import FollowedTable
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.case import MechanismCase
 
 _Z = 2
@@ -38,4 +39,4 @@ def _opposed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: Fo
     direction = case.loads[name].direction
     if direction is None:
         return np.asarray(np.linalg.norm(twist, axis=1))
-    return np.asarray(np.abs(twist @ np.array(unit(direction, "direction"))))
+    return np.asarray(np.abs(dense.product(twist, np.array(unit(direction, "direction")))))

@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity
 from tribodyn.core.signals import Signal
@@ -128,7 +129,9 @@ def _rate(signal: Signal, level: int, times: FloatArray) -> FloatArray:
         return np.full(times.shape, level * signal.coefficients[0])
     mean, amplitude, frequency, phase = signal.coefficients
     wave = frequency * times + phase
-    return np.asarray(mean + amplitude * np.sin(wave) if level == 1 else amplitude * frequency * np.cos(wave))
+    return np.asarray(
+        mean + amplitude * portable.sin(wave) if level == 1 else amplitude * frequency * portable.cos(wave)
+    )
 
 
 def _candidates(signal: Signal, level: int, duration: float) -> FloatArray:
