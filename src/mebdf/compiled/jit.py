@@ -4,8 +4,8 @@ All of them are kept on disk (:mod:`mebdf.compiled.cache`). Division by zero giv
 integrators watch for: checking every division would cost more than the division.
 
 Floating-point operations are compiled as they are written: none is contracted, reordered or replaced by
-another. So a kernel returns the same bits on every processor and from every level that it is inlined into,
-apart from the elementary functions of the C library.
+another. So a kernel returns the same bits on every processor and from every level that it is inlined into. It
+calls no function of the C library: :mod:`mebdf.kernels.elementary` has those that are needed.
 
 Kernels allocate no memory. Numba's reference counts, which take a fifth of the time of a run, are switched
 off by the private option ``_nrt``; a kernel that creates an array does not compile.

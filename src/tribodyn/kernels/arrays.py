@@ -18,6 +18,11 @@ def new_record(fields: np.dtype[np.void]) -> Any:
     return np.zeros(1, dtype=fields)[0]
 
 
+def new_records(n: int, fields: np.dtype[np.void]) -> Any:
+    """Return cleared records, shape (n,), whose fields are attributes."""
+    return np.zeros(n, dtype=fields).view(np.recarray)
+
+
 @kernel
 def clear(target: FloatArray) -> None:
     """Set all entries of a two-dimensional array to zero."""

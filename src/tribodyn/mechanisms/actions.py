@@ -13,6 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import actions as kinds
 from tribodyn.kernels.actions import Actions
+from tribodyn.kernels.arrays import new_records
 from tribodyn.mechanisms.signals import NO_KINKS, SignalList, pieces_of
 
 TIME: Final = 0
@@ -82,7 +83,7 @@ def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Act
 
 def term_records(signals: SignalList, terms: Sequence[Term]) -> Any:
     """Return terms as kernels read them, their signals numbered in the list, shape (n,)."""
-    records = np.recarray(len(terms), dtype=kinds.Term)
+    records = new_records(len(terms), kinds.Term)
     for record, term in zip(records, terms, strict=True):
         record.target, record.against = term.target, int(term.against)
         record.signals[:], record.over[:] = kinds.NONE, TIME
@@ -148,7 +149,7 @@ def segments_of(
         Of each other coordinate its values in the middle of the segments, shape (n,), and where signals over
         it kink.
     """
-    segments = np.recarray(directions.size, dtype=kinds.Segment)
+    segments = new_records(directions.size, kinds.Segment)
     segments.begin = np.concatenate([[0.0], breaks])
     segments.direction = directions
     segments.low[:], segments.high[:] = -np.inf, np.inf

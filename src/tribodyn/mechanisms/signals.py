@@ -12,6 +12,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import signals as kinds
+from tribodyn.kernels.arrays import new_records
 
 NO_KINKS: Final = np.empty(0)
 _SAME: Final = 1.0e-12
@@ -127,8 +128,8 @@ class SignalList:
 
     def records(self) -> kinds.Signals:
         """Return what kernels read: one signal and one piece at least."""
-        signals = np.recarray(max(len(self.all), 1), dtype=kinds.Signal)
-        pieces = np.recarray(max(sum(p.until.size for p in self.all), 1), dtype=kinds.Piece)
+        signals = new_records(max(len(self.all), 1), kinds.Signal)
+        pieces = new_records(max(sum(p.until.size for p in self.all), 1), kinds.Piece)
         first = 0
         for k, one in enumerate(self.all):
             last = first + one.until.size

@@ -62,6 +62,8 @@ def exp(x: float) -> float:
 @kernel
 def expm1(x: float) -> float:
     """Return e^x − 1."""
+    if x == 0.0:
+        return x
     if abs(x) < 0.125:
         tail = 1.0 / 5040.0 + x * (
             1.0 / 40320.0 + x * (1.0 / 362880.0 + x * (1.0 / 3628800.0 + x / 39916800.0))
@@ -84,6 +86,8 @@ def expm1(x: float) -> float:
 def tanh(x: float) -> float:
     """Return the hyperbolic tangent: its series near zero, elsewhere (e^2|x| − 1)/(e^2|x| + 1)."""
     size = abs(x)
+    if size == 0.0:
+        return x
     if size <= 0.0625:
         z = x * x
         tail = -1382.0 / 155925.0 + z * (21844.0 / 6081075.0 - z * (929569.0 / 638512875.0))

@@ -118,5 +118,5 @@ def _special_power(x: float, y: float) -> float:
     elif not whole:
         return math.nan
     else:
-        found = _of_sizes(size, y)
+        found = _of_sizes(size, y) if size != 1.0 else 1.0
     return math.copysign(found, x) if odd else found

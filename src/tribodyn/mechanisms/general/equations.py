@@ -15,7 +15,7 @@ from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels import dense
-from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.arrays import new_record, new_records
 from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
@@ -98,11 +98,9 @@ def new_memory(data: MechanismData) -> MechanismMemory:
     """Return the memory of a mechanism that has not moved."""
     parts = data.parts
     constants, n_bodies, n_couplings = parts.constants, parts.bodies.size, parts.couplings.size
-    bodies = np.recarray(n_bodies + 1, dtype=kinds.BodyNow)
-    couplings = np.recarray(n_couplings, dtype=kinds.CouplingNow)
-    books = np.recarray(n_couplings + 2, dtype=kinds.Book)
-    for records in (bodies, couplings, books):
-        records.view(np.uint8)[:] = 0
+    bodies = new_records(n_bodies + 1, kinds.BodyNow)
+    couplings = new_records(n_couplings, kinds.CouplingNow)
+    books = new_records(n_couplings + 2, kinds.Book)
     bodies.p[:, 0] = 1.0
     bodies.A[:] = np.eye(3)
     bodies.r[:-1] = parts.bodies.centre
@@ -138,7 +136,7 @@ def _size(model: Model) -> float:
 
 def _bodies(model: Model) -> Any:
     """Return the records of the bodies."""
-    records = np.recarray(len(model.bodies), dtype=kinds.Body)
+    records = new_records(len(model.bodies), kinds.Body)
     for record, body in zip(records, model.case.bodies.values(), strict=True):
         inertia = _inertia(body)
         record.mass, record.centre[:] = body.mass, body.centre
@@ -157,8 +155,7 @@ def _inertia(body: BodyKeys) -> FloatArray:
 def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
     """Return the records of joints, springs, loads and legs of elements, in this order; add the terms."""
     case = model.case
-    records = np.recarray(model.first_leg + sum(len(e.legs) for e in model.elements), dtype=kinds.Coupling)
-    records.view(np.uint8)[:] = 0
+    records = new_records(model.first_leg + sum(len(e.legs) for e in model.elements), kinds.Coupling)
     for name in (
         "node",
         "row_signal",

@@ -139,7 +139,8 @@ def test_special_values_are_those_of_c99(name: str) -> None:
     for each in itertools.product(SPECIAL, repeat=len(function.draws[0])):
         found = ours(name, [np.array([value]) for value in each])[0]
         with np.errstate(all="ignore"):
-            exact = getattr(np, function.of_numpy)(*each)
+            # For 64 bits NumPy has x^½ as a square root, of −0 too.
+            exact = np.float64(getattr(np, function.of_numpy)(*map(np.longdouble, each)))
         if math.isnan(exact):
             assert math.isnan(found), each
         else:
