@@ -64,8 +64,8 @@ def svd(matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 def eigh(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return eigenvalues (n,), rising, and eigenvectors as columns (n, n) of a symmetric matrix.
 
-    They are singular values of a matrix without negative ones: where Gershgorin's circles do not exclude those,
-    of the matrix plus a multiple of unity.
+    Those of a matrix without negative ones are its singular values. Where Gershgorin's circles leave room for
+    negative ones, a multiple of unity is added.
     """
     diagonal, sizes = np.diag(matrix), np.add.reduce(np.abs(matrix), axis=1)
     shift = float(np.max(sizes - np.abs(diagonal) - diagonal, initial=0.0))
