@@ -16,6 +16,7 @@ play. Teeth without backlash push the wheels apart with |λ| tan α where the pr
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import ClassVar
