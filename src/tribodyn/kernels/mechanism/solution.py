@@ -26,6 +26,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
+from mebdf.kernels.elementary import hypot
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
@@ -247,7 +248,7 @@ def _add_reactive(parts: Parts, now: Now) -> float:
         coupling, state = parts.couplings[k], now.couplings[k]
         if coupling.load_of != NONE:
             reaction, before = now.couplings[coupling.load_of].constraint, state.law.normal
-            state.law.normal = math.hypot(reaction[0], reaction[1])
+            state.law.normal = hypot(reaction[0], reaction[1])
             change = max(change, abs(state.law.normal - before))
             largest = max(largest, state.law.normal)
             call_law(coupling, state)
