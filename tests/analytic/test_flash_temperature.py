@@ -66,3 +66,23 @@ def test_a_run_tells_it_where_conductors_are_known() -> None:
     run = td.simulate(case.replace({"surfaces.bushing.diffusivity": "0.2 mm^2/s"}))
     # A vane slides at millimetres a second: under a kelvin, above what a smooth surface would have.
     assert 1e-6 < run.attrs["flash_temperature"] < 1.0
+
+
+def test_a_turning_journal_tells_it() -> None:
+    known = {
+        "surfaces.trunnion.conductivity": "18 W/(m K)",
+        "surfaces.trunnion.diffusivity": "5 mm^2/s",
+        "surfaces.bushing.conductivity": "0.35 W/(m K)",
+        "surfaces.bushing.diffusivity": "0.2 mm^2/s",
+        "journal.speed": "100 rad/s",
+        "joint.friction_coefficient": 0.1,
+        "run.start": "equilibrium",
+        "run.duration": "1 ms",
+    }
+    run = td.simulate(td.load_case("journal-dry").replace(known))
+    flash = run.attrs["flash_temperature"]
+    # At most μ H V a/k, of spots that carry the hardness, at rest on the better conductor, of some um.
+    assert 0.0 < flash < 0.1 * 492e6 * 0.6 * 20e-6 / 18.0
+    slower = td.simulate(td.load_case("journal-dry").replace(known | {"journal.speed": "50 rad/s"}))
+    # At these speeds heat is conducted as at rest, in proportion to the speed.
+    assert slower.attrs["flash_temperature"] == pytest.approx(0.5 * flash, rel=0.1)

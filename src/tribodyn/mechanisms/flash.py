@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from tribodyn.cases.groups import Bushing, Surfaces, Trunnion
 from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.flash_temperature import Conductor, flash_temperature
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints import BushingJoint
 from tribodyn.joints.touch import Touch
 
 
@@ -55,6 +58,41 @@ def flash_of(
     standing, passing = (bushing, trunnion) if rougher else (trunnion, bushing)
     radius = math.sqrt(real / (math.pi * count))
     return flash_temperature(friction_coefficient * pressure * speed / real, radius, speed, standing, passing)
+
+
+def flash_of_bushing(
+    surfaces: Surfaces,
+    law: ContactLaw,
+    joint: BushingJoint,
+    rows: Mapping[str, FloatArray],
+    speed: FloatArray,
+) -> dict[str, float]:
+    """Return the flash temperature of a bushing where pressure times speed was largest, by name.
+
+    Parameters
+    ----------
+    surfaces, law
+        As for :func:`flash_of`.
+    joint
+        The bushing.
+    rows
+        Columns of the run, of which pressures and gaps are used.
+    speed
+        Of sliding at each row [m/s], shape (n_t,).
+    """
+    if not (has_conductors(surfaces) and joint.touch.over_surface and speed.size):
+        return {}
+    row = int(np.argmax(rows["p_max"] * np.abs(speed)))
+    flash = flash_of(
+        surfaces,
+        law,
+        joint.touch,
+        friction_coefficient=joint.friction.coefficient,
+        pressure=float(rows["p_max"][row]),
+        separation=float(rows["separation_min"][row]),
+        speed=abs(float(speed[row])),
+    )
+    return {"flash_temperature": flash}
 
 
 def _conductor(surface: Trunnion | Bushing) -> Conductor | None:

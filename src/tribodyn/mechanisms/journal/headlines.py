@@ -71,6 +71,15 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Friction moment of contact and film over journal radius and load.",
         _one("friction_coefficient_end"),
     ),
+    "flash_temperature_K": Headline(
+        "Flash temperature",
+        "K",
+        "Impact",
+        "How much warmer than the surfaces their asperities get, an estimate, where pressure times speed is "
+        "largest.",
+        lambda run: float(run.attrs["flash_temperature"]),
+        digits=2,
+    ),
     "energy_residual_percent": Headline(
         "Energy residual",
         "%",

@@ -27,8 +27,17 @@ from tribodyn.mechanisms.bushing import (
     grid_force_error,
     loading,
     of_temperature,
+    pressure_at_rest,
 )
-from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
+from tribodyn.mechanisms.checks import (
+    beyond_law,
+    extremes,
+    instant,
+    of_clearance,
+    of_damping_pressure,
+    of_tables,
+)
+from tribodyn.mechanisms.flash import flash_of_bushing
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
 from tribodyn.mechanisms.journal.course import angle
@@ -116,7 +125,10 @@ class JournalSystem:
         found = run.problem.memory.joint.extremes
         largest = of_run(run.problem.memory.peaks, WATCHED)
         law = self.case.contact.law_of(self.case.surface_pair)
-        load = loading(law, self.journal.joint.touch, largest["pressure_peak"], float(found.separation_least))
+        joint, pressure = self.journal.joint, largest["pressure_peak"]
+        load = loading(law, joint.touch, pressure, float(found.separation_least))
+        at_rest, speed = pressure_at_rest(joint, rows), rows["omega"] * joint.geometry.radius
+        damped = of_damping_pressure(pressure, at_rest)
         return ResultPart(
             columns=columns,
             fields=self._numbers(run, rows, balance),
@@ -124,7 +136,9 @@ class JournalSystem:
                 **self._facts(),
                 "energy_residual": residual,
                 "grid_force_error": grid_error,
+                "pressure_at_rest": at_rest,
                 **load,
+                **flash_of_bushing(self.case.surfaces, law, joint, rows, speed),
             },
             warnings=[
                 *warnings(
@@ -141,7 +155,7 @@ class JournalSystem:
                     self.case.followed(), run.solution.t, partial(self._followed, rows, run.solution.t)
                 ),
             ],
-            notes=of_temperature(self.case),
+            notes=[*of_temperature(self.case), *([damped] if damped else [])],
             failure=self._failure(run),
         )
 

@@ -24,6 +24,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, name, names, quantity, vector
+from tribodyn.cases.signals import ForceSignal, TorqueSignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import dense
@@ -35,6 +36,20 @@ PARALLEL: Final = 1.0e-6
 """Sine of the angle between two axes up to which they count as parallel."""
 _SIZE: Final = 0.1
 """Length [m] by which angles become lengths where all joints are at one point."""
+
+ARM: Final = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
+[joints]
+input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+"""
+DRIVE: Final = """[drives.motor]
+joint = "input"
+torque = "0.2 N m"
+"""
+"""Begin and end of a case file: examples of elements put their table between."""
 
 Joints = Mapping[str, JointKeys]
 """The joints of a case by their names."""
@@ -175,11 +190,17 @@ class ElementKeys(NamedGroup):
         raise NotImplementedError
 
     def force_law(self, joints: Joints) -> ForceLaw | None:
-        """Return the force law, whose parameters are the keys that are numbers; None for a constraint."""
+        """Return the force law: its parameters are the keys that are numbers, its table that of these keys.
+
+        None for a constraint.
+        """
         law = type(self).LAW
         if law is None:
             return None
-        return ForceLaw(law, {key: value for key, value in self if isinstance(value, float)})
+        table = next(
+            (value.curve() for _, value in self if isinstance(value, ForceSignal | TorqueSignal)), None
+        )
+        return ForceLaw(law, {key: value for key, value in self if isinstance(value, float)}, table)
 
     def check_run(self, duration: float, *, dynamic: bool, campaign: bool) -> None:
         """Refuse a run over some time [s] that does not suit the element; by default none is refused."""

@@ -22,7 +22,7 @@ from tribodyn.cases.functions import OwnFunction
 from tribodyn.cases.signals import AngleSignal, PositionSignal, SpeedSignal, VelocitySignal
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
-from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
+from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 from tribodyn.mechanisms.general.kinds import KINDS
 
 AnySetValue = AngleSignal | SpeedSignal | PositionSignal | VelocitySignal
@@ -51,24 +51,18 @@ class Controller(OfJointKeys):
     FORCE: ClassVar[str] = "force on the second body along the axis; none for a torque"
     MOMENT: ClassVar[str] = "torque on the second body about the axis; none for a force"
     LAW: ClassVar = held
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
-[controllers.servo]
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[controllers.servo]
 joint = "input"
 angle = "20 deg"
 angle_gain = "2 N m/rad"
 derivative_time = "20 ms"
 torque_limit = "1 N m"
 sampling_time = "5 ms"
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
 """
+        + DRIVE
+    )
 
     angle: AngleSignal | None = None
     speed: SpeedSignal | None = None

@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import number, quantity
-from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
+from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 from tribodyn.mechanisms.general.kinds import KINDS
 
 
@@ -45,24 +45,18 @@ class JointFriction(OfJointKeys):
     FORCE: ClassVar[str] = "friction force on the second body along the axis; none where the joint turns"
     MOMENT: ClassVar[str] = "friction torque on the second body about the axis; none where it slides"
     LAW: ClassVar = regularised
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
-[frictions.bearing]
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[frictions.bearing]
 joint = "input"
 radius = "10 mm"
 normal_load = "40 N"
 friction_coefficient = 0.1
 static_coefficient = 0.15
 viscous = "5 N s/m"
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
 """
+        + DRIVE
+    )
 
     normal_load: float | None = quantity(
         None,

@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import quantity
 from tribodyn.cases.signals import ForceSignal, TorqueSignal
-from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
+from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 
 def of_speed(motor: Any, law: Any) -> None:
@@ -38,20 +38,14 @@ class Motor(OfJointKeys):
     FORCE: ClassVar[str] = "force on the second body along the axis; none for a torque"
     MOMENT: ClassVar[str] = "torque on the second body about the axis; none for a force"
     LAW: ClassVar = of_speed
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
-[motors.dc]
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[motors.dc]
 joint = "input"
 torque = { speeds = "-100, 0, 100, 200 rad/s", values = "3, 2, 1.2, 0 N m" }
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
 """
+        + DRIVE
+    )
 
     stall_torque: float | None = quantity(
         None, "torque at rest, on a straight line to the no-load speed", "", unit="N m", example="2 N m"

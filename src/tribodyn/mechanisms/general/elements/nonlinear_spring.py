@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import quantity
 from tribodyn.cases.signals import ForceSignal
-from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, PointsKeys
+from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, Joints, Leg, PointsKeys
 
 
 def elastic(spring: Any, law: Any) -> None:
@@ -32,14 +32,9 @@ class NonlinearSpring(PointsKeys):
     FORCE: ClassVar[str] = "force that pushes the two points apart"
     MOMENT: ClassVar[str] = "none"
     LAW: ClassVar = elastic
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
-[nonlinear_springs.rubber]
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[nonlinear_springs.rubber]
 between = ["arm", "ground"]
 first_point = "0, 60, 0 mm"
 second_point = "100, 70, 20 mm"
@@ -47,10 +42,9 @@ preload = "2 N"
 stiffness = "0.1 N/mm"
 damping = "0.5 N s/m"
 force = { positions = "-30, -10, 10, 30 mm", values = "-20, -2, 2, 20 N" }
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
 """
+        + DRIVE
+    )
 
     preload: float = quantity("0 N", "tension at its length", "assumed", example="20 N")
     stiffness: float = quantity("0 N/mm", "tension over elongation", "assumed", ge=0, example="2 N/mm")
@@ -68,8 +62,3 @@ torque = "0.2 N m"
             "the table of a spring is one over positions: its elongation",
         )
         return super().legs(joints)
-
-    def force_law(self, joints: Joints) -> ForceLaw:
-        """Return the law with its table."""
-        held = {"preload": self.preload, "stiffness": self.stiffness, "damping": self.damping}
-        return ForceLaw(elastic, held, None if self.force is None else self.force.curve())

@@ -19,7 +19,7 @@ import numpy as np
 from mebdf.kernels.elementary import portable, power
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import choice, number, quantity
-from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
+from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 LEAST_RATE: Final = 1.0e-3
 """Least speed at which contact begins, where a case does not say it [m/s] or [rad/s]."""
@@ -68,23 +68,17 @@ class Stop(OfJointKeys):
     FORCE: ClassVar[str] = "force on the second body along the axis; none for a stop of an angle"
     MOMENT: ClassVar[str] = "torque on the second body about the axis; none for a stop of a position"
     LAW: ClassVar = one_sided
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
-[stops.end]
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[stops.end]
 joint = "input"
 angle = "-0.2 deg"
 side = "above"
 angular_stiffness = "100 N m/rad"
 restitution = 0.6
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
 """
+        + DRIVE
+    )
 
     angle: float | None = quantity(
         None, "where it begins: of the second body, zero as drawn", "", unit="deg", example="60 deg"

@@ -7,7 +7,7 @@ from typing import ClassVar
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import quantity
 from tribodyn.cases.signals import TorqueSignal
-from tribodyn.mechanisms.general.elements.base import ForceLaw, Joints, Leg, OfJointKeys
+from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, Joints, Leg, OfJointKeys
 from tribodyn.mechanisms.general.elements.nonlinear_spring import elastic
 
 
@@ -19,23 +19,17 @@ class TorsionSpring(OfJointKeys):
     FORCE: ClassVar[str] = "none"
     MOMENT: ClassVar[str] = "torque on the second body of the joint, about its axis"
     LAW: ClassVar = elastic
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
-[torsion_springs.coil]
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[torsion_springs.coil]
 joint = "input"
 preload = "0.1 N m"
 stiffness = "2 N m/rad"
 damping = "0.02 N m s/rad"
 torque = { angles = "-60, -20, 20, 60 deg", values = "-3, -0.5, 0.5, 3 N m" }
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
 """
+        + DRIVE
+    )
 
     preload: float = quantity("0 N m", "torque against a growing angle, as drawn", "assumed", example="2 N m")
     stiffness: float = quantity("0 N m/rad", "torque over angle", "assumed", ge=0, example="5 N m/rad")
@@ -49,8 +43,3 @@ torque = "0.2 N m"
         over = None if self.torque is None else self.torque.over
         demand(over in (None, "angles"), "torque", "the table of a torsion spring is one over angles")
         return (self.leg_of(joints, "angle", "a torsion spring"),)
-
-    def force_law(self, joints: Joints) -> ForceLaw:
-        """Return the law with its table."""
-        held = {"preload": self.preload, "stiffness": self.stiffness, "damping": self.damping}
-        return ForceLaw(elastic, held, None if self.torque is None else self.torque.curve())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Final
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.temperature import cold_geometry
-from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
@@ -33,7 +32,7 @@ from tribodyn.mechanisms.bushing import (
     pressure_at_rest,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
-from tribodyn.mechanisms.flash import flash_of, has_conductors
+from tribodyn.mechanisms.flash import flash_of_bushing
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -209,6 +208,7 @@ class VsvSystem:
         pressure = largest["pressure_peak"]
         law = self.case.contact.law_of(self._worn_case(worn).surface_pair)
         found |= loading(law, bushing.touch, pressure, found["separation_least"])
+        speed = rows["omega_v"] * bushing.geometry.radius
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         when = instant(largest["pressure_peak_time"], turns, self.vsv.drive.impact_time)
@@ -226,7 +226,7 @@ class VsvSystem:
                 "energy_residual": whole,
                 "clearance_energy_residual": of_clearance,
                 **found,
-                **self._flash(bushing, law, rows),
+                **flash_of_bushing(self.case.surfaces, law, bushing, rows, speed),
             },
             warnings=[
                 *warnings(self.vsv, found, whole, of_clearance, t_end, run.cost, when),
@@ -242,25 +242,6 @@ class VsvSystem:
             ],
             failure=self._failure(run),
         )
-
-    def _flash(
-        self, bushing: BushingJoint, law: ContactLaw, rows: Mapping[str, FloatArray]
-    ) -> dict[str, float]:
-        """Return the flash temperature where pressure times speed was largest, by name; else nothing."""
-        speed = np.abs(rows["omega_v"]) * bushing.geometry.radius
-        if not (has_conductors(self.case.surfaces) and bushing.touch.over_surface and speed.size):
-            return {}
-        row = int(np.argmax(rows["p_max"] * speed))
-        flash = flash_of(
-            self.case.surfaces,
-            law,
-            bushing.touch,
-            friction_coefficient=bushing.friction.coefficient,
-            pressure=float(rows["p_max"][row]),
-            separation=float(rows["separation_min"][row]),
-            speed=float(speed[row]),
-        )
-        return {"flash_temperature": flash}
 
     def _coordinates(self, run: FinishedRun) -> dict[str, FloatArray]:
         pictures = run.solution.picture_times
