@@ -88,7 +88,7 @@ def label(case: Case, key: Key) -> str:
     for place in range(1, len(parts) - 1):
         if isinstance(case.at(".".join(parts[:place])), Tables):
             words = [part.replace("_", " ") for part in parts[place + 1 :] if part != VALUE]
-            return f"{parts[place]}: {', '.join(words)}"
+            return f"{parts[place]}: {', '.join(words)}" if words else parts[place]
     meaning = re.split("[;:]", key.description)[0]
     return f"{parts[-1].replace('_', ' ')}, {meaning}" if _GOES_ON.match(meaning) else meaning
 

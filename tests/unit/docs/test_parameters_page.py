@@ -1,4 +1,4 @@
-"""The page on parameters: its model is a case, and its command answers as shown."""
+"""The page on parameters: its model is a case, and its commands answer as shown."""
 
 from __future__ import annotations
 
@@ -11,18 +11,25 @@ import pytest
 from tribodyn.cli.main import main
 
 PAGE = (Path(__file__).parents[3] / "docs" / "guide" / "parameters.md").read_text(encoding="utf-8")
+MODEL = re.search(r"```toml\n(.*?)```", PAGE, re.DOTALL)[1]  # type: ignore[index]
+SHOWN = re.findall(r"\n    tribodyn ([^\n]*press\.toml[^\n]*)\n\n```text\n(.*?)```", PAGE, re.DOTALL)
 
 
-def test_the_crank_is_swept_as_shown(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_the_page_shows_four_commands_with_their_answers() -> None:
+    assert [command.split()[0] for command, _ in SHOWN] == ["sweep", "find", "sweep", "sweep"]
+
+
+@pytest.mark.parametrize(("command", "answer"), SHOWN, ids=["sweep", "find", "samples", "wear"])
+def test_a_command_answers_as_shown(
+    command: str,
+    answer: str,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "120")  # as wide as the table of the page
-    model, command, answer = (
-        re.search(pattern, PAGE, re.DOTALL)[1]  # type: ignore[index]
-        for pattern in (r"```toml\n(.*?)```", r"\n    tribodyn (sweep .*?)\n", r"```text\n(.*?)```")
-    )
-    Path("press.toml").write_text(model)
+    monkeypatch.setenv("COLUMNS", "100")
+    Path("press.toml").write_text(MODEL, encoding="utf-8")
     assert main(shlex.split(command)) == 0
     shown = [_numbers(line) for line in answer.splitlines()]
     printed = [_numbers(line) for line in capsys.readouterr().out.splitlines()]
@@ -31,6 +38,5 @@ def test_the_crank_is_swept_as_shown(
 
 
 def _numbers(line: str) -> list[float]:
-    """Return the numbers of a line but the mean power over a cycle, which is zero but for rounding."""
-    numbers = map(float, re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?", line))
-    return [number for number in numbers if number > 1e-6]
+    """Return the numbers of a line."""
+    return [float(found) for found in re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?", line)]

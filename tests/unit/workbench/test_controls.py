@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import tribodyn as td
 from tribodyn.cases.tables import keys_in, with_components
 from tribodyn.mechanisms.catalogue import MECHANISMS, built_in, load_case
 from tribodyn.workbench.controls import FIRST, controls
@@ -90,3 +91,13 @@ def test_controls_have_short_names_that_tell_them_apart(name, path, expected):
 def test_no_two_first_controls_have_one_name(name):
     labels = [control["label"] for control in found(name)[1] if control["first"]]
     assert len(set(labels)) == len(labels)
+
+
+def test_parameters_have_the_first_sliders():
+    drawn = td.Mechanism("Pendulum", run={"duration": "1 s"}).parameter("length", "0.5 m")
+    drawn.body("rod", shape="rod", start="0, 0, 0 m", end="0, -length, 0 m", radius="5 mm", mass="1 kg")
+    case = drawn.revolute("pivot", "ground", "rod", point="0, 0, 0 m", axis=[0, 0, 1]).case()
+    first = controls(case, MECHANISMS["mechanism"].controls)[0]
+    assert (first["key"], first["label"], first["number"]) == ("parameters.length.value", "length", 0.5)
+    assert first["least"] < 0.5 < first["greatest"]
+    assert case.replace({first["key"]: "0.6 m"}).at("bodies.rod.end.y") == -0.6

@@ -32,6 +32,7 @@ MECHANISM: Final = MechanismDescriptor(
     of_cycle=OF_CYCLE,
     by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT},
     controls=(
+        "parameters.*.value",
         "joints.*.clearance.radial",
         "joints.*.clearance.gap",
         "drives.*.*.value",
