@@ -27,7 +27,7 @@ from tribodyn.results.attributes import (
     TEXTS,
     VARIABLE_ATTRIBUTES,
 )
-from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, VARIABLES, Variable
+from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, REVERSAL, VARIABLES, Variable
 
 LARGEST: Final = 1e60
 """Size of a number, at most: products and squares of numbers are numbers, too."""
@@ -177,7 +177,7 @@ def _check_run(dataset: xr.Dataset, known: Mapping[str, Variable]) -> None:
 
 def _form_of(name: str, about: Variable) -> str:
     """Return which numbers a variable may hold: only what a run has one of may be beyond all bounds."""
-    if name in COORDINATES or (len(about.dims) > 1 and about.dims[:1] != TIME):
+    if name in COORDINATES or (len(about.dims) > 1 and about.dims[:1] not in (TIME, REVERSAL)):
         return NUMBER
     return GAPS if about.dims else OUTCOME
 

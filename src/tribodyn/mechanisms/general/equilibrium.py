@@ -62,6 +62,8 @@ _SOFTER: Final = 3.0
 """Factors by which springs change."""
 _BACK: Final = 0.5
 """Share of the load along a step that may have turned against it."""
+_NEARER: Final = 4.0
+"""Factor by which bodies that do not come to rest count as near from look to look."""
 _ADRIFT: Final = 1.0e-3
 """Load along a freedom that nothing holds, over all loads, that is none."""
 _TINY: Final = 1.0e-300
@@ -327,7 +329,8 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     change
         Change of gaps, over the roughness, that is none.
     near
-        Change of gaps, over the roughness, after which the possible motions are not looked for again.
+        Change of gaps, over the roughness, after which the possible motions are not looked for again; it
+        grows from look to look.
     """
     soft = 0.0
     for _ in range(_MOST_LOOKS):
@@ -337,6 +340,8 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
             return None if loads.beyond_law else loads.state
         if loads.lost:
             return None
+        # Where a force passes through zero its shaft lies anywhere, and no look is the last.
+        near *= _NEARER
     return None
 
 

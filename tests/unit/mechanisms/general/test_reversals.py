@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import tribodyn as td
 from tribodyn.mechanisms.general.actions import DriveKeys
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.peaks import of_rows
+from tribodyn.mechanisms.results import write_run
 
 
 def drive(**signal: dict[str, Any]) -> DriveKeys:
@@ -100,6 +102,22 @@ def test_a_user_defined_vane_has_the_reversals_of_the_reduced_one(
         float(np.nanmax(trunnion["offset_outside"])) * 1e6
     )
     assert "drive_moment_outside_Nm_trunnion" not in summary
+
+
+def test_a_result_with_an_ideal_joint_is_read_again(tmp_path: Path) -> None:
+    drawn = (
+        td.Mechanism("Rocker", run={"duration": "20 ms", "step_rows": 0})
+        .body("arm", mass="1 kg", centre="50, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        .body("bob", mass="1 kg", centre="100, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        .revolute("hinge", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .revolute("tip", "arm", "bob", point="100, 0, 0 mm", axis=[0, 0, 1])
+        .clearance("tip", radius="5 mm", radial="20 um", length="10 mm", axial="50 um")
+        .drive("motor", "hinge", angle={"value": "0 deg", "swing": "2 deg", "angular_frequency": "600 rad/s"})
+    )
+    result = td.simulate(drawn)
+    assert np.isnan(result["offset_impact"].sel(joint="hinge")).all()
+    write_run(result, tmp_path)
+    assert td.read(tmp_path).identical(result)
 
 
 def test_a_user_defined_vane_has_the_flash_temperature_of_the_reduced_one(
