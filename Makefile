@@ -5,8 +5,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 DEMO := out/demo
 DOCS := docs/_build/html
-# Every script that draws for the manual; demo.py and tour.py draw what is kept, on demand.
-PLOTS := $(filter-out docs/plots/demo.py docs/plots/mechanism.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
+# Every script that draws for the manual; those that are left out draw what is kept, on demand.
+PLOTS := $(filter-out docs/plots/demo.py docs/plots/mechanism.py docs/plots/moving.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
 DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
 PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
 # One more than there are cores: many tests wait for processes that they watch.
@@ -22,7 +22,7 @@ help:
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
 	@echo "make golden      store headline numbers and messages anew"
-	@echo "make lint        style, types and layers"
+	@echo "make lint        style, types, layers and spelling"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
 	@echo "make bench       speed against other programs (some twenty minutes)"
@@ -58,6 +58,7 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/codespell
 
 format: $(VENV)/.dev
 	$(BIN)/ruff check --fix .

@@ -249,7 +249,7 @@ def test_a_force_against_the_velocity_of_a_journal_limits_it() -> None:
 
 
 REFUSED = {
-    'force = "1 N"\n': "a load needs its direction in the drawing",
+    'force = "1 N"\n': "a load needs its direction",
     'frame = "body"\n': "a load needs a force or a moment",
     'force = { angles = "0, 90 deg", values = "0, 1 N" }\ndirection = [1, 0, 0]\n': "needs the joint",
     'force = { velocities = "0, 9 m/s", values = "0, 1 N" }\ndirection = [1, 0, 0]\n': "needs the joint",

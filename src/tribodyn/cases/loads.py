@@ -103,7 +103,7 @@ class BodyLoad(NamedGroup):
         key = example.partition(" ")[0]
         demand(bool(self.given), key, f"a load needs a force or a moment, such as {example}")
         needs = any(self._needs_direction(key) for key in self.given)
-        words = "a load needs its direction in the drawing, such as direction = [-1, 0, 0]"
+        words = "a load needs its direction, such as direction = [-1, 0, 0]"
         demand(not needs or self.direction is not None, "direction", words)
         if self.direction is not None:
             unit(self.direction, "direction")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tribodyn.studies.search import Question, Search
     from tribodyn.studies.sweep import Arrival
 
-HELP = "find the value of a parameter at which a headline number reaches a limit"
+HELP = "find the value of a parameter at which a key result reaches a limit"
 _STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 

@@ -52,12 +52,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="NAME=LIMIT",
         action="append",
         default=[],
-        help="a headline number and what it may be at most: how many points keep it? May be repeated",
+        help="upper limit of a key result; the share of points within it is printed; may be repeated",
     )
     parser.add_argument(
         "--show",
         metavar="NAMES",
-        help="headline numbers of summary.json in the table, instead of all that vary: "
+        help="key results of summary.json in the table, instead of all that vary: "
         "vane_angle_error_max_deg,steps",
     )
     parser.add_argument(
@@ -89,7 +89,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--summary-only",
         action="store_true",
-        help="keep headline numbers of each point, not its whole result",
+        help="keep key results of each point, not its whole result",
     )
 
 
@@ -156,7 +156,7 @@ def _finite(numbers: dict[str, float]) -> dict[str, float]:
 
 
 def _shown(asked: str | None, case: Case) -> list[str]:
-    """Return the names of the headline numbers that the user wants to see."""
+    """Return the names of the key results that the user requests."""
     from tribodyn.mechanisms.results import headlines_of_case
 
     names = [name.strip() for name in (asked or "").split(",") if name.strip()]

@@ -70,7 +70,9 @@ def _parts(group: str, headlines: Mapping[str, Headline], summary: Mapping[str, 
     }
     parts = dict.fromkeys(h.part for h in headlines.values())
     width = max(map(len, (group, *parts)))
-    for number, shown in enumerate(_blocks(columns, width)):
+    most = _room(width + 4)
+    even = -(-len(columns) // -(-len(columns) // most))
+    for number, shown in enumerate(_pieces(columns, even)):
         yield from [""] if number else []
         yield from (f"  {line}" for line in _heading({group: (group, width)}, {name: name for name in shown}))
         for part in parts:
@@ -78,14 +80,15 @@ def _parts(group: str, headlines: Mapping[str, Headline], summary: Mapping[str, 
             yield f"  {part:<{width}}  {'  '.join(row)}"
 
 
-def _blocks(columns: Iterable[str], taken: int) -> Iterator[list[str]]:
-    """Yield the columns in pieces that fit into the terminal beside what is taken, of nearly one size."""
+def _room(taken: int) -> int:
+    """Return how many columns fit into the terminal beside what is taken, at least one."""
+    return max((shutil.get_terminal_size((120, 40)).columns - taken) // (_COLUMN + 2), 1)
+
+
+def _pieces(columns: Iterable[str], most: int) -> Iterator[list[str]]:
+    """Yield the columns in pieces of at most so many."""
     left = list(columns)
-    most = max((shutil.get_terminal_size((120, 40)).columns - taken - 4) // (_COLUMN + 2), 1)
-    pieces = max(-(-len(left) // most), 1)
-    each = -(-len(left) // pieces)
-    for begin in range(0, len(left), max(each, 1)):
-        yield left[begin : begin + each]
+    yield from (left[begin : begin + most] for begin in range(0, len(left), most))
 
 
 def _number(value: object, digits: int) -> str:
@@ -195,7 +198,7 @@ def _headlines(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str
 def _points(points: Sequence[Mapping[str, Any]], numbers: Mapping[str, str], *, every: bool) -> Iterator[str]:
     widths = {name: _width(name, points) for name in points[0]["changes"]}
     headings = {name: (name.replace(".", " "), width) for name, width in widths.items()}
-    pieces = list(_blocks(numbers, sum(widths.values()) + 2 * len(widths) - 4)) or [[]]
+    pieces = list(_pieces(numbers, _room(sum(widths.values()) + 2 * len(widths)))) or [[]]
     for piece in pieces if every else pieces[:1]:
         shown = {name: numbers[name] for name in piece}
         yield from _heading(headings, shown)

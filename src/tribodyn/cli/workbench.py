@@ -14,7 +14,7 @@ from tribodyn.cli.interrupt import Interruption
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
 
-HELP = "open a page on which values are turned and pictures follow"
+HELP = "open a page with sliders for the values of a case and live plots"
 _CLOSING: Final = "closing the workbench"
 _PORTS: Final = 65535
 _MOST_WORKERS: Final = 256

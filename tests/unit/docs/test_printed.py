@@ -1,4 +1,4 @@
-"""Commands that README and manual show with their answers answer so."""
+"""Commands that README and manual show with their answers print these."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.cli.main import main
+from tribodyn.mechanisms.catalogue import templates
 
 ROOT = Path(__file__).parents[3]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -34,8 +35,11 @@ def test_a_command_answers_as_shown(
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """Every line that is shown is printed, in this order."""
+    """Every line that is shown is printed, in this order; files with names of templates are written first."""
     monkeypatch.chdir(tmp_path)
+    for name in templates():
+        if f" {name}.toml" in command:
+            assert main(["new", name]) == 0
     assert main(shlex.split(command)) == 0
     printed = iter(capsys.readouterr().out.splitlines())
     missing = [line for line in answer.splitlines() if not any(alike(line, other) for other in printed)]

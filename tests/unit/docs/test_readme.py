@@ -57,7 +57,7 @@ def test_commands_are_shown() -> None:
 
 
 def test_the_lines_of_python_run() -> None:
-    lines = [line for line in CODE_LINES if line.startswith(("import ", "result = "))]
+    lines = ["import tribodyn as td", *(line for line in CODE_LINES if line.startswith("result = "))]
     names: dict[str, object] = {}
     exec(compile("\n".join(lines), "README", "exec"), names)
     result = names["result"]
@@ -117,16 +117,27 @@ def test_every_wrong_equation_has_what_was_built_instead_and_why() -> None:
     assert all(len(row) == 4 and all(row) for row in rows)
 
 
-def test_the_clearance_that_can_be_allowed_is_the_one_shown(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (command,) = (line for line in CODE_LINES if line.startswith("$ tribodyn find"))
-    assert main([*shlex.split(command)[2:], "--quiet", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    shown = float(re.search(r"at joint.clearance = ([0-9.]+) um", TEXT)[1])  # type: ignore[index]
-    # The search stops within a hundredth of the range of 50 um, here as when the README was written.
-    assert float(found["value"].removesuffix(" um")) == pytest.approx(shown, abs=1.0)
+def test_the_ratio_to_another_program_is_the_stored_one() -> None:
+    stored = json.loads((ROOT / "docs" / "_static" / "benchmarks.json").read_text(encoding="utf-8"))
+    ratios = sorted(at["ratio"] for at in stored["mechanism"]["ratios"])
+    assert f"takes Exudyn {ratios[0]:.2g} to {ratios[-1]:.2g} times as long" in TEXT
+
+
+def test_joints_with_clearance_are_those_listed() -> None:
+    from tribodyn.mechanisms.general.kinds import KINDS
+
+    (real,) = re.findall(r"Clearance exists in ([^.]*) joints", TEXT)
+    assert set(re.split(", | and ", real)) == {name for name, kind in KINDS.items() if kind.shapes}
+    (ideal,) = re.findall(r"([A-Z][^.]*) joints are ideal", TEXT)
+    others = {name for name, kind in KINDS.items() if not kind.shapes} - {"fixed", "spring-damper"}
+    assert {name.lower() for name in re.split(", | and ", ideal)} == others
+
+
+def test_there_are_as_many_validation_sets_as_it_says() -> None:
+    from tribodyn.validation import NAMES
+
+    assert len(NAMES) == 12
+    assert "Twelve measured sets" in TEXT
 
 
 def test_the_mechanism_is_a_dozen_lines_and_runs() -> None:

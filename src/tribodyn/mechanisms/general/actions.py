@@ -110,10 +110,10 @@ class LoadKeys(BodyLoad):
 
     body: str = name(None, "which body it acts on", "", example="slider", required=True)
     point: Vector | None = vector(
-        None, "where the force acts, as drawn; the mass centre without it", "", unit="mm", example=POINT
+        None, "point of application of the force; by default the mass centre", "", unit="mm", example=POINT
     )
     span_axis: Vector | None = vector(
-        None, "direction of positions of a span, from the point, as drawn", "", example="[0, 0, 1]"
+        None, "direction of positions of a span, from the point", "", example="[0, 0, 1]"
     )
     along: str | None = name(
         None, "joint whose coordinate or speed a table follows; time without it", "", example="main"

@@ -216,7 +216,7 @@ def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:
     if not drives:
         return []
     if len(drives) == 1:
-        text = f"drive {drives[0]} has nothing to drive: as drawn, the joints leave its coordinate no freedom"
+        text = f"drive {drives[0]} has nothing to drive: the joints leave its coordinate no degree of freedom"
     else:
         text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
     return [ModelError(f"drives.{drives[-1]}", text)]

@@ -11,11 +11,11 @@ from tribodyn.mechanisms.general.parts import POINT
 from tribodyn.mechanisms.general.solids import NEEDED, SIZES
 
 _ROUNDING: Final = 1e-6
-"""Share of an inertia by which rounded numbers of a drawing may break the triangle rule."""
+"""Share of an inertia by which rounded numbers may break the triangle rule."""
 
 
 class BodyKeys(NamedGroup):
-    """A rigid body as drawn; of a simple solid mass, mass centre and inertia follow from its sizes."""
+    """A rigid body; of a simple solid mass, mass centre and inertia follow from its sizes."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
         ("mass", "density"),
@@ -29,17 +29,21 @@ class BodyKeys(NamedGroup):
         "",
         example="rod",
     )
-    density: float | None = quantity(None, "of a shape", "", gt=0, example="7850 kg/m^3")
-    start: Vector | None = vector(None, "where a rod begins, as drawn", "", unit="mm", example=POINT)
-    end: Vector | None = vector(None, "where a rod ends, as drawn", "", unit="mm", example=POINT)
-    length: float | None = quantity(None, "of a cylinder", "", gt=0, example="20 mm")
-    radius: float | None = quantity(None, "of a rod or cylinder", "", gt=0, example="8 mm")
-    inner_radius: float | None = quantity(None, "of a hollow cylinder", "", gt=0, example="4 mm")
+    density: float | None = quantity(None, "density of a shape", "", gt=0, example="7850 kg/m^3")
+    start: Vector | None = vector(None, "start of a rod", "", unit="mm", example=POINT)
+    end: Vector | None = vector(None, "end of a rod", "", unit="mm", example=POINT)
+    length: float | None = quantity(None, "length of a cylinder", "", gt=0, example="20 mm")
+    radius: float | None = quantity(None, "radius of a rod or cylinder", "", gt=0, example="8 mm")
+    inner_radius: float | None = quantity(None, "inner radius of a hollow cylinder", "", gt=0, example="4 mm")
     size: Vector | None = vector(
-        None, "of a box, along its three axes", "", unit="mm", example='["30 mm", "20 mm", "10 mm"]'
+        None,
+        "edge lengths of a box along its axes",
+        "",
+        unit="mm",
+        example='["30 mm", "20 mm", "10 mm"]',
     )
     mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
-    centre: Vector = vector(None, "mass centre in the drawing", "", unit="mm", example=POINT, required=True)
+    centre: Vector = vector(None, "position of the mass centre", "", unit="mm", example=POINT, required=True)
     inertia: Vector = vector(
         None,
         "principal moments of inertia about the mass centre",
@@ -49,10 +53,10 @@ class BodyKeys(NamedGroup):
         required=True,
     )
     first_axis: Vector = vector(
-        "1, 0, 0", "first principal axis in the drawing", "axes of the drawing", example="[1, 0, 0]"
+        "1, 0, 0", "direction of the first principal axis", "global axes", example="[1, 0, 0]"
     )
     second_axis: Vector = vector(
-        "0, 1, 0", "second principal axis in the drawing", "axes of the drawing", example="[0, 1, 0]"
+        "0, 1, 0", "direction of the second principal axis", "global axes", example="[0, 1, 0]"
     )
 
     def model_post_init(self, context: object, /) -> None:

@@ -317,7 +317,7 @@ class System:
         first, second = self.model.case.joints[name].between
         text = (
             f"joint {name} between {first} and {second} does not close: its points stand "
-            f"{np.max(gaps) * 1e3:.4g} mm apart in the drawing, and no motion of bodies brings them together"
+            f"{np.max(gaps) * 1e3:.4g} mm apart in the model, and no motion of bodies closes the gap"
         )
         return ModelError(f"joints.{name}", text)
 

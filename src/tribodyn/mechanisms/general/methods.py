@@ -164,7 +164,7 @@ METHODS: Final = (
         },
         arguments=(_NAME, ("value", VALUE, 'its value, such as "50 mm", or an expression')),
     ),
-    BuilderMethod("body", "Add a rigid body as drawn.", "bodies", BodyKeys, _example()),
+    BuilderMethod("body", "Add a rigid body.", "bodies", BodyKeys, _example()),
     *map(_of_joint, KINDS),
     BuilderMethod(
         "joint",

@@ -23,21 +23,21 @@ class OutputKeys(NamedGroup):
     )
     body: str = name(None, "body that is observed", "", example='"slider"', required=True)
     point: Vector | None = vector(
-        None, "observed point as drawn; the mass centre without it", "", unit="mm", example=POINT
+        None, "observed point; by default the mass centre", "", unit="mm", example=POINT
     )
     reference: str = name(
         GROUND, "body against which it is observed, or ground", "assumed", example='"frame"'
     )
     reference_point: Vector | None = vector(
         None,
-        "point of the reference as drawn; without it the one where the observed point is drawn",
+        "point of the reference; by default at the position of the observed point",
         "",
         unit="mm",
         example=POINT,
     )
     along: Vector | None = vector(
         None,
-        "direction of a position or velocity, axis of an angle, as drawn, fixed to the reference; without it "
+        "direction of a position or velocity, axis of an angle, fixed to the reference; without it "
         "a position or velocity counts in all directions",
         "",
         example=_AXIS,

@@ -44,11 +44,11 @@ class ClearanceKeys(NamedGroup):
         ("mesh", "facets"),
     )
 
-    radius: float | None = quantity(None, "of pin or ball", "", gt=0, example="9.5 mm")
+    radius: float | None = quantity(None, "radius of the pin or ball", "", gt=0, example="9.5 mm")
     radial: float | None = quantity(
-        None, "radial clearance: bore radius less radius", "", gt=0, example="20 um"
+        None, "radial clearance: radius of the bore minus radius of the pin", "", gt=0, example="20 um"
     )
-    length: float | None = quantity(None, "of the bore, of a cylinder", "", gt=0, example="20 mm")
+    length: float | None = quantity(None, "length of the bore of a cylinder", "", gt=0, example="20 mm")
     pin_length: float | None = quantity(
         None,
         "length of a pin that is shorter than its bore, such as a piston; the pin passes through without it",
@@ -57,33 +57,41 @@ class ClearanceKeys(NamedGroup):
         example="15 mm",
     )
     axial: float | None = quantity(
-        None, "gap at each end face when centred; free along the axis without", "", gt=0, example="50 um"
+        None, "gap at each end face when centred; without it the pin slides freely", "", gt=0, example="50 um"
     )
     axial_upper: float | None = quantity(
-        None, "gap at the end face that the axis points to, alone", "", gt=0, example="50 um"
+        None,
+        "gap at the end face that the axis points to; carries a pin pushed against the axis",
+        "",
+        gt=0,
+        example="50 um",
     )
-    axial_lower: float | None = quantity(None, "gap at the other end face, alone", "", gt=0, example="50 um")
+    axial_lower: float | None = quantity(
+        None, "gap at the other end face; carries a pin pushed along the axis", "", gt=0, example="50 um"
+    )
     flange: float | None = quantity(
-        None, f"outer radius of the end faces; {FLANGE} times the radius without", "", gt=0, example="12 mm"
+        None,
+        f"outer radius of the end faces; by default {FLANGE} times the radius",
+        "",
+        gt=0,
+        example="12 mm",
     )
     band: float = quantity(
-        "40 deg", "half the width of the race of a ball, as latitude", "assumed", gt=0, le="90 deg"
+        "40 deg", "half the width of the race of a ball, as a latitude", "assumed", gt=0, le="90 deg"
     )
     shape: Literal["cylinder", "sphere", "ball", "mesh"] | None = choice(
-        None, "if it is not the usual one of the type", "", example="mesh"
+        None, "shape of the surfaces, if not the default of the joint type", "", example="mesh"
     )
-    mesh: str | None = file("STL file of the socket in the drawing, outsides anticlockwise", "socket.stl")
-    mesh_unit: float = quantity("1 mm", "what a unit of that file is", "assumed", gt=0)
+    mesh: str | None = file("STL file of the bore, global coordinates, outsides anticlockwise", "socket.stl")
+    mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
     mesh_edge: float | None = quantity(
         None, "longest edge of a triangle; longer ones are split", "", gt=0, example="0.5 mm"
     )
     gap: float | None = quantity(None, "constant gap of a mesh", "", gt=0, example="20 um")
     facets: Numbers | None = series(
-        "corners of triangles in the drawing, in the place of a file", "", unit="m", example='"0, 0, 1 m"'
+        "corners of triangles in global coordinates, instead of a file", "", unit="m", example='"0, 0, 1 m"'
     )
-    socket: str | None = name(
-        None, "which of the two bodies holds the bore; the first without it", "", example="rod"
-    )
+    socket: str | None = name(None, "body that carries the bore; by default the first one", "", example="rod")
     friction_coefficient: float = number(
         0.1,
         "coefficient of friction mu_f; without it that of its pair, or of the case",
@@ -106,12 +114,12 @@ class ClearanceKeys(NamedGroup):
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
     temperature: ChangingTemperature = ChangingTemperature()
-    ideal: bool = switch(False, "whether the joint is ideal all the same, as without this table", "assumed")
+    ideal: bool = switch(False, "treat the joint as ideal and ignore this table", "assumed")
     nodes_around: int | None = count(
-        None, "points around; solver.grid.theta without", "", ge=12, le=4096, example="96"
+        None, "nodes around; by default solver.grid.theta", "", ge=12, le=4096, example="96"
     )
     nodes_along: int | None = count(
-        None, "points along; solver.grid.z without", "", ge=2, le=256, example="16"
+        None, "nodes along; by default solver.grid.z", "", ge=2, le=256, example="16"
     )
 
     def model_post_init(self, context: object, /) -> None:
@@ -151,7 +159,7 @@ class ClearanceKeys(NamedGroup):
 
 
 class JointKeys(NamedGroup):
-    """A connection of two bodies as drawn."""
+    """A joint of two bodies."""
 
     type: str = choice(
         None,
@@ -162,17 +170,17 @@ class JointKeys(NamedGroup):
         required=True,
     )
     between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "crank"]')
-    point: Vector = vector(None, "where it is in the drawing", "", unit="mm", example=POINT, required=True)
+    point: Vector = vector(None, "position of the joint", "", unit="mm", example=POINT, required=True)
     other_point: Vector | None = vector(
         None,
-        "where it is on the second body, if the drawing has a gap to be closed",
+        "position on the second body, if the model has a gap to be closed",
         "",
         unit="mm",
         example=POINT,
     )
     axis: Vector | None = vector(
         None,
-        "its direction in the drawing, of any length; of the race of a ball joint with clearance, without it "
+        "its direction, of any length; of the race of a ball joint with clearance, without it "
         "normal to the plane of the joint and the mass centres of both bodies",
         "",
         example="[0, 0, 1]",
@@ -232,7 +240,7 @@ class JointKeys(NamedGroup):
         kind = KINDS[self.type]
         demand(self.between[0] != self.between[1], "between", "a joint connects two different bodies")
         if kind.axis:
-            words = f"a {self.type} joint needs the {kind.axis} in the drawing, such as axis = [0, 0, 1]"
+            words = f"a {self.type} joint needs the {kind.axis}, such as axis = [0, 0, 1]"
             demand(self.axis is not None, "axis", words)
         words = "a universal joint needs the axis that the second body holds, such as second_axis = [1, 0, 0]"
         demand(not kind.second_axis or self.second_axis is not None, "second_axis", words)
@@ -315,15 +323,15 @@ class SpringKeys(NamedGroup):
 
     between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "rod"]')
     first_point: Vector = vector(
-        None, "its end on the first body, as drawn", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the first body", "", unit="mm", example=POINT, required=True
     )
     second_point: Vector = vector(
-        None, "its end on the second body, as drawn", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the second body", "", unit="mm", example=POINT, required=True
     )
     stiffness: float = quantity("0 N/mm", "force over elongation", "assumed", ge=0, example="2 N/mm")
     damping: float = quantity("0 N s/m", "force over speed", "assumed", ge=0, example="5 N s/m")
     length: float | None = quantity(
-        None, "length without force; as drawn without it", "", gt=0, example="80 mm"
+        None, "length without force; by default the distance of its ends", "", gt=0, example="80 mm"
     )
 
     def model_post_init(self, context: object, /) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.cases.directions import unit
+from tribodyn.cases.fields import Vector
 from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
@@ -65,8 +66,8 @@ class Skeleton:
     centres
         Mass centres in the drawing [m], shape (n_bodies, 3).
     points
-        Of each body the ends of its lines in the drawing [m], shape (n, 3): its joints, and its mass centre
-        where it has fewer than two.
+        Of each body the ends of its lines as modelled [m], shape (n, 3): joints, ends of rods, points of
+        loads and outputs; the mass centre where these are fewer than two.
     marks
         The joints.
     outlines
@@ -131,15 +132,28 @@ def skeleton(case: MechanismCase) -> Skeleton:
     names = tuple(case.bodies)
     centres = np.array([body.centre for body in case.bodies.values()])
     ends: list[list[FloatArray]] = [[] for _ in names]
-    for joint in case.joints.values():
-        for body, point in zip(joint.between, (joint.point, joint.other_point or joint.point), strict=True):
-            if body != GROUND:
-                ends[names.index(body)].append(np.array(point))
+    for name, point in _ends(case):
+        if name != GROUND:
+            own = ends[names.index(name)]
+            own += [] if any(np.allclose(point, other) for other in own) else [np.array(point)]
     points = tuple(
         np.array(own if len(own) > 1 else [*own, centre]) for own, centre in zip(ends, centres, strict=True)
     )
     marks = tuple(_mark(case, name, names) for name in case.joints)
     return Skeleton(names, centres, points, marks, tuple(_outlines(case, names)))
+
+
+def _ends(case: MechanismCase) -> Iterator[tuple[str, Vector]]:
+    """Yield the points of bodies that lines lead to: joints, ends of rods, points of loads and outputs."""
+    for joint in case.joints.values():
+        yield from zip(joint.between, (joint.point, joint.other_point or joint.point), strict=True)
+    for name, body in case.bodies.items():
+        yield from ((name, end) for end in (body.start, body.end) if end is not None)
+    for load in case.loads.values():
+        yield from [] if load.point is None else [(load.body, load.point)]
+    for output in case.outputs.values():
+        yield from [] if output.point is None else [(output.body, output.point)]
+        yield from [] if output.reference_point is None else [(output.reference, output.reference_point)]
 
 
 def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[tuple[tuple[int, FloatArray], ...]]:

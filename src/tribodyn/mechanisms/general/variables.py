@@ -162,7 +162,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
     "energy_friction": Variable("J", "heat of friction since the start"),
     "energy_film": Variable("J", "heat of oil films since the start"),
-    "energy_residual": Variable("J", "what the energy ledger misses"),
+    "energy_residual": Variable("J", "error of the energy balance"),
     "pressure_cycle": Variable("Pa", "contact pressure over one cycle", (*FRAME, *_MAP)),
     "film": Variable("", "joint with an oil film", ("film",), named=True),
     "film_angle": Variable(

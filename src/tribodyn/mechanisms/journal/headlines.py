@@ -84,7 +84,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Energy residual",
         "%",
         "Ledger",
-        "What the energy ledger misses; below 1 % is sound.",
+        "Error of the energy balance over its largest term; below 1 % is sound.",
         lambda run: float(run.attrs["energy_residual"]) * 100.0,
     ),
 }

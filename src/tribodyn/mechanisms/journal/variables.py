@@ -24,6 +24,6 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_loads": Variable("J", "work of the loads"),
     "energy_friction": Variable("J", "friction heat of the bushing"),
     "energy_damping": Variable("J", "damping heat of the contact"),
-    "energy_residual": Variable("J", "what the ledger misses"),
+    "energy_residual": Variable("J", "error of the energy balance"),
 }
 """By name."""

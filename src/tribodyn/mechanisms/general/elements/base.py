@@ -219,13 +219,17 @@ class PointsKeys(ElementKeys):
 
     between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "rod"]')
     first_point: Vector = vector(
-        None, "its end on the first body, as drawn", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the first body", "", unit="mm", example=POINT, required=True
     )
     second_point: Vector = vector(
-        None, "its end on the second body, as drawn", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the second body", "", unit="mm", example=POINT, required=True
     )
     length: float | None = quantity(
-        None, "its length, without force of a spring; as drawn without it", "", gt=0, example="80 mm"
+        None,
+        "its length without force; by default the distance of its ends",
+        "",
+        gt=0,
+        example="80 mm",
     )
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:

@@ -64,8 +64,8 @@ torque = "0.2 N m"
     )
     radius: float = quantity(
         None,
-        "pitch radius: way of the rack along its axis for 1 rad of the pinion about its own; negative where "
-        "the rack is on the other side",
+        "pitch radius: displacement of the rack along its axis for 1 rad of the pinion about its own; "
+        "negative where the rack is on the other side",
         "",
         unit="mm",
         example="20 mm",

@@ -62,7 +62,7 @@ torque = "0.2 N m"
     )
     lead: float = quantity(
         None,
-        "way along the axis for one turn; positive for a right-handed thread",
+        "displacement along the axis for one turn; positive for a right-handed thread",
         "",
         unit="mm",
         example="4 mm",

@@ -81,10 +81,16 @@ restitution = 0.6
     )
 
     angle: float | None = quantity(
-        None, "where it begins: of the second body, zero as drawn", "", unit="deg", example="60 deg"
+        None,
+        "angle at which it begins; zero in the model",
+        "",
+        unit="deg",
+        example="60 deg",
     )
-    position: float | None = quantity(None, "likewise, along the axis", "", unit="mm", example="20 mm")
-    side: Literal["above", "below"] = choice("above", "values that it keeps the joint from", "assumed")
+    position: float | None = quantity(
+        None, "position along the axis at which it begins", "", unit="mm", example="20 mm"
+    )
+    side: Literal["above", "below"] = choice("above", "side of the joint values that it blocks", "assumed")
     stiffness: float | None = quantity(
         None, "force over indentation, of a stop of a position", "", gt=0, example="1000 N/mm"
     )
@@ -101,7 +107,7 @@ restitution = 0.6
         "assumed",
         family="tribodyn.contact:DAMPING_FACTORS",
     )
-    restitution: float = number(1.0, "restitution meant", "assumed", gt=0, le=1)
+    restitution: float = number(1.0, "coefficient of restitution", "assumed", gt=0, le=1)
     least_rate: float = number(
         LEAST_RATE, "least speed at which contact begins, in m/s or rad/s", "assumed", gt=0
     )

@@ -31,7 +31,9 @@ torque = { angles = "-60, -20, 20, 60 deg", values = "-3, -0.5, 0.5, 3 N m" }
         + DRIVE
     )
 
-    preload: float = quantity("0 N m", "torque against a growing angle, as drawn", "assumed", example="2 N m")
+    preload: float = quantity(
+        "0 N m", "torque against a growing angle at angle 0", "assumed", example="2 N m"
+    )
     stiffness: float = quantity("0 N m/rad", "torque over angle", "assumed", ge=0, example="5 N m/rad")
     damping: float = quantity("0 N m s/rad", "torque over its rate", "assumed", ge=0, example="1 N m s/rad")
     torque: TorqueSignal | None = None

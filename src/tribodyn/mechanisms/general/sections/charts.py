@@ -126,7 +126,7 @@ def films(dataset: xr.Dataset) -> list[Panel]:
 MOTION: Final = Chart(
     name="motion",
     title="Motion",
-    caption="Angles of the joints from the drawing, speeds and accelerations of the bodies.",
+    caption="Angles of the joints from the initial model, speeds and accelerations of the bodies.",
     needs=("joint_angle", "velocity", "acceleration", "joint", "body"),
     panels=motion,
 )
@@ -135,7 +135,7 @@ JOINT_FORCES: Final = Chart(
     title="Forces in the joints",
     caption=(
         "Sizes of the forces that the joints carry, and what the drives give. Where joints have clearance, "
-        "rows follow the steps of the integration: a spike is a blow of a shaft against its socket."
+        "rows follow the steps of the integration: a spike is an impact of a pin in its bore."
     ),
     needs=("reaction_force", "drive_moment", "drive_force", "joint"),
     panels=joint_forces,

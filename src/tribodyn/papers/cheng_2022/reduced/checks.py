@@ -131,5 +131,5 @@ def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
         return f"{numbers} the clearance motion's. {TIGHTEN}"
     return (
         f"{numbers} the clearance motion's. The paper's equations do not come from one virtual work, so "
-        "their ledger cannot close; mechanism.formulation = 'exact' does."
+        "their energy balance cannot close; mechanism.formulation = 'exact' does."
     )

@@ -32,13 +32,13 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_damping": Variable("J", "damping heat of the contact"),
     "energy_expansion": Variable("J", "work of temperatures on what the contact stores"),
     "radial_clearance": Variable("m", "radial clearance at the temperatures of the time"),
-    "energy_residual": Variable("J", "what the whole-mechanism ledger misses"),
+    "energy_residual": Variable("J", "error of the energy balance of the whole mechanism"),
     "energy_clearance_inertia": Variable("J", "clearance motion: work of inertia"),
     "energy_clearance_loads": Variable("J", "clearance motion: work of loads and reactions"),
     "energy_clearance_contact": Variable("J", "clearance motion: energy stored in the contact"),
     "energy_clearance_friction": Variable("J", "clearance motion: friction heat"),
     "energy_clearance_collar": Variable("J", "clearance motion: work done against the thrust collar"),
     "energy_clearance_damping": Variable("J", "clearance motion: damping heat"),
-    "energy_clearance_residual": Variable("J", "what the clearance ledger misses"),
+    "energy_clearance_residual": Variable("J", "error of the energy balance of the clearance motion"),
 }
 """By name."""

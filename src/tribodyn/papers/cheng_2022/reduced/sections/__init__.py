@@ -17,7 +17,7 @@ from tribodyn.views.wear import WEAR_HISTORY, WEAR_MAP, WEAR_STAGES
 _WHOLE: Final = ledger_chart(
     WHOLE,
     name="energy",
-    title="Energy ledger of the whole mechanism",
+    title="Energy balance of the whole mechanism",
     caption=(
         "What all bodies, the drive and the loads took in, stored and turned into heat since the start. The "
         "residual is what the sum misses: an error of the integration would show there."
@@ -26,7 +26,7 @@ _WHOLE: Final = ledger_chart(
 _CLEARANCE: Final = ledger_chart(
     CLEARANCE,
     name="clearance-energy",
-    title="Energy ledger of the motion in the clearance",
+    title="Energy balance of the motion in the clearance",
     caption=(
         "The same for the small motion of the trunnion alone, where an error in the contact heat cannot hide "
         "behind the work of the drive. Steps are the impacts after reversals."

@@ -1,0 +1,84 @@
+"""Texts for users hold no word of the list: README, manual, keys, key results, variables, messages."""
+
+from __future__ import annotations
+
+import re
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tribodyn.cases.keys import keys_of
+from tribodyn.cli.main import COMMANDS
+from tribodyn.mechanisms.catalogue import MECHANISMS, kinds
+from tribodyn.results.summary import EFFORT
+
+sys.path.insert(0, str(Path(__file__).parent))
+from pages import ROOT, name, pages, prose
+
+sys.path.pop(0)
+
+WORDS: dict[str, str] = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
+MESSAGES = ROOT / "tests" / "golden" / "messages.txt"
+FIRST = ("README.md", "guide/mechanisms.md", "guide/cases.md")
+"""Pages that new users read first."""
+LONGEST = 25
+"""Words of the longest sentence there."""
+MEAN = 16.0
+
+
+def found(text: str) -> list[str]:
+    """Return the words of the list that a text has, each with what to write instead."""
+    return [f"{match[0]} -> {WORDS[word]}" for word in WORDS for match in re.finditer(word, text)]
+
+
+def descriptions() -> Iterator[tuple[str, str]]:
+    """Yield what users read of keys, key results, variables and commands, each with its name."""
+    for kind, model in kinds().items():
+        yield from ((f"{kind}: {key.path}", key.description) for key in keys_of(model).values())
+    for kind, mechanism in MECHANISMS.items():
+        of_parts = (made("part") for numbers in mechanism.by_part.values() for made in numbers.values())
+        for number in (*mechanism.headlines.values(), *of_parts, *EFFORT.values()):
+            yield f"{kind}: {number.label}", f"{number.label}. {number.meaning}"
+        for variable, about in mechanism.variables.items():
+            yield f"{kind}: {variable}", about.long_name
+    yield from ((command, module.HELP) for command, module in COMMANDS.items())
+
+
+@pytest.mark.parametrize("page", pages(), ids=name)
+def test_pages_have_standard_terms(page: Path) -> None:
+    assert found(prose(page)) == []
+
+
+def test_descriptions_have_standard_terms() -> None:
+    assert {where: found(text) for where, text in descriptions() if found(text)} == {}
+
+
+def test_messages_have_standard_terms() -> None:
+    assert found(MESSAGES.read_text(encoding="utf-8")) == []
+
+
+def sentences(page: Path) -> list[int]:
+    """Return the lengths of the sentences of a page in words, tables and headings left out."""
+    text = re.sub(r"^(#|\||:|>|!\[).*$", "\n", prose(page), flags=re.MULTILINE)
+    parts = re.split(r"(?<=[.?!:;])\s|\n\s*\n|^\s*- ", re.sub(r"¶", "code", text), flags=re.MULTILINE)
+    lengths = (len(re.findall(r"\w[\w'’.-]*", part)) for part in parts)
+    return [length for length in lengths if length > 2]
+
+
+@pytest.mark.parametrize("page", FIRST)
+def test_sentences_of_first_pages_are_short(page: str) -> None:
+    (path,) = (one for one in pages() if name(one) == page)
+    lengths = sentences(path)
+    assert sum(lengths) / len(lengths) <= MEAN
+    assert max(lengths) <= LONGEST
+
+
+def test_a_word_of_the_list_is_found() -> None:
+    assert found("The ledger told us of a blow.") == [
+        "blow -> impact",
+        "ledger -> energy balance",
+        "told -> reports, shows, prints",
+    ]
