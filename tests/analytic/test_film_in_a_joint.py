@@ -201,3 +201,16 @@ def test_a_dynamically_loaded_short_bearing_moves_as_its_own_solution() -> None:
     assert joint["film_thickness_min"].values[-41:, 0].min() == pytest.approx(
         CLEARANCE - np.hypot(*own.y[:2]).max(), rel=0.02
     )
+
+
+def test_the_pressure_map_of_a_film_adds_up_to_its_force() -> None:
+    run = td.simulate(td.load_case("slider-crank-oil").replace({"run.cycles": 0.3}))
+    keys = td.load_case("slider-crank-oil").joints["big-end"].clearance
+    pressure, place = run["film_pressure_cycle"].isel(film=0), run["film_place"].values[0]
+    angle = run["film_angle"].values
+    around = (keys.radius + keys.radial) * 2.0 * np.pi / angle.size
+    force = run["film_force"].sel(joint="big-end").interp(time=run["frame_time"].values).values[:, :2]
+    line = np.trapezoid(pressure.values, place, axis=2) * around
+    found = -np.stack([line @ np.cos(angle), line @ np.sin(angle)], axis=1)
+    np.testing.assert_allclose(found, force, atol=0.02 * np.abs(force).max())
+    assert np.abs(force).max() > 100.0

@@ -16,7 +16,7 @@ def mark_reversals(axes: Axes, times: FloatArray, label: bool = False) -> None:
         axes.axvline(time, color=GREY, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1)
     if label and times.size:
         axes.annotate(
-            "vane reverses",
+            "reversal",
             (times[0], 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(0, 2),

@@ -40,10 +40,9 @@ def film_coordinates(films: FilmData, model: Model) -> dict[str, ArrayLike]:
     """Return names of the joints with a film and places of its nodes; nothing without films."""
     if not model.oiled:
         return {}
-    n_theta = films.wear_node.shape[1]
     return {
         "film": [model.joints[number] for number in model.oiled],
-        "film_angle": 2.0 * np.pi * np.arange(n_theta) / n_theta,
+        "film_angle": np.sort(_angles(films.wear_node.shape[1])),
         "film_place": np.array(films.z_node),
     }
 
@@ -63,6 +62,12 @@ def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
     n, n_theta, n_z = films.wear_node.shape
     if not films.constants.size:
         return {}
-    maps = pictures.reshape(-1, n, n_z, n_theta).transpose(0, 1, 3, 2).copy()
+    order = np.argsort(_angles(n_theta))
+    maps = pictures.reshape(-1, n, n_z, n_theta).transpose(0, 1, 3, 2)[:, :, order]
     maps[:, films.constants["groove"] == 1] = np.nan
     return {"film_pressure_cycle": maps}
+
+
+def _angles(n_theta: int) -> FloatArray:
+    """Return where the nodes of a film are [rad]: opposite to where their pressure pushes the shaft."""
+    return np.asarray(np.mod(2.0 * np.pi * np.arange(n_theta) / n_theta + np.pi, 2.0 * np.pi))
