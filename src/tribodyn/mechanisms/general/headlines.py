@@ -170,6 +170,16 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: column(d, "pressure_max"),
         scale=1e-6,
     ),
+    **{name: made("") for name, made in OUTSIDE.items()},
+    "flash_temperature_K": Headline(
+        "Flash temperature, largest",
+        "K",
+        "Load",
+        "How much warmer than the surfaces their asperities get in any joint, an estimate, where pressure "
+        "times speed is largest.",
+        lambda d: peak(column(d, "flash_temperature")),
+        digits=2,
+    ),
     **_pair(
         ("drive_moment_lasting_Nm", "drive_moment_max_Nm"),
         "Drive moment",
@@ -186,7 +196,6 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Largest force of an actuator",
         lambda d: column(d, "drive_force"),
     ),
-    **{name: made("") for name, made in OUTSIDE.items()},
     "power_mean_W": Headline(
         "Power put in, mean", "W", "Drive", "Mean power of drives and loads over the run.", _power
     ),
@@ -203,15 +212,6 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Loss",
         "Heat of friction in all joints over the run.",
         lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
-    ),
-    "flash_temperature_K": Headline(
-        "Flash temperature, largest",
-        "K",
-        "Load",
-        "How much warmer than the surfaces their asperities get in any joint, an estimate, where pressure "
-        "times speed is largest.",
-        lambda d: peak(column(d, "flash_temperature")),
-        digits=2,
     ),
     "film_pressure_max_MPa": Headline(
         "Film pressure, peak",

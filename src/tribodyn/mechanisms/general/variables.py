@@ -158,7 +158,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     **of_reversals_described(REVERSAL_PEAKS, ("joint",)),
     **described(WHOLE),
     "energy_in": Variable("J", "work of drives and loads since the start"),
-    "energy_expansion": Variable("J", "work of temperatures on what contacts store"),
+    "energy_expansion": Variable("J", "work of temperatures on contacts since the start"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
     "energy_friction": Variable("J", "heat of friction since the start"),
     "energy_film": Variable("J", "heat of oil films since the start"),
