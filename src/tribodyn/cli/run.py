@@ -20,6 +20,7 @@ from tribodyn.cli.progress import CYCLES, Progress, announced_compilation, progr
 from tribodyn.cli.tables import in_words
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
+from tribodyn.results.attributes import ROWS_HASH
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,6 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_case_arguments(parser)
     add_drawing_arguments(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: results-CASE)")
+    parser.add_argument("--verify", metavar="HASH", help="fail unless this is the SHA-256 of the rows")
     parser.add_argument("--force", action="store_true", help="overwrite the finished result of another case")
 
 
@@ -62,7 +64,22 @@ def execute(args: Namespace) -> int:
     failure = str(dataset.attrs.get("failure", ""))
     if failure:
         complain(_stopped(dataset, case, failure, directory.path))
-    return 0 if drawn and not failure else 1
+    return 0 if drawn and not failure and _is_verified(summary, args.verify, console) else 1
+
+
+def _is_verified(summary: dict[str, Any], wanted: str | None, console: Console) -> bool:
+    """Compare the hash of the rows with the wanted one, if there is one; report what was found."""
+    if wanted is None:
+        return True
+    found = summary.get(ROWS_HASH, "that of no rows: nothing was integrated")
+    if wanted.strip().lower() == found:
+        console.say(f"verified: the SHA-256 of the rows is {found}")
+        return True
+    complain(
+        f"not verified: the SHA-256 of the rows is {found}, not {wanted}; the manual's page on equal numbers "
+        "lists what changes it"
+    )
+    return False
 
 
 def _name(args: Namespace) -> str:

@@ -98,12 +98,16 @@ class FinishedRun:
         By the names of :class:`~tribodyn.core.problem.Statistics`; of a campaign that of all its cycles.
     carried
         Whether it went on from where another run ended.
+    hashes
+        Of its data and of its rows, by the names of attributes of a result; of a campaign those of the last
+        cycle.
     """
 
     problem: Problem
     solution: Solution
     cost: Mapping[str, float]
     carried: bool = False
+    hashes: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def duration(self) -> float:

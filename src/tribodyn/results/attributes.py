@@ -22,6 +22,11 @@ CARRIED: Final = "carried on"
 SWEEP: Final = "sweep"
 """The ``kind`` of a sweep; that of a run is the kind of its case."""
 
+DATA_HASH: Final = "data_sha256"
+"""SHA-256 of all that a run was computed from."""
+ROWS_HASH: Final = "rows_sha256"
+"""SHA-256 of its rows."""
+
 ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start"), TEXT),
     **dict.fromkeys(
@@ -33,7 +38,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     "time_reached": OUTCOME,
     **dict.fromkeys(("worn_volume", "wear_life_cycles", "wear_life_factor", "wear_cycles_reached"), OUTCOME),
     **dict.fromkeys(("points_in_all", "points_failed", "samples", "sampling_seed"), NUMBER),
-    "sampling_method": TEXT,
+    **dict.fromkeys(("sampling_method", DATA_HASH, ROWS_HASH), TEXT),
     "solver": FACTS,
     "warnings": TEXTS,
     "notes": TEXTS,

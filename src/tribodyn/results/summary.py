@@ -10,6 +10,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import xarray as xr
 
+from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
 from tribodyn.results.dataset import json_attribute
 from tribodyn.results.reading import column, statistic
 
@@ -156,7 +157,8 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
     -------
     dict
         Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none),
-        ``doubtful`` (see :func:`doubt`), the lists of ``warnings`` and ``notes``, then numbers by name.
+        ``doubtful`` (see :func:`doubt`), the lists of ``warnings`` and ``notes``, the
+        hashes of data and rows, then numbers by name.
     """
     failure = str(dataset.attrs.get("failure", ""))
     summary: Summary = {
@@ -167,6 +169,7 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
         "doubtful": doubt(dataset),
         "warnings": json_attribute(dataset, "warnings", []),
         "notes": json_attribute(dataset, "notes", []),
+        **{name: str(dataset.attrs[name]) for name in (DATA_HASH, ROWS_HASH) if name in dataset.attrs},
     }
     for name, headline in {**headlines, **EFFORT}.items():
         value = _number(headline, dataset)

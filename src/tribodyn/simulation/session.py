@@ -19,6 +19,8 @@ from tribodyn.mechanisms.base import (
     Worn,
 )
 from tribodyn.results import build
+from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
+from tribodyn.simulation import hashes
 
 Progress = Callable[[float], None] | None
 """Called with the simulated time [s] after every accepted step."""
@@ -46,17 +48,20 @@ class Session:
         """Integrate the system over ``duration`` [s] from its start, or from where another run ended."""
         system, solver = self.system, self.case.solver
         problem = system.problem(duration, worn)
+        times = system.output_times(duration), system.picture_times(duration)
+        data = hashes.of_data(problem, *times, solver.rtol, solver.name)
         solution = integrate(
             problem,
             solver=solver.name,
             rtol=solver.rtol,
-            output_times=system.output_times(duration),
-            picture_times=system.picture_times(duration),
+            output_times=times[0],
+            picture_times=times[1],
             progress=progress or self.progress,
             stop=self.stop,
         )
         carried = worn is not None and worn.carried is not None
-        return FinishedRun(problem, solution, vars(solution.statistics), carried)
+        found = {DATA_HASH: data, ROWS_HASH: hashes.of_rows(solution)}
+        return FinishedRun(problem, solution, vars(solution.statistics), carried, found)
 
     def dataset(self, run: FinishedRun, more: ResultPart) -> xr.Dataset:
         """Return the result of a run, with what was added to it."""
@@ -74,6 +79,7 @@ class Session:
                 "kind": self.mechanism.kind,
                 "case": self.case.to_toml(),
                 **provenance(),
+                **run.hashes,
                 "solver": {"name": solver.name, "rtol": solver.rtol, **run.cost},
                 **part.attributes,
                 **more.attributes,

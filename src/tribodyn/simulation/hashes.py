@@ -1,0 +1,56 @@
+"""SHA-256 of what a run is computed from and of its rows: equal hashes mean equal numbers to the last bit."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Any, Final
+
+import numpy as np
+
+from tribodyn.core.problem import Problem, Solution
+
+_OF_PROCESS: Final = ("law", "exchanges")
+"""Numbers of a process, not of a case: addresses of force laws, and the pivots of the last factorisation."""
+
+
+def of_data(problem: Problem, *more: Any) -> str:
+    """Return the hash of all that a run reads: constants, tables, start, times and tolerances.
+
+    Parameters
+    ----------
+    problem
+        Before it is integrated.
+    more
+        What the integrator is given besides: numbers, texts and arrays.
+    """
+    digest = hashlib.sha256()
+    bounds = problem.t_span, problem.breakpoints, problem.longest_step
+    _add(digest, "", (problem.data, problem.y0, problem.atol, *bounds, *more))
+    return digest.hexdigest()
+
+
+def of_rows(solution: Solution) -> str:
+    """Return the hash of the rows at output times, and of the state at the end."""
+    digest = hashlib.sha256()
+    _add(digest, "", (solution.t, solution.rows, solution.t_end, solution.y_end))
+    return digest.hexdigest()
+
+
+def _add(digest: Any, name: str, value: Any) -> None:
+    """Add a number, a text, an array, a record, or a tuple of such; functions add their place alone."""
+    if isinstance(value, tuple):
+        for part, inside in zip(getattr(value, "_fields", range(len(value))), value, strict=True):
+            _add(digest, f"{name}.{part}", inside)
+    elif (fields := getattr(getattr(value, "dtype", None), "names", None)) is not None:
+        for part in fields:
+            if not (part in _OF_PROCESS and value.dtype[part].kind == "i"):
+                _add(digest, f"{name}.{part}", value[part])
+    elif isinstance(value, str):
+        digest.update(f"{name} {value} ".encode())
+    elif isinstance(value, np.ndarray | np.generic | float | int):
+        array = np.array(value, order="C")
+        if array.dtype.kind == "f":
+            array[np.isnan(array)] = np.nan  # one of all bit patterns
+        digest.update(f"{name} {array.dtype.str} {array.shape} ".encode() + array.tobytes())
+    else:
+        digest.update(f"{name} ".encode())

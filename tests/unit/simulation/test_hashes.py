@@ -1,0 +1,79 @@
+"""Hashes change with every number of a run, and with nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from tribodyn.cli.main import main
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import CompiledFunctions, Problem, Solution
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.results.summary import summarise
+from tribodyn.simulation import hashes, simulate
+
+NOTHING: Any = None
+COUPLING = np.dtype([("law", "i8"), ("stiffness", "f8", (2,))])
+
+
+class Data(NamedTuple):
+    """What a problem reads."""
+
+    couplings: Any
+    table: FloatArray
+
+
+def problem(*, address: int = 1, stiffness: float = 2.0, entry: float = 3.0, start: float = 0.0) -> Problem:
+    """Return a problem that nothing integrates."""
+    couplings = np.zeros(1, COUPLING)
+    couplings["law"], couplings["stiffness"] = address, stiffness
+    return Problem(
+        functions=CompiledFunctions(*[NOTHING] * 7),
+        data=Data(couplings, np.array([1.0, entry])),
+        memory=None,
+        y0=np.array([start]),
+        t_span=(0.0, 1.0),
+        breakpoints=(),
+        atol=np.array([1e-6]),
+        state_names=("x",),
+        n_observed=1,
+        field_shape=(),
+    )
+
+
+def test_each_number_that_a_run_reads_counts() -> None:
+    found = [
+        hashes.of_data(problem(), 1e-3, "mebdf"),
+        hashes.of_data(problem(), 1e-3, "bdf"),
+        hashes.of_data(problem(), 1e-4, "mebdf"),
+        hashes.of_data(problem(stiffness=np.nextafter(2.0, 3.0)), 1e-3, "mebdf"),
+        hashes.of_data(problem(entry=-3.0), 1e-3, "mebdf"),
+        hashes.of_data(problem(start=-0.0), 1e-3, "mebdf"),
+        hashes.of_data(replace(problem(), breakpoints=(0.5,)), 1e-3, "mebdf"),
+    ]
+    assert len(set(found)) == len(found)
+
+
+def test_addresses_and_kinds_of_not_a_number_do_not_count() -> None:
+    assert hashes.of_data(problem(address=7)) == hashes.of_data(problem())
+    assert hashes.of_data(problem(entry=-np.nan)) == hashes.of_data(problem(entry=np.nan))
+
+
+def test_rows_and_the_end_count() -> None:
+    solution = Solution(np.zeros(2), np.ones((2, 3)), np.zeros(0), np.zeros(0), 1.0, np.ones(1))
+    others = [replace(solution, rows=2.0 * solution.rows), replace(solution, y_end=np.zeros(1))]
+    assert hashes.of_rows(solution) not in [hashes.of_rows(other) for other in others]
+
+
+def test_a_run_is_verified_by_its_hash(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    result = simulate(load_case("journal-dry").replace({"run.duration": "0.2 ms"}))
+    found = str(summarise(result, {})["rows_sha256"])
+    command = ["run", "journal-dry", "--set", "run.duration=0.2 ms", "--no-figures", "--no-report"]
+    assert main([*command, "-o", str(tmp_path / "right"), "--verify", found.upper()]) == 0
+    assert found in capsys.readouterr().out
+    assert main([*command, "-o", str(tmp_path / "wrong"), "--verify", "0" * 64]) == 1
+    assert "not verified" in capsys.readouterr().err
