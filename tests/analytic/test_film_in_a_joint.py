@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from tribodyn.kernels.joints.surface.memory import Scratch
 from tribodyn.kernels.mechanism.data import REPORTS, SLOPES, CouplingNow
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.lubrication import Film, FilmGrid, Roughness, stacked_data, stacked_memory
+from tribodyn.mechanisms import results
 
 SIZE = (0.01, 20e-6, 6e-3, 20e-3)
 FILMS = {
@@ -203,8 +205,9 @@ def test_a_dynamically_loaded_short_bearing_moves_as_its_own_solution() -> None:
     )
 
 
-def test_the_pressure_map_of_a_film_adds_up_to_its_force() -> None:
-    run = td.simulate(td.load_case("slider-crank-oil").replace({"run.cycles": 0.3}))
+def test_the_pressure_map_of_a_film_adds_up_to_its_force(tmp_path: Path) -> None:
+    results.write_run(td.simulate(td.load_case("slider-crank-oil").replace({"run.cycles": 0.3})), tmp_path)
+    run = results.read(tmp_path)
     keys = td.load_case("slider-crank-oil").joints["big-end"].clearance
     pressure, place = run["film_pressure_cycle"].isel(film=0), run["film_place"].values[0]
     angle = run["film_angle"].values

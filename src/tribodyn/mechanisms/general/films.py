@@ -43,6 +43,7 @@ def film_coordinates(films: FilmData, model: Model) -> dict[str, ArrayLike]:
     return {
         "film": [model.joints[number] for number in model.oiled],
         "film_angle": np.sort(_angles(films.wear_node.shape[1])),
+        "film_row": np.arange(films.wear_node.shape[2], dtype=np.float64),
         "film_place": np.array(films.z_node),
     }
 
@@ -50,7 +51,7 @@ def film_coordinates(films: FilmData, model: Model) -> dict[str, ArrayLike]:
 def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
     """Return pressure fields of films by name, nothing without films.
 
-    Of a film with a groove the field is NaN: its nodes turn with the groove.
+    Of a film with a groove the field is zero: its nodes turn with the groove.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
         return {}
     order = np.argsort(_angles(n_theta))
     maps = pictures.reshape(-1, n, n_z, n_theta).transpose(0, 1, 3, 2)[:, :, order]
-    maps[:, films.constants["groove"] == 1] = np.nan
+    maps[:, films.constants["groove"] == 1] = 0.0
     return {"film_pressure_cycle": maps}
 
 

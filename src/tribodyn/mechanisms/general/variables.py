@@ -168,6 +168,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "film_angle": Variable(
         "rad", "angle of the nodes of a film about the axis of the joint", ("film_angle",)
     ),
+    "film_row": Variable("1", "number of the row of nodes of a film", ("film_row",)),
     "film_place": Variable("m", "height of the nodes of a film", ("film", "film_row")),
     "film_pressure_cycle": Variable(
         "Pa", "pressure of an oil film over one cycle", (*FRAME, "film", "film_angle", "film_row")

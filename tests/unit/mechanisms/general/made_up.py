@@ -75,6 +75,7 @@ def result(failure: str = "") -> xr.Dataset:
             "column_angle": np.array([theta, theta]),
             "film": ["wrist"],
             "film_angle": theta,
+            "film_row": np.arange(3.0),
             "film_place": np.array([[-0.01, 0.0, 0.01]]),
         },
         columns={
