@@ -168,6 +168,8 @@ class JointLoads:
 
         What slip decides does not count: a body that is free to spin finds the speed at which it vanishes.
         """
+        if self.adrift.size == 0:
+            return None
         loads = self._evaluate(np.zeros_like(self.velocity))
         pushed = dense.product(
             self.root,
