@@ -20,7 +20,6 @@ from tribodyn.cli.progress import CYCLES, Progress, announced_compilation, progr
 from tribodyn.cli.tables import in_words
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
-from tribodyn.results.attributes import ROWS_HASH
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -71,6 +70,8 @@ def _is_verified(summary: dict[str, Any], wanted: str | None, console: Console) 
     """Compare the hash of the rows with the wanted one, if there is one; report what was found."""
     if wanted is None:
         return True
+    from tribodyn.results.attributes import ROWS_HASH
+
     found = summary.get(ROWS_HASH, "that of no rows: nothing was integrated")
     if wanted.strip().lower() == found:
         console.say(f"verified: the SHA-256 of the rows is {found}")
