@@ -100,7 +100,7 @@ def test_the_first_run_of_all_is_the_second_to_the_bit(tmp_path: Path) -> None:
     assert numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path)) == first
 
 
-LIBM = [b"sin", b"cos", b"tan", b"atan", b"atan2", b"exp", b"log", b"pow", b"tanh", b"hypot"]
+LIBM = ("sin", "cos", "tan", "atan", "atan2", "exp", "log", "pow", "tanh", "hypot")
 
 
 def test_code_for_another_processor_changes_no_bit_of_a_journal(tmp_path: Path) -> None:
@@ -108,8 +108,13 @@ def test_code_for_another_processor_changes_no_bit_of_a_journal(tmp_path: Path) 
     assert hashes("generic", tmp_path, "journal-dry") == hashes_here("journal-dry")
     compiled = list(tmp_path.rglob("*.nbc"))
     assert compiled
-    # Names of external functions stand in the table of symbols.
-    assert not [name for path in compiled for name in LIBM if b"\0" + name + b"\0" in path.read_bytes()]
+    assert not [(path.name, name) for path in compiled for name in LIBM if is_called(name, path)]
+
+
+def is_called(name: str, path: Path) -> bool:
+    """Tell whether machine code names a function of the C library; its own name stands there, too."""
+    own = path.name.split("-")[0].split(".")[-1]
+    return name != own and f"\0{name}\0".encode() in path.read_bytes()
 
 
 FUNCTIONS = """
