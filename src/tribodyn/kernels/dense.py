@@ -21,7 +21,8 @@ _MOST_SWEEPS: Final = 60
 def product(first: Any, second: Any) -> Any:
     """Return the matrix product; the second array has one or two dimensions. Sums run in order."""
     a, b = np.asarray(first, np.float64), np.asarray(second, np.float64)
-    rows, columns = a.reshape(-1, a.shape[-1]), b[:, None] if b.ndim == 1 else b
+    columns = b[:, None] if b.ndim == 1 else b
+    rows = a.reshape(math.prod(a.shape[:-1]), a.shape[-1])
     out = np.empty((rows.shape[0], columns.shape[1]))
     _multiply(np.ascontiguousarray(rows), np.ascontiguousarray(columns), out)
     return out.reshape(a.shape[:-1] + b.shape[1:])[()]

@@ -59,7 +59,18 @@ def test_solutions_and_inverses() -> None:
 
 def test_products_have_the_shapes_of_numpy() -> None:
     a, b, c = np.arange(6.0).reshape(2, 3), np.arange(3.0), np.arange(24.0).reshape(2, 4, 3)
-    for first, second in ((a, b), (b, a.T), (a, a.T), (b, b), (c, a.T)):
+    # A mechanism whose joints all have clearance has no constraints.
+    none = np.zeros((3, 0))
+    for first, second in (
+        (a, b),
+        (b, a.T),
+        (a, a.T),
+        (b, b),
+        (c, a.T),
+        (none, none.T),
+        (none, b[:0]),
+        (none.T, b),
+    ):
         # Whole numbers: products and sums are exact.
         assert np.array_equal(dense.product(first, second), first @ second)
     assert dense.norm(a) == pytest.approx(np.linalg.norm(a), rel=1e-15)
