@@ -27,7 +27,7 @@ from tribodyn.mechanisms.general.skeleton import Skeleton
 
 JOINT: Final = "wrist"
 FRAMES: Final = 48
-COLOURS: Final = 24
+COLOURS: Final = 64
 PIN: Final = 0.72
 """Radius of the pin over that of the bore, as shown."""
 STEEL: Final = "#b7c4d1"

@@ -28,7 +28,7 @@ PEAKS: Final = 3e-2
 LASTING: Final = 2e-2
 """What is exceeded for a hundredth of the time: that of four-bar lies in the rise of blows."""
 BOUNDS: Final = {
-    **dict.fromkeys(("_max_", "peak_", "rebounds", "settling", "speed_error"), PEAKS),
+    **dict.fromkeys(("_max_", "peak_", "_outside_", "rebounds", "settling", "speed_error"), PEAKS),
     "_lasting_": LASTING,
 }
 """By parts of names; :data:`CLOSE` holds for the others."""

@@ -140,9 +140,9 @@ def _orthogonalise(columns: FloatArray, right: FloatArray, squares: FloatArray) 
                 ratio = (second - first) / (2.0 * across)
                 tangent = math.copysign(1.0, ratio) / (abs(ratio) + math.sqrt(1.0 + ratio * ratio))
                 c = 1.0 / math.sqrt(1.0 + tangent * tangent)
-                squares[p] = max(first - tangent * across, 0.0)
-                squares[q] = second + tangent * across
                 _rotate(columns, p, q, c, c * tangent)
+                squares[p] = _inner(columns[p], columns[p])
+                squares[q] = _inner(columns[q], columns[q])
                 _rotate(right, p, q, c, c * tangent)
         if not turned:
             return

@@ -195,7 +195,7 @@ def of_contact(touch: Touch, *, separation: float, clipped: float, grid_error: f
         if depth < 0.0
         else "",
         *_of_liner(touch, separation),
-        f"The clip of tensile pressure acted on {100 * clipped:.2g} % of the contact area on average: "
+        f"The tension cut-off acted on {100 * clipped:.2g} % of the contact area on average: "
         "damping is strong against stiffness there."
         if clipped > CLIP_LIMIT
         else "",

@@ -51,6 +51,8 @@ class Workload:
         Times at which the integration restarts.
     cells, band
         Cells of an oil film, and how many of them its solution couples at once; none without oil.
+    mapped
+        Nodes of films in each field kept.
     runs
         How often the run is made: once, or for each simulated cycle of a wear campaign.
     own_matrix
@@ -72,6 +74,7 @@ class Workload:
     breaks: float = 0.0
     cells: float = 0.0
     band: float = 0.0
+    mapped: float = 0.0
     runs: float = 1.0
     own_matrix: bool = True
     compiled: bool = True

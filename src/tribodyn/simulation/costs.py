@@ -128,7 +128,7 @@ def _memory(work: Workload) -> list[Part]:
     matrices = _ASSEMBLY if work.own_matrix else _DENSE
     return [
         Part(work.nodes * (_NODE + _FIELD_NODE * work.fields), keys.nodes),
-        Part(work.cells * (_CELL + _BAND * work.band), keys.cells),
+        Part(work.cells * (_CELL + _BAND * work.band) + work.mapped * _FIELD_NODE * work.fields, keys.cells),
         Part(work.samples * work.quantities * _NUMBER, keys.samples),
         Part(work.followed * work.quantities * _NUMBER, keys.followed),
         Part(work.breaks * _BREAK, keys.length),
@@ -142,7 +142,7 @@ def _seconds(work: Workload) -> list[Part]:
     step = _STEP + work.states * _STATE + _EVALUATIONS * (work.nodes * _EVALUATION + film)
     step += 0.0 if work.compiled else _PYTHON_STEP + work.states**3 * _DENSE_CUBED
     length = keys.length if work.runs == 1.0 else keys.cycles
-    saved = work.nodes * work.fields * _SAVED_NODE
+    saved = (work.nodes + work.mapped) * work.fields * _SAVED_NODE
     return [
         Part(work.runs * work.steps * step, length),
         Part(work.runs * work.samples * sample, keys.samples),

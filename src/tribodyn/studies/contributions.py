@@ -10,8 +10,8 @@ A share is the part of the mean square error that varies together with the error
 divided into covariances in the same way); it is below zero for a joint that compensates others. The
 interaction is what joints cause only together.
 
-Beside it stands the estimate by superposition (:mod:`tribodyn.mechanisms.general.superposition`), which takes
-one kinematic analysis: smooth, rigid surfaces, every shaft against one side of its bore.
+Beside it stands the estimate by superposition, which takes one kinematic analysis: smooth, rigid surfaces,
+every shaft against one side of its bore.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ def test_every_threshold_stands_in_the_table(name: str) -> None:
         "ENERGY_LIMIT": "energy is missed",
         "GRID_LIMIT": "the contact force is off",
         "LINER_LIMIT": "as its liner is thick",
-        "CLIP_LIMIT": "the clip of tensile pressure",
+        "CLIP_LIMIT": "the tension cut-off acted",
         "HARDNESS_LIMIT": "the contact pressure reached",
         "AREA_LIMIT": "the real area of contact reached",
         "LIFT_OFF_LIMIT": "the thrust collar carried nothing",

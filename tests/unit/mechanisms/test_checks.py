@@ -56,7 +56,7 @@ CASES = [
     ("energy", ENERGY_LIMIT, 1.0, "Energy is missed"),
     ("grid", GRID_LIMIT, 1.0, "On the chosen grid"),
     ("depth", 0.0, -1.0, "mean planes of the surfaces"),
-    ("clipped", CLIP_LIMIT, 1.0, "clip of tensile pressure"),
+    ("clipped", CLIP_LIMIT, 1.0, "tension cut-off"),
     ("hardness", HARDNESS_LIMIT, 1.0, "of the hardness"),
     ("area", AREA_LIMIT, 1.0, "real area of contact"),
     ("rejected", 1000.0 * REJECTED_LIMIT / (1.0 - REJECTED_LIMIT), 1.0, "integrator threw away"),

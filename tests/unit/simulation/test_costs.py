@@ -96,7 +96,7 @@ def test_counts_are_those_of_the_problem(name: str) -> None:
     problem = system.problem(case.duration)
     assert work.states == problem.y0.size
     assert work.quantities == problem.n_observed
-    assert work.nodes == math.prod(problem.field_shape)
+    assert work.nodes + work.mapped == math.prod(problem.field_shape)
     assert work.samples == pytest.approx(system.output_times(case.duration).size, rel=0.01)
     pictures = system.picture_times(case.duration).size
     assert work.fields == pytest.approx(pictures, rel=0.05)

@@ -47,6 +47,7 @@ def workload(case: MechanismCase) -> Workload:
         joints=float(len(real)),
         cells=sum(float(film.grid.theta * film.grid.z) for film in films),
         band=max((film.grid.z for film in films), default=0) + 1.0 if films else 0.0,
+        mapped=sum(float(film.grid.theta * (film.grid.z + 1)) for film in films),
         fields=(EVEN + 1.0) * min(2.0, windows) if real else 0.0,
         samples=duration / case.output_interval,
         followed=min(case.run.step_rows * windows, steps) if real else 0.0,
