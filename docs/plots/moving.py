@@ -94,7 +94,11 @@ def main() -> None:
         draw_mechanism(left, drawn, position[k], orientation[k])
         draw_bore(right, result, time - 0.3 * end, time)
         canvas.draw()
-        film.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(COLOURS))
+        film.append(
+            Image.fromarray(np.asarray(canvas.buffer_rgba()))
+            .convert("RGB")
+            .quantize(COLOURS, Image.Quantize.FASTOCTREE)
+        )
     film[0].save(sys.argv[1], save_all=True, append_images=film[1:], duration=67, loop=0)
 
 

@@ -24,7 +24,10 @@ def factorise(
     places: NDArray[np.int64],
     scaled: float,
 ) -> int:
-    """Prepare solutions with M − ``scaled`` J, see :mod:`.mass`; return the sign of its determinant or 0."""
+    """Prepare solutions with M − ``scaled`` J, see :mod:`mebdf.kernels.mass`.
+
+    Return the sign of its determinant, or 0.
+    """
     n = matrices.shape[1]
     transposed = n <= LARGEST_INVERSE
     for i in range(n):

@@ -242,8 +242,8 @@ spread: Final = _either(_spread, lambda number: np.full(WIDTH, number))
 square_root: Final = _either(_of_one("sqrt"), np.sqrt)
 absolute: Final = _either(_of_one("fabs"), np.abs)
 floor: Final = _either(_of_one("floor"), np.floor)
-larger: Final = _either(_of_two("maximum"), np.maximum)
-smaller: Final = _either(_of_two("minimum"), np.minimum)
+larger: Final = _either(_of_two("maximum"), lambda a, b: np.maximum(a, b))
+smaller: Final = _either(_of_two("minimum"), lambda a, b: np.minimum(a, b))
 """Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none."""
 above: Final = _either(_above, lambda a, b, x, y: np.where(a > b, x, y))
 """Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number."""

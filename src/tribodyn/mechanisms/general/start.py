@@ -1,8 +1,8 @@
 """Where a mechanism with clearance begins: its shafts laid against their sockets, where loads balance.
 
 Bodies move as those of the mechanism whose joints are ideal do at that time, and are displaced within the
-clearances until contact gives what that motion asks of the joints (:mod:`.equilibrium`). Freedoms of the
-mechanism as a whole are left to themselves.
+clearances until contact gives what that motion asks of the joints, by
+:mod:`tribodyn.mechanisms.general.equilibrium`. Freedoms of the mechanism as a whole are left to themselves.
 """
 
 from __future__ import annotations

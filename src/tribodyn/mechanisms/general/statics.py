@@ -1,9 +1,9 @@
 """Quasi-static analysis: equilibrium in the clearances at positions along the drives.
 
 At each position the bodies are those of the ideal mechanism, displaced to where the forces of contact balance
-all loads and the inertia forces of the ideal motion (:mod:`.equilibrium`). The dynamics of the motion within
-the clearances is left out: impacts, vibration, and damping. Friction opposes the ideal motion, so positions
-that are passed in both directions have two equilibria.
+all loads and the inertia forces of the ideal motion, by :mod:`tribodyn.mechanisms.general.equilibrium`. The
+dynamics of the motion within the clearances is left out: impacts, vibration, and damping. Friction opposes
+the ideal motion, so positions that are passed in both directions have two equilibria.
 """
 
 from __future__ import annotations
