@@ -15,6 +15,8 @@ from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import ANY_NAME, groups_of
 from tribodyn.mechanisms.catalogue import kinds, load_case
 from tribodyn.mechanisms.general.elements import ELEMENTS
+from tribodyn.mechanisms.general.joints import JOINTS
+from tribodyn.mechanisms.general.joints.base import words_of
 
 
 class Tables(Directive):
@@ -88,7 +90,26 @@ class Elements(Directive):
         return container.children
 
 
+class Joints(Tables):
+    """Argument: ``use`` or ``equations``. What the types of joints do, or hold, from their list."""
+
+    def lines(self, about: str) -> Iterator[str]:
+        """Give one table."""
+        yield from _EQUATIONS if about == "equations" else _USE
+        for name, kind in JOINTS.items():
+            if about == "use":
+                driven = ", ".join(f"`{coordinate}`" for coordinate in kind.COORDINATES)
+                yield f"| `{name}` | {kind.MEANING} | {driven} | {kind.CLEARANCE} |"
+            elif kind.ROWS:
+                yield f"| {name} | {' | '.join(words_of(kind.ROWS))} |"
+
+
 BAR: Final = "\\|"
+_USE: Final = ("| type | what moves | driven by | with clearance |", "|---|---|---|---|")
+_EQUATIONS: Final = (
+    "| joint | coordinates of the origin | directions at right angles |",
+    "|---|---|---|",
+)
 SIZES: Final = (
     "radius",
     "radial",
@@ -134,4 +155,5 @@ def setup(app: Any) -> dict[str, bool]:
     app.add_directive("assumed-keys", AssumedKeys)
     app.add_directive("joint-sizes", JointSizes)
     app.add_directive("elements", Elements)
+    app.add_directive("joints", Joints)
     return {"parallel_read_safe": True}

@@ -8,7 +8,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.synonyms import SYNONYMS
 from tribodyn.mechanisms.catalogue import kinds, parse_case
 from tribodyn.mechanisms.general.elements import ELEMENTS
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.joints import JOINTS
 
 BODY = '[bodies.rod]\nmass = "1 kg"\ncentre = "0, 0, 0 mm"\ninertia = "1e-4, 1e-4, 1e-4 kg m^2"\n'
 JOINT = '[joints.pivot]\nbetween = ["ground", "rod"]\npoint = "0, 0, 0 mm"\naxis = [0, 0, 1]\n'
@@ -17,7 +17,7 @@ JOINT = '[joints.pivot]\nbetween = ["ground", "rod"]\npoint = "0, 0, 0 mm"\naxis
 def test_every_meaning_is_a_word_of_ours() -> None:
     keys = keys_of(kinds()["mechanism"])
     names = {part for path in keys for part in path.split(".")}
-    ours = {*KINDS, *COMMANDS, *names, *(kind.METHOD for kind in ELEMENTS), "drive", "load"}
+    ours = {*JOINTS, *COMMANDS, *names, *(kind.METHOD for kind in ELEMENTS), "drive", "load"}
     assert {word for meant in SYNONYMS.values() for word in meant} <= ours
 
 

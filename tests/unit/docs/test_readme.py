@@ -124,13 +124,10 @@ def test_the_ratio_to_another_program_is_the_stored_one() -> None:
 
 
 def test_joints_with_clearance_are_those_listed() -> None:
-    from tribodyn.mechanisms.general.kinds import KINDS
+    from tribodyn.mechanisms.general.joints import JOINTS
 
-    (real,) = re.findall(r"Clearance exists in ([^.]*) joints", TEXT)
-    assert set(re.split(", | and ", real)) == {name for name, kind in KINDS.items() if kind.shapes}
-    (ideal,) = re.findall(r"([A-Z][^.]*) joints are ideal", TEXT)
-    others = {name for name, kind in KINDS.items() if not kind.shapes} - {"fixed", "spring-damper"}
-    assert {name.lower() for name in re.split(", | and ", ideal)} == others
+    (real,) = re.findall(r"Clearance exists in ([^;]*) joints; all others are ideal", TEXT)
+    assert set(re.split(", | and ", real)) == {name for name, kind in JOINTS.items() if kind.SHAPES}
 
 
 def test_there_are_as_many_validation_sets_as_it_says() -> None:

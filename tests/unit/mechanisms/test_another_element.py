@@ -1,4 +1,4 @@
-"""An element is one file and one line: the belt and the drag of the manual are added to a copy, and run."""
+"""An element or a joint is one file and one line: those of the manual are added to a copy, and run."""
 
 from __future__ import annotations
 
@@ -38,21 +38,42 @@ assert np.allclose(result["element_force"].values[:, 0], -5.0 * abs(fallen), rto
 """
 
 
-@pytest.mark.parametrize(("title", "check"), [("Belt", BELT), ("Stokes", STOKES)])
-def test_an_element_of_the_manual_takes_one_file_and_one_line(tmp_path: Path, title: str, check: str) -> None:
-    copy, method = tmp_path / "tribodyn", title.lower()
+JOINT = """
+import numpy as np, tribodyn as td
+found = td.Mechanism("Slope", gravity="3, 0, -9 m/s^2", run={"duration": "0.1 s"})
+found.body("ball", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+result = td.simulate(found.ball_on_plane("plane", "ground", "ball", point="0, 0, 0 mm", axis=[0, 0, 1]))
+x, z = (result["position"].sel(axis=axis).values[:, 0] for axis in "xz")
+assert np.allclose(x, 1.5 * result["time"].values ** 2, atol=1e-9) and abs(z).max() < 1e-12
+assert np.allclose(result["reaction_force_global"].sel(axis="z").values, 18.0, rtol=1e-9)
+"""
+
+
+def run_with(tmp_path: Path, folder: str, title: str, first: str, script: str) -> None:
+    """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
+    copy, module = tmp_path / "tribodyn", title.lower().replace(" ", "_")
     shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    elements = copy / "mechanisms" / "general" / "elements"
+    package = copy / "mechanisms" / "general" / folder
     found = re.search(rf'^```python\n("""{title}.*?)^```', PAGE.read_text(encoding="utf-8"), re.M | re.S)
     assert found is not None
-    (elements / f"{method}.py").write_text(found[1], encoding="utf-8")
-    names = elements / "__init__.py"
+    (package / f"{module}.py").write_text(found[1], encoding="utf-8")
+    names = package / "__init__.py"
     text = names.read_text(encoding="utf-8")
-    names.write_text(text.replace('    "gear",\n', f'    "gear",\n    "{method}",\n'), encoding="utf-8")
+    assert first in text
+    names.write_text(text.replace(first, f'{first}    "{module}",\n'), encoding="utf-8")
     # Machine code is that of the same kernels.
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    script = RUN.format(method=method, check=check)
     done = subprocess.run(
         [sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(("title", "check"), [("Belt", BELT), ("Stokes", STOKES)])
+def test_an_element_of_the_manual_takes_one_file_and_one_line(tmp_path: Path, title: str, check: str) -> None:
+    script = RUN.format(method=title.lower(), check=check)
+    run_with(tmp_path, "elements", title, '    "gear",\n', script)
+
+
+def test_a_joint_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
+    run_with(tmp_path, "joints", "Ball on plane", '    "ideal",\n', JOINT)

@@ -29,7 +29,7 @@ from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.elements.controller import Controller, check_functions
-from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
@@ -272,9 +272,9 @@ class MechanismCase(_WithElements):
         for name, drive in self.drives.items():
             demand_known(drive.joint, self.joints, f"drives.{name}.joint", "joint")
             joint, (coordinate, level) = self.joints[drive.joint], GIVEN[drive.gives]
-            free = KINDS[joint.type].coordinates
+            free = joint.kind.COORDINATES
             can = f"it has the {' and the '.join(free)}" if free else "it has nothing to drive"
-            words = f"{drive.joint} is a {joint.type} joint: {can}, and {drive.gives} drives the {coordinate}"
+            words = f"{drive.joint} is {joint.kind.named}: {can}, and {drive.gives} drives the {coordinate}"
             demand(coordinate in free, f"drives.{name}.joint", words)
             if level < 2:
                 other = driven.setdefault((drive.joint, coordinate), name)
@@ -290,7 +290,7 @@ class MechanismCase(_WithElements):
                 continue
             key = f"loads.{name}.along"
             demand_known(load.along, self.joints, key, "joint")
-            free = KINDS[self.joints[load.along].type].coordinates
+            free = self.joints[load.along].kind.COORDINATES
             for over in load.joint_axes:
                 coordinate = COORDINATE_OF[over]
                 demand(coordinate in free, key, f"this joint has no {coordinate} that a table could follow")

@@ -30,7 +30,8 @@ from tribodyn.kernels.mechanism.solution import (
 )
 from tribodyn.mechanisms.general.actions import GIVEN
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
-from tribodyn.mechanisms.general.kinds import GROUND
+from tribodyn.mechanisms.general.frames import GROUND
+from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.model import Model, ModelError
 
 CLOSED: Final = 1.0e-12
@@ -39,11 +40,6 @@ CLOSES: Final = 1.0e-9
 """The same, of joints of a mechanism on its way."""
 DEPENDENT: Final = 1.0e-6
 """Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
-_HELD: Final = {
-    **dict.fromkeys(("cylindrical", "prismatic", "pin-slot"), slice(2)),
-    "planar": slice(2, 3),
-}
-"""Which components of the way between its points a joint holds, in its axes; all where none are said."""
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
@@ -341,7 +337,7 @@ class System:
             return element
         name = self.model.joints[worst]
         now = self.now.couplings[worst]
-        way = float(dense.norm(now.pose.d[_HELD.get(self.model.kind(name), slice(3))]))
+        way = float(dense.norm(now.pose.d[JOINTS[self.model.kind(name)].held]))
         first, second = self.model.case.joints[name].between
         text = (
             f"joint {name} between {first} and {second} does not close: when all joints are nearest to "

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.cases.directions import unit
-from tribodyn.cases.fields import Vector
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
@@ -35,8 +34,8 @@ from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements.base import ForceLaw, Leg
-from tribodyn.mechanisms.general.joints import frame
-from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.frames import GROUND, frame
+from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.loads import fill_load
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
@@ -218,29 +217,17 @@ def _place(
 
 
 def _fill_joint(record: Any, model: Model, name: str, joint: JointKeys) -> None:
-    """Fill a joint: the rows of its kind, or its springs."""
-    axes = axes_of(model.case, joint)
-    socket = shaft = frame(axes[0], axes[1])
-    kind = model.kind(name)
-    if kind == "universal":
-        across = frame(axes[1], axes[0])  # z along the shaft's own axis
-        shaft = np.column_stack([across[:, 2], -across[:, 1], across[:, 0]])
+    """Fill a joint: the rows of its type, and what else it is."""
+    first, second = axes_of(model.case, joint)
+    kind = JOINTS[model.kind(name)]
+    axes = frame(first, second), kind.shaft_axes(first, second)
     turned = 1 if joint.sign > 0.0 else -1
-    _place(record, model, joint.between[::turned], joint.points[::turned], (socket, shaft))
+    _place(record, model, joint.between[::turned], joint.points[::turned], axes)
     if name in model.clearances:
         return
-    for row in KINDS[kind].rows:
+    for row in kind.ROWS:
         _add_row(record, *row)
-    if kind == "spring-damper":
-        record.force = kinds.SPRINGS
-        record.stiffness[:] = _six(joint.stiffness, joint.angular_stiffness)
-        record.damping[:] = _six(joint.damping, joint.angular_damping)
-
-
-def _six(along: Vector | None, about: Vector | None) -> list[float]:
-    """Return what is given along and about axis, second axis and across as it is along and about x, y, z."""
-    turned = [1, 2, 0]
-    return [given[k] for given in (along or (0.0,) * 3, about or (0.0,) * 3) for k in turned]
+    kind.fill(record, joint)
 
 
 def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) -> None:

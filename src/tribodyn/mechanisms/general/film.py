@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from tribodyn.cases.case import demand
 from tribodyn.cases.joint import FormKeys
+from tribodyn.mechanisms.general.joints import JOINTS
+from tribodyn.mechanisms.general.shapes import SHAPES
 
 
 def check_film(kind: str, shape: str, pin_length: float | None, form: FormKeys) -> None:
@@ -23,9 +25,9 @@ def check_film(kind: str, shape: str, pin_length: float | None, form: FormKeys) 
     """
     key = "film.viscosity"
     words = "an oil film is in the bore of a pin: a clearance with radius, radial and length is needed"
-    demand(shape == "cylinder", key, words)
+    demand(shape in SHAPES and SHAPES[shape].BORE, key, words)
     words = f"an oil film is that of a revolute joint; in a {kind} one oil would also resist sliding"
-    demand(kind == "revolute", key, words)
+    demand("position" not in JOINTS[kind].COORDINATES, key, words)
     words = "an oil film is as long as its bore: leave pin_length out"
     demand(pin_length is None, "clearance.pin_length", words)
     words = "an oil film is between round surfaces: leave form or film out"

@@ -21,7 +21,7 @@ from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.arguments import Argument, arguments_of, parameters_of
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
@@ -119,26 +119,22 @@ def _example(*, hinge: Mapping[str, object] = _HINGE, **tables: object) -> Examp
 
 def _of_joint(kind: str) -> BuilderMethod:
     """Return the method that adds a joint of a kind."""
-    about = KINDS[kind]
+    about = JOINTS[kind]
     starts = {"start_speed": "angle", "start_velocity": "position"}
-    springs = ("stiffness", "damping", "angular_stiffness", "angular_damping")
-    needs: dict[str, object] = {"point": "0, 0, 0 mm"}
-    needs |= {"axis": [0, 0, 1]} if about.axis else {}
-    needs |= {"second_axis": [1, 0, 0]} if about.second_axis else {}
-    needs |= {"stiffness": "1, 1, 1 N/um"} if kind == "spring-damper" else {}
+    others = [key for other in JOINTS.values() for key in other.KEYS.model_fields if other is not about]
     return BuilderMethod(
         name=kind.replace("-", "_"),
-        does=f"Add a {kind} joint: {about.meaning}.",
+        does=f"Add {about.named}: {about.MEANING}.",
         table="joints",
         keys=JointKeys,
-        example=_example(hinge={"type": kind, "between": ["ground", "arm"], **needs}),
+        example=_example(hinge={"type": kind, "between": ["ground", "arm"], **about.example}),
         arguments=(_NAME, *_ENDS),
         given={"type": kind},
-        needed=tuple(needs),
+        needed=tuple(about.example),
         without=(
-            *(key for key, coordinate in starts.items() if coordinate not in about.coordinates),
-            *(() if kind == "spring-damper" else springs),
-            *(() if about.shapes else OF_JOINT),
+            *(key for key, coordinate in starts.items() if coordinate not in about.COORDINATES),
+            *others,
+            *(() if about.SHAPES else OF_JOINT),
         ),
     )
 
@@ -165,14 +161,14 @@ METHODS: Final = (
         arguments=(_NAME, ("value", VALUE, 'its value, such as "50 mm", or an expression')),
     ),
     BuilderMethod("body", "Add a rigid body.", "bodies", BodyKeys, _example()),
-    *map(_of_joint, KINDS),
+    *map(_of_joint, JOINTS),
     BuilderMethod(
         "joint",
         "Add a joint of a kind that is given by its name.",
         "joints",
         JointKeys,
         _example(),
-        arguments=(_NAME, ("kind", "type", f"what it lets move: {', '.join(KINDS)}"), *_ENDS),
+        arguments=(_NAME, ("kind", "type", f"what it lets move: {', '.join(JOINTS)}"), *_ENDS),
     ),
     BuilderMethod(
         "clearance",

@@ -14,11 +14,11 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
-from tribodyn.joints.shapes import Cylinder, Mesh
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import DIRECTION, POINT
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.model import Model
+from tribodyn.mechanisms.general.shapes import SHAPES
 
 MOST: Final = 1.5
 """Share of its clearance from which on a joint surely seizes: shares add up squared here, and of two poses
@@ -46,7 +46,8 @@ class Misfit:
     def __init__(self, model: Model, system: System) -> None:
         self.system, self.shares = system, dict[str, float]()
         self._joints = dict(zip(model.real, model.clearances, strict=True))
-        allowed = {k: _allowed(model.clearances[name]) for k, name in self._joints.items()}
+        shapes = {name: joint.shape for name, joint in model.case.joints.items() if joint.real is not None}
+        allowed = {k: _allowed(shapes[name], model.clearances[name]) for k, name in self._joints.items()}
         self._allowed = np.array([self._of_row(k, m, allowed) for k, m in system.rows])
 
     def _of_row(self, k: int, m: int, allowed: Mapping[int, tuple[float, float, float]]) -> float:
@@ -117,20 +118,14 @@ class Misfit:
         return found
 
 
-def _allowed(clearance: Clearance) -> tuple[float, float, float]:
+def _allowed(shape: str, clearance: Clearance) -> tuple[float, float, float]:
     """Return how far a shaft may be displaced across and along its axis [m], and tilted [rad].
 
     What surfaces give way until their contact law ends is part of it.
     """
-    shape = clearance.shape
     give = -clearance.table.h_first * clearance.roughness
-    across, along, length = shape.clearance + give, shape.clearance + give, 0.0
-    if isinstance(shape, Cylinder):
-        length = shape.length
-        along = min(shape.faces.values(), default=shape.clearance) + give
-    elif isinstance(shape, Mesh):
-        length = float(np.ptp(shape.facets))
-    return across, along, 2.0 * across / length if length > 0.0 else math.inf
+    across, along, length = SHAPES[shape].room(clearance.shape)
+    return across + give, along + give, 2.0 * (across + give) / length if length > 0.0 else math.inf
 
 
 def described(shares: Mapping[str, float]) -> str:

@@ -9,16 +9,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
-from typing import Final
 
 from tribodyn.joints.clearances import Clearance
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.elements.base import ElementKeys, Equation, Leg
+from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.parts import JointKeys
 from tribodyn.mechanisms.general.surfaces import clearances_of
-
-_HELD: Final = {"sphere": "spherical", "ball": "pin-slot"}
-"""Ideal joint that holds what a shape holds; a mesh holds what the type does."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +150,7 @@ class Model:
     def _with_ideal(self, names: Sequence[str]) -> Model:
         """Return the mechanism with the ideal joints that hold the same in the place of some."""
         real = {name: clearance for name, clearance in self.clearances.items() if name not in names}
-        held = {name: _held(self.case.joints[name]) for name in self.clearances if name in names}
+        held = {name: self.case.joints[name].ideal for name in self.clearances if name in names}
         return replace(self, clearances=real, held={**self.held, **held})
 
     @property
@@ -170,7 +167,7 @@ class Model:
 
         for name, joint in self.case.joints.items():
             first, second = (root(self.number(body)) for body in joint.between)
-            if self.kind(name) != "spring-damper":
+            if JOINTS[self.kind(name)].ROWS:
                 if first == second:
                     return True
                 group[first + 1] = second
@@ -186,13 +183,6 @@ class Model:
             if body not in held:
                 text = f"nothing holds body {body}: no joint, spring or element names it"
                 yield ModelError(f"bodies.{body}", text)
-
-
-def _held(joint: JointKeys) -> str:
-    """Return the kind of the ideal joint that holds what a joint with clearance holds."""
-    if joint.shape != "cylinder":
-        return _HELD.get(joint.shape, joint.type)
-    return "revolute" if joint.clearance is not None and joint.clearance.has_faces else "cylindrical"
 
 
 def model_of(case: MechanismCase) -> Model:

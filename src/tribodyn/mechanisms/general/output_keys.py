@@ -7,7 +7,7 @@ from typing import Final, Literal
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, choice, name, vector
-from tribodyn.mechanisms.general.kinds import GROUND
+from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.parts import POINT
 
 UNITS: Final = {"position": "m", "distance": "m", "angle": "rad", "velocity": "m/s"}

@@ -26,7 +26,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.kinds import GROUND
+from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.output_keys import UNITS, OutputKeys
 from tribodyn.mechanisms.general.skeleton import rotated
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import ClassVar, Final, Literal, Self
+from typing import TYPE_CHECKING, ClassVar, Final, Self
+
+from pydantic import create_model
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import dot, unit
@@ -26,11 +28,12 @@ from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.joint import SURFACE, FormKeys, LinerKeys
 from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanisms.general.film import check_film
-from tribodyn.mechanisms.general.kinds import KINDS, NEEDED
+from tribodyn.mechanisms.general.joints import JOINTS
+from tribodyn.mechanisms.general.joints.base import JointType
+from tribodyn.mechanisms.general.shapes import SHAPES
+from tribodyn.mechanisms.general.shapes.cylinder import FLANGE
 
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
-FLANGE: Final = 1.5
-"""Outer radius of end faces over the radius of the pin, where the case does not say it."""
 _LEAST_ANGLE: Final = 1e-3
 """Sine of the least angle between two axes that must not be parallel."""
 
@@ -79,8 +82,12 @@ class ClearanceKeys(NamedGroup):
     band: float = quantity(
         "40 deg", "half the width of the race of a ball, as a latitude", "assumed", gt=0, le="90 deg"
     )
-    shape: Literal["cylinder", "sphere", "ball", "mesh"] | None = choice(
-        None, "shape of the surfaces, if not the default of the joint type", "", example="mesh"
+    shape: str | None = choice(
+        None,
+        "shape of the surfaces, if not the default of the joint type",
+        "",
+        family="tribodyn.mechanisms.general.shapes:SHAPES",
+        example="mesh",
     )
     mesh: str | None = file("STL file of the bore, global coordinates, outsides anticlockwise", "socket.stl")
     mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
@@ -158,14 +165,14 @@ class ClearanceKeys(NamedGroup):
         return any(gap is not None for gap in (self.axial, self.axial_upper, self.axial_lower))
 
 
-class JointKeys(NamedGroup):
-    """A joint of two bodies."""
+class _Joint(NamedGroup):
+    """The keys of joints of all types."""
 
     type: str = choice(
         None,
         "what it lets move",
         "",
-        family="tribodyn.mechanisms.general.kinds:KINDS",
+        family="tribodyn.mechanisms.general.joints:JOINTS",
         example="revolute",
         required=True,
     )
@@ -205,51 +212,29 @@ class JointKeys(NamedGroup):
         unit="m/s",
         example="1 m/s",
     )
-    stiffness: Vector | None = vector(
-        None,
-        "of a spring-damper along axis, second axis and across both",
-        "",
-        unit="N/um",
-        example='["10 N/um", "10 N/um", "10 N/um"]',
-    )
-    damping: Vector | None = vector(
-        None, "likewise", "", unit="N s/m", example='["10 N s/m", "10 N s/m", "10 N s/m"]'
-    )
-    angular_stiffness: Vector | None = vector(
-        None,
-        "of a spring-damper about these directions",
-        "",
-        unit="N m/rad",
-        example='["0 N m/rad", "10 N m/rad", "10 N m/rad"]',
-    )
-    angular_damping: Vector | None = vector(
-        None,
-        "likewise",
-        "",
-        unit="N m s/rad",
-        example='["0 N m s/rad", "1 N m s/rad", "1 N m s/rad"]',
-    )
+
+
+if TYPE_CHECKING:
+    _OfAllTypes = _Joint
+else:
+    _OwnKeys = dict.fromkeys(kind.KEYS for kind in JOINTS.values() if kind.KEYS is not NamedGroup)
+    _OfAllTypes = create_model("_OfAllTypes", __base__=(*_OwnKeys, _Joint), __module__=__name__)
+
+
+class JointKeys(_OfAllTypes):
+    """A joint of two bodies."""
+
     clearance: ClearanceKeys | None = None
     film: FilmKeys | None = None
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
         # A type that is none is refused as such, by the check of its family.
-        if self.type not in KINDS:
+        if self.type not in JOINTS:
             return
-        kind = KINDS[self.type]
         demand(self.between[0] != self.between[1], "between", "a joint connects two different bodies")
-        if kind.axis:
-            words = f"a {self.type} joint needs the {kind.axis}, such as axis = [0, 0, 1]"
-            demand(self.axis is not None, "axis", words)
-        words = "a universal joint needs the axis that the second body holds, such as second_axis = [1, 0, 0]"
-        demand(not kind.second_axis or self.second_axis is not None, "second_axis", words)
-        for first, second in combinations(("axis", "second_axis"), 2):
-            _check_directions(getattr(self, first), getattr(self, second))
-        for key, coordinate in (("start_speed", "angle"), ("start_velocity", "position")):
-            words = f"a {self.type} joint has no {coordinate} of its own"
-            demand(getattr(self, key) is None or coordinate in kind.coordinates, key, words)
-        self._check_spring()
+        self._check_axes()
+        self._check_own()
         self._check_clearance()
         if self.film is not None:
             shape, keys = "" if self.clearance is None else self.shape, self.clearance or ClearanceKeys()
@@ -257,49 +242,70 @@ class JointKeys(NamedGroup):
             words = "an oil film has one viscosity and one clearance: give constant temperatures"
             demand(not keys.temperature.tables, "clearance.temperature.over_time", words)
 
-    def _check_spring(self) -> None:
-        keys = ("stiffness", "damping", "angular_stiffness", "angular_damping")
-        given = {key: getattr(self, key) for key in keys if getattr(self, key) is not None}
-        for key, values in given.items():
-            words = f"this belongs to a spring-damper, not a {self.type} joint"
-            demand(self.type == "spring-damper", key, words)
-            demand(min(values) >= 0.0, key, "none of them may be below zero")
-        stiff = {"stiffness", "angular_stiffness"} & set(given)
-        demand(self.type != "spring-damper" or bool(stiff), "stiffness", "a spring-damper needs a stiffness")
+    def _check_axes(self) -> None:
+        kind = self.kind
+        words = f"{self.kind.named} needs the {kind.AXIS}, such as axis = [0, 0, 1]"
+        demand(not kind.AXIS or self.axis is not None, "axis", words)
+        words = f"{self.kind.named} needs the {kind.SECOND_AXIS}, such as second_axis = [1, 0, 0]"
+        demand(not kind.SECOND_AXIS or self.second_axis is not None, "second_axis", words)
+        for first, second in combinations(("axis", "second_axis"), 2):
+            _check_directions(getattr(self, first), getattr(self, second))
+        for key, coordinate in (("start_speed", "angle"), ("start_velocity", "position")):
+            words = f"{self.kind.named} has no {coordinate} of its own"
+            demand(getattr(self, key) is None or coordinate in kind.COORDINATES, key, words)
+
+    def _check_own(self) -> None:
+        """Check the keys of single types."""
+        for other in JOINTS.values():
+            own = other.KEYS.model_fields if other.KEYS is not self.kind.KEYS else {}
+            for key, field in own.items():
+                words = f"this belongs to a {other.NAME}, not {self.kind.named}"
+                demand(getattr(self, key) == field.default, key, words)
+        self.kind.check(self)
 
     def _check_clearance(self) -> None:
         clearance = self.clearance
         if clearance is None:
             return
-        shapes = KINDS[self.type].shapes
-        real = ", ".join(kind for kind, about in KINDS.items() if about.shapes)
-        words = f"a {self.type} joint is always ideal; clearance is for: {real}"
+        shapes = self.kind.SHAPES
+        real = ", ".join(name for name, kind in JOINTS.items() if kind.SHAPES)
+        words = f"{self.kind.named} is always ideal; clearance is for: {real}"
         demand(bool(shapes), "clearance.radial", words)
         shape = self.shape
-        words = f"a {self.type} joint has the shape {' or '.join(shapes)}"
+        words = f"{self.kind.named} has the shape {' or '.join(shapes)}"
         demand(shape in shapes, "clearance.shape", words)
-        for key, size in NEEDED[shape].items():
+        about = SHAPES[shape]
+        for key, size in about.NEEDED.items():
             words = f"a joint of the shape {shape} needs {size}"
             demand(getattr(clearance, key) is not None, f"clearance.{key}", words)
         words = f"a form is that of a shaft in a bore, not of the shape {shape}"
-        demand(shape == "cylinder" or clearance.form == FormKeys(), "clearance.form", words)
-        words = "the gap of a mesh is given as it is in the run"
-        demand(shape != "mesh" or not clearance.temperature.changes, "clearance.temperature", words)
+        demand(about.BORE or clearance.form == FormKeys(), "clearance.form", words)
+        about.check(clearance)
         words = f"a length of the pin belongs to the shape cylinder, not to {shape}"
-        demand(shape == "cylinder" or clearance.pin_length is None, "clearance.pin_length", words)
+        demand(about.BORE or clearance.pin_length is None, "clearance.pin_length", words)
         words = f"a bonded sleeve is that of a shaft in a bore, not of the shape {shape}"
         bonded = clearance.temperature.fit == "bonded"
-        demand(shape == "cylinder" or not bonded, "clearance.temperature.fit", words)
+        demand(about.BORE or not bonded, "clearance.temperature.fit", words)
         for key in ("axial", "axial_upper", "axial_lower", "flange"):
             words = f"end faces are for revolute joints, not for a {self.type} one"
-            demand(self.type == "revolute" or getattr(clearance, key) is None, f"clearance.{key}", words)
+            demand(self.kind.FACES or getattr(clearance, key) is None, f"clearance.{key}", words)
         words = f"this is neither {self.between[0]} nor {self.between[1]}"
         demand(clearance.socket in (None, *self.between), "clearance.socket", words)
+
+    @property
+    def kind(self) -> JointType:
+        """Its type."""
+        return JOINTS[self.type]
 
     @property
     def real(self) -> ClearanceKeys | None:
         """Its clearance, if it is not ideal."""
         return None if self.clearance is None or self.clearance.ideal else self.clearance
+
+    @property
+    def ideal(self) -> str:
+        """Type of the ideal joint that it becomes as its clearance vanishes."""
+        return SHAPES[self.shape].ideal(self.type, self.clearance)
 
     @property
     def sign(self) -> float:
@@ -315,7 +321,7 @@ class JointKeys(NamedGroup):
     def shape(self) -> str:
         """Shape of its clearance."""
         chosen = None if self.clearance is None else self.clearance.shape
-        return chosen or KINDS[self.type].shapes[0]
+        return chosen or self.kind.SHAPES[0]
 
 
 class SpringKeys(NamedGroup):

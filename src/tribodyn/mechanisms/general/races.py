@@ -11,7 +11,7 @@ from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.kinds import GROUND
+from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.parts import JointKeys
 
 _PARALLEL: Final = 1e-3
@@ -20,7 +20,7 @@ _PARALLEL: Final = 1e-3
 
 def axes_of(case: MechanismCase, joint: JointKeys) -> FloatArray:
     """Return the two unit vectors of a joint, shape (2, 3); the second is across the first if not given."""
-    if joint.type == "spherical" and joint.clearance is not None and joint.axis is None:
+    if not joint.kind.AXIS and joint.clearance is not None and joint.axis is None:
         first, second = _race_axes(case, joint)
     else:
         first, second = np.array(unit(joint.axis or (0.0, 0.0, 1.0), "axis")), None

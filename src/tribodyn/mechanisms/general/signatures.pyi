@@ -129,17 +129,6 @@ class Signatures:
         second_axis: Vector | None = ...,
         start_velocity: str | None = ...,
     ) -> Self: ...
-    def universal(
-        self,
-        name: str,
-        first: str,
-        second: str,
-        *,
-        point: Vector,
-        axis: Vector,
-        second_axis: Vector,
-        other_point: Vector | None = ...,
-    ) -> Self: ...
     def pin_slot(
         self,
         name: str,
@@ -165,6 +154,28 @@ class Signatures:
         other_point: Vector | None = ...,
         second_axis: Vector | None = ...,
         start_speed: str | None = ...,
+    ) -> Self: ...
+    def universal(
+        self,
+        name: str,
+        first: str,
+        second: str,
+        *,
+        point: Vector,
+        axis: Vector,
+        second_axis: Vector,
+        other_point: Vector | None = ...,
+    ) -> Self: ...
+    def oldham(
+        self,
+        name: str,
+        first: str,
+        second: str,
+        *,
+        point: Vector,
+        axis: Vector,
+        other_point: Vector | None = ...,
+        second_axis: Vector | None = ...,
     ) -> Self: ...
     def spring_damper(
         self,

@@ -15,7 +15,7 @@ from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.kinds import GROUND, KINDS
+from tribodyn.mechanisms.general.frames import GROUND
 
 MM: Final = 1e3
 _FLAT: Final = 0.2
@@ -166,7 +166,7 @@ def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[tuple[tu
 def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:
     joint = case.joints[name]
     first = joint.between[0]
-    axis = np.array(unit(joint.axis, "axis")) if joint.axis is not None and KINDS[joint.type].axis else None
+    axis = np.array(unit(joint.axis, "axis")) if joint.axis is not None and joint.kind.AXIS else None
     body = -1 if first == GROUND else bodies.index(first)
     return Mark(name, body, np.array(joint.point), axis, joint.real is not None)
 

@@ -21,11 +21,11 @@ from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
 from tribodyn.mechanisms.bushing import Bearing
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.joints import frame
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.frames import frame
 from tribodyn.mechanisms.general.pairs import PairKeys
-from tribodyn.mechanisms.general.parts import FLANGE, ClearanceKeys, JointKeys
+from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys
 from tribodyn.mechanisms.general.races import axes_of
+from tribodyn.mechanisms.general.shapes import SHAPES
 
 _Round: TypeAlias = Cylinder | Sphere | Ball
 NOT_WORN: Final[Mapping[str, float]] = {}
@@ -36,12 +36,12 @@ def bearings(case: MechanismCase) -> dict[str, Bearing]:
     return {
         name: _bearing(case, name, joint.real)
         for name, joint in case.joints.items()
-        if joint.real is not None and joint.shape == "cylinder"
+        if joint.real is not None and SHAPES[joint.shape].BORE
     }
 
 
 def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
-    pair, shape = material_of(case, name), _hot(case, name, keys, _cylinder(keys))
+    pair, shape = material_of(case, name), _hot(case, name, keys, _cold(case, case.joints[name], keys))
     assert isinstance(shape, Cylinder)
     return Bearing(
         contact=pair.contact,
@@ -120,7 +120,7 @@ def _clearance(
         tensile_clip=contact.tensile_clip,
         contact=keys.contact,
         liner=liner,
-        slides="position" in KINDS[joint.type].coordinates,
+        slides="position" in joint.kind.COORDINATES,
         film=_film(joint, shape, pair.surfaces),
         openings=_openings(case, name, joint, keys),
     )
@@ -141,41 +141,13 @@ def _liner(case: MechanismCase, name: str, keys: ClearanceKeys) -> Liner | None:
 
 def _shape(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys) -> Shape:
     """Return the shape of a clearance at the temperatures of the run."""
-    if joint.shape == "mesh":
-        facets = _facets(case, joint, keys)
-        edge = keys.mesh_edge or float(np.ptp(facets.reshape(-1, 3), axis=0).max())
-        return Mesh(facets, _given(keys.gap), edge)
-    return _hot(case, name, keys, _cold(joint, keys))
+    cold = _cold(case, joint, keys)
+    return cold if isinstance(cold, Mesh) else _hot(case, name, keys, cold)
 
 
-def _cold(joint: JointKeys, keys: ClearanceKeys) -> _Round:
-    """Return the round shape of a clearance as drawn."""
-    if joint.shape == "cylinder":
-        return _cylinder(keys)
-    radius, clearance = _given(keys.radius), _given(keys.radial)
-    return Sphere(radius, clearance, keys.band) if joint.shape == "sphere" else Ball(radius, clearance)
-
-
-def _cylinder(keys: ClearanceKeys) -> Cylinder:
-    """Return a shaft in a bore as drawn."""
-    radius = _given(keys.radius)
-    return Cylinder(
-        radius=radius,
-        clearance=_given(keys.radial),
-        length=_given(keys.length),
-        pin_length=keys.pin_length,
-        axial=keys.axial,
-        axial_upper=keys.axial_upper,
-        axial_lower=keys.axial_lower,
-        flange=keys.flange or (FLANGE * radius if keys.has_faces else None),
-        form=keys.form.form(),
-    )
-
-
-def _given(size: float | None) -> float:
-    """Return a size that the shape of a joint needs, which its keys have checked."""
-    assert size is not None
-    return size
+def _cold(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> Any:
+    """Return the shape of a clearance as drawn."""
+    return SHAPES[joint.shape].of(keys, None if keys.facets is None else _facets(case, joint, keys))
 
 
 def _facets(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> FloatArray:
@@ -233,7 +205,7 @@ def _openings(
     temperature = keys.temperature
     if not temperature.tables:
         return None, None
-    names, surfaces, cold = _names(name, keys), case.of_pair(keys).surfaces, _cold(joint, keys)
+    names, surfaces, cold = _names(name, keys), case.of_pair(keys).surfaces, _cold(case, joint, keys)
     geometry = _geometry(cold)
     temperature.check(geometry, surfaces, keys.liner, case.duration, names)
     radial, axial = temperature.opening(geometry, surfaces, keys.liner, names), None

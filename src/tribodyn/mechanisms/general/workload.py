@@ -12,6 +12,7 @@ from tribodyn.kernels.mechanism.data import N_STATES
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.parts import ClearanceKeys
+from tribodyn.mechanisms.general.shapes import SHAPES
 from tribodyn.mechanisms.playback import EVEN
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 
@@ -73,13 +74,7 @@ def _nodes(case: MechanismCase) -> Iterator[float]:
         if clearance is None:
             continue
         around, along = clearance.nodes_around or grid.theta, clearance.nodes_along or grid.z
-        if joint.shape == "mesh":
-            yield len(clearance.facets or ()) / 9.0
-        elif joint.shape == "cylinder":
-            ends = (clearance.axial_upper or clearance.axial, clearance.axial_lower or clearance.axial)
-            yield around * (along + _EDGES) * (1.0 + sum(gap is not None for gap in ends))
-        else:
-            yield around * (along + _EDGES)
+        yield SHAPES[joint.shape].nodes(clearance, around, along + _EDGES)
 
 
 def _typical_time(case: MechanismCase) -> float:

@@ -18,7 +18,7 @@ from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.assembly import assemble
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.problem import mechanism_problem
@@ -267,7 +267,7 @@ def with_springs(model: Model, stiffness: float, turning: float, share: float) -
     """
     joints = {}
     for name, old in model.case.joints.items():
-        rows = set(KINDS[old.type].rows)
+        rows = set(JOINTS[old.type].ROWS)
         held = [(0, 2, 0) in rows, (0, 0, 0) in rows, (0, 1, 0) in rows]
         held += [(1, 1, 0) in rows, (1, 1, 2) in rows, (1, 0, 2) in rows]
         k = np.array([*[stiffness] * 3, *[turning] * 3]) * held

@@ -6,10 +6,10 @@ manual, methods of the builder, messages, constraint equations and results follo
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Final
 
 from tribodyn.mechanisms.general.elements.base import ElementKeys
+from tribodyn.mechanisms.general.members import members_of
 
 NAMES: Final = (
     "gear",
@@ -24,9 +24,7 @@ NAMES: Final = (
     "motor",
     "controller",
 )
-"""Modules of this package; each holds the class of its name."""
+"""Modules of this package that hold elements."""
 
-ELEMENTS: Final[tuple[type[ElementKeys], ...]] = tuple(
-    getattr(import_module(f"{__name__}.{name}"), name.title().replace("_", "")) for name in NAMES
-)
+ELEMENTS: Final[tuple[type[ElementKeys], ...]] = tuple(members_of(__name__, NAMES, ElementKeys))
 """Every kind of element."""

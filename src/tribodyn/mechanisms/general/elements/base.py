@@ -28,8 +28,7 @@ from tribodyn.cases.signals import ForceSignal, TorqueSignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import dense
-from tribodyn.mechanisms.general.joints import frame
-from tribodyn.mechanisms.general.kinds import KINDS
+from tribodyn.mechanisms.general.frames import frame
 from tribodyn.mechanisms.general.parts import POINT, JointKeys
 
 PARALLEL: Final = 1.0e-6
@@ -254,8 +253,8 @@ class OfJointKeys(ElementKeys):
     def leg_of(self, joints: Joints, coordinate: str, member: str, scale: float = 1.0) -> Leg:
         """Return the leg of an angle, times a scale, or of a position, as drawn zero."""
         joint = joints[self.joint]
-        free = KINDS[joint.type].coordinates
-        words = f"{self.joint} is a {joint.type} joint; {member} takes a joint with {article(coordinate)}"
+        free = joint.kind.COORDINATES
+        words = f"{self.joint} is {joint.kind.named}; {member} takes a joint with {article(coordinate)}"
         demand(coordinate in free, "joint", words)
         axis, turns = axis_of(joint), coordinate == "angle"
         points = origin(joint, joint.between[0])
@@ -277,7 +276,7 @@ def _named(keys: ElementKeys, fields: Iterable[str]) -> dict[str, tuple[str, ...
 def require_type(name: str, joint: JointKeys, kinds: Iterable[str], member: str) -> None:
     """Refuse a joint that is of none of these types."""
     allowed = " or ".join(kinds)
-    demand(joint.type in kinds, "joints", f"{name} is a {joint.type} joint; {member} takes {allowed} joints")
+    demand(joint.type in kinds, "joints", f"{name} is {joint.kind.named}; {member} takes {allowed} joints")
 
 
 def carrier(names: tuple[str, str], joints: Joints) -> str:

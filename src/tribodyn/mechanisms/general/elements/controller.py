@@ -23,7 +23,6 @@ from tribodyn.cases.signals import AngleSignal, PositionSignal, SpeedSignal, Vel
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
-from tribodyn.mechanisms.general.kinds import KINDS
 
 AnySetValue = AngleSignal | SpeedSignal | PositionSignal | VelocitySignal
 SET: Final = ("angle", "speed", "position", "velocity")
@@ -153,7 +152,7 @@ sampling_time = "5 ms"
             return self.measures in _TURNS
         if self.limit is not None:
             return self.torque_limit is not None
-        return "angle" in KINDS[joints[self.joint].type].coordinates
+        return "angle" in joints[self.joint].kind.COORDINATES
 
     def force_law(self, joints: Joints) -> ForceLaw:
         """Return the law of what is held."""

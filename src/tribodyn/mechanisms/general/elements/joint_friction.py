@@ -18,7 +18,6 @@ from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import number, quantity
 from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
-from tribodyn.mechanisms.general.kinds import KINDS
 
 
 def regularised(joint: Any, law: Any) -> None:
@@ -81,7 +80,7 @@ viscous = "5 N s/m"
         static = self.static_coefficient
         words = "the static coefficient is below that of sliding; friction cannot grow with speed here"
         demand(static is None or static >= self.friction_coefficient, "static_coefficient", words)
-        turns = "angle" in KINDS[joints[self.joint].type].coordinates
+        turns = "angle" in joints[self.joint].kind.COORDINATES
         if self.radius is None:
             words = "a joint that turns needs the radius at which it slides"
             demand(not turns, "radius", words)
@@ -94,8 +93,8 @@ viscous = "5 N s/m"
         joint, own = joints[self.joint], self.normal_load is None
         words = f"{self.joint} has clearance, and with it friction of its own: leave out this friction"
         demand(not own or joint.real is None, "joint", words)
-        words = f"a {joint.type} joint has no reaction across its axis: give normal_load"
-        demand(not own or joint.type != "planar", "normal_load", words)
+        words = f"{joint.kind.named} has no reaction across its axis: give normal_load"
+        demand(not own or joint.kind.holds_across, "normal_load", words)
         return ForceLaw(
             regularised,
             {

@@ -13,7 +13,7 @@ from tribodyn.cases.lists import AXES
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.chart import COLOURS
 from tribodyn.mechanisms.general.figures.film import moving
-from tribodyn.mechanisms.general.joints import frame
+from tribodyn.mechanisms.general.frames import frame
 from tribodyn.mechanisms.general.skeleton import Skeleton, view
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.gltf import Solid

@@ -1,11 +1,16 @@
-"""Axes of joints."""
+"""The frame at rest, and frames of joints."""
 
 from __future__ import annotations
+
+from typing import Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
+
+GROUND: Final = "ground"
+"""Name of the body that never moves."""
 
 
 def frame(axis: FloatArray, second: FloatArray) -> FloatArray:

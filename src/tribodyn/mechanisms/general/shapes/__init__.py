@@ -1,0 +1,21 @@
+"""Shapes of a clearance: each says once which keys it needs, what it is made of and what it holds.
+
+A shape is one class, in a file of this package whose name is in the list below. Allowed shapes in case files,
+messages, surfaces, the ideal counterpart of a joint and costs follow from the list. Types of joints name the
+shapes that they take.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.mechanisms.general.members import members_of
+from tribodyn.mechanisms.general.shapes.base import ClearanceShape
+
+NAMES: Final = ("cylinder", "round", "mesh")
+"""Modules of this package."""
+
+SHAPES: Final[dict[str, ClearanceShape]] = {
+    kind.NAME: kind() for kind in members_of(__name__, NAMES, ClearanceShape)
+}
+"""Every shape of a clearance by its name."""

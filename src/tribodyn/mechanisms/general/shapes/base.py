@@ -1,0 +1,62 @@
+"""What the shapes of a clearance have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.shapes import Shape
+
+
+class ClearanceShape:
+    """Base of the shapes of a clearance; a member says all that is to be known of its shape.
+
+    Attributes
+    ----------
+    NAME
+        Its name in case files.
+    NEEDED
+        Keys that it needs, with what they are.
+    BORE
+        Whether it is a shaft in a bore, which takes a form, a pin of another length, a sleeve and a film.
+    IDEAL
+        Type of the ideal joint that holds the same, which the joint becomes as the clearance vanishes; empty
+        for that of the joint itself.
+    """
+
+    NAME: ClassVar[str]
+    NEEDED: ClassVar[Mapping[str, str]] = {"radius": "its radius", "radial": "its clearance"}
+    BORE: ClassVar[bool] = False
+    IDEAL: ClassVar[str] = ""
+
+    def check(self, keys: Any) -> None:
+        """Refuse keys of the clearance that do not fit.
+
+        Raises
+        ------
+        InputError
+            With the reason; its key is the one of the table of the joint.
+        """
+
+    def ideal(self, kind: str, keys: Any) -> str:
+        """Return the type of the ideal joint that holds the same as a joint of some type."""
+        return self.IDEAL or kind
+
+    def of(self, keys: Any, facets: FloatArray | None) -> Shape:
+        """Return the shape as drawn from the keys of a clearance.
+
+        ``facets`` are the triangles of the case in the axes of the joint [m], shape (n, 3, 3), if any.
+        """
+        raise NotImplementedError
+
+    def room(self, shape: Any) -> tuple[float, float, float]:
+        """Return how far the shaft may move across and along the axis, and over which length it tilts [m].
+
+        A length of 0 is one over which it may tilt freely.
+        """
+        return shape.clearance, shape.clearance, 0.0
+
+    def nodes(self, keys: Any, around: int, along: float) -> float:
+        """Return the number of nodes on a grid, for the costs of a run."""
+        return around * along
