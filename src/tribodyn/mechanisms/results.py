@@ -79,9 +79,9 @@ def summarise(dataset: xr.Dataset) -> summary.Summary:
     """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
     mechanism = mechanism_of(dataset)
     parts = {
-        str(known.names): dataset[name].values.tolist()
+        str(known.parts or known.names): dataset[name].values.tolist()
         for name, known in mechanism.variables.items()
-        if known.names in mechanism.by_part and name in dataset.coords
+        if (known.parts or known.names) in mechanism.by_part and name in dataset.coords
     }
     with all_there(dataset):
         return summary.summarise(dataset, mechanism.headlines_of(parts))

@@ -113,6 +113,31 @@ def backward(signals: kinds.Signals, numbers: Iterable[int]) -> kinds.Signals:
     return kinds.Signals(records, pieces, -signals.kinks[::-1])
 
 
+def constant(signals: kinds.Signals, numbers: Iterable[int], places: FloatArray) -> kinds.Signals:
+    """Return signals of which some are constant around places: each value holds halfway to the next.
+
+    Parameters
+    ----------
+    signals
+        All of a mechanism; they stay as they are.
+    numbers
+        Of those that follow time.
+    places
+        Where their values are taken, rising, shape (n,).
+    """
+    records, pieces = signals.signals.copy(), [signals.pieces]
+    until = np.append(0.5 * (places[1:] + places[:-1]), np.inf)
+    for number in numbers:
+        own = new_records(places.size, kinds.Piece)
+        own.until = until
+        own.c[:, 0] = [kinds.evaluate(signals, number, place, place)[0] for place in places.tolist()]
+        signal = records[number]
+        signal.first, signal.n = sum(part.size for part in pieces), places.size
+        signal.sine[:] = signal.begin = signal.period = 0.0
+        pieces.append(own)
+    return kinds.Signals(records, np.concatenate(pieces).view(np.recarray), np.empty(0))
+
+
 class SignalList:
     """The signals of a mechanism, numbered as they are added."""
 

@@ -39,6 +39,8 @@ class Variable:
         Whether it holds names instead of numbers: what a dimension counts, such as bodies.
     names
         The names that it then must hold, or the table of the case that gives them; empty where any will do.
+    parts
+        What key results call the parts that it names, where that is no table of the case.
     """
 
     units: str
@@ -46,6 +48,7 @@ class Variable:
     dims: tuple[str, ...] = TIME
     named: bool = False
     names: tuple[str, ...] | str = ()
+    parts: str = ""
 
 
 COORDINATES: Final[dict[str, Variable]] = {

@@ -10,7 +10,7 @@ import tribodyn as td
 from tribodyn.cli.main import main
 
 
-@pytest.mark.parametrize("analysis", ["static", "kinematic"])
+@pytest.mark.parametrize("analysis", ["static", "kinematic", "vibrations"])
 def test_an_analysis_is_stored_as_any_run(
     analysis: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -18,7 +18,7 @@ def test_an_analysis_is_stored_as_any_run(
     changes = ["--set", "run.positions=6", "--set", "run.output_interval=20 ms"]
     assert main(["run", "four-bar", f"--{analysis}", *changes, "--no-figures"]) == 0
     said = capsys.readouterr().out
-    assert f"{analysis} analysis" in said
+    assert f"{analysis.removesuffix('s')} analysis" in said
     assert "Error, rms" in said
     assert "nergy residual" not in said
     folder = tmp_path / f"results-four-bar-{analysis}"
@@ -29,8 +29,10 @@ def test_an_analysis_is_stored_as_any_run(
         "report.html",
     }
     result = td.read(folder)
-    assert result.sizes["time"] == (7 if analysis == "static" else 11)
+    assert result.sizes["time"] == (11 if analysis == "kinematic" else 7)
     assert ("output_ratio" in result) == (analysis == "kinematic")
+    assert ("Frequency at the start" in (folder / "report.html").read_text()) == (analysis == "vibrations")
+    assert ("Modes" in said) == (analysis == "vibrations")
 
 
 def test_a_case_without_analyses_refuses_them(capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,6 +10,7 @@ from tribodyn.core.problem import Problem
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.kinematics import follow_drives, require_motion
 from tribodyn.mechanisms.general.statics import find_equilibria, require_equilibria
+from tribodyn.mechanisms.general.vibrations import find_rest, require_freedom
 
 NOTES: Final[dict[str, tuple[str, ...]]] = {
     "dynamic": (),
@@ -20,6 +21,10 @@ NOTES: Final[dict[str, tuple[str, ...]]] = {
     "kinematic": (
         "kinematic analysis: all joints are ideal, freedoms that drives leave are at rest, and forces are "
         "those that the motion needs",
+    ),
+    "vibrations": (
+        "vibration analysis: drives and loads are held at each position, bodies are at rest; friction, loads "
+        "against the motion and damping of impacts are left out",
     ),
 }
 """What each analysis leaves out, in words."""
@@ -33,7 +38,7 @@ def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -
     problem, assembly
         The mechanism.
     analysis
-        ``static`` or ``kinematic``.
+        ``static``, ``kinematic`` or ``vibrations``.
     turn
         When the drives turn back [s]; infinite where they do not.
 
@@ -45,5 +50,8 @@ def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -
     if analysis == "kinematic":
         require_motion(assembly)
         return replace(problem, solved=partial(follow_drives, assembly, problem))
+    if analysis == "vibrations":
+        require_freedom(assembly)
+        return replace(problem, solved=partial(find_rest, assembly, problem))
     require_equilibria(assembly)
     return replace(problem, solved=partial(find_equilibria, assembly, turn, problem))

@@ -222,9 +222,19 @@ class MechanismCase(_WithElements):
     def output_interval(self) -> float:
         """Time between rows [s]."""
         longest = min(self.span, self.period or self.span)
-        if self.run.analysis == "static":
+        if self.run.analysis in ("static", "vibrations"):
             return longest / self.run.positions
         return self.run.output_interval or longest / ROWS
+
+    @property
+    def moves(self) -> bool:
+        """Whether a drive prescribes a motion."""
+        return any(GIVEN[drive.gives][1] < 2 for drive in self.drives.values())
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """Names of the modes of a vibration analysis: their numbers."""
+        return tuple(map(str, range(1, self.run.modes + 1))) if self.run.analysis == "vibrations" else ()
 
     @property
     def campaign_cycles(self) -> int:

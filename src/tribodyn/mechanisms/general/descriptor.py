@@ -11,6 +11,7 @@ from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.headlines import BY_JOINT, HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.general.library import BUILT_IN, TEMPLATES
+from tribodyn.mechanisms.general.mode_numbers import BY_MODE
 from tribodyn.mechanisms.general.output_numbers import BY_OUTPUT
 from tribodyn.mechanisms.general.variables import OF_CYCLE, VARIABLES
 
@@ -30,7 +31,7 @@ MECHANISM: Final = MechanismDescriptor(
     headlines=HEADLINES,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
-    by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT},
+    by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT, "modes": BY_MODE},
     controls=(
         "parameters.*.value",
         "joints.*.clearance.radial",

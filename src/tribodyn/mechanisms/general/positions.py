@@ -22,7 +22,7 @@ from tribodyn.integrate import INTERRUPTED
 from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.kernels.actions import TIME
 from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
-from tribodyn.mechanisms.signals import backward
+from tribodyn.mechanisms.signals import backward, constant
 
 BROKEN: Final = "a joint has come apart"
 
@@ -161,7 +161,18 @@ class _Walk:
 
 def in_reverse(data: MechanismData) -> MechanismData:
     """Return a mechanism whose drives and loads run backward: what was at time t is at −t."""
+    return data._replace(signals=backward(data.signals, _of_time(data)))
+
+
+def held(data: MechanismData, times: FloatArray) -> MechanismData:
+    """Return a mechanism whose drives and loads are held: at each of some times as they are then [s]."""
+    return data._replace(signals=constant(data.signals, _of_time(data), times))
+
+
+def _of_time(data: MechanismData) -> list[int]:
+    """Return the numbers of the signals that follow time."""
     couplings, terms = data.parts.couplings, data.terms
     of_time = [couplings.row_signal.ravel(), couplings.effort.ravel(), terms.signals[terms.over == TIME]]
     numbers = np.unique(np.concatenate(of_time))
-    return data._replace(signals=backward(data.signals, numbers[numbers != NONE].tolist()))
+    found: list[int] = numbers[numbers != NONE].tolist()
+    return found

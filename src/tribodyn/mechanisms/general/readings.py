@@ -28,6 +28,8 @@ def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
     """
     time = settled(dataset, column(dataset, "time"))
     found = np.abs(settled(dataset, values).reshape(time.size, -1))
+    if time.size == 1:
+        return float(np.max(found))
     steps = np.diff(time)
     weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
     order = np.argsort(found, axis=0)

@@ -15,10 +15,11 @@ ROWS: Final = 500
 class RunKeys(Group):
     """What is computed, how long, and what is kept."""
 
-    analysis: Literal["dynamic", "static", "kinematic"] = choice(
+    analysis: Literal["dynamic", "static", "kinematic", "vibrations"] = choice(
         "dynamic",
         "dynamic: motion over time; static: equilibrium in the clearances at positions along the drives; "
-        "kinematic: ideal joints along the drives, forces by inverse dynamics",
+        "kinematic: ideal joints along the drives, forces by inverse dynamics; vibrations: natural "
+        "frequencies and modes about positions at rest along the drives",
         ASSUMED,
     )
     directions: Literal["forward", "both"] = choice(
@@ -43,7 +44,16 @@ class RunKeys(Group):
         gt=0,
         example="0.1 ms",
     )
-    positions: int = count(120, "positions of a static analysis in a cycle", ASSUMED, ge=2, le=1_000_000)
+    positions: int = count(
+        120, "positions of a static or vibration analysis in a cycle", ASSUMED, ge=2, le=1_000_000
+    )
+    modes: int = count(
+        12,
+        "modes of a vibration analysis that are kept, those of the lowest frequency",
+        ASSUMED,
+        ge=1,
+        le=1000,
+    )
     step_rows: int = count(
         2000,
         "rows of each cycle that follow the steps, at most: those with the peaks; none with 0",

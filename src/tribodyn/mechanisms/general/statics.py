@@ -25,7 +25,7 @@ from tribodyn.mechanisms.general.equilibrium import JointLoads, settled
 from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanisms.general.kinematics import require_motion
 from tribodyn.mechanisms.general.outputs import rotations
-from tribodyn.mechanisms.general.positions import DrivePath, walked
+from tribodyn.mechanisms.general.positions import DrivePath, held, walked
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that is none."""
@@ -42,6 +42,11 @@ def require_equilibria(assembly: Assembly) -> None:
         No drive prescribes a motion, ideal joints cannot follow it, or an oil film carries a joint.
     """
     require_motion(assembly)
+    require_no_film(assembly)
+
+
+def require_no_film(assembly: Assembly) -> None:
+    """Refuse a mechanism with an oil film, which carries by motion alone."""
     oiled = [assembly.model.joints[number] for number in assembly.model.oiled]
     if oiled:
         words = (
@@ -73,10 +78,10 @@ def find_equilibria(
         As for :func:`tribodyn.mechanisms.general.positions.walked`.
     """
     path = DrivePath(times, turn)
-    return walked(problem, path, _Equilibria(assembly, path), picture_times, progress)
+    return walked(problem, path, Equilibria(assembly, path), picture_times, progress)
 
 
-class _LedLoads(JointLoads):
+class LedLoads(JointLoads):
     """The loads on bodies whose drives are led along, by compiled solutions."""
 
     def __init__(self, assembly: Assembly, ideal_rank: int) -> None:
@@ -92,6 +97,12 @@ class _LedLoads(JointLoads):
         self.ideal.t = self.real.t = t
         self.state[:], self._direction, self.largest = state, direction, 0.0
 
+    def hold(self, times: FloatArray) -> None:
+        """Hold drives and loads at some times [s] as they are then."""
+        self.data = held(self.data, times)
+        for system in (self.ideal, self.real):
+            system.data = held(system.data, times)
+
     def close(self) -> None:
         """Close the ideal joints of the mechanism."""
         closes(self.real)
@@ -101,7 +112,7 @@ class _LedLoads(JointLoads):
         self.ideal.move_with_drives(self._direction)
 
 
-class _Equilibria:
+class Equilibria:
     """Finds the equilibrium at one position after the other, each from the one before."""
 
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
@@ -112,13 +123,11 @@ class _Equilibria:
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
-        self._loads = _LedLoads(assembly, mechanism.rank)
+        self._loads = LedLoads(assembly, mechanism.rank)
 
     def __call__(self, number: int) -> FloatArray:
         """Return the equilibrium at a position, see :class:`~.positions.States`."""
-        k, t = int(self._where[number]), float(self._path.of_drives[number])
-        if k >= len(self._ideal):
-            raise IntegrationFailure(float(self._path.times[number]), self._reason)
+        k, t = self._require_reached(number), float(self._path.of_drives[number])
         centred, direction = self._ideal[k], float(self._path.forward[number])
         starts = [*(self._displaced(number, ways) for ways in self._expected()), centred]
         for start in starts:
@@ -132,6 +141,13 @@ class _Equilibria:
             "no static equilibrium was found: contact forces within the range of the "
             "contact law do not balance the loads",
         )
+
+    def _require_reached(self, number: int) -> int:
+        """Return the number of the ideal state of a position, if joints close there."""
+        k = int(self._where[number])
+        if k >= len(self._ideal):
+            raise IntegrationFailure(float(self._path.times[number]), self._reason)
+        return k
 
     def _expected(self) -> list[FloatArray]:
         """Return displacements that the equilibria before suggest, the best first, (n_bodies, 6) each."""
@@ -165,4 +181,6 @@ class _Equilibria:
 
     def _failure(self, number: int, words: str) -> IntegrationFailure:
         where = where_drives_are(self._loads.ideal)
-        return IntegrationFailure(float(self._path.times[number]), f"with {where}, {words}")
+        return IntegrationFailure(
+            float(self._path.times[number]), f"with {where}, {words}" if where else words
+        )

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.problem import Following, Problem
+from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
 from tribodyn.kernels.mechanism.quantities import OF_SECOND
@@ -28,6 +28,7 @@ from tribodyn.mechanisms.general.element_numbers import transmitted
 from tribodyn.mechanisms.general.films import film_columns, film_coordinates, film_maps, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
+from tribodyn.mechanisms.general.following import following
 from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
@@ -47,9 +48,9 @@ from tribodyn.mechanisms.general.variables import (
     JOINTS,
     OIL,
     Observed,
-    columns_of,
     observed,
 )
+from tribodyn.mechanisms.general.vibrations import Vibrations, vibrations_of, without_friction
 from tribodyn.mechanisms.general.worn import depth_of, least_roughness, worn_model
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED
@@ -66,8 +67,8 @@ class MechanismSystem:
 
     @cached_property
     def model(self) -> Model:
-        """The mechanism as drawn; of a kinematic analysis with ideal joints."""
-        found = model_of(self.case)
+        """The mechanism as drawn; kinematic analyses have ideal joints, vibrations no friction."""
+        found = model_of(without_friction(self.case) if self._analysis == "vibrations" else self.case)
         return found.counterpart if self._analysis == "kinematic" else found
 
     @property
@@ -149,24 +150,7 @@ class MechanismSystem:
         if self._analysis != "dynamic":
             return analysed(problem, self.assembly, self._analysis, self.case.turn)
         problem = sampled(problem, self.model, self.outputs)
-        return replace(problem, following=self._following(duration))
-
-    def _following(self, duration: float) -> Following | None:
-        """Return where rows follow the steps: where shafts may strike, faster than output times see."""
-        most, n_bodies = self.case.run.step_rows, len(self.model.bodies)
-        if not self.real or most == 0:
-            return None
-        joints = self.model.joints
-        driven = [joints.index(drive.joint) for drive in self.case.drives.values()]
-        watched = (
-            *(columns_of("reaction_force", k, n_bodies) for k in range(len(joints))),
-            *(columns_of("pressure_max", k, n_bodies) for k in self.model.real),
-            *(columns_of("film_pressure_max", k, n_bodies) for k in self.model.oiled),
-            *(columns_of(f"drive_{name}", k, n_bodies) for k in driven for name in ("moment", "force")),
-        )
-        n = min(max(round(duration / self.period), 1), self.output_times(duration).size)
-        edges = np.linspace(0.0, duration, n + 1)
-        return Following(np.column_stack([edges[:-1], edges[1:]]), max(most, 2 * len(watched) + 1), watched)
+        return replace(problem, following=following(self.model, self.period, self.output_times(duration)))
 
     def start(self) -> FloatArray | None:
         """Return the state in which a run begins, shape (13 n,); None for that of the drawing.
@@ -184,6 +168,8 @@ class MechanismSystem:
 
     def output_times(self, duration: float) -> FloatArray:
         """Return the times of the rows [s], the end included."""
+        if self._analysis == "vibrations" and not self.case.moves:
+            return np.zeros(1)
         n = max(round(duration / self.case.output_interval), 1)
         return np.linspace(0.0, duration, n + 1)
 
@@ -222,6 +208,7 @@ class MechanismSystem:
         """Return what the mechanism knows about a run."""
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
+        vibrations = self._vibrations(found, run)
         ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
         energy = {WHOLE.attribute: WHOLE.fraction(ledger, self._least_energy(found))}
         if self._analysis != "dynamic":
@@ -238,13 +225,14 @@ class MechanismSystem:
             else {}
         )
         return ResultPart(
-            coordinates=self._coordinates(run),
+            coordinates=self._coordinates(run, vibrations),
             columns={
                 **found.bodies,
                 **self._of_joints(found),
                 **transmitted(self.model, found.couplings),
                 **radial_clearances(self.model, run.solution.t),
                 **of_outputs,
+                **vibrations.columns,
                 **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
                 **ledger,
             },
@@ -266,6 +254,7 @@ class MechanismSystem:
             },
             warnings=checks.said(
                 [*self.assembly.warnings],
+                vibrations.warnings,
                 checks.of_start(self.case.run.start, self._began(run)),
                 *(checks.of_ledgers(missed, found.whole["gap"]) for missed in energy.values()),
                 contacts.warnings(peaks, of_contacts, float(run.solution.t_end)) if peaks else [],
@@ -276,6 +265,7 @@ class MechanismSystem:
             ),
             notes=[
                 *NOTES[self._analysis],
+                *vibrations.notes,
                 *of_temperatures(self.model),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
@@ -345,6 +335,12 @@ class MechanismSystem:
             columns |= kinematic_columns(self.assembly, self.outputs, path.times, found.couplings)
         return columns, notes
 
+    def _vibrations(self, found: Observed, run: FinishedRun) -> Vibrations:
+        """Return frequencies and modes with what is to be said of them; nothing of other analyses."""
+        if self._analysis != "vibrations" or run.solution.t.size == 0:
+            return Vibrations()
+        return vibrations_of(self.assembly, run.solution.t, found, self.case.run.modes)
+
     def _clearances(self) -> FloatArray:
         real = self.model.clearances
         return np.array([real[j].shape.clearance if j in real else np.nan for j in self.model.joints])
@@ -356,7 +352,7 @@ class MechanismSystem:
         peaks: Any = run.problem.memory.contact.peaks
         return {name: np.where(np.isfinite(peaks[name]), peaks[name], np.nan) for name in peaks.dtype.names}
 
-    def _coordinates(self, run: FinishedRun) -> dict[str, ArrayLike]:
+    def _coordinates(self, run: FinishedRun, vibrations: Vibrations) -> dict[str, ArrayLike]:
         parts: dict[str, ArrayLike] = {
             "body": list(self.model.bodies),
             "joint": list(self.model.joints),
@@ -366,6 +362,7 @@ class MechanismSystem:
         if self.model.elements:
             parts["element"] = [element.name for element in self.model.elements]
         parts |= output_coordinates(self.case, self.outputs)
+        parts |= vibrations.coordinates
         parts |= film_coordinates(run.problem.data.films, self.model)
         parts |= self._reversals.coordinates(float(run.solution.t_end))
         if not self.real:

@@ -23,6 +23,7 @@ _VECTOR: Final = ("axis",)
 _ELEMENT: Final = (*TIME, "element")
 _OUTPUT: Final = (*TIME, "output")
 _CAUSE: Final = (*TIME, "output", "joint", "cause")
+_MODE: Final = (*TIME, "mode")
 _RATIO: Final = (*TIME, "output", "drive")
 _QUATERNION: Final = ("entry",)
 _COMPONENTS: Final = {1: (), 3: _VECTOR, 4: _QUATERNION}
@@ -110,6 +111,24 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
 }
 """Of what is compared with the ideal motion; an error in all directions is the length of a vector."""
 
+OF_MODES: Final[dict[str, Variable]] = {
+    "mode": Variable("", "number of the mode", ("mode",), named=True, parts="modes"),
+    "natural_frequency": Variable("Hz", "natural frequency of the mode, zero of a free motion", _MODE),
+    "damping_ratio": Variable("1", "damping ratio of the mode, below zero where it grows", _MODE),
+    "mode_shape": Variable(
+        "1",
+        "displacement of the mass centre at a modal mass of one kilogram, global axes",
+        (*_MODE, "body", "axis"),
+    ),
+    "mode_rotation": Variable(
+        "rad m-1",
+        "rotation of the body at a modal mass of one kilogram, global axes",
+        (*_MODE, "body", "axis"),
+    ),
+    "mode_share": Variable("1", "share of the body in the kinetic energy of the mode", (*_MODE, "body")),
+}
+"""Of small vibrations about positions at rest."""
+
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_roughness": Variable("m", "largest combined rms roughness of a joint in the cycle", JUMP),
@@ -123,6 +142,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "element": Variable("", "name of the element", ("element",), named=True, names="elements"),
     **OF_ELEMENTS,
     **OF_OUTPUTS,
+    **OF_MODES,
     "surface": Variable("", "joint and surface of it", ("surface",), named=True),
     "axis": Variable("", "component of a vector", _VECTOR, named=True, names=AXES),
     "entry": Variable("", "entry of a quaternion", _QUATERNION, named=True, names=ENTRIES),

@@ -13,6 +13,7 @@ from tribodyn.mechanisms.general.sections.charts import (
     ERROR_ESTIMATES,
     FILMS,
     JOINT_FORCES,
+    MODES,
     MOTION,
     OUTPUT_ERRORS,
 )
@@ -21,6 +22,7 @@ FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         mechanism.FAMILY,
+        chart.family(MODES),
         chart.family(OUTPUT_ERRORS),
         chart.family(ERROR_ESTIMATES),
         chart.family(JOINT_FORCES),

@@ -14,6 +14,7 @@ from tribodyn.mechanisms.general.sections.charts import (
     ERROR_ESTIMATES,
     FILMS,
     JOINT_FORCES,
+    MODES,
     MOTION,
     OUTPUT_ERRORS,
 )
@@ -35,6 +36,7 @@ CHAPTERS: Final = (
         "Over time",
         OVER_TIME,
         (
+            MODES.section,
             OUTPUT_ERRORS.section,
             ERROR_ESTIMATES.section,
             REACTIONS,

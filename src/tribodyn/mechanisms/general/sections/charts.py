@@ -93,6 +93,28 @@ def error_estimates(dataset: xr.Dataset) -> list[Panel]:
     )
 
 
+def modes(dataset: xr.Dataset) -> list[Panel]:
+    """Return the lowest natural frequencies [Hz] and the damping ratios of their modes."""
+    names = [f"mode {name}" for name in _names(dataset, "mode")][: len(LOOKS)]
+    return [
+        Panel(label, [ChartCurve(name, values[:, k], *LOOKS[k]) for k, name in enumerate(names)])
+        for label, values in (
+            ("natural frequency [Hz]", dataset["natural_frequency"].values),
+            ("damping ratio", dataset["damping_ratio"].values),
+        )
+    ]
+
+
+MODES: Final = Chart(
+    name="modes",
+    title="Natural frequencies",
+    caption=(
+        "Small vibrations about each position at rest, with drives and loads held as at that time: the modes "
+        "of the lowest frequency. A damping ratio below zero marks a position that is unstable."
+    ),
+    needs=("natural_frequency", "damping_ratio", "mode"),
+    panels=modes,
+)
 ERROR_ESTIMATES: Final = Chart(
     name="error_estimates",
     title="Errors by superposition",
