@@ -10,21 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.base import Family
 from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    GREY,
-    SMALL,
-    SOLID,
-    VERMILION,
-    Curves,
-    caption,
-    finish,
-    lines,
-    sheet,
-)
 from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.series import finite, peak, series
 
@@ -34,7 +22,7 @@ TOTAL: Final = "#b4b4b4"
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw total, rigid and damping force along X and Y [N]: the whole run, and one reversal close up."""
-    figure = sheet(dataset, TITLE, 5.6)
+    figure = style.sheet(dataset, TITLE, 5.6)
     grid = figure.subplots(2, 2, sharex="col", width_ratios=(1.7, 1.0))
     turns, settling, (start, end) = reversal_times(dataset), impact_time(dataset), close_up(dataset)
     time = series(dataset, "time")
@@ -45,28 +33,28 @@ def draw(dataset: xr.Dataset) -> Figure:
         mark_reversals(whole, turns)
         _shade(whole, time, start, end)
         _draw_close_up(close, time, curves, start, end)
-        finish(whole, y_label=f"force along {axis.upper()} [N]")
-        finish(close)
+        style.finish(whole, y_label=f"force along {axis.upper()} [N]")
+        style.finish(close)
     _label(figure, grid[0, 0], grid[0, 1], start)
     grid[1, 0].set_xlabel("time [s]")
     grid[1, 1].set_xlabel(f"time after {start:.4g} s [ms]")
     return figure
 
 
-def _curves(dataset: xr.Dataset, axis: str) -> Curves:
+def _curves(dataset: xr.Dataset, axis: str) -> style.Curves:
     """Return the three curves of one direction."""
     return [
-        (series(dataset, f"F_c{axis}"), "total contact force", TOTAL, SOLID),
-        (series(dataset, f"F_k{axis}"), "rigid part", BLUE, SOLID),
-        (series(dataset, f"F_d{axis}"), "damping part", VERMILION, DASHED),
+        (series(dataset, f"F_c{axis}"), "total contact force", TOTAL, style.SOLID),
+        (series(dataset, f"F_k{axis}"), "rigid part", style.BLUE, style.SOLID),
+        (series(dataset, f"F_d{axis}"), "damping part", style.VERMILION, style.DASHED),
     ]
 
 
-def _draw_curves(axes: Axes, time: FloatArray, curves: Curves) -> None:
+def _draw_curves(axes: Axes, time: FloatArray, curves: style.Curves) -> None:
     """Draw the total as a broad band with its parts as fine lines on top: where they agree, both are seen."""
-    lines(axes, time, curves[:1], width=3.2)
-    lines(axes, time, curves[1:], width=1.1)
-    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
+    style.lines(axes, time, curves[:1], width=3.2)
+    style.lines(axes, time, curves[1:], width=1.1)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8, zorder=1)
 
 
 def close_up(dataset: xr.Dataset) -> tuple[float, float]:
@@ -96,7 +84,7 @@ def _ringing_time(dataset: xr.Dataset, start: float) -> float:
     return float(np.clip(1.4 * (loud[-1] - start), 0.03, 0.3)) if loud.size else 0.1
 
 
-def _draw_close_up(axes: Axes, time: FloatArray, curves: Curves, start: float, end: float) -> None:
+def _draw_close_up(axes: Axes, time: FloatArray, curves: style.Curves, start: float, end: float) -> None:
     """Draw the stretch from just before ``start`` [s] to ``end`` [s], its time counted in ms."""
     lead = 0.1 * (end - start)
     inside = (time >= start - lead) & (time <= end)
@@ -118,11 +106,17 @@ def _shade(axes: Axes, time: FloatArray, start: float, end: float) -> None:
 
 def _label(figure: Figure, whole: Axes, close: Axes, start: float) -> None:
     """Write the headings and the one legend."""
-    caption(whole, "whole run")
-    caption(close, f"close up at {start:.4g} s (shaded)")
+    style.caption(whole, "whole run")
+    style.caption(close, f"close up at {start:.4g} s (shaded)")
     handles, labels = whole.get_legend_handles_labels()
     figure.legend(
-        handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL, handlelength=2.8
+        handles,
+        labels,
+        loc="outside lower center",
+        ncols=3,
+        frameon=False,
+        fontsize=style.SMALL,
+        handlelength=2.8,
     )
 
 

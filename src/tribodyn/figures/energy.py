@@ -12,38 +12,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import (
-    BLUE,
-    DASHDOT,
-    DASHED,
-    DOTTED,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    PALE,
-    PURPLE,
-    SMALL,
-    SOLID,
-    VERMILION,
-    caption,
-    finish,
-    note,
-    sheet,
-)
 from tribodyn.views.ledger import Ledger
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import finite, peak, series
 
 TITLE: Final = "Energy ledgers"
 LOOKS: Final = (
-    (INK, SOLID),
-    (BLUE, DASHED),
-    (VERMILION, DASHDOT),
-    (GREEN, DOTTED),
-    (ORANGE, SOLID),
-    (PURPLE, DASHED),
+    (style.INK, style.SOLID),
+    (style.BLUE, style.DASHED),
+    (style.VERMILION, style.DASHDOT),
+    (style.GREEN, style.DOTTED),
+    (style.ORANGE, style.SOLID),
+    (style.PURPLE, style.DASHED),
 )
 
 
@@ -64,7 +46,7 @@ def family(ledgers: Sequence[Ledger]) -> Family:
 
 def draw(ledgers: Sequence[Ledger], dataset: xr.Dataset) -> Figure:
     """Draw the histories of the large terms [J] and the sizes of all of them, for each ledger."""
-    figure = sheet(dataset, TITLE, 0.6 + 3.1 * len(ledgers))
+    figure = style.sheet(dataset, TITLE, 0.6 + 3.1 * len(ledgers))
     grid = figure.subplots(len(ledgers), 2, width_ratios=(1.35, 1.0), squeeze=False)
     time_name, time_scale = time_unit(dataset)
     for (history, sizes), ledger in zip(grid, ledgers, strict=True):
@@ -72,9 +54,9 @@ def draw(ledgers: Sequence[Ledger], dataset: xr.Dataset) -> Figure:
         unit, scale = _unit(dataset, terms)
         _history(history, dataset, ledger, terms, (time_scale, scale))
         _sizes(sizes, dataset, terms | {ledger.residual: "residual"})
-        caption(history, ledger.title)
-        finish(history, f"time [{time_name}]", f"energy [{unit}]")
-        caption(sizes, _verdict(dataset, ledger), side="right")
+        style.caption(history, ledger.title)
+        style.finish(history, f"time [{time_name}]", f"energy [{unit}]")
+        style.caption(sizes, _verdict(dataset, ledger), side="right")
     return figure
 
 
@@ -98,17 +80,19 @@ def _history(
         if finite(values).size and peak(values) >= 0.01 * largest * scale:
             axes.plot(time, values, color=colour, linestyle=dash, linewidth=1.3, label=terms[name])
     residual = series(dataset, ledger.residual, scale)
-    axes.plot(time, residual, color=GREY, linewidth=2.6, alpha=0.55, label="residual")
+    axes.plot(time, residual, color=style.GREY, linewidth=2.6, alpha=0.55, label="residual")
     if finite(series(dataset, others[0])).size:
-        axes.legend(fontsize=SMALL - 0.5, frameon=False, loc="best", handlelength=3.0, labelspacing=0.25)
+        axes.legend(
+            fontsize=style.SMALL - 0.5, frameon=False, loc="best", handlelength=3.0, labelspacing=0.25
+        )
     else:
-        note(axes, "nothing computed")
+        style.note(axes, "nothing computed")
 
 
 def _sizes(axes: Axes, dataset: xr.Dataset, terms: Mapping[str, str]) -> None:
     """Draw the largest size of each term on a logarithmic axis, with its number."""
     sizes = np.array([peak(series(dataset, name)) for name in terms])
-    colours = [VERMILION if name.endswith("residual") else PALE for name in terms]
+    colours = [style.VERMILION if name.endswith("residual") else style.PALE for name in terms]
     rows = np.arange(len(terms))
     floor = _floor(sizes)
     bars = axes.barh(rows, np.maximum(sizes, floor), color=colours, height=0.7)
@@ -119,9 +103,9 @@ def _sizes(axes: Axes, dataset: xr.Dataset, terms: Mapping[str, str]) -> None:
     axes.minorticks_off()
     for row, size in enumerate(sizes.tolist()):
         place = 1.25 * max(size, floor)
-        axes.text(place, row, _joule(size), va="center", size=SMALL - 0.5, color=INK)
-    finish(axes, "largest size [J]")
-    axes.set_yticks(rows, list(terms.values()), size=SMALL)
+        axes.text(place, row, _joule(size), va="center", size=style.SMALL - 0.5, color=style.INK)
+    style.finish(axes, "largest size [J]")
+    axes.set_yticks(rows, list(terms.values()), size=style.SMALL)
     axes.tick_params(axis="y", length=0)
     axes.invert_yaxis()
 

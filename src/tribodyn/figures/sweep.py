@@ -21,34 +21,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import (
-    BLUE,
-    DASHDOT,
-    DASHED,
-    DOTTED,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    PURPLE,
-    SMALL,
-    SOLID,
-    TEXT,
-    VERMILION,
-    caption,
-    finish,
-    legend,
-    note,
-    plain,
-    sheet,
-)
 from tribodyn.views.numbers import as_read
 from tribodyn.views.series import finite
 
 SAMPLES: Final = "point"
-_COLOURS: Final = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, INK)
-_DASHES: Final = (SOLID, DASHED, DOTTED, DASHDOT)
+_COLOURS: Final = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.INK)
+_DASHES: Final = (style.SOLID, style.DASHED, style.DOTTED, style.DASHDOT)
 _MARKERS: Final = "os^Dv"
 _MOST_PANELS: Final = 6
 _MOST_BINS: Final = 100
@@ -96,7 +76,7 @@ def draw(dataset: xr.Dataset, name: str) -> Figure:
     limit = json.loads(dataset.attrs.get("limits", "{}")).get(name)
     if limit is not None and not any(axes.collections for axes in figure.axes):
         for axes in figure.axes:
-            axes.axhline(limit, color=VERMILION, lw=1.0, ls="--", label="_limit")
+            axes.axhline(limit, color=style.VERMILION, lw=1.0, ls="--", label="_limit")
     return figure
 
 
@@ -138,28 +118,36 @@ def _label(coordinate: xr.DataArray) -> str:
     """Return what a parameter is, with its unit, as axis label."""
     if not _numeric(coordinate):
         return str(coordinate.name)
-    words = plain(str(coordinate.attrs.get("long_name", coordinate.name)))
+    words = style.plain(str(coordinate.attrs.get("long_name", coordinate.name)))
     return f"{words} [{_unit(coordinate) or '–'}]"
 
 
 def _value_label(values: xr.DataArray) -> str:
     unit = values.attrs.get("units", "1")
-    return plain(f"{values.attrs.get('long_name', values.name)} [{'–' if unit == '1' else unit}]")
+    return style.plain(f"{values.attrs.get('long_name', values.name)} [{'–' if unit == '1' else unit}]")
 
 
 def _sheet(dataset: xr.Dataset, name: str, height: float) -> Figure:
     """Return an empty figure that says how many points the sweep has and how many of them failed."""
-    figure = sheet(dataset, str(dataset[name].attrs.get("long_name", name)), height)
+    figure = style.sheet(dataset, str(dataset[name].attrs.get("long_name", name)), height)
     total, lost = int(dataset.attrs["points_in_all"]), int(dataset.attrs["points_failed"])
     words = f"{total} points" + (f", {lost} without a result (×)" if lost else "")
     right, top = 1.0 - 0.12 / figure.get_figwidth(), 1.0 - 0.1 / height
-    figure.text(right, top, words, ha="right", va="top", size=SMALL, color=VERMILION if lost else GREY)
+    figure.text(
+        right,
+        top,
+        words,
+        ha="right",
+        va="top",
+        size=style.SMALL,
+        color=style.VERMILION if lost else style.GREY,
+    )
     return figure
 
 
 def _dress(axes: Axes, coordinate: xr.DataArray, y_label: str = "") -> None:
     """Give axes the labels of a parameter below, and a logarithmic scale where its values ask for one."""
-    finish(axes, _label(coordinate), y_label)
+    style.finish(axes, _label(coordinate), y_label)
     if not _numeric(coordinate):
         _name_ticks(axes, coordinate)
     elif _logarithmic(coordinate):
@@ -188,13 +176,13 @@ def _mark_failed(axes: Axes, x: FloatArray, y: FloatArray) -> None:
             x[lost],
             np.zeros(lost.sum()),
             "x",
-            color=VERMILION,
+            color=style.VERMILION,
             transform=axes.get_xaxis_transform(),
             clip_on=False,
             label="_failed",
         )
     if lost.all():
-        note(axes, "no point gave this number")
+        style.note(axes, "no point gave this number")
 
 
 def _curves(dataset: xr.Dataset, name: str) -> Figure:
@@ -212,7 +200,7 @@ def _curves(dataset: xr.Dataset, name: str) -> Figure:
         axes.plot(x, y, color=colour, linestyle=dash, marker=marker, ms=4.5, lw=1.4, label=label or "_")
         _mark_failed(axes, x, y)
     if others:
-        legend(axes, 4)
+        style.legend(axes, 4)
     _dress(axes, dataset[along], _value_label(values))
     return figure
 
@@ -236,14 +224,14 @@ def _map(dataset: xr.Dataset, name: str) -> Figure:
     )
     axes.set_facecolor("#ececec")
     for i, j in np.argwhere(~np.isfinite(values.values)):
-        axes.plot(j, i, "x", color=VERMILION)
+        axes.plot(j, i, "x", color=style.VERMILION)
     _write_cells(axes, values.values)
-    finish(axes, _label(across), _label(down))
+    style.finish(axes, _label(across), _label(down))
     axes.grid(False)
     _cell_ticks(axes, across, down)
     bar = figure.colorbar(mesh, ax=axes, shrink=0.9, aspect=26, pad=0.02)
-    bar.set_label(_value_label(values), size=TEXT)
-    bar.ax.tick_params(labelsize=SMALL)
+    bar.set_label(_value_label(values), size=style.TEXT)
+    bar.ax.tick_params(labelsize=style.SMALL)
     bar.outline.set_visible(False)
     return figure
 
@@ -261,8 +249,8 @@ def _write_cells(axes: Axes, values: FloatArray) -> None:
         return
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
     for i, j in np.argwhere(np.isfinite(values)):
-        colour = INK if values[i, j] > middle else "white"
-        axes.text(j, i, f"{values[i, j]:.3g}", ha="center", va="center", size=SMALL, color=colour)
+        colour = style.INK if values[i, j] > middle else "white"
+        axes.text(j, i, f"{values[i, j]:.3g}", ha="center", va="center", size=style.SMALL, color=colour)
 
 
 def _panels(dataset: xr.Dataset, name: str) -> Figure:
@@ -280,7 +268,7 @@ def _panels(dataset: xr.Dataset, name: str) -> Figure:
         _dress(axes, dataset[parameter], _value_label(dataset[name]) if axes is panels[0] else "")
         axes.set_xlabel(fill(axes.get_xlabel(), 100 // len(panels)))
         if len(groups) == 1 and _numeric(dataset[parameter]):
-            caption(axes, _rank_correlation(*_pairs(dataset, name, parameter)))
+            style.caption(axes, _rank_correlation(*_pairs(dataset, name, parameter)))
     if sampled:
         _distributions(panels[-1], [(finite(part[name].values), label) for part, label in groups])
     return figure
@@ -320,7 +308,7 @@ def _rank_correlation(x: FloatArray, y: FloatArray) -> str:
 
 def _distributions(axes: Axes, groups: list[tuple[FloatArray, str]]) -> None:
     """Draw how the samples of each group are distributed; of one group alone with the middle 90 %."""
-    finish(axes, "number of points [–]")
+    style.finish(axes, "number of points [–]")
     for (values, label), colour, dash in zip(groups, cycle(_COLOURS), cycle(_DASHES)):
         if values.size:
             axes.hist(
@@ -333,7 +321,7 @@ def _distributions(axes: Axes, groups: list[tuple[FloatArray, str]]) -> None:
             )
             axes.axhline(float(np.median(values)), color=colour, lw=1.2, ls=dash)
     if len(groups) > 1 and any(values.size for values, _ in groups):
-        legend(axes, 2)
+        style.legend(axes, 2)
     elif groups[0][0].size:
         _mark_quantiles(axes, groups[0][0])
 
@@ -352,8 +340,8 @@ def _bins(values: FloatArray) -> int:
 def _mark_quantiles(axes: Axes, values: FloatArray) -> None:
     for percent, label in ((5.0, "5 %"), (50.0, "median"), (95.0, "95 %")):
         value = float(np.percentile(values, percent))
-        axes.axhline(value, color=INK, lw=0.9, ls=SOLID if percent == 50.0 else DOTTED)
+        axes.axhline(value, color=style.INK, lw=0.9, ls=style.SOLID if percent == 50.0 else style.DOTTED)
         place = ("axes fraction", "data")
         axes.annotate(
-            f"{label} {value:.3g}", (1.0, value), xycoords=place, ha="right", va="bottom", size=SMALL
+            f"{label} {value:.3g}", (1.0, value), xycoords=place, ha="right", va="bottom", size=style.SMALL
         )

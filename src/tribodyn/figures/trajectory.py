@@ -11,21 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    GREY,
-    INK,
-    PALE,
-    SMALL,
-    SOLID,
-    VERMILION,
-    caption,
-    finish,
-    lines,
-    sheet,
-)
 from tribodyn.views.bushing_sections import centre
 from tribodyn.views.events import direction
 from tribodyn.views.series import finite, peak, signed
@@ -35,7 +22,7 @@ TITLE: Final = "Trunnion trajectory in the clearance circle"
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw the paths of the top, middle and bottom centres of the trunnion [µm]."""
-    figure = sheet(dataset, TITLE, 3.5)
+    figure = style.sheet(dataset, TITLE, 3.5)
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     half = 0.5 * float(dataset.attrs.get("joint_length", 0.0))
     clearance = float(dataset.attrs.get("clearance", 0.0)) * 1e6
@@ -46,8 +33,8 @@ def draw(dataset: xr.Dataset) -> Figure:
     ):
         _circle(axes, clearance, reach)
         _path(axes, *path, direction(dataset))
-        caption(axes, f"{place}, z = {signed(z * 1e3)} mm" if z else place)
-        finish(axes, "X [µm]")
+        style.caption(axes, f"{place}, z = {signed(z * 1e3)} mm" if z else place)
+        style.finish(axes, "X [µm]")
     panels[0].set_ylabel("Y [µm]")
     _legend(figure, panels[0])
     return figure
@@ -57,31 +44,44 @@ def _circle(axes: Axes, clearance: float, reach: float) -> None:
     """Draw the clearance circle, and name the wall by the bushing angles of the pressure maps."""
     axes.set_aspect("equal")
     axes.set(xlim=(-1.3 * reach, 1.3 * reach), ylim=(-1.3 * reach, 1.3 * reach))
-    axes.plot(0.0, 0.0, "+", color=GREY, ms=7, mew=0.8)
+    axes.plot(0.0, 0.0, "+", color=style.GREY, ms=7, mew=0.8)
     if not clearance:
         return
-    axes.add_patch(Circle((0.0, 0.0), clearance, fill=False, edgecolor=GREY, linewidth=1.0))
+    axes.add_patch(Circle((0.0, 0.0), clearance, fill=False, edgecolor=style.GREY, linewidth=1.0))
     for theta in (0, 90, 180, 270):
         # The bushing point named theta lies at -(cos theta, sin theta).
         x, y = -np.cos(np.deg2rad(theta)), -np.sin(np.deg2rad(theta))
         radius = 1.15 * clearance
-        axes.text(radius * x, radius * y, f"{theta}°", size=SMALL - 1.5, color=GREY, ha="center", va="center")
+        axes.text(
+            radius * x,
+            radius * y,
+            f"{theta}°",
+            size=style.SMALL - 1.5,
+            color=style.GREY,
+            ha="center",
+            va="center",
+        )
 
 
 def _path(axes: Axes, x: FloatArray, y: FloatArray, sense: FloatArray) -> None:
     """Draw one path, the two directions of motion apart, with its first point."""
-    axes.plot(x, y, color=PALE, linewidth=0.6, zorder=1)
+    axes.plot(x, y, color=style.PALE, linewidth=0.6, zorder=1)
     forward, reverse = np.where(sense > 0.0, y, np.nan), np.where(sense < 0.0, y, np.nan)
-    lines(axes, x, [(forward, "forward", BLUE, SOLID), (reverse, "reverse", VERMILION, DASHED)], width=1.1)
+    style.lines(
+        axes,
+        x,
+        [(forward, "forward", style.BLUE, style.SOLID), (reverse, "reverse", style.VERMILION, style.DASHED)],
+        width=1.1,
+    )
     first = np.flatnonzero(np.isfinite(x + y))[:1]
     if finite(x).size:
-        axes.plot(x[first], y[first], "o", ms=4, mfc="white", mec=INK, mew=1.1, label="start", zorder=5)
+        axes.plot(x[first], y[first], "o", ms=4, mfc="white", mec=style.INK, mew=1.1, label="start", zorder=5)
 
 
 def _legend(figure: Figure, axes: Axes) -> None:
     """Put the one legend below the panels."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
 
 
 FAMILY: Final = Family(

@@ -11,24 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    DOTTED,
-    GREY,
-    INK,
-    SMALL,
-    SOLID,
-    TEXT,
-    VERMILION,
-    caption,
-    finish,
-    legend,
-    lines,
-    note,
-    sheet,
-)
 from tribodyn.figures.unrolled import draw_map
 from tribodyn.views.series import series, signed
 from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
@@ -39,7 +23,7 @@ TITLE: Final = "Wear depth of the bushing"
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw the depth on the unrolled bushing, and along its two edges and its middle."""
-    figure = sheet(dataset, TITLE, 4.6)
+    figure = style.sheet(dataset, TITLE, 4.6)
     plan, profile = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))
     depth = np.nan_to_num(dataset["wear_depth"].values)
     unit, size = fitting_unit(float(depth.max(initial=0.0)))
@@ -49,11 +33,11 @@ def draw(dataset: xr.Dataset) -> Figure:
     mesh = draw_map(plan, dataset, depth, cut, float(depth.max(initial=0.0)) or 1.0, empty)
     _profiles(profile, dataset, depth, cut)
     _headline(plan, dataset, depth, unit)
-    plan.set_ylabel(z_label(empty), size=TEXT)
-    finish(profile, "bushing angle θ [°]", f"depth [{unit}]")
+    plan.set_ylabel(z_label(empty), size=style.TEXT)
+    style.finish(profile, "bushing angle θ [°]", f"depth [{unit}]")
     bar = figure.colorbar(mesh, ax=[plan, profile], shrink=0.7, aspect=30, pad=0.02)
-    bar.set_label(f"wear depth [{unit}]", size=TEXT)
-    bar.ax.tick_params(labelsize=SMALL)
+    bar.set_label(f"wear depth [{unit}]", size=style.TEXT)
+    bar.ax.tick_params(labelsize=style.SMALL)
     bar.outline.set_visible(False)
     return figure
 
@@ -64,7 +48,7 @@ def _headline(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -> 
     after = f" after {np.ptp(time) / period:.3g} cycles" if period and time.size else ""
     if "wear_cycles_reached" in dataset.attrs:
         after = f" after {dataset.attrs['wear_cycles_reached']} cycles"
-    caption(axes, f"deepest {depth.max(initial=0.0):.3g} {unit}{after}")
+    style.caption(axes, f"deepest {depth.max(initial=0.0):.3g} {unit}{after}")
 
 
 def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) -> None:
@@ -73,13 +57,13 @@ def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) ->
     middle = int(np.argmin(np.abs(z)))
     angle, around = rolled(dataset["theta"].values, depth, cut)
     curves = [
-        (around[:, -1], f"top edge, z = {signed(z[-1] * 1e3)} mm", BLUE, SOLID),
-        (around[:, middle], "middle", INK, DOTTED),
-        (around[:, 0], f"bottom edge, z = {signed(z[0] * 1e3)} mm", VERMILION, DASHED),
+        (around[:, -1], f"top edge, z = {signed(z[-1] * 1e3)} mm", style.BLUE, style.SOLID),
+        (around[:, middle], "middle", style.INK, style.DOTTED),
+        (around[:, 0], f"bottom edge, z = {signed(z[0] * 1e3)} mm", style.VERMILION, style.DASHED),
     ]
-    lines(axes, angle, curves)
+    style.lines(axes, angle, curves)
     axes.set_ylim(bottom=0.0)
-    legend(axes, 3)
+    style.legend(axes, 3)
 
 
 FAMILY: Final = Family(
@@ -96,7 +80,7 @@ FAMILY: Final = Family(
 
 
 HISTORY_TITLE: Final = WEAR_HISTORY.title
-_LOOKS: Final = ((INK, DASHED), (BLUE, SOLID))
+_LOOKS: Final = ((style.INK, style.DASHED), (style.BLUE, style.SOLID))
 FAR_APART: Final = 10.0
 """Ratio of the largest to the least from which an axis counts in powers of ten."""
 
@@ -108,7 +92,7 @@ def draw_history(dataset: xr.Dataset) -> Figure:
         for label, size, names in PANELS
         if (there := {name: words for name, words in names.items() if name in dataset})
     ]
-    figure = sheet(dataset, HISTORY_TITLE, 2.6 + 1.7 * len(below))
+    figure = style.sheet(dataset, HISTORY_TITLE, 2.6 + 1.7 * len(below))
     panels = figure.subplots(1 + len(below), 1, sharex=True, squeeze=False)[:, 0]
     cycles = series(dataset, "wear_cycles")
     if cycles.size:
@@ -117,10 +101,10 @@ def draw_history(dataset: xr.Dataset) -> Figure:
             _of_motion(axes, dataset, cycles, size, names)
     else:
         for axes in panels:
-            note(axes, "nothing computed")
-    finish(panels[0], "", panels[0].get_ylabel())
+            style.note(axes, "nothing computed")
+    style.finish(panels[0], "", panels[0].get_ylabel())
     for axes, (label, _, _) in zip(panels[1:], below, strict=True):
-        finish(axes, "drive cycles" if axes is panels[-1] else "", label)
+        style.finish(axes, "drive cycles" if axes is panels[-1] else "", label)
     return figure
 
 
@@ -128,14 +112,20 @@ def _depth(axes: Axes, dataset: xr.Dataset, cycles: FloatArray) -> None:
     """Draw the depth, and beside it the straight line that it would be without feedback."""
     depth = series(dataset, "wear_depth_max")
     unit, size = fitting_unit(float(np.nanmax(depth, initial=0.0)))
-    axes.plot(cycles, no_feedback(dataset) / size, color=GREY, linestyle=DASHED, linewidth=1.2)
+    axes.plot(cycles, no_feedback(dataset) / size, color=style.GREY, linestyle=style.DASHED, linewidth=1.2)
     axes.plot(
-        cycles, depth / size, color=BLUE, linestyle=SOLID, linewidth=1.5, marker=_marker(cycles), ms=2.5
+        cycles,
+        depth / size,
+        color=style.BLUE,
+        linestyle=style.SOLID,
+        linewidth=1.5,
+        marker=_marker(cycles),
+        ms=2.5,
     )
     axes.set_ylim(0.0, 1.6 * float(np.nanmax(depth, initial=0.0)) / size or 1.0)
     axes.set_ylabel(f"depth [{unit}]")
     deepest = f"deepest {depth[-1] / size:.3g} {unit} after {cycles[-1]:.0f} cycles"
-    caption(axes, f"{deepest}; dashed: if the first rate went on")
+    style.caption(axes, f"{deepest}; dashed: if the first rate went on")
 
 
 def _of_motion(
@@ -146,14 +136,14 @@ def _of_motion(
         (series(dataset, name, 1.0 / size), words, *look)
         for (name, words), look in zip(names.items(), _LOOKS, strict=False)
     ]
-    lines(axes, cycles, drawn)
+    style.lines(axes, cycles, drawn)
     every = np.array([values for values, *_ in drawn])
     largest, least = float(np.nanmax(every)), float(np.nanmin(every))
     if least > 0.0 and largest > FAR_APART * least:
         axes.set_yscale("log")
     else:
         axes.set_ylim(0.0, 1.3 * largest or 1.0)
-    legend(axes, 2)
+    style.legend(axes, 2)
 
 
 def _marker(cycles: FloatArray) -> str:

@@ -19,13 +19,7 @@ from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
 from tribodyn.kernels.mechanism import data as kinds
-from tribodyn.kernels.mechanism.data import (
-    NONE,
-    MechanismData,
-    MechanismMemory,
-    Now,
-    Parts,
-)
+from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory, Now, Parts
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.kernels.mechanism.law import address_of
 from tribodyn.kernels.mechanism.solution import has_law

@@ -22,15 +22,7 @@ from tribodyn.mechanisms.general.readings import (
     offset,
     sizes,
 )
-from tribodyn.results.reading import (
-    column,
-    in_settled,
-    peak,
-    period,
-    reversals_held,
-    settled,
-    time_mean,
-)
+from tribodyn.results.reading import column, in_settled, peak, period, reversals_held, settled, time_mean
 from tribodyn.results.summary import Headline
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 

@@ -19,11 +19,7 @@ from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.ideal_motion import (
-    IdealMechanism,
-    in_body_axes,
-    unreached,
-)
+from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanisms.general.outputs import Output
 from tribodyn.mechanisms.general.positions import DrivePath, walked
 from tribodyn.mechanisms.general.superposition import responses

@@ -11,11 +11,7 @@ from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Vector, choice, number, quantity, switch, tables, text, vector
 from tribodyn.cases.film import OptionalFilmKeys
 from tribodyn.cases.functions import Doors
-from tribodyn.cases.groups import (
-    Solver,
-    Tolerances,
-    check_output_interval,
-)
+from tribodyn.cases.groups import Solver, Tolerances, check_output_interval
 from tribodyn.cases.joint import FormKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import ShaftLoad

@@ -8,30 +8,16 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    GREEN,
-    GREY,
-    SMALL,
-    SOLID,
-    VERMILION,
-    Curves,
-    LineStyle,
-    caption,
-    finish,
-    lines,
-    sheet,
-)
+from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.layout import keep
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 from tribodyn.views.series import series
 
-_LOOKS: Final[dict[tuple[str, str], tuple[str, LineStyle]]] = {
-    ("rsdc", "x"): (BLUE, SOLID),
-    ("rsdc", "y"): (GREEN, SOLID),
-    ("ke", "x"): (VERMILION, DASHED),
-    ("ke", "y"): (GREY, DASHED),
+_LOOKS: Final[dict[tuple[str, str], tuple[str, style.LineStyle]]] = {
+    ("rsdc", "x"): (style.BLUE, style.SOLID),
+    ("rsdc", "y"): (style.GREEN, style.SOLID),
+    ("ke", "x"): (style.VERMILION, style.DASHED),
+    ("ke", "y"): (style.GREY, style.DASHED),
 }
 
 
@@ -47,19 +33,19 @@ def oil_data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def _panel(axes: Axes, dataset: xr.Dataset, name: str, scale: float, heading: str, unit: str) -> None:
     """Draw both components of a quantity for both laws over time [ms]."""
-    curves: Curves = [
+    curves: style.Curves = [
         (series(dataset.sel(law=law), f"{name}{axis}", scale), f"{name}{axis}, {law.upper()}", *look)
         for (law, axis), look in _LOOKS.items()
     ]
-    lines(axes, series(dataset, "time", 1e3), curves, width=1.0)
-    caption(axes, heading)
-    finish(axes, y_label=unit)
-    axes.legend(frameon=False, fontsize=SMALL, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    style.lines(axes, series(dataset, "time", 1e3), curves, width=1.0)
+    style.caption(axes, heading)
+    style.finish(axes, y_label=unit)
+    axes.legend(frameon=False, fontsize=style.SMALL, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def draw_dry(dataset: xr.Dataset) -> Figure:
     """Draw Figure 8."""
-    figure = sheet(dataset, "Fig. 8  Journal bearing with dry friction", 5.0)
+    figure = style.sheet(dataset, "Fig. 8  Journal bearing with dry friction", 5.0)
     deviation, force = figure.subplots(2, 1, sharex=True)
     _panel(deviation, dataset, "e_", 1e6, "(a) deviations of the journal", "deviation [µm]")
     _panel(force, dataset, "F_c", 1.0, "(b) contact forces", "force [N]")
@@ -69,7 +55,7 @@ def draw_dry(dataset: xr.Dataset) -> Figure:
 
 def draw_oil(dataset: xr.Dataset) -> Figure:
     """Draw Figure 9."""
-    figure = sheet(dataset, "Fig. 9  Journal bearing with oil lubrication", 6.6)
+    figure = style.sheet(dataset, "Fig. 9  Journal bearing with oil lubrication", 6.6)
     deviation, film, contact = figure.subplots(3, 1, sharex=True)
     _panel(deviation, dataset, "e_", 1e6, "(a) deviations of the journal", "deviation [µm]")
     _panel(film, dataset, "F_o", 1.0, "(b) oil film forces", "force [N]")

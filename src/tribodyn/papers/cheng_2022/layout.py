@@ -11,30 +11,15 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.style import (
-    BLUE,
-    DASHDOT,
-    DASHED,
-    DOTTED,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    SMALL,
-    SOLID,
-    VERMILION,
-    Curves,
-    LineStyle,
-    lines,
-)
+from tribodyn.figures import style
 from tribodyn.views.series import series
 
-STYLES: Final[tuple[tuple[str, LineStyle], ...]] = (
-    (INK, SOLID),
-    (BLUE, DASHED),
-    (GREEN, DASHDOT),
-    (ORANGE, DOTTED),
-    (VERMILION, SOLID),
+STYLES: Final[tuple[tuple[str, style.LineStyle], ...]] = (
+    (style.INK, style.SOLID),
+    (style.BLUE, style.DASHED),
+    (style.GREEN, style.DASHDOT),
+    (style.ORANGE, style.DOTTED),
+    (style.VERMILION, style.SOLID),
 )
 """Colour and dash pattern of each clearance."""
 
@@ -42,7 +27,7 @@ Box: TypeAlias = tuple[float, float, float, float]
 """Left, bottom, width, height as shares of axes."""
 
 
-def by_clearance(dataset: xr.Dataset, name: str, scale: float = 1.0) -> Curves:
+def by_clearance(dataset: xr.Dataset, name: str, scale: float = 1.0) -> style.Curves:
     """Return one curve a clearance of a variable (clearance, time), the widest first: it lies below."""
     labels = [f"{value * 1e6:g} µm" for value in dataset["clearance"].values]
     return [
@@ -51,7 +36,7 @@ def by_clearance(dataset: xr.Dataset, name: str, scale: float = 1.0) -> Curves:
     ]
 
 
-def enlarge(axes: Axes, x: FloatArray, curves: Curves, span: tuple[float, float], place: Box) -> Axes:
+def enlarge(axes: Axes, x: FloatArray, curves: style.Curves, span: tuple[float, float], place: Box) -> Axes:
     """Draw a stretch of the curves again, enlarged, in a corner of the axes.
 
     Parameters
@@ -73,10 +58,10 @@ def enlarge(axes: Axes, x: FloatArray, curves: Curves, span: tuple[float, float]
     axes.add_patch(Rectangle(*box, transform=axes.transAxes, facecolor="white", zorder=4))
     inset = axes.inset_axes((left, bottom, width, height), zorder=5)
     inside = (x >= span[0]) & (x <= span[1])
-    near: Curves = [(values[inside], label, colour, dash) for values, label, colour, dash in curves]
-    lines(inset, x[inside], near, width=1.0)
-    inset.tick_params(labelsize=SMALL - 1.5, color=GREY, length=2)
-    inset.spines[:].set_color(GREY)
+    near: style.Curves = [(values[inside], label, colour, dash) for values, label, colour, dash in curves]
+    style.lines(inset, x[inside], near, width=1.0)
+    inset.tick_params(labelsize=style.SMALL - 1.5, color=style.GREY, length=2)
+    inset.spines[:].set_color(style.GREY)
     inset.set_facecolor("#fdf8ee")
     axes.axvspan(*span, color="#f3e2c0", zorder=0)
     return inset
@@ -92,7 +77,7 @@ def keep(dataset: xr.Dataset, *names: str) -> xr.Dataset:
     return dataset[list(names)]
 
 
-def limits(axes: Axes, curves: Curves, quiet: NDArray[np.bool_], above: float = 0.35) -> None:
+def limits(axes: Axes, curves: style.Curves, quiet: NDArray[np.bool_], above: float = 0.35) -> None:
     """Scale the y axis to the rows that are ``quiet``, with room; impacts may leave it.
 
     ``above`` is the room above as a share of the range.

@@ -10,22 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.style import (
-    BLUE,
-    DASHDOT,
-    DASHED,
-    GREY,
-    INK,
-    SMALL,
-    SOLID,
-    VERMILION,
-    Curves,
-    LineStyle,
-    caption,
-    finish,
-    lines,
-    sheet,
-)
+from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.layout import enlarge, keep, limits
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth
 from tribodyn.views.series import series
@@ -33,10 +18,10 @@ from tribodyn.views.series import series
 CLEARANCE: Final = 20e-6
 INSET: Final = (0.62, 0.62, 0.37, 0.36)
 """Where the reversal is drawn enlarged."""
-CENTRES: Final[tuple[tuple[str, float, str, LineStyle], ...]] = (
-    ("top centre", 0.5, BLUE, SOLID),
-    ("middle centre", 0.0, INK, DASHED),
-    ("bottom centre", -0.5, VERMILION, DASHDOT),
+CENTRES: Final[tuple[tuple[str, float, str, style.LineStyle], ...]] = (
+    ("top centre", 0.5, style.BLUE, style.SOLID),
+    ("middle centre", 0.0, style.INK, style.DASHED),
+    ("bottom centre", -0.5, style.VERMILION, style.DASHDOT),
 )
 """The three centres: name, height over the length of the bushing, look."""
 
@@ -60,25 +45,25 @@ def path_data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def draw_forces(dataset: xr.Dataset) -> Figure:
     """Draw Figure 12: X above, Y below, the first reversal enlarged."""
-    figure = sheet(dataset, "Fig. 12  Contact, rigid and damping forces on the trunnion", 5.8)
+    figure = style.sheet(dataset, "Fig. 12  Contact, rigid and damping forces on the trunnion", 5.8)
     time = series(dataset, "time")
     turn = 0.5 * float(dataset.attrs["cycle_period"])
     quiet = is_smooth(dataset, time)
     for axes, axis, letter in zip(figure.subplots(2, 1, sharex=True), "xy", "ab", strict=True):
-        curves: Curves = [
-            (series(dataset, f"F_c{axis}"), "contact", "#b4b4b4", SOLID),
-            (series(dataset, f"F_k{axis}"), "rigid", BLUE, SOLID),
-            (series(dataset, f"F_d{axis}"), "damping", VERMILION, DASHED),
+        curves: style.Curves = [
+            (series(dataset, f"F_c{axis}"), "contact", "#b4b4b4", style.SOLID),
+            (series(dataset, f"F_k{axis}"), "rigid", style.BLUE, style.SOLID),
+            (series(dataset, f"F_d{axis}"), "damping", style.VERMILION, style.DASHED),
         ]
-        lines(axes, time, curves[:1], width=3.0)
-        lines(axes, time, curves[1:], width=1.0)
+        style.lines(axes, time, curves[:1], width=3.0)
+        style.lines(axes, time, curves[1:], width=1.0)
         limits(axes, curves, quiet, above=1.3)
         enlarge(axes, time, curves, (turn - 0.003, turn + 0.03), INSET)
-        caption(axes, f"({letter}) {axis.upper()} direction; impacts beyond the frame are in the inset")
-        finish(axes, y_label=f"force along {axis.upper()} [N]")
+        style.caption(axes, f"({letter}) {axis.upper()} direction; impacts beyond the frame are in the inset")
+        style.finish(axes, y_label=f"force along {axis.upper()} [N]")
     axes.set_xlabel("time [s]")
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
     return figure
 
 
@@ -102,40 +87,40 @@ def centre_velocity(dataset: xr.Dataset, height: float) -> tuple[FloatArray, Flo
 
 def draw_path(dataset: xr.Dataset) -> Figure:
     """Draw Figure 13: the paths of the three centres in the clearance circle."""
-    figure = sheet(dataset, "Fig. 13  Trajectory of the trunnion", 4.6)
+    figure = style.sheet(dataset, "Fig. 13  Trajectory of the trunnion", 4.6)
     axes = figure.subplots()
     clearance = float(dataset.attrs["clearance"]) * 1e6
     axes.add_patch(
-        Circle((0.0, 0.0), clearance, fill=False, edgecolor=GREY, linewidth=1.0, label="clearance")
+        Circle((0.0, 0.0), clearance, fill=False, edgecolor=style.GREY, linewidth=1.0, label="clearance")
     )
     for name, height, colour, dash in CENTRES:
         x, y = centre(dataset, height)
         axes.plot(x, y, color=colour, linestyle=dash, linewidth=1.0, label=name)
     axes.set_aspect("equal")
-    finish(axes, "X [µm]", "Y [µm]")
-    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=SMALL)
+    style.finish(axes, "X [µm]", "Y [µm]")
+    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=style.SMALL)
     return figure
 
 
 def draw_velocities(dataset: xr.Dataset) -> Figure:
     """Draw Figure 14: velocities of the three centres, the first reversal enlarged."""
-    figure = sheet(dataset, "Fig. 14  Velocity of the three centres of the trunnion", 5.4)
+    figure = style.sheet(dataset, "Fig. 14  Velocity of the three centres of the trunnion", 5.4)
     time = series(dataset, "time")
     turn = 0.5 * float(dataset.attrs["cycle_period"])
     for index, (axes, letter) in enumerate(zip(figure.subplots(2, 1, sharex=True), "ab", strict=True)):
-        curves: Curves = [
+        curves: style.Curves = [
             (centre_velocity(dataset, height)[index], name, colour, dash)
             for name, height, colour, dash in CENTRES
         ]
-        lines(axes, time, curves, width=1.0)
+        style.lines(axes, time, curves, width=1.0)
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.9 * (high - low))
         enlarge(axes, time, curves, (turn - 0.002, turn + 0.03), INSET)
-        caption(axes, f"({letter}) {'XY'[index]} direction")
-        finish(axes, y_label="velocity [mm/s]")
+        style.caption(axes, f"({letter}) {'XY'[index]} direction")
+        style.finish(axes, y_label="velocity [mm/s]")
     axes.set_xlabel("time [s]")
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
     return figure
 
 

@@ -13,18 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    DOTTED,
-    GREEN,
-    SMALL,
-    SOLID,
-    VERMILION,
-    caption,
-    finish,
-    sheet,
-)
+from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 
 FRICTIONS: Final = ("moment", "traction")
@@ -47,7 +36,7 @@ _CYCLE: Final = 2.0 * math.pi
 _WHOLE: Final = {"duration": f"{_CYCLE} s", "impact_window": f"{0.5 * _CYCLE} s"}
 _BINS: Final = np.linspace(0.0, _CYCLE, 400)
 """Times between which the largest force is drawn [s]."""
-_LOOKS: Final = ((GREEN, SOLID), (BLUE, DASHED), (VERMILION, DOTTED))
+_LOOKS: Final = ((style.GREEN, style.SOLID), (style.BLUE, style.DASHED), (style.VERMILION, style.DOTTED))
 
 
 def undamped(
@@ -113,15 +102,15 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw how large the contact force is over a cycle: a panel a combination, a curve a tolerance."""
-    figure = sheet(dataset, "The dry mechanism without damping, over one cycle", 5.0)
+    figure = style.sheet(dataset, "The dry mechanism without damping, over one cycle", 5.0)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for axes, (formulation, friction) in zip(panels.flat, product(FORMULATIONS, FRICTIONS), strict=True):
         _panel(axes, dataset.sel(formulation=formulation, friction=friction))
-        caption(axes, f"formulation {formulation}, friction as a {friction}")
+        style.caption(axes, f"formulation {formulation}, friction as a {friction}")
     for axes in panels[-1]:
-        axes.set_xlabel("time [s]", size=SMALL)
+        axes.set_xlabel("time [s]", size=style.SMALL)
     handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
     return figure
 
 
@@ -149,7 +138,7 @@ def _panel(axes: Axes, runs: xr.Dataset) -> None:
         if bool(one["ended"]):
             axes.plot(time[-1], force[-1], "x", color=colour, markersize=6)
     axes.set_ylim(1.0, 2e6)
-    finish(axes, y_label="largest force [N]")
+    style.finish(axes, y_label="largest force [N]")
 
 
 UNDAMPED: Final = PaperFigure("undamped", "the mechanism without damping", data, draw)

@@ -28,23 +28,7 @@ from tribodyn.cases.case import demand
 from tribodyn.cases.fields import choice, names, number, quantity
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.mechanisms.general.elements.base import (
-    ElementKeys,
-    Equation,
-    ForceLaw,
-    Joints,
-    Leg,
-    Outline,
-    are_parallel,
-    axis_of,
-    carrier,
-    circle,
-    leg,
-    origin,
-    other_body,
-    require_type,
-    size_of,
-)
+from tribodyn.mechanisms.general.elements import base
 from tribodyn.mechanisms.general.elements.stop import LEAST_RATE, damping_of, one_sided
 
 PRESSURE_ANGLE = math.radians(20.0)
@@ -53,7 +37,7 @@ _OFFSET = 1.0e-9
 """Distance between parallel axes, over that between all joints, up to which they are one axis."""
 
 
-class Gear(ElementKeys):
+class Gear(base.ElementKeys):
     """A gear pair: two wheels, each in a bearing of the same carrier, turn in a fixed ratio."""
 
     TABLE: ClassVar[str] = "gears"
@@ -115,14 +99,14 @@ torque = "0.2 N m"
         example="20 deg",
     )
 
-    def equations(self, joints: Joints) -> tuple[Equation, ...]:
+    def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
         """Return the constraint, or one contact for each flank of teeth with backlash."""
         if self.backlash is None:
-            return (Equation(self._pushing(joints), None),)
+            return (base.Equation(self._pushing(joints), None),)
         demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")
         words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
         demand(self._pitch(joints) is not None, "backlash", words)
-        law = ForceLaw(
+        law = base.ForceLaw(
             one_sided,
             {
                 "at": 0.5 * self.backlash,
@@ -133,9 +117,9 @@ torque = "0.2 N m"
                 "least_rate": LEAST_RATE,
             },
         )
-        return tuple(Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
+        return tuple(base.Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
 
-    def _pushing(self, joints: Joints) -> tuple[Leg, ...]:
+    def _pushing(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the legs of the constraint, whose force pushes the wheels apart as well."""
         legs = self.legs(joints)
         if not self.pressure_angle:
@@ -145,7 +129,7 @@ torque = "0.2 N m"
         pushes = self._pushes(legs, self.pressure_angle)
         return tuple(replace(wheel, push=push) for wheel, push in zip(legs, pushes, strict=True))
 
-    def _flank(self, legs: tuple[Leg, ...], side: float) -> tuple[Leg, ...]:
+    def _flank(self, legs: tuple[base.Leg, ...], side: float) -> tuple[base.Leg, ...]:
         """Return the legs of one flank: its contact, with λ below zero, pushes the wheels apart as well."""
         angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
         return tuple(
@@ -154,29 +138,29 @@ torque = "0.2 N m"
         )
 
     @staticmethod
-    def _pushes(legs: tuple[Leg, ...], angle: float) -> tuple[FloatArray, FloatArray]:
+    def _pushes(legs: tuple[base.Leg, ...], angle: float) -> tuple[FloatArray, FloatArray]:
         """Return the forces that push both wheels apart, over the tooth force."""
         towards = [np.cross(wheel.along, [0.0, 0.0, wheel.about]) for wheel in legs]
         apart = min(towards, key=lambda arm: float(dense.norm(arm)))
         apart = apart / dense.norm(apart) * (1.0 if apart is towards[0] else -1.0)
         return -portable.tan(angle) * apart, portable.tan(angle) * apart
 
-    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+    def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return one leg for each wheel."""
-        base = self._carrier(joints)
+        carrier = self._carrier(joints)
         first, second = (joints[name] for name in self.joints)
-        axis, other = axis_of(first), axis_of(second)
-        if are_parallel(axis, other):
+        axis, other = base.axis_of(first), base.axis_of(second)
+        if base.are_parallel(axis, other):
             other = axis
-        points = [origin(joint, base) for joint in (first, second)]
-        wheels = [other_body(joint, base) for joint in (first, second)]
+        points = [base.origin(joint, carrier) for joint in (first, second)]
+        wheels = [base.other_body(joint, carrier) for joint in (first, second)]
         pitch = self._pitch(joints)
         if pitch is None:
-            size = size_of(joints)
+            size = base.size_of(joints)
             none = np.zeros(3)
             return (
-                leg((base, wheels[0]), points[0], axis, none, -self.ratio * size),
-                leg((base, wheels[1]), points[1], other, none, size),
+                base.leg((carrier, wheels[0]), points[0], axis, none, -self.ratio * size),
+                base.leg((carrier, wheels[1]), points[1], other, none, size),
             )
         # Both wheels are held where the plane of the teeth, that of the first joint, meets their axes.
         points[1] = points[1] + axis * (dense.product(points[0][0] - points[1][0], axis))
@@ -184,17 +168,17 @@ torque = "0.2 N m"
         teeth = np.cross(axis, arms[0]) / dense.norm(arms[0])
         lever = [float(dense.product(np.cross(axis, arm), teeth)) for arm in arms]
         return (
-            leg((base, wheels[0]), points[0], axis, -teeth, -lever[0]),
-            leg((base, wheels[1]), points[1], axis, teeth, lever[1]),
+            base.leg((carrier, wheels[0]), points[0], axis, -teeth, -lever[0]),
+            base.leg((carrier, wheels[1]), points[1], axis, teeth, lever[1]),
         )
 
-    def outlines(self, joints: Joints) -> Iterable[Outline]:
+    def outlines(self, joints: base.Joints) -> Iterable[base.Outline]:
         """Return the pitch circles, where axes are parallel."""
         pitch = self._pitch(joints)
         for one in self.legs(joints) if pitch is not None else ():
-            yield ((one.bodies[1], circle(one.points[1], one.axes[:, 2], abs(one.about))),)
+            yield ((one.bodies[1], base.circle(one.points[1], one.axes[:, 2], abs(one.about))),)
 
-    def _carrier(self, joints: Joints) -> str:
+    def _carrier(self, joints: base.Joints) -> str:
         """Return the body that carries both wheels, after checks of joints and ratio."""
         demand(
             self.ratio != 0.0,
@@ -202,17 +186,19 @@ torque = "0.2 N m"
             "the ratio is 0; give the turns of the second wheel for one of the first",
         )
         for name in self.joints:
-            require_type(name, joints[name], ("revolute", "cylindrical"), "a gear pair")
-        return carrier(self.joints, joints)
+            base.require_type(name, joints[name], ("revolute", "cylindrical"), "a gear pair")
+        return base.carrier(self.joints, joints)
 
-    def _pitch(self, joints: Joints) -> FloatArray | None:
+    def _pitch(self, joints: base.Joints) -> FloatArray | None:
         """Return the pitch point as drawn [m], shape (3,); None for gears that transmit a torque only."""
         first, second = (joints[name] for name in self.joints)
-        axis = axis_of(first)
-        points = [origin(joint, self._carrier(joints))[0] for joint in (first, second)]
+        axis = base.axis_of(first)
+        points = [base.origin(joint, self._carrier(joints))[0] for joint in (first, second)]
         apart = points[1] - points[0]
         apart = apart - axis * (dense.product(axis, apart))
-        if are_parallel(axis, axis_of(second)) and dense.norm(apart) > _OFFSET * size_of(joints):
+        if base.are_parallel(axis, base.axis_of(second)) and dense.norm(apart) > _OFFSET * base.size_of(
+            joints
+        ):
             words = "wheels of a ratio of 1 on two axes have no pitch point; external gears have one below 0"
             demand(self.ratio != 1.0, "ratio", words)
             return np.asarray(points[0] + self.ratio / (self.ratio - 1.0) * apart)

@@ -18,23 +18,10 @@ import numpy as np
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, quantity
 from tribodyn.kernels import dense
-from tribodyn.mechanisms.general.elements.base import (
-    PARALLEL,
-    ElementKeys,
-    Joints,
-    Leg,
-    Outline,
-    axis_of,
-    carrier,
-    circle,
-    leg,
-    origin,
-    other_body,
-    require_type,
-)
+from tribodyn.mechanisms.general.elements import base
 
 
-class Rack(ElementKeys):
+class Rack(base.ElementKeys):
     """A rack and pinion: the rack slides by the pitch radius times the angle of the pinion."""
 
     TABLE: ClassVar[str] = "racks"
@@ -72,7 +59,7 @@ torque = "0.2 N m"
         required=True,
     )
 
-    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+    def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the leg of the pinion and that of the rack."""
         bearing, guide = (joints[name] for name in self.joints)
         demand(
@@ -80,24 +67,24 @@ torque = "0.2 N m"
             "radius",
             "the pitch radius is 0; give the way of the rack for 1 rad of the pinion",
         )
-        require_type(self.joints[0], bearing, ("revolute", "cylindrical"), "the pinion of a rack")
-        require_type(self.joints[1], guide, ("prismatic",), "a rack")
-        base = carrier(self.joints, joints)
-        axis, along = axis_of(bearing), axis_of(guide)
+        base.require_type(self.joints[0], bearing, ("revolute", "cylindrical"), "the pinion of a rack")
+        base.require_type(self.joints[1], guide, ("prismatic",), "a rack")
+        carrier = base.carrier(self.joints, joints)
+        axis, along = base.axis_of(bearing), base.axis_of(guide)
         words = "the axis of the pinion and that of the rack must be at right angles"
-        demand(abs(float(dense.product(axis, along))) < PARALLEL, "joints", words)
-        centre = origin(bearing, base)
+        demand(abs(float(dense.product(axis, along))) < base.PARALLEL, "joints", words)
+        centre = base.origin(bearing, carrier)
         teeth = centre[0] + self.radius * np.cross(along, axis)
         # A gap in the drawing of the guide stays one.
-        gap = origin(guide, base) - origin(guide, base)[0]
+        gap = base.origin(guide, carrier) - base.origin(guide, carrier)[0]
         return (
-            leg((base, other_body(bearing, base)), centre, axis, -along, -self.radius),
-            leg((base, other_body(guide, base)), teeth + gap, axis, along, 0.0),
+            base.leg((carrier, base.other_body(bearing, carrier)), centre, axis, -along, -self.radius),
+            base.leg((carrier, base.other_body(guide, carrier)), teeth + gap, axis, along, 0.0),
         )
 
-    def outlines(self, joints: Joints) -> Iterable[Outline]:
+    def outlines(self, joints: base.Joints) -> Iterable[base.Outline]:
         """Return the pitch circle and a turn of it on the pitch line of the rack."""
         pinion, rack = self.legs(joints)
-        yield ((pinion.bodies[1], circle(pinion.points[1], pinion.axes[:, 2], abs(self.radius))),)
-        half = np.pi * abs(self.radius) * axis_of(joints[self.joints[1]])
+        yield ((pinion.bodies[1], base.circle(pinion.points[1], pinion.axes[:, 2], abs(self.radius))),)
+        half = np.pi * abs(self.radius) * base.axis_of(joints[self.joints[1]])
         yield ((rack.bodies[1], rack.points[1] + np.array([-half, half])),)

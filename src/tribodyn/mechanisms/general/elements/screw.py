@@ -15,21 +15,10 @@ from typing import ClassVar
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, quantity
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.general.elements.base import (
-    ElementKeys,
-    Joints,
-    Leg,
-    are_parallel,
-    axis_of,
-    carrier,
-    leg,
-    origin,
-    other_body,
-    require_type,
-)
+from tribodyn.mechanisms.general.elements import base
 
 
-class Screw(ElementKeys):
+class Screw(base.ElementKeys):
     """A screw: a thread without friction between a screw and its nut."""
 
     TABLE: ClassVar[str] = "screws"
@@ -69,27 +58,27 @@ torque = "0.2 N m"
         required=True,
     )
 
-    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+    def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the leg from the screw to the nut."""
         demand(self.lead != 0.0, "lead", "the lead is 0; give the way of the nut for one turn")
         words = "name one cylindrical joint, or a revolute and a prismatic one"
         demand(len(self.joints) in (1, 2), "joints", words)
         bearing = joints[self.joints[0]]
-        axis = axis_of(bearing)
+        axis = base.axis_of(bearing)
         if len(self.joints) == 1:
-            require_type(self.joints[0], bearing, ("cylindrical",), "a screw of one joint")
-            bodies, points = bearing.between, origin(bearing, bearing.between[0])
+            base.require_type(self.joints[0], bearing, ("cylindrical",), "a screw of one joint")
+            bodies, points = bearing.between, base.origin(bearing, bearing.between[0])
         else:
             bodies, points = self._of_two(joints)
-        return (leg(bodies, points, axis, axis, -self.lead / (2.0 * math.pi)),)
+        return (base.leg(bodies, points, axis, axis, -self.lead / (2.0 * math.pi)),)
 
-    def _of_two(self, joints: Joints) -> tuple[tuple[str, str], FloatArray]:
+    def _of_two(self, joints: base.Joints) -> tuple[tuple[str, str], FloatArray]:
         """Return screw and nut, and where they are, for a bearing and a guide on one body."""
         bearing, guide = (joints[name] for name in self.joints)
-        require_type(self.joints[0], bearing, ("revolute",), "the screw, named first,")
-        require_type(self.joints[1], guide, ("prismatic",), "the nut, named second,")
-        base = carrier((self.joints[0], self.joints[1]), joints)
+        base.require_type(self.joints[0], bearing, ("revolute",), "the screw, named first,")
+        base.require_type(self.joints[1], guide, ("prismatic",), "the nut, named second,")
+        carrier = base.carrier((self.joints[0], self.joints[1]), joints)
         words = "the axes of the screw and of the guide of its nut must be parallel"
-        demand(are_parallel(axis_of(bearing), axis_of(guide)), "joints", words)
-        points = origin(bearing, base)[[1, 0]]
-        return (other_body(bearing, base), other_body(guide, base)), points
+        demand(base.are_parallel(base.axis_of(bearing), base.axis_of(guide)), "joints", words)
+        points = base.origin(bearing, carrier)[[1, 0]]
+        return (base.other_body(bearing, carrier), base.other_body(guide, carrier)), points

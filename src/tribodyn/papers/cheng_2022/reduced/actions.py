@@ -9,11 +9,7 @@ from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Vector, choice, number, quantity, switch, vector
 from tribodyn.cases.keys import ASSUMED
 from tribodyn.cases.loads import FORCES, ShaftLoad
-from tribodyn.cases.signals import (
-    AngleTable,
-    PositionTable,
-    SpeedTable,
-)
+from tribodyn.cases.signals import AngleTable, PositionTable, SpeedTable
 
 DRIVE: Final = "paper, section 5.1"
 DRIVE_TABLES: Final = ("angle", "speed", "stroke")

@@ -10,11 +10,7 @@ from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, tables, text
 from tribodyn.cases.functions import Doors
-from tribodyn.cases.groups import (
-    Solver,
-    Wear,
-    check_output_interval,
-)
+from tribodyn.cases.groups import Solver, Wear, check_output_interval
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase

@@ -11,16 +11,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.results.reading import (
-    column,
-    largest,
-    norm,
-    outside,
-    peak,
-    reversals_held,
-    rms,
-    time_mean,
-)
+from tribodyn.results.reading import column, largest, norm, outside, peak, reversals_held, rms, time_mean
 from tribodyn.results.summary import Headline
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 

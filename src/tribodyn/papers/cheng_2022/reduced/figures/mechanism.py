@@ -10,49 +10,40 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.base import Family
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    DOTTED,
-    GREY,
-    INK,
-    PALE,
-    SMALL,
-    SOLID,
-    VERMILION,
-    LineStyle,
-    caption,
-    finish,
-    note,
-    sheet,
-)
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip, ring_points
 from tribodyn.views.series import finite, series
 
 TITLE: Final = "The mechanism at three vane positions"
-_LOOKS: Final[tuple[tuple[str, LineStyle], ...]] = ((BLUE, DASHED), (INK, SOLID), (VERMILION, DOTTED))
+_LOOKS: Final[tuple[tuple[str, style.LineStyle], ...]] = (
+    (style.BLUE, style.DASHED),
+    (style.INK, style.SOLID),
+    (style.VERMILION, style.DOTTED),
+)
 
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw crank, drag link, unison ring, lever and vane [mm]."""
-    figure = sheet(dataset, TITLE, 3.3)
+    figure = style.sheet(dataset, TITLE, 3.3)
     along, above = figure.subplots(1, 2, width_ratios=(2.1, 1.0))
     case, angle = case_of(dataset), series(dataset, "theta_v", 180.0 / np.pi)
     for axes, text in ((along, "seen along the casing axis"), (above, "seen from above")):
-        caption(axes, text)
+        style.caption(axes, text)
         axes.set_aspect("equal")
     if case is None or not finite(angle).size:
-        note(along, "nothing to draw")
+        style.note(along, "nothing to draw")
     else:
         for moment, look in zip(_moments(angle), _LOOKS, strict=True):
             _draw_at(along, above, case, dataset, moment, look)
         _frame(along, above, case)
         handles, labels = above.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=SMALL)
-    finish(along, "X [mm]", "Z [mm]")
-    finish(above, "X [mm]", "Y [mm]")
+        figure.legend(
+            handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL
+        )
+    style.finish(along, "X [mm]", "Z [mm]")
+    style.finish(above, "X [mm]", "Y [mm]")
     return figure
 
 
@@ -63,32 +54,39 @@ def _moments(angle: FloatArray) -> tuple[int, int, int]:
 
 
 def _draw_at(
-    along: Axes, above: Axes, case: VsvCase, dataset: xr.Dataset, moment: int, look: tuple[str, LineStyle]
+    along: Axes,
+    above: Axes,
+    case: VsvCase,
+    dataset: xr.Dataset,
+    moment: int,
+    look: tuple[str, style.LineStyle],
 ) -> None:
     """Draw every body at one row of the result."""
     at = {name: float(dataset[name].values[moment]) for name in ("theta_a", "theta_b", "theta_v", "h_1")}
     colour, dash = look
-    style: dict[str, Any] = {"color": colour, "linestyle": dash, "linewidth": 1.6}
+    drawn: dict[str, Any] = {"color": colour, "linestyle": dash, "linewidth": 1.6}
     m = case.mechanism
     joint = ring_points(case, at["theta_b"], at["h_1"], np.array([m.ring_angle]))[0]
     chain = np.stack([crank_pivot(case), crank_tip(case, np.array([at["theta_a"]]))[0], joint])
-    along.plot(chain[:, 0], chain[:, 2], marker="o", ms=4, **style)
+    along.plot(chain[:, 0], chain[:, 2], marker="o", ms=4, **drawn)
     arc = ring_points(case, at["theta_b"], at["h_1"], np.linspace(-0.15, m.ring_angle + 0.15, 90))
-    along.plot(arc[:, 0], arc[:, 2], color=PALE, linewidth=3.5, zorder=1)
+    along.plot(arc[:, 0], arc[:, 2], color=style.PALE, linewidth=3.5, zorder=1)
     near = ring_points(case, at["theta_b"], at["h_1"], np.linspace(-0.1, 0.1, 9))
-    above.plot(near[:, 0], near[:, 1], color=PALE, linewidth=3.5, zorder=1)
+    above.plot(near[:, 0], near[:, 1], color=style.PALE, linewidth=3.5, zorder=1)
     lever = MM * m.lever_length * np.array([np.cos(at["theta_v"]), np.sin(at["theta_v"])])
     label = f"vane at {np.rad2deg(at['theta_v']):.1f}°"
-    above.plot([0.0, lever[0]], [0.0, lever[1]], marker="o", ms=4, label=label, **style)
-    along.plot([0.0, lever[0]], [MM * m.ring_radius] * 2, **style)
+    above.plot([0.0, lever[0]], [0.0, lever[1]], marker="o", ms=4, label=label, **drawn)
+    along.plot([0.0, lever[0]], [MM * m.ring_radius] * 2, **drawn)
 
 
 def _frame(along: Axes, above: Axes, case: VsvCase) -> None:
     """Draw what stays, and name the bodies."""
     m, joint = case.mechanism, case.joint
     top, half = MM * m.ring_radius, MM * joint.radius
-    along.plot([0.0, 0.0], [top - MM * m.vane_length, top], color=GREY, linewidth=5.0, alpha=0.6, zorder=1)
-    along.plot([-2 * half, 2 * half], [top - MM * joint.length] * 2, color=GREY, linewidth=2.0)
+    along.plot(
+        [0.0, 0.0], [top - MM * m.vane_length, top], color=style.GREY, linewidth=5.0, alpha=0.6, zorder=1
+    )
+    along.plot([-2 * half, 2 * half], [top - MM * joint.length] * 2, color=style.GREY, linewidth=2.0)
     pivot = crank_pivot(case)
     places = {
         "vane": (12.0, top - 0.6 * MM * m.vane_length),
@@ -96,8 +94,8 @@ def _frame(along: Axes, above: Axes, case: VsvCase) -> None:
         "crank": (pivot[0] - 12.0, pivot[2] - 8.0),
     }
     for name, (x, z) in places.items():
-        along.text(x, z, name, size=SMALL, color=INK, ha="left" if name != "crank" else "right")
-    above.text(6.0, -4.0, "trunnion", size=SMALL, color=INK)
+        along.text(x, z, name, size=style.SMALL, color=style.INK, ha="left" if name != "crank" else "right")
+    above.text(6.0, -4.0, "trunnion", size=style.SMALL, color=style.INK)
     above.set_ylim(bottom=-0.3 * MM * m.lever_length)
 
 
