@@ -190,12 +190,14 @@ def opened(browser: Browser) -> Iterator[Callable[..., Reader]]:
         phone: bool = False,
         elsewhere: bool = False,
         webgl: bool = True,
+        moving: bool = False,
     ) -> Reader:
         context = browser.new_context(
             viewport={"width": width, "height": 800},
             color_scheme="dark" if dark else "light",
             has_touch=phone,
             is_mobile=phone,
+            reduced_motion="no-preference" if moving else "reduce",
         )
         contexts.append(context)
         page = context.new_page()

@@ -27,7 +27,8 @@ FIELD = """(field => Array.from(field.data.height, (_, k) =>
 # The 64 corners of the pivot come first, then the bar of the crank: 4 corners at the pivot, 4 at the tip.
 ON_CRANK = """[plot.plotted].map(stage => {
   const at = n => [...stage.solids[0].points.slice(3 * n, 3 * n + 3)];
-  const place = [0, 1, 2].map(k => 0.7 * 0.5 * (at(64)[k] + at(66)[k]) + 0.3 * 0.5 * (at(68)[k] + at(70)[k]));
+  const middle = (m, n, k) => 0.5 * (at(m)[k] + at(n)[k]);
+  const place = [0, 1, 2].map(k => 0.35 * middle(64, 66, k) + 0.65 * middle(68, 70, k));
   return stage.project(stage.camera.matrix(stage.wide()), place).slice(0, 2);
 })"""
 SERIOUS = ("serious", "critical")
@@ -128,12 +129,15 @@ def _near(colour: Sequence[int], wanted: Sequence[int], most: int) -> bool:
     return max(abs(a - b) for a, b in zip(colour, wanted, strict=True)) <= most
 
 
-def test_playing_goes_on_and_stops(opened: Opened, report: Path) -> None:
-    page = opened(report).page
-    page.locator(".clock").scroll_into_view_if_needed()
-    page.get_by_role("button", name="Play").click()
+def test_the_first_screen_moves_by_itself_until_the_slider_is_touched(opened: Opened, report: Path) -> None:
+    reader = opened(report, moving=True)
+    page = reader.page
+    for name in ("mechanism", "orbit"):
+        assert page.locator(f"#{name} .plot").bounding_box()["y"] < 200.0
+    assert page.locator(".first .key dd").count() == 3
     page.wait_for_function("() => document.querySelector('.clock input').value > 2")
-    page.get_by_role("button", name="Pause").click()
+    reader.go_to_frame(7)
+    assert page.get_by_role("button", name="Play").is_visible()
     stopped = page.locator(".clock input").input_value()
     page.wait_for_timeout(200)
     assert page.locator(".clock input").input_value() == stopped

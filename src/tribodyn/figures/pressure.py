@@ -15,7 +15,7 @@ from tribodyn.figures.base import Family
 from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, sheet
 from tribodyn.figures.unrolled import draw_map, threshold_line
 from tribodyn.views.series import series, signed
-from tribodyn.views.unrolled import best_cut, unloaded_middle, z_label
+from tribodyn.views.unrolled import best_cut, unloaded_middle, wall_angles, z_label
 
 TITLE: Final = "Contact pressure on the unrolled bushing"
 Panels: TypeAlias = NDArray[np.object_]
@@ -31,7 +31,7 @@ def draw(dataset: xr.Dataset, title: str = TITLE) -> Figure:
     panels = figure.subplots(rows, 2, sharex=True, sharey=True, squeeze=False)
     pressure = np.nan_to_num(dataset["pressure"].values) * 1e-6
     largest = float(pressure.max(initial=0.0)) or 1.0
-    cut = best_cut(dataset["theta"].values, pressure.max(axis=(0, 2), initial=0.0))
+    cut = best_cut(wall_angles(dataset), pressure.max(axis=(0, 2), initial=0.0))
     empty = unloaded_middle(dataset, pressure.max(axis=0, initial=0.0))
     for index, place in enumerate(places):
         mesh = draw_map(panels[place], dataset, pressure[index], cut, largest, empty)
@@ -64,7 +64,7 @@ def _describe(axes: Axes, dataset: xr.Dataset, index: int) -> None:
     field = np.nan_to_num(dataset["pressure"].values[index]) * 1e-6
     angle = float(np.rad2deg(dataset["snapshot_theta_v"].values[index]))
     at_theta, at_z = np.unravel_index(int(field.argmax()), field.shape)
-    theta = float(np.rad2deg(dataset["theta"].values[at_theta])) % 360.0
+    theta = float(np.rad2deg(wall_angles(dataset)[at_theta])) % 360.0
     z = float(dataset["z"].values[at_z]) * 1e3
     caption(axes, f"({ascii_lowercase[index % 26]})  {angle:.1f}°")
     text = f"peak {field.max():.3g} MPa at {theta:.0f}°, {signed(z)} mm"
@@ -85,7 +85,7 @@ def _label(panels: Panels, z_text: str) -> None:
     for axes in panels[:, 0]:
         axes.set_ylabel(z_text, size=TEXT)
     for axes in panels[-1]:
-        axes.set_xlabel("bushing angle θ [°]", size=TEXT)
+        axes.set_xlabel("angle from +X towards +Y [°]", size=TEXT)
     for axes, way in zip(
         panels[0], ("forward, vane angle growing", "reverse, vane angle falling"), strict=True
     ):

@@ -49,8 +49,7 @@ def _circle(axes: Axes, clearance: float, reach: float) -> None:
         return
     axes.add_patch(Circle((0.0, 0.0), clearance, fill=False, edgecolor=style.GREY, linewidth=1.0))
     for theta in (0, 90, 180, 270):
-        # The bushing point named theta lies at -(cos theta, sin theta).
-        x, y = -np.cos(np.deg2rad(theta)), -np.sin(np.deg2rad(theta))
+        x, y = np.cos(np.deg2rad(theta)), np.sin(np.deg2rad(theta))
         radius = 1.15 * clearance
         axes.text(
             radius * x,

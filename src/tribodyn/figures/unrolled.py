@@ -12,7 +12,7 @@ from matplotlib.colors import Colormap, LinearSegmentedColormap
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import GREY, SMALL
-from tribodyn.views.unrolled import height_marks, rolled, shortened
+from tribodyn.views.unrolled import height_marks, rolled, shortened, wall_angles
 
 # White where there is nothing, then steadily darker: a grey print keeps the order.
 COLOURS: Final[Colormap] = LinearSegmentedColormap.from_list(
@@ -41,7 +41,7 @@ def draw_map(
         From :func:`unloaded_middle` [mm].
     """
     z = dataset["z"].values * 1e3
-    angle, values = rolled(dataset["theta"].values, field, cut)
+    angle, values = rolled(wall_angles(dataset), field, cut)
     if empty:
         _shorten_middle(axes, empty, float(z[-1]))
     mesh = axes.pcolormesh(
@@ -95,7 +95,7 @@ def _heights(axes: Axes, z: FloatArray, empty: float) -> None:
 
 def threshold_line(axes: Axes, dataset: xr.Dataset, field: FloatArray, cut: float, level: float) -> None:
     """Draw the line on which the field equals ``level``."""
-    angle, values = rolled(dataset["theta"].values, field, cut)
+    angle, values = rolled(wall_angles(dataset), field, cut)
     if values.min() < level < values.max():
         heights = dataset["z"].values * 1e3
         axes.contour(angle, heights, values.T, levels=[level], colors=[GREY], linewidths=0.8)

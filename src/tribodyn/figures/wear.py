@@ -15,7 +15,7 @@ from tribodyn.figures import style
 from tribodyn.figures.base import Family
 from tribodyn.figures.unrolled import draw_map
 from tribodyn.views.series import series, signed
-from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
+from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, wall_angles, z_label
 from tribodyn.views.wear import PANELS, WEAR_HISTORY, fitting_unit, no_feedback
 
 TITLE: Final = "Wear depth of the bushing"
@@ -28,13 +28,13 @@ def draw(dataset: xr.Dataset) -> Figure:
     depth = np.nan_to_num(dataset["wear_depth"].values)
     unit, size = fitting_unit(float(depth.max(initial=0.0)))
     depth = depth / size
-    cut = best_cut(dataset["theta"].values, depth.max(axis=1, initial=0.0))
+    cut = best_cut(wall_angles(dataset), depth.max(axis=1, initial=0.0))
     empty = unloaded_middle(dataset, depth)
     mesh = draw_map(plan, dataset, depth, cut, float(depth.max(initial=0.0)) or 1.0, empty)
     _profiles(profile, dataset, depth, cut)
     _headline(plan, dataset, depth, unit)
     plan.set_ylabel(z_label(empty), size=style.TEXT)
-    style.finish(profile, "bushing angle θ [°]", f"depth [{unit}]")
+    style.finish(profile, "angle from +X towards +Y [°]", f"depth [{unit}]")
     bar = figure.colorbar(mesh, ax=[plan, profile], shrink=0.7, aspect=30, pad=0.02)
     bar.set_label(f"wear depth [{unit}]", size=style.TEXT)
     bar.ax.tick_params(labelsize=style.SMALL)
@@ -55,7 +55,7 @@ def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) ->
     """Draw the depth around the bushing at both edges and in the middle."""
     z = dataset["z"].values
     middle = int(np.argmin(np.abs(z)))
-    angle, around = rolled(dataset["theta"].values, depth, cut)
+    angle, around = rolled(wall_angles(dataset), depth, cut)
     curves = [
         (around[:, -1], f"top edge, z = {signed(z[-1] * 1e3)} mm", style.BLUE, style.SOLID),
         (around[:, middle], "middle", style.INK, style.DOTTED),

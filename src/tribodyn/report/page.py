@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -22,6 +22,10 @@ from tribodyn.results.summary import caution
 from tribodyn.views.encode import inside_page
 from tribodyn.views.numbers import in_words
 from tribodyn.views.playback import clock
+
+_FIRST_RESULTS: Final = 3
+_FIRST_WARNINGS: Final = 2
+"""Key results and warnings beside the moving mechanism; all others follow below."""
 
 Number = dict[str, str]
 """A headline number with ``label``, ``value``, ``unit`` and ``meaning``."""
@@ -44,12 +48,39 @@ def chosen(summary: Mapping[str, Any], names: Iterable[str]) -> list[Number]:
 
 
 def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Return all headline numbers of a summary in their groups."""
-    numbers = known(summary, str(summary["kind"])).items()
+    """Return the key results of the whole, in their groups."""
+    numbers = [entry for entry in known(summary, str(summary["kind"])).items() if not entry[1].part]
     return [
         {"name": group, "numbers": [number(headline, summary, name) for name, headline in members]}
         for group, members in groupby(numbers, key=lambda entry: entry[1].group)
     ]
+
+
+def tables(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the key results of parts, such as joints: a table of parts and quantities for each kind."""
+    numbers = [entry for entry in known(summary, str(summary["kind"])).items() if entry[1].part]
+    return [
+        _table(group, dict(members), summary)
+        for group, members in groupby(numbers, key=lambda entry: entry[1].group)
+    ]
+
+
+def _table(group: str, headlines: Mapping[str, Headline], summary: Mapping[str, Any]) -> dict[str, Any]:
+    columns = {(one.column_in(summary), one.unit): one for one in headlines.values()}
+    cells = {
+        (one.part, one.column_in(summary), one.unit): in_words(summary[name], one.digits)
+        for name, one in headlines.items()
+    }
+    parts = dict.fromkeys(one.part for one in headlines.values())
+    return {
+        "name": group,
+        "columns": [
+            {"label": label, "unit": unit, "meaning": one.meaning} for (label, unit), one in columns.items()
+        ],
+        "rows": [
+            {"part": part, "cells": [cells.get((part, *column), "–") for column in columns]} for part in parts
+        ],
+    }
 
 
 def facts(dataset: xr.Dataset) -> dict[str, str]:
@@ -96,10 +127,13 @@ def render(dataset: xr.Dataset, stills: Sequence[Path], folder: Path) -> str:
         caution=caution(summary["doubtful"]),
         time_reached=in_words(summary.get("simulated_time_s", 0.0)),
         warnings=json_attribute(dataset, "warnings", []),
+        warnings_shown=_FIRST_WARNINGS,
         notes=json_attribute(dataset, "notes", []),
         facts=facts(dataset),
-        key=chosen(summary, mechanism.key_numbers),
+        key=chosen(summary, mechanism.key_numbers)[:_FIRST_RESULTS],
         groups=grouped(summary),
+        tables=tables(summary),
+        opening=shown[0] if shown and shown[0]["playback"] else None,
         bands=bands(dataset, summary, folder),
         chapters=shown,
         solver=_solver(dataset),

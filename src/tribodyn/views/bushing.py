@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import packed, quantised
 from tribodyn.views.section import Payload
-from tribodyn.views.unrolled import height_marks, rolled, shortened
+from tribodyn.views.unrolled import height_marks, rolled, shortened, wall_angles
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Unrolled:
     Attributes
     ----------
     theta
-        Angles of the nodes as stored [rad], shape (n_theta,).
+        Angles of the nodes from +X towards +Y [rad], shape (n_theta,).
     z
         Heights of the nodes [mm], shape (n_z,), increasing from edge to edge.
     cut
@@ -114,4 +114,4 @@ def unrolled(dataset: xr.Dataset, cut: float, empty: float) -> Unrolled:
     empty
         From :func:`tribodyn.figures.unrolled.unloaded_middle` [mm].
     """
-    return Unrolled(dataset["theta"].values, dataset["z"].values * 1e3, cut, empty)
+    return Unrolled(wall_angles(dataset), dataset["z"].values * 1e3, cut, empty)

@@ -14,7 +14,7 @@ from tribodyn.views.encode import packed
 from tribodyn.views.playback import in_playback, playback_times
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak, series, signed
-from tribodyn.views.unrolled import best_cut, shares, unloaded_middle
+from tribodyn.views.unrolled import best_cut, shares, unloaded_middle, wall_angles
 
 
 def _forces(dataset: xr.Dataset) -> list[Panel]:
@@ -83,7 +83,7 @@ def _pressure(dataset: xr.Dataset) -> Payload | None:
     if fields.shape[0] < 2 or not fields.max(initial=0.0) > 0.0:
         return None
     envelope = fields.max(axis=0)
-    cut = best_cut(dataset["theta"].values, shares(fields))
+    cut = best_cut(wall_angles(dataset), shares(fields))
     places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
     return places.payload(fields, "contact pressure", "MPa", lambda peaks: 1.6 * float(np.median(peaks)))
 
@@ -134,8 +134,6 @@ def _orbit(dataset: xr.Dataset) -> Payload | None:
     return {
         "clearance": clearance,
         "reach": 1.25 * reach,
-        # The bushing point named theta lies at -(cos theta, sin theta).
-        "wall": -1,
         "joined": True,
         "looks": LOOKS,
         "places": [f"top, z = {signed(half * 1e3)} mm", "middle", f"bottom, z = {signed(-half * 1e3)} mm"],
@@ -156,8 +154,7 @@ ORBIT: Final = Section(
     caption=(
         "Seen along the axis: the circle is the clearance, the marks are the top, middle and bottom of the "
         "trunnion axis now, the lines their paths. Beyond the circle the mean planes of the surfaces "
-        "overlap. Angles at the wall are those of the pressure map: 0° is the point of the bushing on the "
-        "left, at −X, 90° that below, at −Y."
+        "overlap. Angles at the wall are those of the pressure map."
     ),
     needs=("e_x", "e_y", "phi_x", "phi_y"),
     widget="orbit",

@@ -20,6 +20,15 @@ _MOST_STEPS: Final = 3
 """Labelled stretches between the middle and an edge."""
 
 
+def wall_angles(dataset: xr.Dataset) -> FloatArray:
+    """Return the angles of the nodes of a bushing, from +X towards +Y [rad], shape (n_theta,).
+
+    Clearance circles and maps of all mechanisms count angles so. The variable ``theta`` of a bushing follows
+    the source paper: it is the direction in which the contact pushes the shaft, half a turn away.
+    """
+    return np.asarray((dataset["theta"].values + np.pi) % (2.0 * np.pi))
+
+
 def best_cut(theta: FloatArray, load: FloatArray) -> float:
     """Return the angle [deg] of :data:`CUTS` with no load around it, or else any with the least at it.
 
@@ -80,7 +89,8 @@ def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray
     tuple of arrays
         Shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes again at the end.
     """
-    around = (np.rad2deg(theta) - cut) % 360.0
+    # Rounded, so that an angle that is the cut does not lie a whole turn behind it.
+    around = np.round(np.rad2deg(theta) - cut, 9) % 360.0
     order = np.argsort(around)
     angle = cut - 360.0 * (cut > 180.0) + around[order]
     return np.append(angle, angle[0] + 360.0), np.concatenate([field[order], field[order[:1]]])

@@ -14,7 +14,7 @@ from tribodyn.views.charts import ChartCurve, Panel, over
 from tribodyn.views.numbers import in_words
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak, series
-from tribodyn.views.unrolled import best_cut, unloaded_middle
+from tribodyn.views.unrolled import best_cut, unloaded_middle, wall_angles
 
 UNITS: Final = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}
 """Units of depth [m], the coarsest first."""
@@ -67,7 +67,7 @@ def _depths(dataset: xr.Dataset, depths: FloatArray, stages: list[str]) -> Paylo
     unit, size = fitting_unit(largest)
     depths = depths / size
     envelope = depths.max(axis=0)
-    cut = best_cut(dataset["theta"].values, envelope.max(axis=1))
+    cut = best_cut(wall_angles(dataset), envelope.max(axis=1))
     places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
     return places.payload(depths, "wear depth", unit, stages=stages)
 

@@ -9,7 +9,9 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from tests.unit.mechanisms.general.made_up import result as linkage
 
+from tribodyn.mechanisms.results import known, summarise
 from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES
 from tribodyn.papers.cheng_2022.reduced.sections import CHAPTERS
 from tribodyn.report import draw_all, write
@@ -70,6 +72,19 @@ def test_it_shows_every_headline_with_its_meaning(report):
     assert "0.1 (the default, assumed)" in words
 
 
+def test_results_of_joints_are_a_table_of_joints_and_quantities(tmp_path):
+    dataset = linkage()
+    page = _page(write(dataset, tmp_path))
+    of_joints = [one for one in known(summarise(dataset), "mechanism").values() if one.part]
+    joints, quantities = ({getattr(one, name) for one in of_joints} for name in ("part", "column"))
+    assert len(joints) > 1
+    assert len(of_joints) > len(quantities)
+    heads = [attrs.get("scope") for tag, attrs in page.tags if tag == "th"]
+    assert heads.count("col") >= len(quantities)
+    # A row for each joint, not one for each number of it.
+    assert all(page.text.count(joint) <= len(quantities) for joint in joints)
+
+
 def test_stills_are_embedded_whole(report):
     sources = [attrs["src"] for tag, attrs in _page(report[2]).tags if tag == "img"]
     data = {base64.b64decode(source.removeprefix("data:image/png;base64,")) for source in sources}
@@ -115,7 +130,7 @@ def test_every_figure_names_its_data(report):
 
 def test_warnings_come_before_numbers(report):
     words = _page(report[2]).words
-    assert words.index("Before you trust") < words.index("Headline numbers")
+    assert words.index("Before you trust") < words.index("Results")
 
 
 def test_failure_comes_first_and_says_how_far_it_went(make_result, tmp_path):

@@ -63,14 +63,15 @@ def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByP
         return above_zero(peak(values[:, of_joint(dataset, joint)] if joint else values)) * scale
 
     def made(joint: str) -> Headline:
-        name = f"{label} in {joint}" if joint else f"{label} in a joint"
-        return Headline(
+        name = label if joint else f"{label} in a joint"
+        number = Headline(
             f"{name}, largest outside impacts",
             unit,
             "Joints" if joint else "Load",
             "Once the impacts after reversals of the drive have died away.",
             lambda d: value(d, joint),
         )
+        return number.of_part(joint) if joint else number
 
     return made
 

@@ -3,19 +3,23 @@
 /** Half the height that is seen, over the distance. */
 const SIGHT = 0.4;
 const HIGHEST = 1.5;
+/** Room around what is shown, over its size. */
+const MARGIN = 1.12;
 
 class Camera {
-  /** Look at the middle of ranges along the three axes, from a direction, so that all of it is seen. */
-  constructor(ranges, from, up, wide) {
+  /** Look at points from a direction, so that they fill a picture of a width over its height. */
+  constructor(points, from, up, wide) {
     this.up = up;
-    this.middle = ranges.map(([low, high]) => 0.5 * (low + high));
+    this.middle = points[0];
     this.eye = unit(from);
-    const half = ranges.map(([low, high]) => 0.5 * (high - low));
-    const [right, above, back] = this.axes();
-    const corners = [-1, 1].flatMap((a) => [-1, 1].flatMap((b) => [-1, 1].map((c) => [a * half[0], b * half[1], c * half[2]])));
-    const far = corners.map((corner) => {
-      const aside = Math.max(Math.abs(dot(corner, right)) / wide, Math.abs(dot(corner, above)));
-      return dot(corner, back) + aside / SIGHT;
+    const axes = this.axes();
+    for (const axis of axes) {
+      const along = points.map((point) => dot(minus(point, this.middle), axis));
+      this.middle = plus(this.middle, axis, 0.5 * (Math.min(...along) + Math.max(...along)));
+    }
+    const far = points.map((point) => {
+      const [right, above, back] = axes.map((axis) => dot(minus(point, this.middle), axis));
+      return back + (MARGIN * Math.max(Math.abs(right) / wide, Math.abs(above))) / SIGHT;
     });
     this.approach(Math.max(...far));
   }
@@ -65,7 +69,7 @@ function turnableStage(box) {
     stage.draw();
   };
   const hint = "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.";
-  const area = plotArea(box, isNarrow() ? 320 : 430, cameraKeys(moved), hint);
+  const area = plotArea(box, isNarrow() ? 270 : 430, cameraKeys(moved), hint);
   const stage = new Stage(area);
   cameraPointer(area, moved);
   return stage;

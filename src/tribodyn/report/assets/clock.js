@@ -60,6 +60,12 @@ const clock = {
     );
   },
 
+  /** Stop at a frame that a reader chose. */
+  put(frame) {
+    if (clock.playing) clock.toggle();
+    clock.go(frame);
+  },
+
   /** Start or stop playing. */
   toggle() {
     clock.playing = !clock.playing;
@@ -100,10 +106,10 @@ const clock = {
     clock.slider = bar.querySelector("input");
     clock.output = bar.querySelector("output");
     clock.button = bar.querySelector("button[data-play]");
-    clock.slider.addEventListener("input", () => clock.go(Number(clock.slider.value)));
+    clock.slider.addEventListener("input", () => clock.put(Number(clock.slider.value)));
     clock.button.addEventListener("click", clock.toggle);
     for (const one of bar.querySelectorAll("[data-step]")) {
-      one.addEventListener("click", () => clock.go(clock.frame + Number(one.dataset.step)));
+      one.addEventListener("click", () => clock.put(clock.frame + Number(one.dataset.step)));
     }
     const speed = bar.querySelector("select");
     speed.addEventListener("change", () => (clock.speed = Number(speed.value)));

@@ -235,7 +235,7 @@ function fieldAxes(pen, { data, frame, x, y }) {
     pen.fillStyle = theme.colour("fill");
     pen.fillRect(frame.left, high, frame.right - frame.left, low - high);
   }
-  drawBelow(pen, frame, marks(data.angle_ticks, data.angle_texts), x, "bushing angle θ [°]");
+  drawBelow(pen, frame, marks(data.angle_ticks, data.angle_texts), x, "angle from +X towards +Y [°]");
   drawLeft(pen, frame, marks(data.height_ticks, data.height_texts), y, data.empty.length ? "z [mm], middle shortened" : "z [mm]");
 }
 

@@ -16,7 +16,7 @@ widgets.linkage = (box) => {
   };
   const show = (frame) => {
     const { data, ghosts } = state;
-    stage.camera ??= new Camera(data.ranges, data.eye, data.up, stage.wide());
+    stage.camera ??= new Camera(shownPlaces(data), data.eye, data.up, stage.wide());
     const others = new Solid();
     for (const { data: other, strength } of ghosts) addLinkage(others, other, frame, strength);
     const solid = new Solid();
@@ -25,6 +25,21 @@ widgets.linkage = (box) => {
   };
   return { take, paint: () => clock.frames || show(0), show };
 };
+
+/** Return where bodies and joints are, at some of the frames. */
+function shownPlaces({ bodies, joints, outlines }) {
+  const SOME = 24;
+  const all = [...bodies, ...outlines, ...joints.map((joint) => ({ points: joint.points, n: 2, shown: 1 }))];
+  return all.flatMap(({ points, n, shown = n }) => {
+    const frames = points.length / (3 * n);
+    const step = Math.max(1, Math.floor(frames / SOME));
+    const found = [];
+    for (let frame = 0; frame < frames; frame += step) {
+      for (let k = 0; k < shown; k++) found.push(pointAt(points, n, frame, k));
+    }
+    return found;
+  });
+}
 
 /** Return a stretch of colour for the key. */
 function bar(colour) {

@@ -6,7 +6,7 @@ const MARK = 6;
 const BESIDE = 4;
 
 widgets.orbit = (box) => {
-  const area = plotArea(box, isNarrow() ? 310 : 380, {}, "Follows the time slider.");
+  const area = plotArea(box, orbitHeight(box), {}, "Follows the time slider.");
   const ground = new Sheet(area);
   const above = new Sheet(area);
   const key = tools(box);
@@ -18,6 +18,7 @@ widgets.orbit = (box) => {
     Object.assign(state, { data, ghosts });
     key.replaceChildren(
       ...data.places.map((place, k) => element("span", { class: "key" }, swatch(data.looks[k]), place)),
+      element("span", { class: "key" }, "Angles from +X towards +Y"),
     );
   };
   const paint = () => {
@@ -39,6 +40,12 @@ widgets.orbit = (box) => {
   };
   return { take, paint, show };
 };
+
+/** Return a height in which the circle fills a box, but no more than a screen has room for [px]. */
+function orbitHeight(box) {
+  const filled = box.clientWidth - ORBIT.left - ORBIT.right + ORBIT.top + ORBIT.below;
+  return Math.max(200, Math.min(isNarrow() ? 310 : 380, filled));
+}
 
 /** Make a mark as in the plot, for the key below it. */
 function swatch({ colour, symbol }) {
@@ -73,7 +80,7 @@ function drawOrbitAxes(pen, { data, ghosts, frame, x, y }) {
     for (const ghost of ghosts) drawClearance(pen, ghost.data.clearance, x, y, ghost.strength, [4, 3]);
     drawClearance(pen, data.clearance, x, y, 1, []);
   });
-  if (data.clearance > 0) nameAngles(pen, data, x, y);
+  if (data.clearance > 0) nameAngles(pen, data.clearance, x, y);
   drawBelow(pen, frame, marks, x, "X [µm]");
   pen.save();
   pen.translate(frame.left - ORBIT.left, 0);
@@ -95,18 +102,18 @@ function drawClearance(pen, clearance, x, y, strength, dash) {
   pen.globalAlpha = 1;
 }
 
-/** Write the angles that name points of the wall. */
-function nameAngles(pen, data, x, y) {
+/** Write the angles that name points of the wall, and how they are counted. */
+function nameAngles(pen, clearance, x, y) {
   Object.assign(pen, { fillStyle: theme.colour("quiet"), textAlign: "center", textBaseline: "middle" });
   pen.font = theme.font(TEXT);
   for (const theta of [0, 90, 180, 270]) {
     const angle = (theta * Math.PI) / 180;
-    const [right, up] = [Math.cos(angle), Math.sin(angle)].map((part) => data.wall * Math.round(part));
+    const [right, up] = [Math.cos(angle), Math.sin(angle)].map(Math.round);
     const text = `${theta}°`;
     const beyond = right ? 0.5 * pen.measureText(text).width + BESIDE : BESIDE + 6;
     // Those at the sides stand above the axis, where no mark of it is.
     const above = right ? 9 : 0;
-    pen.fillText(text, x.at(right * data.clearance) + right * beyond, y.at(up * data.clearance) - up * beyond - above);
+    pen.fillText(text, x.at(right * clearance) + right * beyond, y.at(up * clearance) - up * beyond - above);
   }
 }
 

@@ -15,6 +15,7 @@ pageData().then((data) => {
   document.documentElement.classList.replace("plain", "alive");
   clock.start();
   watchFigures();
+  if (clock.frames && !matchMedia("(prefers-reduced-motion: reduce)").matches) clock.toggle();
 });
 
 /** Open what a link inside the page points into. */

@@ -29,7 +29,7 @@ widgets.scene = (box) => {
   const show = (frame) => {
     const { data } = state;
     const view = VIEWS[state.view];
-    stage.camera ??= new Camera(view.ranges(data), view.from, [0, 0, 1], stage.wide());
+    stage.camera ??= new Camera(view.points(data), view.from, [0, 0, 1], stage.wide());
     const load = loadOn(data, page.figures.pressure, frame, state.magnification);
     stage.set([movingParts(data, frame, state.magnification), clearParts(state, frame), load], names(data, state));
   };
@@ -194,8 +194,7 @@ function loadOn(data, load, frame, magnification) {
     const share = Math.min(1, factor * load.steps[shown * columns * rows + n]);
     const angle = (load.angle[n % columns] * Math.PI) / 180;
     const at = 3 * Math.round(share * (SHADES_OF_LOAD - 1));
-    // The point of the bushing named theta lies at -(cos theta, sin theta).
-    const point = [-wall * Math.cos(angle), -wall * Math.sin(angle), middle + load.z[Math.floor(n / columns)]];
+    const point = [wall * Math.cos(angle), wall * Math.sin(angle), middle + load.z[Math.floor(n / columns)]];
     solid.corner(point, [ramp[at], ramp[at + 1], ramp[at + 2], 255 * Math.min(0.9, 3 * share)]);
   }
   const loaded = (corner) => solid.colours[4 * corner + 3] > 0;
@@ -210,22 +209,22 @@ const VIEWS = {
   whole: {
     label: "Whole mechanism",
     from: [0.32, -1, 0.42],
-    ranges({ pivot, size }) {
-      const { ring_radius, lever, vane } = size;
-      return [
-        [-ring_radius * Math.sin(RING.before) - 25, pivot[0] + 65],
-        [-60, lever + 45],
-        [Math.min(pivot[2], ring_radius - vane) - 55, ring_radius + 30],
-      ];
+    points(data) {
+      const { ring_radius, ring_angle, vane } = data.size;
+      const last = data.theta_v.length - 1;
+      const stretch = [-RING.before, 0, 0.5 * ring_angle, ring_angle, ring_angle + RING.after];
+      const ring = [0, last >> 1, last].flatMap((frame) => stretch.map((angle) => ringPoint(data, frame, angle, ring_radius)));
+      const blade = [-1, 1].flatMap((side) => [[side * BLADE.chord, 0, ring_radius - vane], [side * BLADE.chord, 0, ring_radius + 15]]);
+      return [...ring, ...blade, plus(data.pivot, [12, 0, -12])];
     },
   },
   joint: {
     label: "Trunnion and bushing",
     from: [0.65, -1, 0.55],
-    ranges({ size }) {
-      const half = 1.5 * size.length;
-      const middle = size.ring_radius - 0.8 * size.length;
-      return [[-half, half], [-half, 1.3 * half], [middle - 1.1 * half, middle + 0.9 * half]];
+    points({ size }) {
+      const half = size.length;
+      const [low, high] = [size.ring_radius - 2.2 * half, size.ring_radius + 0.6 * half];
+      return [-1, 1].flatMap((x) => [-1, 1.5].flatMap((y) => [low, high].map((z) => [x * half, y * half, z])));
     },
   },
 };

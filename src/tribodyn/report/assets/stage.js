@@ -84,8 +84,9 @@ class Stage {
   write(pen, matrix, { text, at, aside }, written) {
     const [x, y] = this.project(matrix, at);
     pen.font = theme.font();
-    const a = x + aside[0];
     const wide = pen.measureText(text).width;
+    const room = this.area.clientWidth - wide - 6;
+    const a = aside[0] < 0 ? Math.max(x + aside[0], wide + 6) : Math.min(x + aside[0], room);
     const near = (other, b) => Math.abs(other.a - a) < 0.5 * (other.wide + wide) && Math.abs(other.b - b) < LINE;
     let b = y + aside[1];
     while (written.some((other) => near(other, b))) b += (Math.sign(aside[1]) || -1) * LINE;
@@ -98,6 +99,8 @@ class Stage {
     pen.textBaseline = "middle";
     pen.textAlign = Math.abs(aside[0]) < 15 ? "center" : aside[0] < 0 ? "right" : "left";
     const up = pen.textAlign === "center" ? Math.sign(aside[1]) * 9 : 0;
+    Object.assign(pen, { strokeStyle: theme.colour("card"), lineWidth: 3, lineJoin: "round" });
+    pen.strokeText(text, a + Math.sign(aside[0]) * 3, b + up);
     pen.fillText(text, a + Math.sign(aside[0]) * 3, b + up);
   }
 

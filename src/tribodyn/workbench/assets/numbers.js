@@ -1,4 +1,4 @@
-// The headline numbers of the run that is shown, beside a pinned one; of peaks the range over the last runs.
+// The key results of the run that is shown, beside a pinned one; of peaks the range over the last runs.
 
 /** Numbers that are shown before they are asked for, the robust ones and those that matter most: beside controls, below them. */
 const MOST_AT_FIRST = { wide: 7, narrow: 4 };

@@ -120,7 +120,6 @@ def _orbit(dataset: xr.Dataset, joint: int, times: FloatArray) -> dict[str, Any]
     return {
         "clearance": clearance,
         "reach": 1.25 * max(clearance, peak(x[inside]), peak(y[inside])),
-        "wall": 1,
         "joined": False,
         "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
         "places": ["shaft"],
@@ -205,8 +204,9 @@ ORBITS: Final = Section(
     name="orbits",
     title="Shafts in their bores",
     caption=(
-        "Seen along the axis of the joint: the circle is the clearance, the mark is the middle of the "
-        "shaft now, the line its path. Beyond the circle the mean planes of the surfaces overlap."
+        "Seen along the axis of the joint, X and Y are its axes x and y. The circle is the clearance, the "
+        "mark is the centre of the shaft now, the line its path. Beyond the circle the mean planes of the "
+        "surfaces overlap."
     ),
     needs=("displacement", "clearance", "joint"),
     widget="choice",

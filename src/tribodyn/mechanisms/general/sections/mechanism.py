@@ -14,9 +14,6 @@ from tribodyn.views.encode import packed
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section
 
-_ROOM: Final = 0.08
-"""Room around the mechanism, as a share of its size."""
-
 
 def at_frames(dataset: xr.Dataset) -> tuple[FloatArray, FloatArray] | None:
     """Return positions [m] and unit quaternions at the frames, (n_frames, n_bodies, 3) and (…, 4).
@@ -59,13 +56,9 @@ def data(dataset: xr.Dataset) -> Payload | None:
     shown = (*bodies, *(mark[:, 0] for mark in marks), *outlines)
     everywhere = np.concatenate([part.reshape(-1, 3) for part in shown])
     low, high = everywhere.min(axis=0), everywhere.max(axis=0)
-    size = float(np.linalg.norm(high - low))
     eye, up = view(everywhere)
     return {
-        "size": size,
-        "ranges": [
-            [float(a - _ROOM * size), float(b + _ROOM * size)] for a, b in zip(low, high, strict=True)
-        ],
+        "size": float(np.linalg.norm(high - low)),
         "eye": eye.tolist(),
         "up": up.tolist(),
         "bodies": [

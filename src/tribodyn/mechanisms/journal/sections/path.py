@@ -23,7 +23,6 @@ def data(dataset: xr.Dataset) -> Payload | None:
     return {
         "clearance": clearance,
         "reach": 1.25 * max(clearance, peak(x), peak(y), 1e-3),
-        "wall": -1,
         "joined": False,
         "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
         "places": ["centre"],
