@@ -16,7 +16,9 @@ import pytest
 from llvmlite.binding import get_host_cpu_features
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
-from tribodyn.mechanisms.catalogue import built_in
+from tribodyn.mechanisms.catalogue import built_in, load_case
+from tribodyn.mechanisms.results import read
+from tribodyn.studies import sweep
 
 BEGIN = """
 import json, sys
@@ -28,8 +30,12 @@ simulate(load_case("journal-oil").replace({"run.duration": "0.5 ms"}))
 """
 RUN = """
 result = simulate(load_case("vsv").replace({"run.duration": "20 ms", "run.output_interval": "1 ms"}))
-json.dump({name: result[name].values.tolist() for name in result.data_vars}, sys.stdout)
+found = {name: result[name].values.tolist() for name in result.data_vars}
+general = simulate(load_case("slider-crank").replace({"run.cycles": 0.01}))
+hashes = [general.attrs[name] for name in ("data_sha256", "rows_sha256")]
+json.dump(found | {"slider-crank": hashes}, sys.stdout)
 """
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")
 HASHES = """
 from hashlib import sha256
 from numba.core.registry import cpu_target
@@ -89,8 +95,21 @@ def hashes_here(*cases: str) -> dict[str, object]:
     return found
 
 
-def test_what_a_process_did_before_changes_no_bit() -> None:
-    assert numbers(BEGIN + RUN) == numbers(BEGIN + BEFORE + RUN)
+def test_what_a_process_did_before_and_its_threads_change_no_bit() -> None:
+    one, four = (dict.fromkeys(THREADS, count) for count in "14")
+    assert numbers(BEGIN + RUN, **one) == numbers(BEGIN + BEFORE + RUN, **four)
+
+
+def test_one_and_two_workers_give_the_same_bits(tmp_path: Path) -> None:
+    vary = {"joint.friction_coefficient": "0.1,0.2,0.3"}
+    case = load_case("journal-dry").replace({"run.duration": "0.5 ms"})
+    for workers in (1, 2):
+        sweep(case, vary, workers=workers, directory=tmp_path / str(workers))
+    one, two = (sorted((tmp_path / folder).rglob("result*.nc")) for folder in "12")
+    assert len(one) == 3
+    assert [read(path).attrs["rows_sha256"] for path in one] == [
+        read(path).attrs["rows_sha256"] for path in two
+    ]
 
 
 @pytest.mark.long

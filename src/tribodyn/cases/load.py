@@ -84,7 +84,7 @@ def read_case(
     InputError
         There is no such case or file, or something in the file is wrong.
     """
-    if isinstance(case, str) and case in built_in:
+    if isinstance(case, str) and not case.endswith(_FILE) and case in built_in:
         model, given = built_in[case].model, _given(case, built_in[case])
         return build(model, _changed(model, given, changes), f"built-in case {case}")
     name = os.fspath(case)
@@ -140,6 +140,11 @@ class Known:
     built_in: Mapping[str, BuiltIn]
     files: tuple[str, ...] = ()
 
+    @property
+    def names(self) -> list[str]:
+        """What the key may be, files aside."""
+        return list(dict.fromkeys([*self.kinds, *self.built_in]))
+
 
 def _of_file(name: str, known: Known) -> tuple[type[Case], dict[str, Entry]]:
     """Return the kind of case and the entries of a file, and of those that it begins with."""
@@ -168,22 +173,20 @@ def _changed(model: type[Case], entries: dict[str, Entry], changes: Mapping[str,
 
 def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[type[Case], dict[str, Entry]]:
     """Return the kind of case that the key ``case`` names, and what a built-in case or a file gives."""
-    names = dict.fromkeys([*known.kinds, *known.built_in])
-    allowed = ", ".join(names)
     if "case" not in entries:
         first = next(iter(known.kinds))
-        words = f'this key is missing; write case = "{first}" at the top; known: {allowed}'
+        words = f'this key is missing; write case = "{first}" at the top; known: {", ".join(known.names)}'
         raise InputError(words, key="case", source=source)
     name = entries["case"].value
     if isinstance(name, str) and name.endswith(_FILE) and known.files:
         return _base(name, entries["case"], known)
-    if not isinstance(name, str) or name not in names:
-        files = ", or another case file" if known.files else ""
-        hint = meant(str(name), names)
-        raise InputError(f"given {shown(name)}; allowed: {allowed}{files}{hint}", key="case", source=source)
-    if name in known.kinds:
+    if isinstance(name, str) and name in known.kinds:
         return known.kinds[name], {"case": entries["case"]}
-    return known.built_in[name].model, _given(name, known.built_in[name])
+    if isinstance(name, str) and name in known.built_in:
+        return known.built_in[name].model, _given(name, known.built_in[name])
+    files = ", or another case file" if known.files else ""
+    allowed = f"{', '.join(known.names)}{files}{meant(str(name), known.names)}"
+    raise InputError(f"given {shown(name)}; allowed: {allowed}", key="case", source=source)
 
 
 def _base(name: str, entry: Entry, known: Known) -> tuple[type[Case], dict[str, Entry]]:

@@ -7,7 +7,6 @@ from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar, Final
 
 import numpy as np
-from scipy.optimize import brentq
 
 from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor
 from tribodyn.contact.quadrature import exceedance
@@ -138,6 +137,7 @@ class ContactLaw(ABC):
 
     def design_separation(self) -> float:
         """Return the separation h* at which the stiffness pressure is the design pressure [1]."""
+        from scipy.optimize import brentq
 
         def excess(h_star: float) -> float:
             return float(self.stiffness_pressure(np.array([h_star]))[0]) - self.design_pressure

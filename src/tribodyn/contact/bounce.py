@@ -14,8 +14,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from scipy.optimize import brentq
-
 from mebdf.kernels.elementary import portable
 from tribodyn.contact.base import DESIGN_PRESSURE
 from tribodyn.core.arrays import FloatArray
@@ -102,6 +100,7 @@ def bounce(
 
 def undamped_depth(table: ContactTable, pressure: float) -> float:
     """Return the separation h* at which the stiffness pressure is ``pressure`` [Pa]."""
+    from scipy.optimize import brentq
 
     def excess(h_star: float) -> float:
         return float(pressure_and_damping(table, h_star)[0]) - pressure
@@ -127,6 +126,8 @@ def calibrating_scale(
     restitution
         What is wanted, 0 < e ≤ 1.
     """
+    from scipy.optimize import brentq
+
     if restitution == 1.0:
         return 0.0
 

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import lambertw
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
@@ -148,6 +147,8 @@ def rebound(ratio: FloatArray) -> FloatArray:
     same at both ends of the contact: a − ln(1 + a) = −x − ln(1 − x), x = a·e. So 1 − x is minus the Lambert
     W function of −(1 + a) exp(−1 − a).
     """
+    from scipy.special import lambertw
+
     ratio = np.asarray(ratio, dtype=np.float64)
     damped = np.where(ratio > 0.0, ratio, 1.0)
     argument = -(1.0 + damped) * portable.exp(-1.0 - damped)

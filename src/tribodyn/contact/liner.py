@@ -18,14 +18,16 @@ is that of the asperities and P²/2k_w of the layer.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.contact.table import table_of_nodes
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicHermiteSpline
 
 DEEPEST: Final = 256.0
 """Largest range of the gap in a table, in σ: a soft layer sinks by more before asperities end."""
@@ -85,6 +87,8 @@ def lined(table: ContactTable, stiffness: float) -> ContactTable:
     stiffness
         k_w σ: pressure that the layer takes for each σ [Pa].
     """
+    from scipy.interpolate import CubicHermiteSpline
+
     step = 1.0 / table.inverse_step
     separations: FloatArray = table.h_first + step * np.arange(len(table.nodes), dtype=np.float64)
     pressure = CubicHermiteSpline(separations, table.nodes[:, 0], table.nodes[:, 1] / step)

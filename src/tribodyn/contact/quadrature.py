@@ -12,7 +12,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quadrature import gauss_legendre
 
-_NODES, _WEIGHTS = gauss_legendre(48)
+_POINTS: Final = 48
 _DECAY: Final = 40.0
 """Heights whose density is below exp(-40) = 4e-18 of the largest one in the interval are left out."""
 
@@ -44,7 +44,7 @@ def asperity_integral(
     """
     h, t, half = _nodes(h_star, lower, upper)
     integrand = 2.0 * portable.power(t, 2.0 * power + 1.0) * weight(h + t**2)
-    return np.asarray(half[..., 0] * np.sum(integrand * _WEIGHTS, axis=-1))
+    return np.asarray(half[..., 0] * np.sum(integrand * gauss_legendre(_POINTS)[1], axis=-1))
 
 
 def height_integral(
@@ -56,7 +56,8 @@ def height_integral(
     """
     h, t, half = _nodes(h_star, lower, upper)
     s = t**2
-    return np.asarray(half[..., 0] * np.sum(2.0 * t * load(s) * density(h + s) * _WEIGHTS, axis=-1))
+    weights = gauss_legendre(_POINTS)[1]
+    return np.asarray(half[..., 0] * np.sum(2.0 * t * load(s) * density(h + s) * weights, axis=-1))
 
 
 def _nodes(h_star: FloatArray, lower: float, upper: float) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -65,4 +66,4 @@ def _nodes(h_star: FloatArray, lower: float, upper: float) -> tuple[FloatArray, 
     reach = np.sqrt(np.maximum(h + lower, 0.0) ** 2 + 2.0 * _DECAY) - h
     t_first = math.sqrt(lower)
     half = 0.5 * (np.sqrt(np.minimum(upper, reach)) - t_first)
-    return h, t_first + half * (1.0 + _NODES), half
+    return h, t_first + half * (1.0 + gauss_legendre(_POINTS)[0]), half

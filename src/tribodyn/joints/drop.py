@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from scipy.integrate import DOP853
 
 from tribodyn.contact.bounce import undamped_depth
 from tribodyn.core.arrays import FloatArray
@@ -58,6 +57,8 @@ def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:
     speed
         Speed at the onset of contact [m/s].
     """
+    from scipy.integrate import DOP853
+
     data = replace(joint, friction=replace(joint.friction, coefficient=0.0)).data()
     memory, out = new_memory(data), np.empty(N_WRENCH)
     pose = memory.scratch.pose

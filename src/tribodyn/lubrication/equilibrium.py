@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.optimize import brentq, root
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
@@ -135,6 +134,7 @@ class _Evaluations:
 
 def _distance(film: Film, at: _Evaluations, size: float) -> float:
     """Return the eccentricity [m] at which the film pushes with ``size`` [N]."""
+    from scipy.optimize import brentq
 
     def excess(eccentricity: float) -> float:
         """Return force less load over their sum: finite from the centre on, and of order one everywhere."""
@@ -158,6 +158,8 @@ def _distance(film: Film, at: _Evaluations, size: float) -> float:
 
 def _balanced(film: Film, at: _Evaluations, load: tuple[float, float], guess: FloatArray) -> FloatArray:
     """Return the position at which force and load cancel [m], shape (2,), from one near by."""
+    from scipy.optimize import root
+
     size, clearance = math.hypot(*load), film.clearance
 
     def residual(share: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -29,7 +29,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.optimize import brentq
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
@@ -194,6 +193,8 @@ def contact_factor(separation: FloatArray) -> FloatArray:
 
 def reach() -> float:
     """Return the separation from which φ_c is 1."""
+    from scipy.optimize import brentq
+
     return float(brentq(lambda h: np.polynomial.polynomial.polyval(h, COEFFICIENTS), 2.5, 3.0, xtol=1e-15))
 
 

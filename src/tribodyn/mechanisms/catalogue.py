@@ -9,8 +9,10 @@ from __future__ import annotations
 import importlib
 import os
 import warnings
-from collections.abc import Collection, Iterator, Mapping
-from importlib.metadata import entry_points
+from collections.abc import Iterator, Mapping
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import Final, Protocol, TypeAlias, cast
@@ -24,59 +26,114 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.base import MechanismDescriptor
 
-FOLDERS: Final = (
-    "general",
-    "journal",
-)
-"""Mechanisms by their folders beside this file, whose ``descriptor.py`` holds their ``MECHANISM``."""
+FOLDERS: Final = {
+    "mechanism": "general",
+    "journal": "journal",
+}
+"""Folders beside this file, whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases."""
 _GROUP: Final = "tribodyn.mechanisms"
 
 
-def _described(folder: str) -> MechanismDescriptor:
-    return cast(
-        MechanismDescriptor, importlib.import_module(f"tribodyn.mechanisms.{folder}.descriptor").MECHANISM
-    )
+@cache
+def _described(kind: str) -> MechanismDescriptor:
+    """Return a mechanism of this package."""
+    descriptor = importlib.import_module(f"tribodyn.mechanisms.{FOLDERS[kind]}.descriptor")
+    return cast(MechanismDescriptor, descriptor.MECHANISM)
 
 
-def _registered(taken: Collection[str]) -> Iterator[MechanismDescriptor]:
-    """Yield the mechanisms under the entry points ``tribodyn.mechanisms``.
+@cache
+def _entries() -> tuple[EntryPoint, ...]:
+    """Return the entry points ``tribodyn.mechanisms``."""
+    return tuple(entry_points(group=_GROUP))
 
-    One that cannot be imported, is no mechanism or takes the name of another is left out with a warning: it
-    must not keep a user from the others.
+
+@cache
+def _registered(entry: EntryPoint) -> MechanismDescriptor | None:
+    """Return the mechanism of an entry point; None, with a warning, where it is not usable.
+
+    One that cannot be imported, is no mechanism or takes the name of another must not keep a user from the
+    others.
     """
-    kinds = set(taken)
-    for entry in entry_points(group=_GROUP):
-        try:
-            mechanism = entry.load()
-            if not isinstance(mechanism, MechanismDescriptor):
-                raise TypeError("it is no MechanismDescriptor")
-            if mechanism.kind in kinds:
-                raise ValueError(f"there is a mechanism {mechanism.kind!r} already")
-        except Exception as error:
-            warnings.warn(f"the mechanism {entry.value} was left out: {error}", stacklevel=2)
-            continue
-        kinds.add(mechanism.kind)
-        yield mechanism
+    try:
+        mechanism = entry.load()
+        if not isinstance(mechanism, MechanismDescriptor):
+            raise TypeError("it is no MechanismDescriptor")
+        before = (_registered(other) for other in _entries()[: _entries().index(entry)])
+        if mechanism.kind in FOLDERS or mechanism.kind in {other.kind for other in before if other}:
+            raise ValueError(f"there is a mechanism {mechanism.kind!r} already")
+    except Exception as error:
+        warnings.warn(f"the mechanism {entry.value} was left out: {error}", stacklevel=2)
+        return None
+    return mechanism
 
 
-def _all() -> Iterator[MechanismDescriptor]:
-    ours = [_described(folder) for folder in FOLDERS]
-    yield from _registered([mechanism.kind for mechanism in ours])
-    yield from ours
+class _Mechanisms(Mapping[str, MechanismDescriptor]):
+    """Every mechanism by the kind of its cases; one is imported when it is first used.
+
+    Those registered by entry points come first. The name of an entry point need not be the kind: then all
+    entry points are loaded to find it.
+    """
+
+    def __getitem__(self, kind: str) -> MechanismDescriptor:
+        if kind in FOLDERS:
+            return _described(kind)
+        for entry in sorted(_entries(), key=lambda entry: entry.name != kind):
+            mechanism = _registered(entry)
+            if mechanism is not None and mechanism.kind == kind:
+                return mechanism
+        raise KeyError(kind)
+
+    def __iter__(self) -> Iterator[str]:
+        for mechanism in map(_registered, _entries()):
+            if mechanism is not None:
+                yield mechanism.kind
+        yield from FOLDERS
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
-MECHANISMS: Final[dict[str, MechanismDescriptor]] = {mechanism.kind: mechanism for mechanism in _all()}
+class _Kinds(Mapping[str, "type[Case]"]):
+    """Case models by their kinds, see :func:`kinds`."""
+
+    def __getitem__(self, kind: str) -> type[Case]:
+        return MECHANISMS[kind].case
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(MECHANISMS)
+
+    def __len__(self) -> int:
+        return len(MECHANISMS)
+
+
+class _BuiltIn(Mapping[str, BuiltIn]):
+    """Built-in cases by name, see :func:`built_in`; the mechanisms after that of a case are not imported."""
+
+    def __getitem__(self, name: str) -> BuiltIn:
+        for mechanism in MECHANISMS.values():
+            if name in mechanism.built_in:
+                return mechanism.built_in[name]
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return chain.from_iterable(mechanism.built_in for mechanism in MECHANISMS.values())
+
+    def __len__(self) -> int:
+        return sum(len(mechanism.built_in) for mechanism in MECHANISMS.values())
+
+
+MECHANISMS: Final[Mapping[str, MechanismDescriptor]] = _Mechanisms()
 """Every mechanism, by the kind of its cases: those registered by entry points, and our own."""
 
 
-def kinds() -> dict[str, type[Case]]:
+def kinds() -> Mapping[str, type[Case]]:
     """Return what may stand under ``case =`` in a file."""
-    return {kind: mechanism.case for kind, mechanism in MECHANISMS.items()}
+    return _Kinds()
 
 
-def built_in() -> dict[str, BuiltIn]:
+def built_in() -> Mapping[str, BuiltIn]:
     """Return the cases that can be run by name."""
-    return {name: case for mechanism in MECHANISMS.values() for name, case in mechanism.built_in.items()}
+    return _BuiltIn()
 
 
 def load_case(

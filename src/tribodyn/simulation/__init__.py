@@ -19,7 +19,7 @@ from tribodyn.core.stopping import Stop, asked
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.base import MechanismDescriptor, ResultPart, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
-from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded
+from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded, run_loaded
 from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
@@ -87,14 +87,16 @@ def simulate(
         If ``stop`` was true before anything was computed.
     """
     case = with_controllers(case_of(case), controllers or {})
+    repeatable = not (case.campaign_cycles or law or drive or loads or controllers)
     # Equations do not depend on the law, and who compiles them could not import it.
-    session = _prepared(case, stop)
+    session = _session(case) if repeatable else _prepared(case, stop)
     with asked(stop), one_thread():
         own = with_functions(case, drive, loads)
         chosen = own if law is None else _with_law(own, law)
         session = session if chosen is case else _session(chosen)
         session = replace(session, progress=progress, stop=stop)
-        return _simulated(session, None if checkpoint is None else Path(checkpoint))
+        run = partial(_simulated, session, None if checkpoint is None else Path(checkpoint))
+        return run_loaded(case, run) if repeatable else run()
 
 
 def with_controllers(case: Case, functions: Mapping[str, OwnFunction]) -> Case:

@@ -14,7 +14,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import Stopped
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from tribodyn.cases.case import Case
 
 Steps = Callable[[], Any]
+_Result = TypeVar("_Result")
 
 _CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent()"
 _LISTEN: Final = 0.1
@@ -67,6 +68,29 @@ def loaded(case: Case, first_steps: Steps) -> bool:
             return True
         _loaded.add(choices)
     return True
+
+
+def run_loaded(case: Case, run: Callable[[], _Result]) -> _Result:
+    """Return the result of a run; where it would compile, another process compiles its equations first.
+
+    Parameters
+    ----------
+    case
+        The case.
+    run
+        Runs it. Where equations are not compiled it is broken off and called again: it must be repeatable.
+    """
+    choices = choices_of(case)
+    if choices not in _loaded:
+        try:
+            with loading_only():
+                result = run()
+        except NotCompiled:
+            compile_elsewhere(case)
+        else:
+            _loaded.add(choices)
+            return result
+    return run()
 
 
 def compile_elsewhere(case: Case) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
 from typing import Any, Final
 
 import numpy as np
@@ -38,13 +39,10 @@ def of_rows(solution: Solution) -> str:
 
 def _add(digest: Any, name: str, value: Any) -> None:
     """Add a number, a text, an array, a record, or a tuple of such; functions add their place alone."""
-    if isinstance(value, tuple):
-        for part, inside in zip(getattr(value, "_fields", range(len(value))), value, strict=True):
-            _add(digest, f"{name}.{part}", inside)
-    elif (fields := getattr(getattr(value, "dtype", None), "names", None)) is not None:
-        for part in fields:
-            if not (part in _OF_PROCESS and value.dtype[part].kind == "i"):
-                _add(digest, f"{name}.{part}", value[part])
+    if (parts := _parts(value)) is not None:
+        for part, inside in parts:
+            if not (part in _OF_PROCESS and np.asarray(inside).dtype.kind == "i"):
+                _add(digest, f"{name}.{part}", inside)
     elif isinstance(value, str):
         digest.update(f"{name} {value} ".encode())
     elif isinstance(value, np.ndarray | np.generic | float | int):
@@ -54,3 +52,11 @@ def _add(digest: Any, name: str, value: Any) -> None:
         digest.update(f"{name} {array.dtype.str} {array.shape} ".encode() + array.tobytes())
     else:
         digest.update(f"{name} ".encode())
+
+
+def _parts(value: Any) -> Iterator[tuple[object, Any]] | None:
+    """Return the parts of a tuple, a record or an array of records with their names, else None."""
+    if isinstance(value, tuple):
+        return zip(getattr(value, "_fields", range(len(value))), value, strict=True)
+    names = getattr(getattr(value, "dtype", None), "names", None)
+    return None if names is None else ((part, value[part]) for part in names)

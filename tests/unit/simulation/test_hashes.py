@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tribodyn.cli.main import main
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.problem import CompiledFunctions, Problem, Solution
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.summary import summarise
@@ -25,15 +25,18 @@ class Data(NamedTuple):
 
     couplings: Any
     table: FloatArray
+    exchanges: IntArray
 
 
-def problem(*, address: int = 1, stiffness: float = 2.0, entry: float = 3.0, start: float = 0.0) -> Problem:
+def problem(
+    *, address: int = 1, stiffness: float = 2.0, entry: float = 3.0, start: float = 0.0, pivot: int = 0
+) -> Problem:
     """Return a problem that nothing integrates."""
     couplings = np.zeros(1, COUPLING)
     couplings["law"], couplings["stiffness"] = address, stiffness
     return Problem(
         functions=CompiledFunctions(*[NOTHING] * 7),
-        data=Data(couplings, np.array([1.0, entry])),
+        data=Data(couplings, np.array([1.0, entry]), np.array([pivot])),
         memory=None,
         y0=np.array([start]),
         t_span=(0.0, 1.0),
@@ -58,8 +61,9 @@ def test_each_number_that_a_run_reads_counts() -> None:
     assert len(set(found)) == len(found)
 
 
-def test_addresses_and_kinds_of_not_a_number_do_not_count() -> None:
+def test_addresses_pivots_and_kinds_of_not_a_number_do_not_count() -> None:
     assert hashes.of_data(problem(address=7)) == hashes.of_data(problem())
+    assert hashes.of_data(problem(pivot=3)) == hashes.of_data(problem())
     assert hashes.of_data(problem(entry=-np.nan)) == hashes.of_data(problem(entry=np.nan))
 
 

@@ -26,5 +26,6 @@ def test_a_first_run_assembles_its_mechanism_once_and_equals_the_second(
     monkeypatch.setattr(system, "assemble", counted)
     first, second = td.simulate(CASE), td.simulate(CASE)
     assert len(made) == 2
+    assert first.attrs["data_sha256"] == second.attrs["data_sha256"]
     for name, values in first.data_vars.items():
         np.testing.assert_array_equal(values.values, second[name].values)

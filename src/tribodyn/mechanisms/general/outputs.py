@@ -16,9 +16,9 @@ quaternion the axis takes the part
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.directions import unit
@@ -29,6 +29,9 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.output_keys import UNITS, OutputKeys
 from tribodyn.mechanisms.general.skeleton import rotated
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 
 @dataclass(frozen=True)
@@ -187,6 +190,8 @@ def motion_of(state: FloatArray) -> Motion:
 
 def _rotation(motion: Motion, body: int) -> Rotation:
     """Return how a body is turned from the drawing; the ground is not."""
+    from scipy.spatial.transform import Rotation
+
     if body < 0:
         return Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (motion.position.shape[0], 1)))
     return rotations(motion.orientation[:, body])
@@ -194,6 +199,8 @@ def _rotation(motion: Motion, body: int) -> Rotation:
 
 def rotations(quaternions: FloatArray) -> Rotation:
     """Return the rotations of quaternions, scalar first, shape (n, 4)."""
+    from scipy.spatial.transform import Rotation
+
     return Rotation.from_quat(np.roll(quaternions, -1, axis=1))
 
 

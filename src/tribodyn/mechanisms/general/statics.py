@@ -12,7 +12,6 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
@@ -157,6 +156,8 @@ class Equilibria:
 
     def _displaced(self, number: int, ways: FloatArray) -> FloatArray:
         """Return the ideal state, displaced, shape (n_bodies, 13)."""
+        from scipy.spatial.transform import Rotation
+
         found = self._ideal[self._where[number]].copy()
         found[:, :ORIENTATION] += ways[:, :3]
         turned = Rotation.from_rotvec(ways[:, 3:]) * rotations(found[:, ORIENTATION:VELOCITY])

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, constant
@@ -33,6 +32,8 @@ def course(journal: Journal, duration: float) -> Any:
 
 def _speed(spin: Signal, times: FloatArray) -> FloatArray:
     """Return the speed of rotation [rad/s] at times [s]; a table's ends hold beyond it."""
+    from scipy.interpolate import PPoly
+
     if not spin.knots.size:
         return np.full(times.shape, spin.coefficients[0])
     within = np.clip(times, spin.knots[0], spin.knots[-1])
@@ -41,6 +42,8 @@ def _speed(spin: Signal, times: FloatArray) -> FloatArray:
 
 def angle(spin: Signal, times: FloatArray) -> FloatArray:
     """Return the angle of rotation since the start [rad] at times [s]."""
+    from scipy.interpolate import PPoly
+
     if not spin.knots.size:
         return np.asarray(spin.coefficients[0] * times)
     turned = PPoly(spin.coefficients, spin.knots).antiderivative()
@@ -50,6 +53,8 @@ def angle(spin: Signal, times: FloatArray) -> FloatArray:
 
 def _reversals(spin: Signal) -> FloatArray:
     """Return the times at which a table's speed is zero [s]."""
+    from scipy.interpolate import PPoly
+
     if not spin.knots.size:
         return np.empty(0)
     found = PPoly(spin.coefficients, spin.knots).roots(extrapolate=False)

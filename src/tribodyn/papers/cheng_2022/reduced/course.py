@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
@@ -16,6 +15,9 @@ from tribodyn.kernels.vsv.data import CRANK_ANGLE, TIME, VANE
 from tribodyn.mechanisms.actions import Term, crossings, inside, kinks_over, segments_of
 from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import dead_centres, ideal_table
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicHermiteSpline
 
 CLEARANCE_ROOM: Final = 0.01
 """What clearance may add to θ_v, generously [rad]."""
@@ -66,6 +68,8 @@ class IdealMotion:
 
 def ideal_motion(lengths: Lengths, drive: AnyDrive, duration: float) -> IdealMotion:
     """Return the ideal mechanism over a run of ``duration`` [s]."""
+    from scipy.interpolate import CubicHermiteSpline
+
     first, inverse_step, table = ideal_table(lengths, *drive.crank_range(duration))
     angles = first + np.arange(len(table)) / inverse_step
     return IdealMotion(drive, CubicHermiteSpline(angles, table[:, 0], inverse_step * table[:, 1]))

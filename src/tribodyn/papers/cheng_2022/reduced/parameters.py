@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
@@ -17,6 +16,9 @@ from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
 from tribodyn.mechanisms.actions import Term, crossings
 from tribodyn.mechanisms.peaks import impact_time
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
 
 FORMULATIONS: Final = ("exact", "paper")
 _LEAST_RANGE: Final = 1.0e-4
@@ -136,6 +138,8 @@ class TableDrive:
 
     @cached_property
     def _angle(self) -> PPoly:
+        from scipy.interpolate import PPoly
+
         return PPoly(self.signal.coefficients, self.signal.knots)
 
     @cached_property

@@ -7,8 +7,6 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.optimize import bisect
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
@@ -129,6 +127,8 @@ def check_reach(lengths: Lengths, first: float, last: float) -> None:
 @lru_cache(maxsize=64)
 def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, float, FloatArray]:
     """Return first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
+    from scipy.interpolate import CubicSpline
+
     check_reach(lengths, first, last)
     angles = np.linspace(first, last, N_IDEAL + 1)
     theta_v = np.unwrap(ideal_vane_angle(lengths, angles))
@@ -157,6 +157,8 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     first, last
         Smallest and largest crank angle [rad].
     """
+    from scipy.optimize import bisect
+
     angles = np.linspace(first, last, N_IDEAL + 1)
     forward = crank_lever(lengths, angles) > 0.0
     turns = np.flatnonzero(forward[1:] != forward[:-1])
