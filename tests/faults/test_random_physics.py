@@ -292,10 +292,10 @@ def test_mechanisms(seeds: range) -> None:
 def test_what_a_run_advises_that_misses_energy_helps() -> None:
     # Hardly any slip: the work of friction hangs on velocities as small as their absolute tolerance. Rounding
     # decides what a run misses, within a factor of two up or down; so runs at tolerances near by are asked.
-    # Loosened some sixtyfold they miss 0.019 to 0.052, and 0.0003 to 0.0007 with tolerances a hundredth.
+    # Loosened sixty- to ninetyfold they miss 0.013 to 0.052, and 0.0003 to 0.0008 with what they advise.
     case = load_case("vsv").replace({"joint.slip_velocity": "1e-4 um/s", "run.cycles": 0.6})
     missed = []
-    for near in 60.0 * 10.0 ** np.linspace(-0.2, 0.2, 7):
+    for near in (60.0, 72.0, 86.0):
         loose = case.replace(tightened(case, near))
         first = run(loose)
         assert (TIGHTEN in first.attrs["warnings"]) == (max(residuals(first)) > ENERGY_LIMIT)
@@ -303,9 +303,9 @@ def test_what_a_run_advises_that_misses_energy_helps() -> None:
         assert max(residuals(second)) < ENERGY_LIMIT
         missed.append([residuals(first)[1], residuals(second)[1]])
     before, after = np.exp(np.log(missed).mean(axis=0))
-    # The means are 0.027 and 0.0004. Rounding moves each by up to 40 %: of five ratios the smallest was 29.
+    # Of 18 ratios of single runs the smallest was 16.
     assert before > ENERGY_LIMIT
-    assert after < before / 10.0
+    assert after < before / 5.0
 
 
 @pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(100)])
