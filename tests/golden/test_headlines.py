@@ -1,24 +1,29 @@
-"""Built-in cases give the headline numbers that are stored beside this file.
+"""Built-in cases give the headline numbers, and the bits, that are stored beside this file.
 
 ``make golden`` writes them anew. Do that when a change of the physics is meant, look at the difference, and
-say in the commit why.
+say in the commit why. Hashes change with every edit that changes a rounding; the numbers then tell whether
+the physics stayed.
 """
 
 from __future__ import annotations
 
 import json
+import platform
+from importlib.metadata import version
 from pathlib import Path
 from statistics import median
 from typing import Final
 
 import pytest
+import xarray as xr
 
 import tribodyn as td
-from tribodyn.cases.case import Case
 from tribodyn.mechanisms.catalogue import built_in
 from tribodyn.mechanisms.results import known, summarise
+from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
 
 STORED: Final = Path(__file__).with_name("headlines.json")
+HASHES: Final = Path(__file__).with_name("hashes.json")
 OF_THE_MACHINE: Final = ("Trust", "Ledger", "Effort")
 """Groups of numbers that rounding and processors move; other tests bound them."""
 CLOSE: Final = 2e-3
@@ -36,15 +41,24 @@ BOUNDS: Final = {
 }
 """By parts of names; :data:`CLOSE` holds for the others."""
 ONE_RUN: Final = (1.0,)
-SEVERAL: Final = (0.75, 0.87, 1.0, 1.15, 1.33)
-"""Tolerances over that of the case whose median is asked for."""
+SEVERAL: Final = (1.0, 0.75, 0.87, 1.15, 1.33)
+"""Tolerances over that of the case whose median is asked for, the case's own first."""
 STRUCK: Final = dict.fromkeys(("four-bar", "slider-crank", "slider-crank-oil", "vsv"), SEVERAL)
 """Cases whose single runs scatter by impacts, see :func:`numbers`."""
 AT_A_THRESHOLD: Final = {"journal-dry": {"settling_time_ms"}}
 """Numbers that jump: the last rebound ends at 1.0 to 1.1 ms in 22 of 32 runs, at up to 2.2 ms in others."""
 
 
-def numbers(name: str) -> dict[str, float]:
+def simulated(name: str) -> list[xr.Dataset]:
+    """Return the runs of a built-in case whose median is asked for, that of the case itself first."""
+    case = td.load_case(name)
+    return [
+        td.simulate(case.replace({"solver.rtol": case.solver.rtol * factor}))
+        for factor in STRUCK.get(name, ONE_RUN)
+    ]
+
+
+def numbers(name: str, results: list[xr.Dataset]) -> dict[str, float]:
     """Return the headline numbers of a built-in case that the physics decides, not the machine.
 
     Where single runs scatter it is the median of five tolerances. Over 24 tolerances within 1.4 of the
@@ -52,18 +66,14 @@ def numbers(name: str) -> dict[str, float]:
     in mean forces and 0.08 % in the rest; over 32 before: slider-crank 1.4 % in peaks, 0.4 % in what lasts,
     0.15 % in the rest; vsv (16 tolerances) 1.8 % in the pressure of impacts.
     """
-    case = td.load_case(name)
-    runs = [
-        _numbers(case.replace({"solver.rtol": case.solver.rtol * factor}))
-        for factor in STRUCK.get(name, ONE_RUN)
-    ]
+    runs = [_numbers(result) for result in results]
     asked = runs[0].keys() - AT_A_THRESHOLD.get(name, set())
     return {key: float(f"{median(run[key] for run in runs):.6g}") for key in runs[0] if key in asked}
 
 
-def _numbers(case: Case) -> dict[str, float]:
+def _numbers(result: xr.Dataset) -> dict[str, float]:
     """Return those of one run."""
-    summary = summarise(result := td.simulate(case))
+    summary = summarise(result)
     groups = {key: headline.group for key, headline in known(summary, result.attrs["kind"]).items()}
     return {
         key: value
@@ -72,15 +82,53 @@ def _numbers(case: Case) -> dict[str, float]:
     }
 
 
-@pytest.mark.parametrize("name", built_in())
-def test_headline_numbers_are_those_stored(name: str) -> None:
-    stored = json.loads(STORED.read_text(encoding="utf-8"))[name]
-    found = numbers(name)
+def hashes(result: xr.Dataset) -> dict[str, str]:
+    """Return the hashes of a run."""
+    return {key: result.attrs[key] for key in (DATA_HASH, ROWS_HASH)}
+
+
+def bits_of() -> dict[str, str]:
+    """Return what a guarantee of equal bits needs to be equal."""
+    python = ".".join(platform.python_version_tuple()[:2])
+    return {"machine": platform.machine(), "python": python} | {
+        name: version(name) for name in ("numpy", "scipy", "numba", "llvmlite")
+    }
+
+
+@pytest.fixture(scope="module", params=built_in())
+def runs(request: pytest.FixtureRequest) -> tuple[str, list[xr.Dataset]]:
+    """Return a built-in case's name and its runs."""
+    return request.param, simulated(request.param)
+
+
+def test_headline_numbers_are_those_stored(runs: tuple[str, list[xr.Dataset]]) -> None:
+    stored = json.loads(STORED.read_text(encoding="utf-8"))[runs[0]]
+    found = numbers(*runs)
     assert found.keys() == stored.keys()
     for key, value in stored.items():
         allowed = next((bound for part, bound in BOUNDS.items() if part in key), CLOSE)
         assert found[key] == pytest.approx(value, rel=allowed), key
 
 
+def test_data_and_rows_are_those_stored_to_the_bit(
+    runs: tuple[str, list[xr.Dataset]], pytestconfig: pytest.Config
+) -> None:
+    stored = json.loads(HASHES.read_text(encoding="utf-8"))
+    if (here := bits_of()) != stored["of"]:
+        pytest.skip(f"bits are stored for {stored['of']}, not for {here}")
+    if pytestconfig.getoption("tolerance_factor"):
+        pytest.skip("another tolerance gives other bits")
+    assert hashes(runs[1][0]) == stored[runs[0]]
+
+
+def store() -> None:
+    """Write numbers and hashes of all built-in cases."""
+    results = {name: simulated(name) for name in built_in()}
+    found = {name: numbers(name, runs) for name, runs in results.items()}
+    STORED.write_text(json.dumps(found, indent=2) + "\n", "utf-8")
+    bits = {"of": bits_of()} | {name: hashes(runs[0]) for name, runs in results.items()}
+    HASHES.write_text(json.dumps(bits, indent=2) + "\n", "utf-8")
+
+
 if __name__ == "__main__":
-    STORED.write_text(json.dumps({name: numbers(name) for name in built_in()}, indent=2) + "\n", "utf-8")
+    store()
