@@ -30,16 +30,12 @@ CLOSE: Final = 2e-3
 """Means, angles and wear: neighbouring tolerances of the vane mechanism stay within 0.11 % of a force."""
 PEAKS: Final = 3e-2
 """What an impact decides: where steps fall moves it, from tolerance to tolerance as between processors."""
-BLOWS: Final = 1e-2
-"""A mean force that blows have a part in: single runs of four-bar scatter by 0.2 %."""
-LASTING: Final = 5e-2
-"""What is exceeded for a hundredth of the time: single drive moments of four-bar scatter by 1.9 % there."""
 BOUNDS: Final = {
-    **dict.fromkeys(("_max_", "peak_", "_outside_", "rebounds", "settling", "speed_error"), PEAKS),
-    "_lasting_": LASTING,
-    "force_mean_": BLOWS,
+    **dict.fromkeys(("_max_", "peak_", "_outside_", "rebounds", "settling", "speed_error"), (PEAKS, 8e-2)),
+    "_lasting_": (2e-2, 5e-2),
+    "force_mean_": (CLOSE, 1e-2),
 }
-"""By parts of names; :data:`CLOSE` holds for the others."""
+"""By parts of names, without and with blows (:data:`STRUCK`); :data:`CLOSE` holds for the others."""
 ONE_RUN: Final = (1.0,)
 SEVERAL: Final = (1.0, 0.75, 0.87, 1.15, 1.33)
 """Tolerances over that of the case whose median is asked for, the case's own first."""
@@ -61,10 +57,10 @@ def simulated(name: str) -> list[xr.Dataset]:
 def numbers(name: str, results: list[xr.Dataset]) -> dict[str, float]:
     """Return the headline numbers of a built-in case that the physics decides, not the machine.
 
-    Where single runs scatter it is the median of five tolerances. Over 24 tolerances within 1.4 of the
-    default single runs of four-bar lie from their median by up to 0.2 % in peaks, 3.6 % in what lasts, 0.5 %
-    in mean forces and 0.08 % in the rest; over 32 before: slider-crank 1.4 % in peaks, 0.4 % in what lasts,
-    0.15 % in the rest; vsv (16 tolerances) 1.8 % in the pressure of impacts.
+    Where single runs scatter it is the median of five tolerances. Over 14 to 24 tolerances within 1.4 of the
+    default single runs lie from their median by up to: four-bar 0.2 % in peaks, 3.6 % in what lasts, 0.5 % in
+    mean forces; slider-crank 0.1 %; slider-crank-oil 9.3 % in the largest force of the guide, 2.8 % in other
+    peaks, 0.4 % in what lasts; vsv 3.5 % in the pressure of impacts; all four 0.1 % in the rest.
     """
     runs = [_numbers(result) for result in results]
     asked = runs[0].keys() - AT_A_THRESHOLD.get(name, set())
@@ -106,7 +102,8 @@ def test_headline_numbers_are_those_stored(runs: tuple[str, list[xr.Dataset]]) -
     found = numbers(*runs)
     assert found.keys() == stored.keys()
     for key, value in stored.items():
-        allowed = next((bound for part, bound in BOUNDS.items() if part in key), CLOSE)
+        bounds = next((bounds for part, bounds in BOUNDS.items() if part in key), (CLOSE, CLOSE))
+        allowed = bounds[runs[0] in STRUCK]
         assert found[key] == pytest.approx(value, rel=allowed), key
 
 
