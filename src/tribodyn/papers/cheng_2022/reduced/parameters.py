@@ -22,7 +22,13 @@ if TYPE_CHECKING:
 
 FORMULATIONS: Final = ("exact", "paper")
 _LEAST_RANGE: Final = 1.0e-4
-"""Of the crank, where a run ends before its table sets out [rad]."""
+"""Of the crank, where a run ends before it has moved far [rad]."""
+
+
+def _with_room(low: float, high: float) -> tuple[float, float]:
+    """Return a range of crank angles [rad] that is wide enough for a table of the ideal vane angle."""
+    room = max(_LEAST_RANGE - (high - low), 0.0)
+    return low - room, high + room
 
 
 @dataclass(frozen=True)
@@ -88,7 +94,7 @@ class CrankMotion:
         """Return the smallest and the largest crank angle in a run of ``duration`` [s] [rad]."""
         phase = min(self.angular_frequency * duration, math.pi)
         far = self.start_angle + 0.5 * self.swing * (1.0 - portable.cos(phase))
-        return min(self.start_angle, far), max(self.start_angle, far)
+        return _with_room(min(self.start_angle, far), max(self.start_angle, far))
 
     def angle(self, times: FloatArray) -> FloatArray:
         """Return the crank angle [rad] at times [s]."""
@@ -150,9 +156,7 @@ class TableDrive:
         """Return the smallest and the largest crank angle in a run of ``duration`` [s] [rad]."""
         end = min(duration, float(self.signal.knots[-1]))
         angles = self.angle(np.append(self.turns(end), end))
-        low, high = float(angles.min()), float(angles.max())
-        room = max(_LEAST_RANGE - (high - low), 0.0)
-        return low - room, high + room
+        return _with_room(float(angles.min()), float(angles.max()))
 
     def angle(self, times: FloatArray) -> FloatArray:
         """Return the crank angle [rad] at times [s]."""

@@ -161,3 +161,10 @@ def test_a_run_may_end_before_its_table_sets_out(tmp_path: Path) -> None:
 def test_a_crank_that_never_moves_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="the crank must move"):
         td.load_case(written(tmp_path, "time [s], crank [deg]\n0, -16\n1, -16\n"))
+
+
+def test_a_crank_that_hardly_moves_runs() -> None:
+    brief = {"run.duration": "1 ms", "run.output_interval": "0.1 ms"}
+    result = td.simulate(td.load_case("vsv").replace({"drive.speed_amplitude": "1e-45 deg/s"} | brief))
+    assert not result.attrs["failure"]
+    assert float(np.ptp(result["theta_v_ideal"].values)) < 1e-6
