@@ -353,7 +353,9 @@ class VsvCase(BushingCase):
 
     def _check_reach(self) -> None:
         """Check that the loop closes at every crank angle of the drive."""
+        from tribodyn.papers.cheng_2022.reduced.parameters import LEAST_SWING
         from tribodyn.papers.cheng_2022.reduced.reach import check_reach
 
-        demand(self.drive.speed_amplitude != 0.0, "drive.speed_amplitude", "the crank must move")
+        moves = abs(self.drive.speed_amplitude) > LEAST_SWING * self.drive.angular_frequency
+        demand(moves, "drive.speed_amplitude", f"the crank must move, by more than {LEAST_SWING:g} rad")
         check_reach(self.lengths, *self.crank.crank_range(self.duration))

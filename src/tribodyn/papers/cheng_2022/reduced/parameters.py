@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
 FORMULATIONS: Final = ("exact", "paper")
+LEAST_SWING: Final = 1.0e-9
+"""Of the crank: one that moves less passes no angle at a time of its own [rad]."""
 _LEAST_RANGE: Final = 1.0e-4
 """Of the crank, where a run ends before it has moved far [rad]."""
 
