@@ -163,6 +163,11 @@ class Case(Group):
         raise NotImplementedError
 
     @property
+    def wear_limits(self) -> dict[str, float]:
+        """Limits of the motion that end a wear campaign, by what its history calls them."""
+        return {}
+
+    @property
     def campaign_cycles(self) -> int:
         """Drive cycles of a wear campaign; 0 where the case asks for none."""
         return 0

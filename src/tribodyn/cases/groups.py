@@ -316,11 +316,6 @@ class Wear(Group):
         example="0.4 um",
     )
 
-    @property
-    def limits(self) -> dict[str, float]:
-        """Limits of the motion that end a campaign, by what its history calls them; by default none."""
-        return {}
-
 
 class Tolerances(Group):
     """Absolute tolerance of each kind of state."""

@@ -194,6 +194,11 @@ class WearingCase(SystemCase, Protocol):
         ...
 
     @property
+    def wear_limits(self) -> Mapping[str, float]:
+        """Limits of the motion that end a wear campaign, by what its history calls them."""
+        ...
+
+    @property
     def settling_cycles(self) -> int:
         """Cycles simulated before the first one whose wear counts."""
         ...
@@ -255,6 +260,10 @@ class WearingSystem(SimulatedSystem, Protocol):
 
     def sliding_load(self, problem: Problem) -> FloatArray:
         """Return ∫P_c |u| dt at the nodes over the run [N/m], in their shape."""
+        ...
+
+    def part_of(self, node: int) -> str:
+        """Return in words what a node belongs to, counted over the flattened nodes."""
         ...
 
     def as_field(self, depth: FloatArray) -> FloatArray:

@@ -36,6 +36,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),
     **dict.fromkeys(("separation_least", "collar_lift_off_time", "tensile_clip_time"), OUTCOME),
     "time_reached": OUTCOME,
+    "wear_depth_limit": SIZE,
     **dict.fromkeys(("worn_volume", "wear_life_cycles", "wear_life_factor", "wear_cycles_reached"), OUTCOME),
     **dict.fromkeys(("points_in_all", "points_failed", "samples", "sampling_seed"), NUMBER),
     **dict.fromkeys(("sampling_method", DATA_HASH, ROWS_HASH), TEXT),

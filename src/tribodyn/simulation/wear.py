@@ -31,7 +31,7 @@ def simulate_plain(session: Session) -> xr.Dataset:
     life = _linear_life(wear, run.solution.t_end / system.period, depth)
     if life:
         life |= _stated_factor(cast(Case, session.case))
-    return session.dataset(run, _worn(system, depth, life))
+    return session.dataset(run, _worn(system, depth, wear, life))
 
 
 def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
@@ -55,7 +55,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
     attributes: dict[str, object] = {"wear_cycles_reached": campaign.cycles}
     if math.isfinite(campaign.life):
         attributes |= {"wear_life_cycles": campaign.life} | _stated_factor(cast(Case, session.case))
-    part = _worn(cycles.system, campaign.depth, attributes)
+    part = _worn(cycles.system, campaign.depth, cycles.case.wear, attributes)
     more = replace(
         part,
         coordinates={
@@ -67,7 +67,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
             **campaign.history,
             "stage_depth": cycles.system.as_field(campaign.stage_depth),
         },
-        warnings=[*told, *_not_reached(cycles.case.wear, campaign)],
+        warnings=[*told, *_not_reached(cycles.case, campaign)],
         failure=cycle.failure or "",
     )
     return session.dataset(replace(cycles.last, cost=campaign.statistics), more)
@@ -91,7 +91,9 @@ def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> Resu
     return ResultPart(fields={"partner_wear_depth": system.as_field(own)}, notes=[words])
 
 
-def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, object]) -> ResultPart:
+def _worn(
+    system: WearingSystem, depth: FloatArray, wear: groups.Wear, attributes: Mapping[str, object]
+) -> ResultPart:
     """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
     if not depth.size:
         return ResultPart()
@@ -99,9 +101,22 @@ def _worn(system: WearingSystem, depth: FloatArray, attributes: Mapping[str, obj
     partner = _of_partner(system, depth, volume)
     return ResultPart(
         fields={"wear_depth": system.as_field(depth), **partner.fields},
-        attributes={"worn_volume": volume, **attributes},
-        notes=partner.notes,
+        attributes={
+            "worn_volume": volume,
+            **({} if wear.depth_limit is None else {"wear_depth_limit": wear.depth_limit}),
+            **attributes,
+        },
+        notes=[*partner.notes, *_deepest(system, depth, wear.depth_limit)],
     )
+
+
+def _deepest(system: WearingSystem, depth: FloatArray, limit: float | None) -> list[str]:
+    """Return what is worn deepest and how near it is to the depth limit, in words; nothing without one."""
+    if limit is None or not depth.any():
+        return []
+    node = int(np.argmax(depth))
+    share = 100.0 * float(depth.ravel()[node]) / limit
+    return [f"Worn deepest is {system.part_of(node)}: {share:.3g} % of wear.depth_limit."]
 
 
 def _linear_life(wear: groups.Wear, cycles: float, depth: FloatArray) -> dict[str, object]:
@@ -146,7 +161,7 @@ class _Cycles:
             control=JumpControl(wear.jump_limit, wear.jump_depth, nodes.roughness),
             node_area=nodes.area,
             of_cycle=tuple(self.session.mechanism.of_cycle),
-            limits=wear.limits,
+            limits=self.case.wear_limits,
         )
 
     def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
@@ -171,12 +186,15 @@ class _Cycles:
         return float(self.system.contact_energy(Worn(wear, carried)))
 
 
-def _not_reached(wear: groups.Wear, campaign: Campaign) -> list[str]:
+def _not_reached(case: WearingCase, campaign: Campaign) -> list[str]:
     """Say how long the bushing would last if all went on as between the last two stops."""
-    history = campaign.history
+    history, wear = campaign.history, case.wear
     if math.isfinite(campaign.life) or history["wear_cycles"].size < 2:
         return []
-    limits = {**wear.limits, **({} if wear.depth_limit is None else {"wear_depth_max": wear.depth_limit})}
+    limits = {
+        **case.wear_limits,
+        **({} if wear.depth_limit is None else {"wear_depth_max": wear.depth_limit}),
+    }
     lives = {}
     for name, limit in limits.items():
         rate = np.diff(history[name])[-1] / np.diff(history["wear_cycles"])[-1]

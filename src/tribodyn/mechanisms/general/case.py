@@ -74,12 +74,21 @@ else:
     )
 
 
+class MechanismWear(Wear):
+    """Wear of the joints with clearance."""
+
+    LIMIT_OF: ClassVar[Mapping[str, str]] = {
+        **Wear.LIMIT_OF,
+        "wear_error_share": "the error limit of an output",
+    }
+
+
 class MechanismCase(_WithElements):
     """Bodies, joints and what moves them, in one drawing."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
 
-    wear: Wear = Wear()
+    wear: MechanismWear = MechanismWear()
     solver: Integration = Integration()
     run: RunKeys = RunKeys()
 
@@ -225,6 +234,12 @@ class MechanismCase(_WithElements):
         if self.run.analysis in ("static", "vibrations"):
             return longest / self.run.positions
         return self.run.output_interval or longest / ROWS
+
+    @property
+    def wear_limits(self) -> dict[str, float]:
+        """The limits of output errors, by what a campaign calls them."""
+        limited = any(output.limit is not None for output in self.outputs.values())
+        return {"wear_error_share": 1.0} if limited else {}
 
     @property
     def moves(self) -> bool:

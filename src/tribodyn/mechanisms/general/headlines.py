@@ -21,6 +21,8 @@ from tribodyn.mechanisms.general.readings import (
     of_surfaces,
     offset,
     sizes,
+    wear_life,
+    wear_rate,
 )
 from tribodyn.results.reading import column, in_settled, peak, period, reversals_held, settled, time_mean
 from tribodyn.results.summary import Headline
@@ -362,6 +364,21 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Joints",
         "Largest wear depth of this joint.",
         lambda d, j: peak(column(d, "wear_depth")[of_surfaces(d, j)]) * 1e9,
+    ),
+    "wear_rate_nm_per_1000_cycles": _named(
+        "Wear rate",
+        "nm per 1000 cycles",
+        "Joints",
+        "Growth of the largest wear depth of this joint, at the last stop of a campaign or in this run.",
+        lambda d, j: 1e12 * wear_rate(d, j),
+    ),
+    "wear_life_cycles": _named(
+        "Life by depth",
+        "cycles",
+        "Joints",
+        "Drive cycles until this joint is worn to the depth limit, at its last rate; all of them, those of "
+        "the campaign included.",
+        wear_life,
     ),
     "partner_wear_depth_nm": _named(
         "Wear depth of the partner",

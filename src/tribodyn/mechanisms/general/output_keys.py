@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final, Literal
 
+from tribodyn.cases import fields
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, choice, name, vector
@@ -12,6 +13,13 @@ from tribodyn.mechanisms.general.parts import POINT
 
 UNITS: Final = {"position": "m", "distance": "m", "angle": "rad", "velocity": "m/s"}
 """Unit of each quantity."""
+_LIMITS: Final = {
+    "position": "error_limit",
+    "distance": "error_limit",
+    "angle": "angle_error_limit",
+    "velocity": "velocity_error_limit",
+}
+"""Key of the limit of an error by the quantity."""
 _AXIS: Final = "[1, 0, 0]"
 
 
@@ -43,8 +51,31 @@ class OutputKeys(NamedGroup):
         example=_AXIS,
     )
 
+    error_limit: float | None = fields.quantity(
+        None,
+        "error of a position or distance at which the mechanism is worn out: a campaign ends there",
+        "",
+        gt=0,
+        example="0.1 mm",
+    )
+    angle_error_limit: float | None = fields.quantity(
+        None, "the same of an angle", "", unit="deg", gt=0, example="0.05 deg"
+    )
+    velocity_error_limit: float | None = fields.quantity(
+        None, "the same of a velocity", "", gt=0, example="1 mm/s"
+    )
+
+    @property
+    def limit(self) -> float | None:
+        """Error at which the mechanism is worn out, in the unit of the quantity."""
+        found: float | None = getattr(self, _LIMITS[self.quantity])
+        return found
+
     def model_post_init(self, context: object, /) -> None:
         """Check that the quantity is defined."""
+        for key in set(_LIMITS.values()) - {_LIMITS[self.quantity]}:
+            words = f"the limit of this error is {_LIMITS[self.quantity]}"
+            demand(getattr(self, key) is None, key, words)
         demand(self.body != GROUND, "body", f"{GROUND} never moves; name a body")
         demand(
             self.body != self.reference, "reference", "a body does not move against itself; name another one"

@@ -17,6 +17,8 @@ from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, peak, settled
 from tribodyn.results.summary import Headline
 
+_AT_REST: Final = 1.0e-9
+"""Change of an ideal value in one step, over its range, that is none."""
 Reduction = Callable[[xr.Dataset, FloatArray], float]
 
 
@@ -30,6 +32,34 @@ def _rms(dataset: xr.Dataset, error: FloatArray) -> float:
     )
 
 
+Reading = Callable[[xr.Dataset, int], float]
+
+
+def _direction(sign: float) -> Reading:
+    """Return the mean error while the ideal value rises (1) or falls (−1)."""
+
+    def read(dataset: xr.Dataset, output: int) -> float:
+        time = settled(dataset, column(dataset, "time"))
+        error, ideal = (
+            settled(dataset, column(dataset, name)[:, output]) for name in ("output_error", "output_ideal")
+        )
+        moving = sign * np.diff(ideal) > _AT_REST * np.ptp(ideal)
+        steps = np.diff(time)[moving]
+        middle = 0.5 * (error[1:] + error[:-1])[moving]
+        return float(np.sum(steps * middle) / np.sum(steps)) if steps.size else math.nan
+
+    return read
+
+
+DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
+    "forward": ("mean, forward", "Mean error, with its sign, while the ideal value rises.", _direction(1.0)),
+    "backward": (
+        "mean, backward",
+        "Mean error, with its sign, while the ideal value falls; the difference of both is lost motion.",
+        _direction(-1.0),
+    ),
+}
+"""By what stands in the name of the key result: errors in one direction of motion."""
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
     "lasting": (
         "sustained",
@@ -49,7 +79,7 @@ def number_of(dataset: xr.Dataset, output: str) -> int:
 
 def _made(measure: str, unit: str, output: str) -> Headline:
     """Return the key result of an output; NaN where its error has another unit or is not known."""
-    label, meaning, reduce = MEASURES[measure]
+    label, meaning, read = READINGS[measure]
     _, shown, scale = ERROR_UNITS[unit]
 
     def compute(dataset: xr.Dataset) -> float:
@@ -57,14 +87,41 @@ def _made(measure: str, unit: str, output: str) -> Headline:
         error = column(dataset, "output_error")[:, k]
         if str(dataset["output_unit"].values[k]) != unit or not np.isfinite(error).all():
             return math.nan
-        return scale * reduce(dataset, error)
+        return scale * read(dataset, k)
 
     return Headline(f"Error, {label}", shown, "Outputs", meaning, compute).of_part(output)
+
+
+def _of_error(reduce: Reduction) -> Reading:
+    """Return the reading that reduces the error of an output."""
+    return lambda dataset, output: reduce(dataset, column(dataset, "output_error")[:, output])
+
+
+READINGS: Final = {
+    **{name: (label, meaning, _of_error(reduce)) for name, (label, meaning, reduce) in MEASURES.items()},
+    **DIRECTIONS,
+}
+"""All of them."""
+
+
+def _of_limit(output: str) -> Headline:
+    """Return the largest error of an output as a share of its limit [%]; NaN without a limit."""
+
+    def compute(dataset: xr.Dataset) -> float:
+        k = number_of(dataset, output)
+        return (
+            100.0
+            * peak(column(dataset, "output_error")[:, k])
+            / float(column(dataset, "output_error_limit")[k])
+        )
+
+    meaning = "Largest error in the run over the limit of the output; at 100 % it is worn out."
+    return Headline("Error, of its limit", "%", "Outputs", meaning, compute).of_part(output)
 
 
 BY_OUTPUT: Final[dict[str, ByPart]] = {
     f"error_{measure}_{spelled}": partial(_made, measure, unit)
     for unit, (spelled, _, _) in ERROR_UNITS.items()
-    for measure in MEASURES
-}
+    for measure in READINGS
+} | {"error_of_limit_percent": _of_limit}
 """Key results of each output, by what stands before its name."""

@@ -15,6 +15,7 @@ quaternion the axis takes the part
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -179,6 +180,27 @@ def outputs_of(case: MechanismCase) -> tuple[Output, ...]:
         )
         for name, keys in case.outputs.items()
     )
+
+
+def limits_of(outputs: Sequence[Output]) -> FloatArray:
+    """Return the errors at which outputs are worn out, in their units; NaN without a limit, shape (n,)."""
+    limits = [output.keys.limit for output in outputs]
+    return np.array([np.nan if limit is None else limit for limit in limits])
+
+
+def error_share(columns: Mapping[str, FloatArray], outputs: Sequence[Output]) -> float:
+    """Return the largest error of an output over its limit; zero without limits.
+
+    Parameters
+    ----------
+    columns
+        Of the outputs, ``output_error`` of shape (n_t, n) among them; none without outputs.
+    outputs
+        In this order.
+    """
+    shares = np.abs(columns["output_error"]) / limits_of(outputs) if outputs else np.zeros(1)
+    known = shares[np.isfinite(shares)]
+    return float(np.max(known, initial=0.0))
 
 
 def motion_of(state: FloatArray) -> Motion:

@@ -132,6 +132,14 @@ def length_scale(assembly: Assembly) -> float:
     return min(clearances, default=0.1 * float(assembly.data.parts.constants.size))
 
 
+def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
+    """Return the work of the largest force over the way to which positions are resolved [J].
+
+    Where nothing moves there is no more to balance than that.
+    """
+    return float(np.max(np.abs(forces), initial=0.0)) * rtol * length_scale(assembly)
+
+
 def _scales(assembly: Assembly, duration: float) -> FloatArray:
     """Return what positions, orientations, velocities and angular velocities are small beside, shape (4,)."""
     size, length = float(assembly.data.parts.constants.size), length_scale(assembly)

@@ -313,6 +313,9 @@ class Signatures:
         reference: str | None = ...,
         reference_point: Vector | None = ...,
         along: Vector | None = ...,
+        error_limit: str | None = ...,
+        angle_error_limit: str | None = ...,
+        velocity_error_limit: str | None = ...,
     ) -> Self: ...
     def pair(
         self,

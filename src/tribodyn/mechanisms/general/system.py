@@ -35,9 +35,9 @@ from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
 from tribodyn.mechanisms.general.output_columns import kinematic_columns, output_coordinates
-from tribodyn.mechanisms.general.outputs import Motion, Output, outputs_of
+from tribodyn.mechanisms.general.outputs import Motion, Output, error_share, limits_of, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
-from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem, stored_energy
+from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.sampling import sampled
 from tribodyn.mechanisms.general.start import initial_state
@@ -182,6 +182,11 @@ class MechanismSystem:
         load: FloatArray = problem.memory.contact.sliding_load
         return load
 
+    def part_of(self, node: int) -> str:
+        """Return the joint that a node belongs to, in words."""
+        found = next(place for place in self.maps.places if place.nodes.start <= node < place.nodes.stop)
+        return f"joint {self.real[found.joint][0]}"
+
     def as_field(self, depth: FloatArray) -> FloatArray:
         """Return wear depths [m] as maps of surfaces."""
         return np.asarray(self.maps(depth), dtype=np.float64)
@@ -202,6 +207,7 @@ class MechanismSystem:
             "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
             "wear_roughness": float(np.max(run.problem.data.contact.surfaces["roughness"])),
             "wear_force_mean": max(means),
+            "wear_error_share": error_share(self._of_outputs(self._observed(run), run)[0], self.outputs),
         }
 
     def gather(self, run: FinishedRun) -> ResultPart:
@@ -210,7 +216,8 @@ class MechanismSystem:
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         vibrations = self._vibrations(found, run)
         ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
-        energy = {WHOLE.attribute: WHOLE.fraction(ledger, self._least_energy(found))}
+        least = least_energy(self.assembly, found.couplings["reaction_force"], self.case.solver.rtol)
+        energy = {WHOLE.attribute: WHOLE.fraction(ledger, least)}
         if self._analysis != "dynamic":
             energy.clear()
             del ledger[WHOLE.residual]
@@ -238,6 +245,7 @@ class MechanismSystem:
             },
             fields={
                 "clearance": self._clearances(),
+                **({"output_error_limit": limits_of(self.outputs)} if self.outputs else {}),
                 **self._film_pressure(run),
                 **peaks,
                 **of_contacts,
@@ -291,16 +299,6 @@ class MechanismSystem:
         if reason in ("", INTERRUPTED):
             return reason
         return checks.failure(run.problem, self.model, self.maps.names, reached) or reason
-
-    def _least_energy(self, found: Observed) -> float:
-        """Return the work of the largest force over the way to which positions are resolved [J].
-
-        Where nothing moves there is no more to balance than that.
-        """
-        forces = found.couplings["reaction_force"]
-        return (
-            float(np.max(np.abs(forces), initial=0.0)) * self.case.solver.rtol * length_scale(self.assembly)
-        )
 
     def _began(self, run: FinishedRun) -> dict[str, str]:
         """Return how a dynamic run with clearances began."""

@@ -102,6 +102,9 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
     "output_value": Variable("1", "value of the output, in its unit", _OUTPUT),
     "output_ideal": Variable("1", "value with ideal joints and the same drives, in its unit", _OUTPUT),
     "output_error": Variable("1", "difference from the ideal motion, in the unit of the output", _OUTPUT),
+    "output_error_limit": Variable(
+        "1", "error at which the mechanism is worn out, in the unit of the output", ("output",)
+    ),
     "drive": Variable("", "name of the drive", ("drive",), named=True, names="drives"),
     "cause": Variable("", "what an estimated error is divided into", ("cause",), named=True),
     "error_estimate": Variable(
@@ -133,6 +136,9 @@ OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_roughness": Variable("m", "largest combined rms roughness of a joint in the cycle", JUMP),
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
+    "wear_error_share": Variable(
+        "1", "largest error of an output in the cycle over its limit; zero without limits", JUMP
+    ),
 }
 """What a wear campaign writes down about each cycle."""
 

@@ -122,11 +122,6 @@ class VaneWear(Wear):
         example="0.05 deg",
     )
 
-    @property
-    def limits(self) -> dict[str, float]:
-        """The limit of the vane-angle error [rad]."""
-        return {} if self.angle_error_limit is None else {"wear_angle_error_max": self.angle_error_limit}
-
 
 class VsvRunKeys(Group):
     """How long, from where, and what is kept."""
@@ -196,6 +191,12 @@ class VsvCase(BushingCase):
     def campaign_cycles(self) -> int:
         """Drive cycles of a wear campaign; 0 where the case asks for none."""
         return self.wear.cycles
+
+    @property
+    def wear_limits(self) -> dict[str, float]:
+        """The limit of the vane-angle error [rad], by what a campaign calls it."""
+        limit = self.wear.angle_error_limit
+        return {} if limit is None else {"wear_angle_error_max": limit}
 
     @property
     def settling_cycles(self) -> int:

@@ -165,6 +165,10 @@ class VsvSystem:
         load: FloatArray = problem.memory.joint.sliding_load
         return load
 
+    def part_of(self, node: int) -> str:
+        """Return that a node belongs to the bushing."""
+        return "the bushing"
+
     def as_field(self, depth: FloatArray) -> FloatArray:
         """Return wear depths [m] with the angle before the height."""
         return np.swapaxes(depth, -1, -2)
