@@ -180,6 +180,14 @@ class Case(Group):
         """Return the paths of keys that others put out of force; by default there are none."""
         return ()
 
+    def without_effect(self) -> tuple[str, ...]:
+        """Return the tables and keys that no part of the case uses; by default there are none."""
+        return ()
+
+    def rough_clearances(self) -> dict[str, float]:
+        """Return by the path of each clearance the combined rms roughness σ of its surfaces [m]."""
+        return {}
+
     def derived(self) -> dict[str, str]:
         """Return from what the values of some keys follow, by their paths; by default there are none."""
         return {}

@@ -39,6 +39,10 @@ class RoughCase(Case):
         """Return what is to be said of the two surfaces and of tables."""
         return of_surfaces(self) + of_tables(self.followed())
 
+    def rough_clearances(self) -> dict[str, float]:
+        """Return the combined rms roughness σ of bushing and trunnion [m] by the path of their clearance."""
+        return {"joint.clearance": self.surface_pair.roughness_rms}
+
     @property
     def surface_pair(self) -> SurfacePair:
         """The two surfaces in contact, as contact laws take them."""

@@ -74,8 +74,25 @@ class HasSurfacePair(Protocol):
 def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> ContactLaw:
     """Return the contact law called ``name`` for a pair of surfaces, or for those of a case.
 
-    ``options`` are parameters of laws, such as ``damping_factor`` and ``restitution``. Those that another law
-    has and this one has not are passed over, so that a case can hand on all it has.
+    Parameters
+    ----------
+    name
+        One of ``LAWS``.
+    surfaces
+        A pair of surfaces, or a case that has one.
+    options
+        Parameters of laws, such as ``damping_factor`` and ``restitution`` [1]. Those that only other laws
+        have are ignored, so that a case can pass all it has.
+
+    Returns
+    -------
+    ContactLaw
+        Its functions take separations h* [1] of any shape and return pressures [Pa] of that shape.
+
+    Raises
+    ------
+    InputError
+        There is no such law or option, or a value is out of its range.
     """
     if name not in LAWS:
         raise InputError(f"no contact law {name!r}; there is {', '.join(LAWS)}", key="contact.law")
@@ -87,7 +104,27 @@ def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> Co
 
 
 def made(kind: type[ContactLaw], pair: SurfacePair, options: Mapping[str, Any]) -> ContactLaw:
-    """Return a law of a kind for a pair of surfaces, with those of the options that it has."""
+    """Return a law of a kind for a pair of surfaces, with those of the options that it has.
+
+    Parameters
+    ----------
+    kind
+        Class of the law.
+    pair
+        The surfaces.
+    options
+        Parameters of laws by name; those that this law does not have are ignored.
+
+    Returns
+    -------
+    ContactLaw
+        The law.
+
+    Raises
+    ------
+    InputError
+        The value of an option is out of its range.
+    """
     own = _options_of(kind)
     return kind(pair, **{key: value for key, value in options.items() if key in own})
 

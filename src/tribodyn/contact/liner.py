@@ -86,6 +86,11 @@ def lined(table: ContactTable, stiffness: float) -> ContactTable:
         Over the separation of the asperities.
     stiffness
         k_w σ: pressure that the layer takes for each σ [Pa].
+
+    Returns
+    -------
+    ContactTable
+        Over the gap, which is the separation of the asperities less the depth that the layer sinks.
     """
     from scipy.interpolate import CubicHermiteSpline
 

@@ -27,6 +27,11 @@ def law_of_user(given: OwnLaw) -> type[ContactLaw]:
         A subclass of :class:`ContactLaw`, or a function of h* = h/σ that returns the pressure in Pa, which
         the law is named after.
 
+    Returns
+    -------
+    type
+        The class; a class that was given is returned as it is.
+
     Raises
     ------
     InputError

@@ -42,6 +42,11 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
         :data:`TAIL`, whatever is farther. Slopes are sixth-order differences of the law, so that a
         law needs to supply no derivative. The damping of ``calibrated`` is scaled so that the design impact
         of the law returns its restitution.
+
+    Raises
+    ------
+    InputError
+        The width is not above zero, or the onset lies outside the table.
     """
     _check_onset(onset, smoothing_width)
     step = (H_LAST - H_FIRST) / INTERVALS

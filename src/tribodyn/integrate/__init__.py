@@ -72,7 +72,14 @@ def integrate(
     -------
     Solution
         What was reached. A run that fails midway is no exception but a ``Solution``
-        whose ``failure`` holds the reason.
+        whose ``failure`` holds the reason. Its times have the shape (n,), its rows (n, m) for the m
+        quantities that the problem observes.
+
+    Raises
+    ------
+    InputError
+        There is no such solver, a tolerance is out of its range, times do not increase inside the span, or
+        the solver takes no mass matrix.
     """
     if solver not in SOLVERS:
         raise InputError(f"unknown solver {solver!r}; choose one of {', '.join(SOLVERS)}", key="solver.name")

@@ -154,6 +154,11 @@ def load_case(
     source
         Where the changes come from, for messages.
 
+    Returns
+    -------
+    Case
+        Checked; its values are in SI units.
+
     Raises
     ------
     InputError

@@ -103,6 +103,12 @@ def contributions(
     watcher
         Who is told how it is going, and may end it.
 
+    Returns
+    -------
+    tuple of OutputShares
+        One for each output with an ideal value; its shares have the shape (n_joints,) and, with the
+        interaction, add up to one.
+
     Raises
     ------
     InputError

@@ -132,6 +132,11 @@ def make_plan(case: Case, vary: Mapping[str, Asked], sampling: Sampling = Sampli
     sampling
         How distributions are sampled.
 
+    Returns
+    -------
+    SweepPlan
+        All points, in the order in which they are computed.
+
     Raises
     ------
     InputError

@@ -95,6 +95,11 @@ def shares(dataset: xr.Dataset, limits: Mapping[str, float]) -> dict[str, Share]
     -------
     dict
         With the score interval of a share (Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
+
+    Raises
+    ------
+    KeyError
+        The sweep has no such number.
     """
     return {
         name: _share(dataset[name].values, limit, POINT in dataset.dims) for name, limit in limits.items()
@@ -147,6 +152,11 @@ def sensitivities(dataset: xr.Dataset, resamples: int = 499) -> dict[str, dict[s
     -------
     dict
         Estimators of Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, by SciPy.
+
+    Raises
+    ------
+    KeyError
+        The dataset has no attribute ``varied``: it is no sweep.
     """
     if dataset.attrs.get("sampling_method") != SENSITIVITY:
         return {}

@@ -91,6 +91,18 @@ _AS_MEASURED: Final = Treatment()
 def analyse(scan: Scan, treatment: Treatment = _AS_MEASURED) -> MeasuredSurface:
     """Return the roughness of a scan.
 
+    Parameters
+    ----------
+    scan
+        Heights [m], shape (n,) of a profile or (n_y, n_x) of a map.
+    treatment
+        Form to remove, and the cut-offs of the filters [m].
+
+    Returns
+    -------
+    MeasuredSurface
+        Parameters of the roughness, its asperities, and warnings.
+
     Raises
     ------
     InputError
@@ -140,9 +152,14 @@ def dependence(roughness: MeasuredSurface, scan: Scan) -> list[MeasuredSurface]:
 
     Returns
     -------
-    list of Roughness
+    list of MeasuredSurface
         The shortest wavelength goes from the one of ``roughness``, or four points, up to a tenth of the
         longest; then the longest goes down from a half of that of ``roughness``. The other stays.
+
+    Raises
+    ------
+    InputError
+        The scan cannot be used.
     """
     scan, _ = checked(scan)
     level = levelled(scan, roughness.treatment.level)

@@ -56,7 +56,23 @@ class Asperities:
 
 
 def asperities(moments: Moments) -> Asperities:
-    """Return the asperities of a surface with these moments."""
+    """Return the asperities of a surface with these moments.
+
+    Parameters
+    ----------
+    moments
+        Of the spectrum of a profile, m2 and m4 above zero.
+
+    Returns
+    -------
+    Asperities
+        Density [1/m²], radius and spread of the heights [m].
+
+    Raises
+    ------
+    ZeroDivisionError
+        The surface is flat: m2 or m4 is zero.
+    """
     alpha = moments.m0 * moments.m4 / moments.m2**2
     return Asperities(
         density=moments.m4 / (6.0 * math.pi * math.sqrt(3.0) * moments.m2),

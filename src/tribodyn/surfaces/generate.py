@@ -86,6 +86,16 @@ def generate(spectrum: SelfAffine, shape: tuple[int, ...], spacing: float, seed:
         Distance of neighbouring points in every direction [m].
     seed
         The same seed gives the same surface.
+
+    Returns
+    -------
+    Scan
+        Heights [m] of the given shape.
+
+    Raises
+    ------
+    ValueError
+        The seed is negative, or a dimension is.
     """
     noise = np.fft.rfftn(np.random.default_rng(seed).standard_normal(shape))
     axes = [np.fft.fftfreq(n, spacing) for n in shape[:-1]] + [np.fft.rfftfreq(shape[-1], spacing)]

@@ -108,7 +108,18 @@ class Moments:
 
 
 def moments(scan: Scan) -> Moments:
-    """Return the moments of a surface that has been levelled and filtered."""
+    """Return the moments of a surface that has been levelled and filtered.
+
+    Parameters
+    ----------
+    scan
+        Heights [m], shape (n,) of a profile or (n_y, n_x) of a map; NaN where none was measured.
+
+    Returns
+    -------
+    Moments
+        Variances of heights [m²], slopes [1] and curvatures [1/m²].
+    """
     m0 = float(np.nanvar(scan.heights))
     return _of_map(scan, m0) if scan.is_map else _of_profile(scan, m0)
 

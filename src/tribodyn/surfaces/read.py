@@ -42,6 +42,11 @@ def read_scan(
     channel
         Which of the file's channels of heights, counted from 1.
 
+    Returns
+    -------
+    Scan
+        Heights [m], shape (n,) of a profile or (n_y, n_x) of a map.
+
     Raises
     ------
     InputError

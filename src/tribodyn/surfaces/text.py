@@ -104,6 +104,11 @@ def write_text(scan: Scan, path: Path) -> None:
         Any surface.
     path
         File to write.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
     """
     spacing = ", ".join(f"{step!r} m" for step in reversed(scan.spacing))
     rows = (",".join(_written(value) for value in row) for row in np.atleast_2d(scan.heights))

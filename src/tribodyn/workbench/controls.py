@@ -13,6 +13,7 @@ from tribodyn.cases.keys import VALUE, Key, Value
 from tribodyn.cases.lists import LISTS
 from tribodyn.cases.tables import Tables, keys_in, with_components
 from tribodyn.cases.units import number_in
+from tribodyn.mechanisms.checks import ROUGH_LIMIT
 from tribodyn.studies.variation import written
 from tribodyn.workbench.ranges import track
 
@@ -31,10 +32,16 @@ def turnable(case: Case) -> dict[str, Key]:
 
 def controls(case: Case, patterns: Sequence[str]) -> list[dict[str, Any]]:
     """Return the controls of a case, first those that match patterns, in the order of these."""
-    keys = {path: key for path, key in turnable(case).items() if _stands(case, path)}
+    without_effect = case.without_effect()
+    keys = {
+        path: key
+        for path, key in turnable(case).items()
+        if _stands(case, path) and not any(f"{path}.".startswith(f"{one}.") for one in without_effect)
+    }
     first = list(dict.fromkeys(_matching(case, keys, patterns)))[:FIRST]
     others = [path for path in keys if path not in first]
-    return [_control(case, keys[path], path in first) for path in (*first, *others)]
+    lowest = {path: ROUGH_LIMIT * roughness for path, roughness in case.rough_clearances().items()}
+    return [_control(case, keys[path], path in first, lowest.get(path)) for path in (*first, *others)]
 
 
 def _stands(case: Case, path: str) -> bool:
@@ -54,7 +61,7 @@ def _matching(case: Case, keys: Mapping[str, Key], patterns: Sequence[str]) -> I
 
 def _has_course(key: Key, value: Value | None) -> bool:
     """Tell whether a slider or a list can give other values."""
-    return bool(key.choices) or track(key, _number(value)) is not None
+    return bool(key.choices) or key.kind == "switch" or track(key, _number(value)) is not None
 
 
 def text(key: Key, value: Value | None) -> str:
@@ -93,9 +100,9 @@ def label(case: Case, key: Key) -> str:
     return f"{parts[-1].replace('_', ' ')}, {meaning}" if _GOES_ON.match(meaning) else meaning
 
 
-def _control(case: Case, key: Key, first: bool) -> dict[str, Any]:
+def _control(case: Case, key: Key, first: bool, lowest: float | None) -> dict[str, Any]:
     value = case.at(key.path)
-    found = track(key, _number(value))
+    found = track(key, _number(value), lowest)
     return {
         "key": key.path,
         "label": label(case, key),

@@ -34,7 +34,7 @@ class Track:
     step: float
 
 
-def track(key: Key, value: float | None) -> Track | None:
+def track(key: Key, value: float | None, lowest: float | None = None) -> Track | None:
     """Return the track of a number; None for what is no number, and where nothing says how large it may be.
 
     Parameters
@@ -43,6 +43,9 @@ def track(key: Key, value: float | None) -> Track | None:
         What the number is of.
     value
         Its value (SI); None where none is given, and the example of the key says how large it may be.
+    lowest
+        Value (SI) below which a run makes no sense; a slider begins at the next step above it, or at the
+        value itself where that is less.
     """
     if key.kind not in ("quantity", "number", "count"):
         return None
@@ -55,6 +58,9 @@ def track(key: Key, value: float | None) -> Track | None:
     limits = {name: _in_unit(key, bound) for name, bound in key.bounds}
     greatest = min(_round(abs(number)), _inside(limits, "lt", "le", step))
     least = max(-greatest, -_inside({name: -bound for name, bound in limits.items()}, "gt", "ge", step))
+    if lowest is not None:
+        sensible = math.ceil(Decimal(repr(_in_unit(key, lowest))) / step) * step
+        least = max(least, min(sensible, math.floor(number / step) * step))
     return Track(float(least), float(greatest), float(step)) if least < greatest else None
 
 

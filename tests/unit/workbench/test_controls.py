@@ -93,6 +93,43 @@ def test_no_two_first_controls_have_one_name(name):
     assert len(set(labels)) == len(labels)
 
 
+def pressed(**clearance):
+    """Return the controls of a hinge of steel in bronze, by key; keys of its clearance are given."""
+    drawn = td.Mechanism("Hinge", run={"duration": "1 s"}).pair("bearing")
+    drawn.body("door", mass="1 kg", centre="0.1, 0, 0 m", inertia="0.01, 0.01, 0.01 kg m^2")
+    keys = {"radial": "20 um", "radius": "5 mm", "length": "10 mm", **clearance}
+    case = drawn.revolute("pivot", "ground", "door", point="0, 0, 0 m", axis=[0, 0, 1], clearance=keys).case()
+    return {control["key"]: control for control in controls(case, MECHANISMS["mechanism"].controls)}
+
+
+def test_surfaces_that_no_joint_has_are_no_controls():
+    of_case = {"surfaces.bushing.roughness", "contact.law"}
+    assert of_case <= pressed().keys()
+    made = pressed(pair="bearing").keys()
+    assert not of_case & made
+    assert {f"pairs.bearing.{key}" for key in of_case} <= made
+    assert "pairs.bearing.contact.law" not in pressed()
+
+
+def test_a_joint_is_made_ideal_by_a_control_and_then_has_no_other_of_its_clearance():
+    assert pressed()["joints.pivot.clearance.ideal"]["first"]
+    own = [key for key in pressed(ideal=True) if key.startswith("joints.pivot.clearance.")]
+    assert own == ["joints.pivot.clearance.ideal"]
+
+
+@pytest.mark.parametrize(
+    ("name", "path"), [("vsv", "joint.clearance"), ("slider-crank", "joints.wrist.clearance.radial")]
+)
+def test_sliders_of_clearances_begin_above_three_times_the_roughness(name, path):
+    case, made = found(name)
+    (control,) = (one for one in made if one["key"] == path)
+    roughness = case.rough_clearances()[path]
+    assert 3.0 * roughness <= 1e-6 * control["least"] < 3.0 * roughness + 1e-6 * control["step"]
+    key = with_components(keys_in(case))[path]
+    # A case that is rougher than that keeps its value.
+    assert track(key, 2e-6, 5e-6).least <= 2.0
+
+
 def test_parameters_have_the_first_sliders():
     drawn = td.Mechanism("Pendulum", run={"duration": "1 s"}).parameter("length", "0.5 m")
     drawn.body("rod", shape="rod", start="0, 0, 0 m", end="0, -length, 0 m", radius="5 mm", mass="1 kg")

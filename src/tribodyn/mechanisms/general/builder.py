@@ -69,6 +69,11 @@ class Mechanism(Signatures, _CaseTables):
     def case(self) -> MechanismCase:
         """Return the case.
 
+        Returns
+        -------
+        MechanismCase
+            Checked; its values are in SI units.
+
         Raises
         ------
         InputError

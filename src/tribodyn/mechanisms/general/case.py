@@ -183,6 +183,33 @@ class MechanismCase(_WithElements):
         """Return the keys that follow from the shapes of bodies."""
         return solids.following(self._given)
 
+    def without_effect(self) -> tuple[str, ...]:
+        """Return surfaces that no joint has, and clearances of joints that are ideal all the same."""
+        used = {joint.real.pair for joint in self.joints.values() if joint.real is not None}
+        tables = ("surfaces", "asperities", "contact")
+        ideal = (
+            name for name, joint in self.joints.items() if joint.clearance is not None and not joint.real
+        )
+        return (
+            *(() if None in used else tables),
+            *(f"{_PAIRS}.{name}" for name in self.pairs if name not in used),
+            *(
+                f"joints.{name}.clearance.{key}"
+                for name in ideal
+                for key in ClearanceKeys.model_fields
+                if key != "ideal"
+            ),
+        )
+
+    def rough_clearances(self) -> dict[str, float]:
+        """Return the combined rms roughness σ of the surfaces of joints with a radial clearance [m]."""
+        real = {name: joint.real for name, joint in self.joints.items()}
+        return {
+            f"joints.{name}.clearance.radial": self.of_pair(clearance).surface_pair.roughness_rms
+            for name, clearance in real.items()
+            if clearance is not None and clearance.radial is not None
+        }
+
     def doors(self) -> Doors:
         """Return where functions for the drive and for loads go."""
         return doors_of(self.drives, self.loads, self.span)

@@ -39,11 +39,13 @@ MECHANISM: Final = MechanismDescriptor(
         "drives.*.*.value",
         "drives.*.*.angular_frequency",
         "joints.*.clearance.friction_coefficient",
+        "joints.*.clearance.ideal",
         "loads.*.*.value",
         "springs.*.stiffness",
         "joints.*.start_speed",
         "surfaces.bushing.roughness",
         "contact.law",
+        "bodies.*.mass",
     ),
     bearings="tribodyn.mechanisms.general.surfaces:bearings",
 )

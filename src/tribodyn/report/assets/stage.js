@@ -88,7 +88,7 @@ class Stage {
     const room = this.area.clientWidth - wide - 6;
     const a = aside[0] < 0 ? Math.max(x + aside[0], wide + 6) : Math.min(x + aside[0], room);
     const near = (other, b) => Math.abs(other.a - a) < 0.5 * (other.wide + wide) && Math.abs(other.b - b) < LINE;
-    let b = y + aside[1];
+    let b = Math.max(y + aside[1], LINE);
     while (written.some((other) => near(other, b))) b += (Math.sign(aside[1]) || -1) * LINE;
     written.push({ a, b, wide });
     Object.assign(pen, { strokeStyle: theme.colour("quiet"), lineWidth: 1, fillStyle: theme.colour("ink") });

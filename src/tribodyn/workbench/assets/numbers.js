@@ -2,6 +2,8 @@
 
 /** Numbers that are shown before they are asked for, the robust ones and those that matter most: beside controls, below them. */
 const MOST_AT_FIRST = { wide: 7, narrow: 4 };
+/** Energy residual above which the reasons for doubt are unfolded [%]. */
+const MOST_MISSED = 1;
 const chosen = { curve: null, all: false, against: null };
 
 /** Return a headline number in words. */
@@ -24,6 +26,17 @@ function rangeText({ name, digits }) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   if (values.length < 2 || low === high) return "";
   return `${headlineText(low, digits)} … ${headlineText(high, digits)}`;
+}
+
+/** Return the largest energy residual of a run [%]; 0 where it has none. */
+function energyMissed(headlines) {
+  const residuals = Object.keys(headlines).filter((name) => name.endsWith("energy_residual_percent"));
+  return Math.max(0, ...residuals.map((name) => headlines[name]));
+}
+
+/** Say what an energy balance that does not close means, and what to do. */
+function energyReason(missed) {
+  return `The energy balance misses ${number(missed, 2)} %: forces and heat may be wrong by as much. Lower solver.rtol.`;
 }
 
 /** Return the run that numbers are compared with. */
@@ -84,7 +97,10 @@ function tellDoubts() {
   const { failure, warnings, number: mine } = pageState.shown;
   if (mine >= requests.troubled) trouble(failure && `This run is not complete: ${failure}`, mine);
   const doubts = document.getElementById("doubts");
-  doubts.hidden = !warnings.length;
-  doubts.querySelector("summary").textContent = `Before you trust these numbers (${warnings.length})`;
-  doubts.querySelector("ul").replaceChildren(...warnings.map((text) => element("li", {}, text)));
+  const missed = energyMissed(pageState.shown.headlines);
+  const reasons = missed > MOST_MISSED ? [energyReason(missed), ...warnings] : warnings;
+  doubts.hidden = !reasons.length;
+  if (missed > MOST_MISSED) doubts.open = true;
+  doubts.querySelector("summary").textContent = `Why these numbers may be wrong (${reasons.length})`;
+  doubts.querySelector("ul").replaceChildren(...reasons.map((text) => element("li", {}, text)));
 }
