@@ -52,7 +52,11 @@ _SETTLED: Final = 1.0e-3
 _BALANCED: Final = 1.0e-6
 """Load over the largest one met on the way that is none."""
 _LOST: Final = 3.0
-"""How many times its largest gap a shaft may move without finding what holds it."""
+"""How many times the largest gap of its joint a shaft may move without finding what holds it."""
+_TILTED: Final = 30.0
+"""The same of a shaft that touches: tilted within a short bore, its end faces are further away."""
+_TOUCHING: Final = 5.0
+"""Gap over the roughness at which surfaces touch."""
 _LEAST: Final = 1.0
 """Stiffness of springs where there is no contact yet [N/m]."""
 _FLOOR: Final = 1.0e-6
@@ -310,9 +314,14 @@ class JointLoads:
 
     @property
     def lost(self) -> bool:
-        """Whether a shaft has left its socket without meeting anything."""
-        gaps = [(contact.gaps(self._place(contact)), contact.drawn) for contact in self.contacts]
-        return any(not np.max(np.abs(gap)) <= _LOST * np.max(drawn) for gap, drawn in gaps)
+        """Whether a shaft has left its socket, or moves along it without end."""
+        return any(self._has_left(contact) for contact in self.contacts)
+
+    def _has_left(self, contact: JointNodes) -> bool:
+        """Return whether the shaft of one joint has left its socket."""
+        gaps = contact.gaps(self._place(contact))
+        touches = bool(np.any(gaps < _TOUCHING * contact.roughness))
+        return not np.max(np.abs(gaps)) <= (_TILTED if touches else _LOST) * np.max(contact.drawn)
 
 
 def _spaces(matrix: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:

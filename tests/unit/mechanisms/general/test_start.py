@@ -102,6 +102,13 @@ def test_the_vane_with_clearance_in_every_joint_begins_in_equilibrium() -> None:
     assert MechanismSystem(td.load_case("vsv-joints")).start() is not None
 
 
+@pytest.mark.parametrize("length", ["6 mm", "12 mm"])
+def test_a_shaft_that_tilts_in_a_short_bore_begins_in_equilibrium(length: str) -> None:
+    # Tilted by twice the clearance over the length its end face is further away than the clearance.
+    system = MechanismSystem(td.load_case("vsv-free", {"joints.trunnion.clearance.length": length}))
+    assert system.start() is not None
+
+
 def test_who_asks_for_the_middle_gets_it() -> None:
     system = MechanismSystem(parsed(DRIVEN + WRIST + 'start = "centred"\n'))
     assert system.start() is None
