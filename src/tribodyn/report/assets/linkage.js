@@ -29,7 +29,7 @@ widgets.linkage = (box) => {
 /** Return where bodies and joints are, at some of the frames. */
 function shownPlaces({ bodies, joints, outlines }) {
   const SOME = 24;
-  const all = [...bodies, ...outlines, ...joints.map((joint) => ({ points: joint.points, n: 2, shown: 1 }))];
+  const all = [...bodies, ...bodies.flatMap(({ solid }) => solid ?? []), ...outlines, ...joints.map((joint) => ({ points: joint.points, n: 2, shown: 1 }))];
   return all.flatMap(({ points, n, shown = n }) => {
     const frames = points.length / (3 * n);
     const step = Math.max(1, Math.floor(frames / SOME));
@@ -55,15 +55,17 @@ function pointAt(points, n, frame, number) {
 /** Add all rods and joints at one frame; those of another run are faint. */
 function addLinkage(solid, data, frame, strength) {
   const paint = (name) => [...theme.rgb(name), 255 * strength];
-  for (const { n, points, colour } of data.bodies) {
+  for (const { n, points, colour, solid: own } of data.bodies) {
+    if (own) addSolid(solid, own, frame, paint(colour));
+    const thick = (own ? THICK.line : THICK.rod) * data.size;
     const at = Math.min(frame, points.length / (3 * n) - 1);
     const from = pointAt(points, n, at, 0);
-    if (n === 2 && Math.hypot(...minus(pointAt(points, n, at, 1), from)) < THICK.rod * data.size) {
+    if (!own && n === 2 && Math.hypot(...minus(pointAt(points, n, at, 1), from)) < THICK.rod * data.size) {
       addBlock(solid, from, THICK.block * data.size, paint(colour));
       continue;
     }
     for (let k = 1; k < n; k++) {
-      solid.rod(from, pointAt(points, n, at, k), THICK.rod * data.size, paint(colour), 12);
+      solid.rod(from, pointAt(points, n, at, k), thick, paint(colour), 12);
     }
   }
   for (const { n, points, colour } of data.outlines) {
@@ -76,22 +78,38 @@ function addLinkage(solid, data, frame, strength) {
   for (const joint of data.joints) addJoint(solid, data, joint, frame, paint(joint.real ? "vermilion" : "quiet"));
 }
 
+/** Add a body in its sizes: a round one between the middles of its ends, a box from its centre and three faces. */
+function addSolid(solid, { n, points, radius }, frame, colour) {
+  const at = Math.min(frame, points.length / (3 * n) - 1);
+  const places = Array.from({ length: n }, (_, k) => pointAt(points, n, at, k));
+  if (radius) {
+    solid.rod(...places, radius, colour, 40);
+    return;
+  }
+  const [centre, ...faces] = places;
+  const [along, up, aside] = faces.map((face) => minus(face, centre));
+  const [width, thickness] = [aside, up].map((half) => 2 * Math.hypot(...half));
+  solid.bar(minus(centre, along), plus(centre, along), unit(up), width, thickness, colour);
+}
+
 /** Add a body that has no length, such as a slider: a cube. */
 function addBlock(solid, at, half, colour) {
   const [from, to] = [-half, half].map((by) => [at[0] + by, at[1], at[2]]);
   solid.bar(from, to, [0, 0, 1], 2 * half, 2 * half, colour);
 }
 
-/** Add a joint: a short pin along its axis, or across it where it has none. */
+/** Add a joint: a short pin along its axis, or a ball where it has none. */
 function addJoint(solid, data, joint, frame, colour) {
   const shown = Math.min(frame, joint.points.length / 6 - 1);
   const at = pointAt(joint.points, 2, shown, 0);
   const axis = minus(pointAt(joint.points, 2, shown, 1), at);
   const ball = Math.hypot(...axis) < 0.5;
-  const along = ball ? [0, 0, 1] : unit(axis);
-  const half = (ball ? THICK.joint : 0.5 * THICK.pin) * data.size;
-  const ends = [-half, half].map((by) => at.map((value, n) => value + by * along[n]));
-  solid.rod(...ends, THICK.joint * data.size, colour, ball ? 8 : 16);
+  if (ball) {
+    solid.ball(at, 1.2 * THICK.joint * data.size, colour);
+    return;
+  }
+  const half = 0.5 * THICK.pin * data.size;
+  solid.rod(...[-half, half].map((by) => plus(at, unit(axis), by)), THICK.joint * data.size, colour, 16);
 }
 
 /** Return the joints' names where the joints are; those of one place stand side by side. */

@@ -38,6 +38,16 @@ class Solid {
     this.loft([loop(from), loop(to)], colour);
   }
 
+  /** Add a ball. */
+  ball(centre, radius, colour, sides = 16) {
+    const rings = Array.from({ length: sides / 2 + 1 }, (_, n) => {
+      const angle = (2 * Math.PI * n) / sides;
+      const [high, wide] = [radius * Math.cos(angle), radius * Math.sin(angle)];
+      return circle(sides).map(([c, s]) => plus(centre, [wide * c, wide * s, high]));
+    });
+    this.loft(rings, colour, false);
+  }
+
   /** Add a flat bar between two points, wide across `up`. */
   bar(from, to, up, width, thickness, colour) {
     const along = unit(minus(to, from));

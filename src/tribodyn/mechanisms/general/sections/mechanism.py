@@ -8,7 +8,9 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.general.skeleton import Mark, Skeleton, case_of, outline_at, skeleton, view
+from tribodyn.mechanisms.general.body import BodyKeys
+from tribodyn.mechanisms.general.body_solids import body_solid
+from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.encode import packed
 from tribodyn.views.playback import playback_times
@@ -51,6 +53,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
         return None
     drawn, (position, orientation) = skeleton(case), motion
     bodies = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
+    solids = [_solid(drawn, b, body, position, orientation) for b, body in enumerate(case.bodies.values())]
     marks = [_mark(drawn, mark, position, orientation) for mark in drawn.marks]
     outlines = [outline_at(drawn, outline, position, orientation) for outline in drawn.outlines]
     shown = (*bodies, *(mark[:, 0] for mark in marks), *outlines)
@@ -62,7 +65,8 @@ def data(dataset: xr.Dataset) -> Payload | None:
         "eye": eye.tolist(),
         "up": up.tolist(),
         "bodies": [
-            _body(name, k, points) for k, (name, points) in enumerate(zip(drawn.bodies, bodies, strict=True))
+            _body(name, k, points) | {"solid": solid}
+            for k, (name, points, solid) in enumerate(zip(drawn.bodies, bodies, solids, strict=True))
         ],
         "joints": [
             {"name": mark.name, "real": mark.real, "points": packed(points)}
@@ -87,6 +91,17 @@ def _body(name: str, number: int, points: FloatArray) -> dict[str, Any]:
     }
 
 
+def _solid(
+    drawn: Skeleton, number: int, body: BodyKeys, position: FloatArray, orientation: FloatArray
+) -> dict[str, Any] | None:
+    """Return the solid of a body as the script reads it [mm]; None where its keys give none."""
+    found = body_solid(body)
+    if found is None:
+        return None
+    points = drawn.moved(found.points, number, position[:, number], orientation[:, number])
+    return {"n": points.shape[1], "radius": MM * found.radius, "points": packed(points)}
+
+
 def _colour(body: int) -> str:
     """Return the colour of a body; the ground has one too."""
     return str(LOOKS[(body + 1) % len(LOOKS)][0])
@@ -103,7 +118,8 @@ SECTION: Final = Section(
     name="mechanism",
     title="The mechanism",
     caption=(
-        "Bodies as rods between their joints; joints with clearance stand out; elements show as thin lines. "
+        "Bodies with a shape in their sizes, others as rods between their joints; joints with clearance "
+        "stand out; elements show as thin lines. "
         "Drag to turn it, or use the arrow keys."
     ),
     needs=("position", "orientation", "body", "joint"),
