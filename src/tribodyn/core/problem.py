@@ -35,12 +35,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+
+Floats: TypeAlias = NDArray[np.floating[Any]]
+"""Numbers of any precision."""
 
 
 @dataclass(frozen=True)
@@ -181,6 +184,11 @@ class Problem:
         Returns the solution where states are not integrated but known or in equilibrium; its arguments are
         the times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial
         value problem.
+    kept
+        Places in a row of the numbers that the solution keeps, rising, those of ``following.watched`` among
+        them, shape (n_kept,); ``None`` for all.
+    picture_type
+        Type of the pictures that the solution keeps; ``picture`` fills double precision.
     sample
         ``sample(t, y)`` sets in the memory what is held until the next sampling time, and tells whether it
         has; ``None`` where nothing is.
@@ -204,6 +212,13 @@ class Problem:
     longest_step: float = math.inf
     solved: Callable[[FloatArray, FloatArray, Callable[[float], None] | None], Solution] | None = None
     sample: Callable[[float, FloatArray], bool] | None = None
+    kept: NDArray[np.intp] | None = None
+    picture_type: str = "float64"
+
+    @property
+    def n_kept(self) -> int:
+        """Numbers of a row of the solution."""
+        return self.n_observed if self.kept is None else self.kept.size
 
 
 @dataclass
@@ -228,7 +243,7 @@ class Solution:
     t
         Times of the rows [s], shape (n_t,): the output times, up to a failure, and those of steps followed.
     rows
-        Observed quantities, shape (n_t, n_observed).
+        Observed quantities that are kept, shape (n_t, n_kept).
     picture_times
         Times of the pictures reached [s], shape (n_p,).
     pictures
@@ -244,7 +259,7 @@ class Solution:
     t: FloatArray
     rows: FloatArray
     picture_times: FloatArray
-    pictures: FloatArray
+    pictures: Floats
     t_end: float
     y_end: FloatArray
     statistics: Statistics = field(default_factory=Statistics)

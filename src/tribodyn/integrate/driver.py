@@ -19,6 +19,7 @@ from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate.base import Method, Segment, Step, VectorFunction
 from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 from tribodyn.integrate.following import Followed
+from tribodyn.integrate.kept import Kept
 from tribodyn.integrate.patience import Patience
 from tribodyn.integrate.schedule import Schedule
 
@@ -93,11 +94,8 @@ class Walk:
         self.y = np.array(problem.y0, dtype=np.float64)
         self.marks = [*schedule.marks.tolist(), np.inf]  # plain floats compare faster
         self.next_mark = 0
-        self.rows = np.empty((schedule.output_times.size, problem.n_observed))
-        self.pictures = np.empty((schedule.picture_times.size, *problem.field_shape))
-        self.n_rows = 0
-        self.n_pictures = 0
-        self.followed = Followed(problem.following, problem.n_observed)
+        self.kept = Kept(problem, schedule.output_times.size, schedule.picture_times.size)
+        self.followed = Followed(problem.following, problem.n_observed, problem.kept)
         self.n_followed = self.window = self.skipped = 0
 
     def solve(self, segment: Callable[[float], None]) -> Solution:
@@ -123,13 +121,13 @@ class Walk:
         self.functions.enter(self.t, self.y, self.problem.data, self.problem.memory)
         if self.problem.sample is not None and self.problem.sample(self.t, self.y):
             self.functions.enter(self.t, self.y, self.problem.data, self.problem.memory)
-        kept = self.n_rows, self.n_pictures
+        kept = self.kept.numbers
         if self.marks[self.next_mark] <= self.t:  # only at the initial time; later ones are taken
             # At once, since a rate may leave in the memory what no row is to be made of.
             self.take()
         for what, values in (("value", self.y), ("rate", self.binding.rhs(self.t, self.y))):
             if name := self.binding.first_not_finite(values):
-                self.n_rows, self.n_pictures = kept
+                self.kept.numbers = kept
                 self.binding.note = ""
                 raise IntegrationFailure(self.t, f"the {what} of {name} is not finite where a segment starts")
 
@@ -199,13 +197,13 @@ class Walk:
         """Take what is due at the next mark: an output row, a picture or both."""
         problem, mark = self.problem, self.next_mark
         if self.schedule.is_output[mark]:
-            row = self.rows[self.n_rows]
-            self.functions.observe(self.t, self.y, problem.data, problem.memory, row)
-            self.n_rows += 1
+            row = np.empty((1, problem.n_observed))
+            self.functions.observe(self.t, self.y, problem.data, problem.memory, row[0])
+            self.kept.add_rows(row)
         if self.schedule.is_picture[mark]:
-            fields = self.pictures[self.n_pictures]
-            self.functions.picture(self.t, self.y, problem.data, problem.memory, fields)
-            self.n_pictures += 1
+            fields = np.empty((1, *problem.field_shape))
+            self.functions.picture(self.t, self.y, problem.data, problem.memory, fields[0])
+            self.kept.add_pictures(fields)
         self.next_mark += 1
 
     def follow(self) -> None:
@@ -246,13 +244,13 @@ class Walk:
     def solution(self, failure: str | None) -> Solution:
         """Return what was reached."""
         self.collect()
-        times = self.schedule.output_times[: self.n_rows]
-        times, rows = self.followed.merged(times, self.rows[: self.n_rows])
+        n_rows, n_pictures = self.kept.numbers
+        times, rows = self.followed.merged(self.schedule.output_times[:n_rows], self.kept.rows[:n_rows])
         return Solution(
             t=times,
             rows=rows,
-            picture_times=self.schedule.picture_times[: self.n_pictures],
-            pictures=self.pictures[: self.n_pictures],
+            picture_times=self.schedule.picture_times[:n_pictures],
+            pictures=self.kept.pictures[:n_pictures],
             t_end=self.t,
             y_end=self.y,
             statistics=self.statistics,

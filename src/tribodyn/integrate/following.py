@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final
 
@@ -16,6 +15,8 @@ CHUNK: Final = 512
 """Rows collected between two visits."""
 _UNTHINNED: Final = 4
 """A stretch is thinned on the way when it holds this many times the rows that it may keep."""
+ROOM: Final = 64_000_000
+"""Size of its rows from which it is thinned at twice these rows already [B]."""
 
 Rows = tuple[FloatArray, FloatArray]
 """Times [s], shape (n,), and rows, shape (n, n_observed)."""
@@ -23,6 +24,15 @@ Rows = tuple[FloatArray, FloatArray]
 
 class Followed:
     """Rows of accepted steps of one integration.
+
+    Parameters
+    ----------
+    following
+        Which steps give rows; None for no step.
+    n_observed
+        Numbers of a row.
+    kept
+        Places in a row of the numbers that are kept, rising; None for all.
 
     Attributes
     ----------
@@ -32,51 +42,101 @@ class Followed:
         Where the walk over the steps leaves what it has taken since the last :meth:`collect`.
     """
 
-    def __init__(self, following: Following | None, n_observed: int) -> None:
+    def __init__(
+        self, following: Following | None, n_observed: int, kept: NDArray[np.intp] | None = None
+    ) -> None:
         self.following = following or Following(np.empty((0, 2)), 1, ())
         self.windows = np.append(self.following.windows, [[np.inf, np.inf]], axis=0)
         size = CHUNK if following else 1
         self.times, self.rows = np.empty(size), np.empty((size, n_observed))
-        self._kept: dict[int, list[Rows]] = {}
+        self._kept = np.arange(n_observed) if kept is None else kept
+        most = self.following.most
+        self._full = min(max(ROOM // (8 * max(self._kept.size, 1)), 2 * most), _UNTHINNED * most)
+        self._watched = [np.searchsorted(self._kept, places) for places in self.following.watched]
+        self._stretches: dict[int, _Stretch] = {}
 
     def collect(self, n: int) -> None:
         """Take over the first ``n`` rows."""
         window = np.searchsorted(self.windows[:, 1], self.times[:n])
         for k in np.unique(window).tolist():
-            inside = window == k
-            self._add(k, (self.times[:n][inside], self.rows[:n][inside]))
+            first, last = np.searchsorted(window, [k, k + 1])
+            self._add(self._stretches.setdefault(k, _Stretch(self._kept.size)), int(first), int(last))
+
+    def _add(self, stretch: _Stretch, first: int, last: int) -> None:
+        """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
+        while first < last:
+            end = min(last, first + self._full - stretch.n)
+            stretch.add(self.times[first:end], self.rows[first:end][:, self._kept])
+            if stretch.n == self._full:
+                stretch.keep(self._chosen(stretch))
+            first = end
 
     def merged(self, times: FloatArray, rows: FloatArray) -> Rows:
-        """Return other rows and those kept, in the order of time."""
-        parts = [(times, rows), *(self._thinned(_joined(kept)) for kept in self._kept.values())]
-        self._kept.clear()
-        every = np.concatenate([part[0] for part in parts])
-        order = np.argsort(every)
-        return every[order], np.concatenate([part[1] for part in parts])[order]
+        """Return other rows and those kept, in the order of time; those kept are given away."""
+        stretches = list(self._stretches.values())
+        self._stretches.clear()
+        for stretch in stretches:
+            stretch.keep(self._chosen(stretch))
+        every = np.concatenate([times, *(stretch.times for stretch in stretches)])
+        order = np.argsort(every, kind="stable")
+        place = np.empty_like(order)
+        place[order] = np.arange(order.size)
+        found = np.empty((every.size, rows.shape[1]))
+        found[place[: times.size]] = rows
+        first = times.size
+        while stretches:
+            for block in stretches.pop(0).blocks():
+                found[place[first : first + len(block)]] = block
+                first += len(block)
+        return every[order], found
 
-    def _add(self, k: int, new: Rows) -> None:
-        """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
-        full = _UNTHINNED * self.following.most
-        kept = self._kept.setdefault(k, [])
-        while new[0].size:
-            room = full - sum(times.size for times, _ in kept)
-            kept.append((new[0][:room], new[1][:room]))
-            new = new[0][room:], new[1][room:]
-            if sum(times.size for times, _ in kept) == full:
-                kept[:] = [self._thinned(_joined(kept))]
+    def _chosen(self, stretch: _Stretch) -> NDArray[np.intp]:
+        """Return which rows of a stretch are kept."""
+        if stretch.n <= self.following.most:
+            return np.arange(stretch.n)
+        return thinning(np.concatenate([*map(self._sizes, stretch.blocks())]), self.following.most)
 
-    def _thinned(self, rows: Rows) -> Rows:
-        """Return what is kept of the rows of a stretch."""
-        kept = thinning(self._watched(rows[1]), self.following.most)
-        return rows[0][kept], rows[1][kept]
-
-    def _watched(self, rows: FloatArray) -> FloatArray:
+    def _sizes(self, rows: FloatArray) -> FloatArray:
         """Return what must keep its peaks, a column each: numbers as they are, vectors by their lengths."""
         columns = [
             rows[:, places[0]] if len(places) == 1 else np.linalg.norm(rows[:, places], axis=1)
-            for places in self.following.watched
+            for places in self._watched
         ]
         return np.column_stack(columns)
+
+
+class _Stretch:
+    """Rows of a stretch in blocks, so that more of them need no other place."""
+
+    def __init__(self, n_kept: int) -> None:
+        self.n, self.times = 0, np.empty(0)
+        self._blocks: list[FloatArray] = []
+        self._shape = CHUNK, n_kept
+
+    def add(self, times: FloatArray, rows: FloatArray) -> None:
+        """Add rows with their times."""
+        self.times = np.append(self.times, times)
+        first = 0
+        while first < len(rows):
+            used = self.n % CHUNK
+            if used == 0:
+                self._blocks.append(np.empty(self._shape))
+            part = rows[first : first + CHUNK - used]
+            self._blocks[-1][used : used + len(part)] = part
+            self.n += len(part)
+            first += len(part)
+
+    def blocks(self) -> list[FloatArray]:
+        """Return the rows, block by block."""
+        return [block[: self.n - k * CHUNK] for k, block in enumerate(self._blocks)]
+
+    def keep(self, chosen: NDArray[np.intp]) -> None:
+        """Give up all rows but some, whose numbers rise."""
+        for new, old in enumerate(chosen.tolist()):
+            if new != old:
+                self._blocks[new // CHUNK][new % CHUNK] = self._blocks[old // CHUNK][old % CHUNK]
+        self.n, self.times = chosen.size, self.times[chosen]
+        del self._blocks[-(-self.n // CHUNK) :]
 
 
 def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
@@ -103,7 +163,3 @@ def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
     ]
     return np.unique(np.concatenate(pieces))
 
-
-def _joined(parts: Sequence[Rows]) -> Rows:
-    times, rows = zip(*parts, strict=True)
-    return np.concatenate(times), np.concatenate(rows)

@@ -76,7 +76,10 @@ class _CompiledWalk(Walk):
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
             arrays = (self._jacobian(state), self._own, self._marks, self._pause)
-            self._loop = _compiled(run, resume, self.problem, self.types, *arrays)
+            signatures = _signatures(self.problem, self.types, self._own)
+            resume.compile(signatures[0].args)  # else numba would, and keep it apart from what others call
+            self._loop = _compiled(run, signatures, self.types, *arrays)
+            self._functions = _by_address(self._functions, signatures)
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
 
@@ -90,7 +93,7 @@ class _CompiledWalk(Walk):
 
         problem, marks = self.problem, self._marks
         state = self._new_state(self.t, t_end)
-        marks.position[:] = self.next_mark, self.n_rows, self.n_pictures, 0, self.window, self.skipped
+        marks.position[:] = self.next_mark, 0, 0, 0, self.window, self.skipped
         marks.reached[0] = self.t
         before = vars(self.statistics).copy()
         outcome = PAUSED
@@ -186,13 +189,14 @@ class _CompiledWalk(Walk):
     def _new_marks(self) -> Marks:
         from tribodyn.kernels.mebdf.drive import Marks
 
-        pictures = self.pictures if self.pictures.ndim > 1 else self.pictures[:, None]
+        problem, schedule = self.problem, self.schedule
+        pictures = np.empty((schedule.picture_times.size, *(problem.field_shape or (1,))))
         return Marks(
             times=np.array(self.marks),
-            is_output=self.schedule.is_output,
-            is_picture=self.schedule.is_picture,
-            tolerance=np.array([self.schedule.tolerance]),
-            rows=self.rows,
+            is_output=schedule.is_output,
+            is_picture=schedule.is_picture,
+            tolerance=np.array([schedule.tolerance]),
+            rows=np.empty((schedule.output_times.size, problem.n_observed)),
             pictures=pictures,
             windows=self.followed.windows,
             step_times=self.followed.times,
@@ -205,15 +209,21 @@ class _CompiledWalk(Walk):
         )
 
     def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
-        """Take from the compiled loop where it is and what it has cost."""
-        from mebdf.kernels import state as entry
-        from tribodyn.kernels.mebdf.drive import N_STEPS
+        """Take from the compiled loop where it is, what it has cost, and rows and pictures.
 
-        position = self._marks.position
-        self.next_mark, self.n_rows, self.n_pictures, self.n_followed, *more = position.tolist()
+        Rows and pictures begin anew after each visit, so that of the arrays that the loop fills only the first
+        rows are ever touched where steps take long: only these take memory.
+        """
+        from mebdf.kernels import state as entry
+        from tribodyn.kernels.mebdf.drive import N_OUTPUTS, N_STEPS
+
+        marks = self._marks
+        self.next_mark, n_rows, n_pictures, self.n_followed, *more = marks.position.tolist()
         self.window, self.skipped = more
         self.collect()
-        position[N_STEPS] = 0
+        self.kept.add_rows(marks.rows[:n_rows])
+        self.kept.add_pictures(marks.pictures[:n_pictures].reshape(n_pictures, *self.problem.field_shape))
+        marks.position[N_OUTPUTS : N_STEPS + 1] = 0
         self.t = state.number("t")
         self.y = state.rows[entry.HISTORY].copy()
         self.step_size = state.number("h_last")
@@ -260,40 +270,49 @@ def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
         thread.join()
 
 
-def _compiled(
-    run: Any,
-    resume: Any,
-    problem: Problem,
-    types: tuple[Any, Any],
-    jacobian: Any,
-    own: Any,
-    *others: Any,
-) -> Any:
+def _signatures(problem: Problem, types: tuple[Any, Any], own: Any) -> list[Any]:
+    """Return numba's signatures of the functions that the loop calls; None where there is no function."""
+    import numba
+    from numba import void
+
+    from mebdf.kernels.state import state_type
+
+    typeof: Callable[[Any], Any] = numba.typeof
+    arguments = argument_types(problem, types)
+    found = [numba.int64(*state_type().types), *(void(*arguments[name]) for name in HANDED)]
+    if own is None:
+        return [*found, None, None]
+    entries, pivots = typeof(own.jacobian), typeof(own.pivots)
+    factorise = numba.int64(numba.float64, types[0], entries, entries, pivots)
+    return [*found, factorise, void(types[0], entries, pivots, entries)]
+
+
+def _compiled(run: Any, signatures: list[Any], types: tuple[Any, Any], *work: Any) -> Any:
     """Return the loop compiled for the types of the problem, from numba's cache where it is there.
 
     With the functions of a problem as ordinary arguments the loop would be compiled for each of them
     and never found in the cache by another process.
     """
     import numba
-    from numba import void
     from numba.core.types import FunctionType
 
     from mebdf.kernels.state import state_type
 
     typeof: Callable[[Any], Any] = numba.typeof
-    arguments = argument_types(problem, types)
-    parts = state_type().types
-    resume.compile(parts)  # else numba would, and keep it apart from what others call with these types
-    core = FunctionType(numba.int64(*parts))
-    handed = [FunctionType(void(*arguments[name])) for name in HANDED]
-    solvers: tuple[Any, Any] = (numba.none, numba.none)
-    if own is not None:
-        entries, pivots = typeof(own.jacobian), typeof(own.pivots)
-        factorise = numba.int64(numba.float64, types[0], entries, entries, pivots)
-        solve = void(types[0], entries, pivots, entries)
-        solvers = FunctionType(factorise), FunctionType(solve)
-    work = map(typeof, (jacobian, own, *others))
-    return run.compile((core, *handed, *solvers, state_type(), *types, *work))
+    functions = [numba.none if one is None else FunctionType(one) for one in signatures]
+    return run.compile((*functions, state_type(), *types, *map(typeof, work)))
+
+
+def _by_address(functions: tuple[Any, ...], signatures: list[Any]) -> tuple[Any, ...]:
+    """Return compiled functions that know their addresses.
+
+    Of others numba looks them up whenever the loop is called, by the types of all arguments: 10 ms each time
+    for a mechanism.
+    """
+    from tribodyn.kernels.address import ByAddress
+
+    pairs = zip(functions, signatures, strict=True)
+    return tuple(None if f is None else ByAddress(f, signature) for f, signature in pairs)
 
 
 MEBDF = CompiledMebdf()

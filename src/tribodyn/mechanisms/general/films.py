@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Floats
 from tribodyn.kernels.film.data import FilmData
-from tribodyn.mechanisms.general.maps import Floats
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.variables import OIL
 

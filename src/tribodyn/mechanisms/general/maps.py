@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, TypeAlias
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Floats
 from tribodyn.joints.clearances import Place
 
-Floats: TypeAlias = NDArray[np.floating[Any]]
 LATITUDE: Final = "latitude"
 
 
