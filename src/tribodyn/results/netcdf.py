@@ -51,8 +51,8 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
             dataset.dump_to_store(store, encoding=encoding)
         finally:
             # Not when it is collected: that may be in another thread.
-            content = bytes(file.close())
-    return content + _MARK + _checksum(content)
+            content = file.close()
+    return b"".join([content, _MARK, _checksum(content)])
 
 
 def dataset_of(content: bytes) -> xr.Dataset:
@@ -138,7 +138,7 @@ def _text_size(variable: netCDF4.Variable[Any], room: int, content: bytes) -> in
     return longest * size
 
 
-def _checksum(content: bytes) -> bytes:
+def _checksum(content: bytes | memoryview) -> bytes:
     return f"{zlib.crc32(content):0{_DIGITS}x}".encode()
 
 

@@ -13,6 +13,9 @@ from tribodyn.core.problem import Problem, Solution
 _OF_PROCESS: Final = ("law", "exchanges")
 """Numbers of a process, not of a case: addresses of force laws, and the pivots of the last factorisation."""
 
+_BLOCK: Final = 4_000_000
+"""Size of what is copied at once [B]."""
+
 
 def of_data(problem: Problem, *more: Any) -> str:
     """Return the hash of all that a run reads: constants, tables, start, times and tolerances.
@@ -46,10 +49,13 @@ def _add(digest: Any, name: str, value: Any) -> None:
     elif isinstance(value, str):
         digest.update(f"{name} {value} ".encode())
     elif isinstance(value, np.ndarray | np.generic | float | int):
-        array = np.array(value, order="C")
-        if array.dtype.kind == "f":
-            array[np.isnan(array)] = np.nan  # one of all bit patterns
-        digest.update(f"{name} {array.dtype.str} {array.shape} ".encode() + array.tobytes())
+        array = np.asarray(value)
+        digest.update(f"{name} {array.dtype.str} {array.shape} ".encode())
+        for block in np.array_split(np.atleast_1d(array), array.nbytes // _BLOCK + 1):
+            copy = np.array(block, order="C")
+            if copy.dtype.kind == "f":
+                copy[np.isnan(copy)] = np.nan  # one of all bit patterns
+            digest.update(copy.tobytes())
     else:
         digest.update(f"{name} ".encode())
 

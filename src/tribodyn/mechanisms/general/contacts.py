@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+import pickle
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from typing import Final
 
 import numpy as np
@@ -12,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import Stopped
 from tribodyn.core.quantities import Record
 from tribodyn.core.stopping import skip
-from tribodyn.joints.clearances import Clearance, Place, assemble, places, pose_at
+from tribodyn.joints.clearances import Clearance, Place, SurfaceLaw, assemble, places, pose_at
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.joints.shapes import Ball, Cylinder, Sphere
 from tribodyn.joints.touch import Touch
@@ -29,6 +30,9 @@ _NOTED: Final = 4
 _SAMPLES: Final = 24
 _FINER: Final = 4
 _FORCE: Final = ("F_cx", "F_cy", "F_cz")
+_ALL: Final = slice(None)
+_DECIDING: Final = (*(field.name for field in fields(SurfaceLaw)), "shape", "grid")
+"""What decides about the grid of a joint and the forces on it at rest, beside its wear."""
 
 
 @dataclass(frozen=True)
@@ -136,19 +140,25 @@ class Contacts:
         error, at_rest = np.full(n_surfaces, np.nan), np.zeros(n_surfaces)
         if not n_rows:
             return error, at_rest
-        try:
-            fine = self._finer(data)
-        except Stopped:
-            skip()
-            return error, np.full(n_surfaces, np.nan)
-        grids = [(grid, new_memory(grid)) for grid in (data, fine)]
-        some = np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int))
-        for j, (number, clearance) in enumerate(zip(self.numbers, self.clearances, strict=True)):
+        some = np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)).tolist()
+        chosen, memory = _Finer(self.places, data), new_memory(data)
+        # Equal joints one after the other: their grid is made once, and the memory holds one at a time.
+        joints = sorted(enumerate(self.clearances), key=lambda pair: chosen.key(*pair))
+        for j, clearance in joints:
             if clearance.contact != SURFACE:
                 continue
-            own = slice(int(data.joints[j]), int(data.joints[j + 1]))
-            poses = [_pose(rows, number, int(row), openings[row, j]) for row in some]
-            pairs = [[_force(*grid, j, pose, own) for grid in grids] for pose in poses if not skip()]
+            own, number = slice(int(data.joints[j]), int(data.joints[j + 1])), self.numbers[j]
+            poses = [_pose(rows, number, row, openings[row, j]) for row in some]
+            try:
+                fine = chosen.grid(j, clearance)
+                pairs = [
+                    (_force(data, memory, j, pose, own), _force(*fine, 0, pose, _ALL))
+                    for pose in poses
+                    if not skip()
+                ]
+            except Stopped:
+                skip()
+                pairs = []
             if len(pairs) < len(poses):
                 at_rest[own] = np.nan
                 continue
@@ -158,17 +168,44 @@ class Contacts:
             error[own] = off / largest if largest > 0.0 else 0.0
             hardest = int(np.argmax(rows["pressure_max"][:, number]))
             pose = _pose(rows, number, hardest, openings[hardest, j])
-            at_rest[own] = _reported(*grids[1], j, pose)["p_max"][own]
+            at_rest[own] = _reported(*fine, 0, pose)["p_max"]
         return error, at_rest
 
-    def _finer(self, data: SurfaceData) -> SurfaceData:
-        """Return the same joints with their wear on grids finer in both directions."""
-        finer = [replace(c, grid=(_FINER * c.grid[0], _FINER * c.grid[1])) for c in self.clearances]
-        depth = [
-            _resampled(data.nodes[GAP, place.nodes] - place.surface.gap, place, there)
-            for place, there in zip(self.places, places(finer), strict=True)
-        ]
-        return assemble(finer, np.concatenate(depth))
+
+class _Finer:
+    """Joints with their wear on grids finer in both directions, each alone; equal ones share theirs."""
+
+    def __init__(self, places: Sequence[Place], data: SurfaceData) -> None:
+        self._places, self._data = places, data
+        self._last: tuple[bytes, tuple[SurfaceData, SurfaceMemory]] | None = None
+
+    def key(self, j: int, clearance: Clearance) -> bytes:
+        """Return what the grid of a joint follows from."""
+        facts = [getattr(clearance, name) for name in _DECIDING]
+        return pickle.dumps((facts, [depth.tobytes() for depth in self._depths(j)]))
+
+    def grid(self, j: int, clearance: Clearance) -> tuple[SurfaceData, SurfaceMemory]:
+        """Return the finer grid of a joint and a memory for it.
+
+        Raises
+        ------
+        Stopped
+            If the caller wants to stop.
+        """
+        key = self.key(j, clearance)
+        if self._last is None or self._last[0] != key:
+            self._last = None
+            finer = [replace(clearance, grid=(_FINER * clearance.grid[0], _FINER * clearance.grid[1]))]
+            own = [place for place in self._places if place.joint == j]
+            pairs = zip(self._depths(j), own, places(finer), strict=True)
+            fine = assemble(finer, np.concatenate([_resampled(*pair) for pair in pairs]))
+            self._last = key, (fine, new_memory(fine))
+        return self._last[1]
+
+    def _depths(self, j: int) -> list[FloatArray]:
+        """Return the wear depths of the surfaces of a joint [m]."""
+        own = [place for place in self._places if place.joint == j]
+        return [self._data.nodes[GAP, place.nodes] - place.surface.gap for place in own]
 
 
 def _touch(clearance: Clearance, place: Place) -> Touch:
