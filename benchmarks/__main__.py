@@ -21,6 +21,7 @@ NAMES: Final = (
     "joint_kernel",
     "vsv",
     "mechanism",
+    "ring",
     "film",
     "growth",
     "long_run",

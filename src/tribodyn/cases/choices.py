@@ -13,7 +13,7 @@ Choices: TypeAlias = frozenset[tuple[str, object]]
 
 def choices_of(case: Case) -> Choices:
     """Return the choices of a case but for its title. Cases that agree in them have the same equations."""
-    return frozenset(_choices(case.model_dump(exclude={"title"})))
+    return frozenset(_choices(case.model_dump(exclude={"title", "results"})))
 
 
 def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, object]]:

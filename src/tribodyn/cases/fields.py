@@ -115,9 +115,10 @@ def series(description: str, source: str, *, unit: str = "", example: str) -> An
     return _field(None, description, source, kind="series", unit=unit, example=example)
 
 
-def names(description: str, source: str, *, length: int, example: str) -> Any:
-    """Declare a key that takes that many names, 0 for any number, and must be given."""
-    return _field(None, description, source, kind="names", required=True, example=example, length=length)
+def names(description: str, source: str, *, length: int, example: str, required: bool = True) -> Any:
+    """Declare a key that takes that many names, 0 for any number; without them it is empty."""
+    more: dict[str, Any] = {"example": example, "length": length}
+    return _field(None, description, source, kind="names", required=required, **more)
 
 
 def _numbers(texts: str, unit: str) -> tuple[float, ...]:

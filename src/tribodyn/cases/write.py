@@ -47,6 +47,8 @@ def to_toml(
         for table, inside in groupby(keys.values(), key=lambda key: key.table)
     }
     for table, inside in (tables if comments else _shortened(tables)).items():
+        if not inside and _is_always_there(case, table):
+            continue
         lines += ["", f"[{table}]", *inside] if table else inside
     if comments:
         declared = keys_of(type(case))
@@ -83,6 +85,12 @@ def _shortened(tables: Mapping[str, list[str]]) -> dict[str, list[str]]:
 
 def _is_there(case: BaseModel, table: str) -> bool:
     return not table or value_at(case, table) is not None
+
+
+def _is_always_there(case: BaseModel, table: str) -> bool:
+    """Whether a table need not be written where it holds no key: the case has it all the same."""
+    known = type(case).model_fields.get(table)
+    return known is not None and isinstance(known.default, BaseModel)
 
 
 def _head(kind: str) -> Iterator[str]:

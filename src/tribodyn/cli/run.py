@@ -123,10 +123,12 @@ def _progress(case: Case, console: Console) -> Progress:
 
 
 def _save(dataset: xr.Dataset, directory: OutputDirectory) -> dict[str, Any]:
-    from tribodyn.mechanisms.results import summarise, write_run
+    from tribodyn.mechanisms.results import summarise
+    from tribodyn.results.store import write_run
 
-    write_run(dataset, directory.path, stale=directory.pictures())
-    return summarise(dataset)
+    summary = summarise(dataset)
+    write_run(dataset, directory.path, summary, stale=directory.pictures())
+    return summary
 
 
 def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, args: Namespace) -> bool:

@@ -162,4 +162,3 @@ def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
         for part in [values[begin:end]]
     ]
     return np.unique(np.concatenate(pieces))
-

@@ -211,8 +211,8 @@ class _CompiledWalk(Walk):
     def _take_over(self, state: MebdfState, before: dict[str, Any]) -> None:
         """Take from the compiled loop where it is, what it has cost, and rows and pictures.
 
-        Rows and pictures begin anew after each visit, so that of the arrays that the loop fills only the first
-        rows are ever touched where steps take long: only these take memory.
+        Rows and pictures begin anew after each visit: of the arrays that the loop fills only the first ones
+        are ever touched where steps take long, and only these take memory.
         """
         from mebdf.kernels import state as entry
         from tribodyn.kernels.mebdf.drive import N_OUTPUTS, N_STEPS

@@ -24,7 +24,9 @@ _SAME: Final = 1.0e-9
 """Times closer than this share of the run are the same time."""
 
 
-def frame_times(duration: float, period: float, reversals: FloatArray, window: float) -> FloatArray:
+def frame_times(
+    duration: float, period: float, reversals: FloatArray, window: float, even: int = EVEN
+) -> FloatArray:
     """Return the times of all frames [s], increasing, shape (n_frames,).
 
     Parameters
@@ -37,9 +39,11 @@ def frame_times(duration: float, period: float, reversals: FloatArray, window: f
         Times at which the motion turns around [s].
     window
         How long after a reversal frames are close together [s].
+    even
+        Frames in a cycle, without those after reversals.
     """
     cycles = {first_frame(duration, period), 0.0}
-    parts = [_of_cycle(start, min(period, duration), reversals, window) for start in sorted(cycles)]
+    parts = [_of_cycle(start, min(period, duration), reversals, window, even) for start in sorted(cycles)]
     return distinct(np.concatenate(parts), duration)
 
 
@@ -79,11 +83,11 @@ def distinct(times: FloatArray, duration: float) -> FloatArray:
     return np.asarray(ordered[apart], dtype=np.float64)
 
 
-def _of_cycle(start: float, length: float, reversals: FloatArray, window: float) -> FloatArray:
+def _of_cycle(start: float, length: float, reversals: FloatArray, window: float, even: int) -> FloatArray:
     """Return the times of the frames of one cycle [s]."""
     turns = np.concatenate([[start], reversals])
     within = turns[(turns >= start) & (turns < start + length)]
     each = max(1, min(AFTER_REVERSAL, MOST_CLOSE // max(within.size, 1)))
     burst = window * np.arange(1, each + 1) / each
     close = (within[:, None] + burst).ravel() if window > 0.0 else np.empty(0)
-    return np.concatenate([start + length * np.linspace(0.0, 1.0, EVEN + 1), close[close < start + length]])
+    return np.concatenate([start + length * np.linspace(0.0, 1.0, even + 1), close[close < start + length]])

@@ -13,7 +13,8 @@ from tribodyn.cases.case import Case
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.results import store, summary
+from tribodyn.results import json_attribute, store, summary
+from tribodyn.results.attributes import NOT_KEPT
 from tribodyn.results.summary import Headline
 from tribodyn.results.variables import VARIABLES
 
@@ -72,6 +73,8 @@ def all_there(*datasets: xr.Dataset) -> Iterator[None]:
         if not known or all(name in dataset.variables for dataset in datasets):
             raise
         reason = f"the result lacks the variable {name}; it is damaged: simulate the case again"
+        if any(name in json_attribute(dataset, NOT_KEPT, []) for dataset in datasets):
+            reason = f"the result does not keep {name}: name it in results.quantities and run the case again"
         raise InputError(reason) from error
 
 

@@ -26,6 +26,8 @@ DATA_HASH: Final = "data_sha256"
 """SHA-256 of all that a run was computed from."""
 ROWS_HASH: Final = "rows_sha256"
 """SHA-256 of its rows."""
+NOT_KEPT: Final = "not_kept"
+"""Names of variables that the case did not ask for."""
 
 ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start"), TEXT),
@@ -44,6 +46,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     "warnings": TEXTS,
     "notes": TEXTS,
     "varied": TEXTS,
+    NOT_KEPT: TEXTS,
 }
 """Attributes of a dataset by name."""
 

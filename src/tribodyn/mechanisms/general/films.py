@@ -19,6 +19,8 @@ def film_columns(couplings: Mapping[str, FloatArray], model: Model) -> dict[str,
     """Return what is observed of films, each of shape (n_t, n_joints) or (n_t, n_joints, 3)."""
     found = {}
     for name in OIL if model.oiled else ():
+        if name not in couplings:
+            continue
         found[name] = np.full_like(couplings[name][:, : len(model.joints)], np.nan)
         found[name][:, model.oiled] = couplings[name][:, model.oiled]
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Final
 
 import numpy as np
 
@@ -12,7 +13,14 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.case import MechanismCase
 
-_Z = 2
+_Z: Final = 2
+OBSERVED: Final = {
+    "angles": "joint_angle",
+    "positions": "displacement",
+    "speeds": "relative_rate",
+    "velocities": "relative_velocity",
+}
+"""What a table follows of a joint, or of its own load, by what it runs over."""
 
 
 def followed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
@@ -22,20 +30,15 @@ def followed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: Fo
     """
     if not table.follows:
         return _opposed(case, couplings, table)
-    along = {
-        "angles": couplings["joint_angle"],
-        "positions": couplings["displacement"][..., _Z],
-        "speeds": couplings["relative_rate"][..., _Z],
-        "velocities": couplings["relative_velocity"][..., _Z],
-    }[table.over]
-    return np.asarray(case.joints[table.follows].sign * along[:, list(case.joints).index(table.follows)])
+    own = couplings[OBSERVED[table.over]][:, list(case.joints).index(table.follows)]
+    return np.asarray(case.joints[table.follows].sign * (own if own.ndim == 1 else own[:, _Z]))
 
 
 def _opposed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
     """Return the speed that a load opposes, shape (n_t,)."""
     name = table.path.split(".")[1]
     place = len(case.joints) + len(case.springs) + list(case.loads).index(name)
-    twist = couplings["relative_rate" if table.over == "speeds" else "relative_velocity"][:, place]
+    twist = couplings[OBSERVED[table.over]][:, place]
     direction = case.loads[name].direction
     if direction is None:
         return np.asarray(np.linalg.norm(twist, axis=1))

@@ -16,8 +16,8 @@ quaternion the axis takes the part
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -55,6 +55,10 @@ class Motion:
     orientation: FloatArray
     velocity: FloatArray
     angular_velocity: FloatArray
+
+
+MOTION: Final = tuple(field.name for field in fields(Motion))
+"""What outputs are computed from."""
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from tribodyn.core.errors import IntegrationFailure, Stopped
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.integrate.binding import kernel_types, machine_code
+from tribodyn.integrate.kept import Kept
 from tribodyn.kernels.actions import TIME
 from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
 from tribodyn.mechanisms.signals import backward, constant
@@ -91,16 +92,17 @@ def walked(
     progress
         Called with each time reached.
     """
-    begin, walk = time.perf_counter(), _Walk(problem, path)
+    begin, walk = time.perf_counter(), _Walk(problem, path, picture_times.size)
     nearest = np.abs(path.times[:, None] - picture_times).argmin(axis=0) if path.times.size else []
     shown, failure, reached = np.unique(nearest).astype(int), None, 0
-    pictures = np.zeros((shown.size, *problem.field_shape))
+    field = np.zeros((1, *problem.field_shape))
     y = problem.y0.copy()
     try:
         for k in range(path.times.size):
             y = walk.put(k, states(k))
-            for place in np.flatnonzero(shown == k):
-                walk.picture(k, y, pictures[place])
+            if k in shown:
+                walk.picture(k, y, field[0])
+                walk.kept.add_pictures(field)
             reached = k + 1
             if progress is not None:
                 progress(float(path.times[k]))
@@ -111,9 +113,9 @@ def walked(
     taken = shown[shown < reached]
     return Solution(
         t=path.times[:reached],
-        rows=walk.rows[:reached],
+        rows=walk.kept.rows[:reached],
         picture_times=path.times[taken],
-        pictures=pictures[: taken.size],
+        pictures=walk.kept.pictures[: taken.size],
         t_end=float(path.times[reached - 1]) if reached else 0.0,
         y_end=y,
         statistics=Statistics(steps=reached, wall_time=time.perf_counter() - begin),
@@ -124,12 +126,13 @@ def walked(
 class _Walk:
     """Calls the functions of a problem at one state after the other."""
 
-    def __init__(self, problem: Problem, path: DrivePath) -> None:
+    def __init__(self, problem: Problem, path: DrivePath, n_pictures: int) -> None:
         self.problem, self.path, self.memory = problem, path, problem.memory
         self.functions = machine_code(problem, kernel_types(problem))
         self.data: MechanismData = problem.data
         self.clock, self.last = path.of_drives * path.forward, 0.0
-        self.rows = np.empty((path.times.size, problem.n_observed))
+        self.kept = Kept(problem, path.times.size, n_pictures)
+        self.row = np.empty((1, problem.n_observed))
 
     def put(self, k: int, state: FloatArray) -> FloatArray:
         """Put the mechanism into a state and fill its row; return the state on the constraints."""
@@ -141,7 +144,8 @@ class _Walk:
             self.functions.enter(t, y, self.data, memory)
         else:
             self.functions.advance(self.last, t, y, self.data, memory)
-        self.functions.observe(t, y, self.data, memory, self.rows[k])
+        self.functions.observe(t, y, self.data, memory, self.row[0])
+        self.kept.add_rows(self.row)
         self.functions.accept(t, y, self.data, memory)
         if memory.now.course.broken != INTACT:
             raise IntegrationFailure(float(self.path.times[k]), BROKEN)

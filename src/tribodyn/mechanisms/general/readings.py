@@ -42,9 +42,9 @@ def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
     return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))
 
 
-def sizes(dataset: xr.Dataset, name: str) -> FloatArray:
-    """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n)."""
-    return np.asarray(np.linalg.norm(column(dataset, name), axis=-1))
+def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> FloatArray:
+    """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n); (n_t,) of one."""
+    return np.asarray(np.linalg.norm(column(dataset, name)[:, part], axis=-1))
 
 
 def of_joint(dataset: xr.Dataset, joint: str) -> int:
@@ -53,10 +53,10 @@ def of_joint(dataset: xr.Dataset, joint: str) -> int:
     return names.index(joint.replace("-", "_"))
 
 
-def offset(dataset: xr.Dataset) -> FloatArray:
-    """Return how far shafts are from the middle of their bores [m], shape (n_t, n_joints)."""
-    across = np.linalg.norm(column(dataset, "displacement")[..., :2], axis=-1)
-    return np.asarray(np.where(np.isfinite(column(dataset, "clearance")), across, np.nan))
+def offset(dataset: xr.Dataset, joint: int | slice = slice(None)) -> FloatArray:
+    """Return how far shafts are from the middle of their bores [m], shape (n_t, n_joints); (n_t,) of one."""
+    across = np.linalg.norm(column(dataset, "displacement")[:, joint, :2], axis=-1)
+    return np.asarray(np.where(np.isfinite(column(dataset, "clearance")[joint]), across, np.nan))
 
 
 def least(values: FloatArray) -> float:

@@ -5,11 +5,16 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from tribodyn.cases.case import Group
-from tribodyn.cases.fields import choice, count, number, quantity
+from tribodyn.cases.fields import choice, count, names, number, quantity
 from tribodyn.cases.keys import ASSUMED
+from tribodyn.mechanisms.playback import EVEN
 
 ROWS: Final = 500
 """Rows of a result for which no interval was given."""
+SMALL: Final = 32
+"""Joints of a model up to which results hold everything."""
+FEW_FRAMES: Final = 30
+"""Pressure fields of a cycle of a larger model."""
 
 
 class RunKeys(Group):
@@ -60,6 +65,27 @@ class RunKeys(Group):
         ASSUMED,
         ge=0,
         le=1_000_000,
+    )
+
+
+class ResultKeys(Group):
+    """What the result of a run holds."""
+
+    quantities: tuple[str, ...] | None = names(
+        "quantities of bodies and joints that the result holds over time; of up to "
+        f"{SMALL} joints all, of more those of key results, figures and report",
+        "",
+        length=0,
+        example='["position", "orientation", "reaction_force"]',
+        required=False,
+    )
+    frames: int | None = count(
+        None,
+        f"pressure fields of a cycle; {EVEN} for up to {SMALL} joints, {FEW_FRAMES} for more",
+        "",
+        ge=2,
+        le=10_000,
+        example=str(EVEN),
     )
 
 

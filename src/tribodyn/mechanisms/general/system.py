@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, Final
 
@@ -15,7 +15,6 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
-from tribodyn.kernels.mechanism.quantities import OF_SECOND
 from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.general import checks
@@ -25,17 +24,18 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
 from tribodyn.mechanisms.general.element_numbers import transmitted
-from tribodyn.mechanisms.general.films import film_columns, film_coordinates, film_maps, film_peaks
+from tribodyn.mechanisms.general.films import film_coordinates, film_maps, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
 from tribodyn.mechanisms.general.following import following
 from tribodyn.mechanisms.general.ideal_motion import compared
+from tribodyn.mechanisms.general.kept import Layout, columns, layout_of, not_kept, note
 from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
 from tribodyn.mechanisms.general.output_columns import kinematic_columns, output_coordinates
-from tribodyn.mechanisms.general.outputs import Motion, Output, error_share, limits_of, outputs_of
+from tribodyn.mechanisms.general.outputs import MOTION, Motion, Output, error_share, limits_of, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy
 from tribodyn.mechanisms.general.reversals import Reversals
@@ -45,15 +45,12 @@ from tribodyn.mechanisms.general.surfaces import material_of
 from tribodyn.mechanisms.general.variables import (
     AXES,
     ENTRIES,
-    JOINTS,
-    OIL,
     Observed,
-    observed,
 )
 from tribodyn.mechanisms.general.vibrations import Vibrations, vibrations_of, without_friction
 from tribodyn.mechanisms.general.worn import depth_of, least_roughness, worn_model
 from tribodyn.mechanisms.playback import frame_times, shown
-from tribodyn.results.attributes import CARRIED
+from tribodyn.results.attributes import CARRIED, NOT_KEPT
 
 _STATES: Final = 13
 """Of a body."""
@@ -147,6 +144,7 @@ class MechanismSystem:
             # Of all integrators one knows the structure of these equations.
             dense=self.case.solver.name != "mebdf",
         )
+        problem = replace(problem, kept=self._layout.places, picture_type="float32")
         if self._analysis != "dynamic":
             return analysed(problem, self.assembly, self._analysis, self.case.turn)
         problem = sampled(problem, self.model, self.outputs)
@@ -175,7 +173,9 @@ class MechanismSystem:
 
     def picture_times(self, duration: float) -> FloatArray:
         """Return the times of the frames of the playback [s]; none where all joints are ideal."""
-        return frame_times(duration, self.period, np.empty(0), 0.0) if self.real else np.empty(0)
+        if not self.real:
+            return np.empty(0)
+        return frame_times(duration, self.period, np.empty(0), 0.0, self.case.frames)
 
     def sliding_load(self, problem: Problem) -> FloatArray:
         """Return ∫P_c |s| dt at the nodes over the run [N/m], shape (n_nodes,)."""
@@ -234,8 +234,7 @@ class MechanismSystem:
         return ResultPart(
             coordinates=self._coordinates(run, vibrations),
             columns={
-                **found.bodies,
-                **self._of_joints(found),
+                **columns(self.model, found),
                 **transmitted(self.model, found.couplings),
                 **radial_clearances(self.model, run.solution.t),
                 **of_outputs,
@@ -259,6 +258,7 @@ class MechanismSystem:
                 **self._began(run),
                 **({"cycle_period": self.case.period} if self.case.period is not None else {}),
                 **self._reversals.attributes,
+                **({NOT_KEPT: left_out} if (left_out := not_kept(self.case)) else {}),
             },
             warnings=checks.said(
                 [*self.assembly.warnings],
@@ -274,6 +274,7 @@ class MechanismSystem:
             notes=[
                 *NOTES[self._analysis],
                 *vibrations.notes,
+                *note(self.case),
                 *of_temperatures(self.model),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
@@ -309,24 +310,17 @@ class MechanismSystem:
         return {"start": "equilibrium" if self.start() is not None else "centred"}
 
     def _observed(self, run: FinishedRun) -> Observed:
-        return observed(run.solution.rows, len(self.model.bodies))
+        return self._layout.observed(run.solution.rows)
 
-    def _of_joints(self, found: Observed) -> dict[str, FloatArray]:
-        """Return what is observed of the joints alone, which come before springs and loads.
-
-        Kernels observe all of the shaft.
-        """
-        signs = np.array([joint.sign for joint in self.case.joints.values()])
-        columns = {name: found.couplings[name][:, : signs.size] for name in JOINTS if name not in OIL}
-        for name in OF_SECOND:
-            columns[name] = columns[name] * signs.reshape(-1, *(1,) * (columns[name].ndim - 2))
-        return columns | film_columns(found.couplings, self.model)
+    @cached_property
+    def _layout(self) -> Layout:
+        return layout_of(self.case)
 
     def _of_outputs(self, found: Observed, run: FinishedRun) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
         if not self.outputs:
             return {}, ()
-        motion = Motion(**{field.name: found.bodies[field.name] for field in fields(Motion)})
+        motion = Motion(**{name: found.bodies[name] for name in MOTION})
         path = DrivePath(run.solution.t, self.case.turn)
         columns, notes = compared(self.assembly, self.outputs, path, motion)
         if self._analysis == "kinematic":
@@ -380,12 +374,12 @@ class MechanismSystem:
     def _pressure(self, run: FinishedRun) -> dict[str, Any]:
         if not self.real:
             return {}
-        pictures = run.solution.pictures[self._playback(run), : self.maps.n_nodes].astype(np.float32)
+        pictures = run.solution.pictures[self._playback(run), : self.maps.n_nodes]
         return {"pressure_cycle": self.maps(pictures)}
 
     def _film_pressure(self, run: FinishedRun) -> dict[str, Any]:
         """Return the pressure of the films at the frames of the playback; nothing without films."""
-        pictures = run.solution.pictures[self._playback(run), self.maps.n_nodes :].astype(np.float32)
+        pictures = run.solution.pictures[self._playback(run), self.maps.n_nodes :]
         return film_maps(run.problem.data.films, pictures)
 
 

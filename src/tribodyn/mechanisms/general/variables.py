@@ -62,8 +62,9 @@ class Observed:
 def observed(rows: FloatArray, n_bodies: int) -> Observed:
     """Return what rows of shape (n_t, n_observed) hold."""
     whole, bodies, couplings = np.split(rows, np.cumsum([N_WHOLE, n_bodies * N_BODY]), axis=1)
+    of_couplings = of_parts(couplings, COUPLING, couplings.shape[1] // N_COUPLING)
     return Observed(
-        dict(zip(names(WHOLE), whole.T, strict=True)), _parts(bodies, BODY), _parts(couplings, COUPLING)
+        dict(zip(names(WHOLE), whole.T, strict=True)), of_parts(bodies, BODY, n_bodies), of_couplings
     )
 
 
@@ -73,10 +74,15 @@ def columns_of(name: str, coupling: int, n_bodies: int) -> tuple[int, ...]:
     return tuple(range(first + within.start, first + within.stop))
 
 
-def _parts(rows: FloatArray, table: Table) -> dict[str, FloatArray]:
-    """Return the quantities of bodies or couplings, each of shape (n_t, n) or (n_t, n, size)."""
-    width = sum(quantity.size for quantity in table)
-    values = rows.reshape(rows.shape[0], rows.shape[1] // width, width)
+def place_of(name: str, body: int) -> tuple[int, ...]:
+    """Return which columns of the rows hold an observed quantity of a body."""
+    first, within = N_WHOLE + body * N_BODY, slices(BODY)[name]
+    return tuple(range(first + within.start, first + within.stop))
+
+
+def of_parts(rows: FloatArray, table: Table, n: int) -> dict[str, FloatArray]:
+    """Return the quantities of n bodies or couplings, each of shape (n_t, n) or (n_t, n, size)."""
+    values = rows.reshape(rows.shape[0], n, sum(quantity.size for quantity in table))
     where = slices(table)
     return {
         q.name: values[..., where[q.name]] if q.size > 1 else values[..., where[q.name].start] for q in table

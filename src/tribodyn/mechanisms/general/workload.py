@@ -9,11 +9,10 @@ from typing import Final
 import numpy as np
 
 from tribodyn.kernels.mechanism.data import N_STATES
-from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.kept import layout_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys
 from tribodyn.mechanisms.general.shapes import SHAPES
-from tribodyn.mechanisms.playback import EVEN
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 
 _STEPS: Final = (300.0, 500.0, 1300.0)
@@ -38,8 +37,6 @@ def workload(case: MechanismCase) -> Workload:
     steps = _STEPS[0] + cycles * (_STEPS[1] + _STEPS[2] * math.sqrt(len(real)))
     steps *= (case.solver.rtol / 1.0e-5) ** _TOLERANCE_POWER
     windows = max(1.0, duration / (case.period or duration))
-    legs = sum(len(one.legs) for _, _, keys in case.elements() for one in keys.equations(case.joints))
-    couplings = len(case.joints) + len(case.loads) + len(case.springs) + legs
     compiled = case.solver.name == "mebdf"
     return Workload(
         steps=steps,
@@ -49,10 +46,10 @@ def workload(case: MechanismCase) -> Workload:
         cells=sum(float(film.grid.theta * film.grid.z) for film in films),
         band=max((film.grid.z for film in films), default=0) + 1.0 if films else 0.0,
         mapped=sum(float(film.grid.theta * (film.grid.z + 1)) for film in films),
-        fields=(EVEN + 1.0) * min(2.0, windows) if real else 0.0,
+        fields=(case.frames + 1.0) * min(2.0, windows) if real else 0.0,
         samples=duration / case.output_interval,
         followed=min(case.run.step_rows * windows, steps) if real else 0.0,
-        quantities=float(N_WHOLE + len(case.bodies) * N_BODY + couplings * N_COUPLING),
+        quantities=float(layout_of(case).size),
         runs=_runs(case, real),
         own_matrix=compiled,
         compiled=compiled,
