@@ -33,16 +33,7 @@ from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
-from tribodyn.mechanisms.general.run_keys import (
-    FEW_FRAMES,
-    ROWS,
-    SMALL,
-    Integration,
-    NodeKeys,
-    ResultKeys,
-    RunKeys,
-)
-from tribodyn.mechanisms.playback import EVEN
+from tribodyn.mechanisms.general.run_keys import ROWS, Integration, NodeKeys, ResultKeys, RunKeys
 
 _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
@@ -289,16 +280,6 @@ class MechanismCase(_WithElements):
         return tuple(map(str, range(1, self.run.modes + 1))) if self.run.analysis == "vibrations" else ()
 
     @property
-    def is_large(self) -> bool:
-        """Whether results hold less of it over time unless they are asked for more."""
-        return len(self.joints) > SMALL
-
-    @property
-    def frames(self) -> int:
-        """Pressure fields of a cycle."""
-        return self.results.frames or (FEW_FRAMES if self.is_large else EVEN)
-
-    @property
     def campaign_cycles(self) -> int:
         """Cycles of a wear campaign; 0 where the case asks for none."""
         return self.wear.cycles
@@ -323,7 +304,7 @@ class MechanismCase(_WithElements):
         self._check_loads()
         self._check_elements()
         self._check_run()
-        self._check_results()
+        self.results.check()
         self._check_running_in()
         self._check_campaign()
 
@@ -394,14 +375,6 @@ class MechanismCase(_WithElements):
             words = "a wear campaign counts angles anew in each cycle; leave out gears with backlash"
             coupled = any(len(one.legs) > 1 and one.law is not None for one in equations)
             demand(not coupled or self.wear.cycles == 0, path, words)
-
-    def _check_results(self) -> None:
-        if self.results.quantities is None:
-            return
-        from tribodyn.mechanisms.general.variables import BODIES, JOINTS
-
-        for name in self.results.quantities:
-            demand_known(name, (*BODIES, *JOINTS), "results.quantities", "quantity")
 
     def _check_run(self) -> None:
         run = self.run

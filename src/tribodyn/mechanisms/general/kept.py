@@ -19,6 +19,7 @@ from tribodyn.mechanisms.general.films import film_columns
 from tribodyn.mechanisms.general.followed import OBSERVED
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.outputs import MOTION
+from tribodyn.mechanisms.general.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.general.variables import (
     BODIES,
     JOINTS,
@@ -28,6 +29,7 @@ from tribodyn.mechanisms.general.variables import (
     of_parts,
     place_of,
 )
+from tribodyn.mechanisms.playback import EVEN
 
 OF_LARGE: Final = (
     *("position", "orientation", "velocity", "acceleration"),
@@ -43,12 +45,22 @@ _OF_CLEARANCES: Final = ("tilt_x", "tilt_y", "displacement", "pressure_max")
 _OF_FLASH: Final = ("relative_velocity", "relative_rate", "gap_min")
 
 
+def is_large(case: MechanismCase) -> bool:
+    """Return whether results of a case hold less over time unless they are asked for more."""
+    return len(case.joints) > SMALL
+
+
+def frames(case: MechanismCase) -> int:
+    """Return the number of pressure fields of a cycle."""
+    return case.results.frames or (FEW_FRAMES if is_large(case) else EVEN)
+
+
 def kept(case: MechanismCase) -> tuple[str, ...]:
     """Return the quantities of bodies and joints that results of a case hold over time."""
     every = (*BODIES, *JOINTS)
     if case.results.quantities is not None:
         return tuple(name for name in every if name in case.results.quantities)
-    return tuple(name for name in every if name in OF_LARGE) if case.is_large else every
+    return tuple(name for name in every if name in OF_LARGE) if is_large(case) else every
 
 
 def not_kept(case: MechanismCase) -> list[str]:

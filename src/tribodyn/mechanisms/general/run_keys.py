@@ -7,6 +7,7 @@ from typing import Final, Literal
 from tribodyn.cases.case import Group
 from tribodyn.cases.fields import choice, count, names, number, quantity
 from tribodyn.cases.keys import ASSUMED
+from tribodyn.cases.known import demand_known
 from tribodyn.mechanisms.playback import EVEN
 
 ROWS: Final = 500
@@ -87,6 +88,15 @@ class ResultKeys(Group):
         le=10_000,
         example=str(EVEN),
     )
+
+    def check(self) -> None:
+        """Refuse names that are not those of quantities."""
+        if self.quantities is None:
+            return
+        from tribodyn.mechanisms.general.variables import BODIES, JOINTS
+
+        for name in self.quantities:
+            demand_known(name, (*BODIES, *JOINTS), "results.quantities", "quantity")
 
 
 class NodeKeys(Group):

@@ -40,6 +40,7 @@ class Signatures:
         wear: Table | None = ...,
         solver: Table | None = ...,
         run: Table | None = ...,
+        results: Table | None = ...,
     ) -> None: ...
     def parameter(
         self,

@@ -29,7 +29,7 @@ from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
 from tribodyn.mechanisms.general.following import following
 from tribodyn.mechanisms.general.ideal_motion import compared
-from tribodyn.mechanisms.general.kept import Layout, columns, layout_of, not_kept, note
+from tribodyn.mechanisms.general.kept import Layout, columns, frames, layout_of, not_kept, note
 from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
@@ -175,7 +175,7 @@ class MechanismSystem:
         """Return the times of the frames of the playback [s]; none where all joints are ideal."""
         if not self.real:
             return np.empty(0)
-        return frame_times(duration, self.period, np.empty(0), 0.0, self.case.frames)
+        return frame_times(duration, self.period, np.empty(0), 0.0, frames(self.case))
 
     def sliding_load(self, problem: Problem) -> FloatArray:
         """Return ∫P_c |s| dt at the nodes over the run [N/m], shape (n_nodes,)."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from tribodyn.kernels.mechanism.data import N_STATES
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.kept import layout_of
+from tribodyn.mechanisms.general.kept import frames, layout_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys
 from tribodyn.mechanisms.general.shapes import SHAPES
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
@@ -46,7 +46,7 @@ def workload(case: MechanismCase) -> Workload:
         cells=sum(float(film.grid.theta * film.grid.z) for film in films),
         band=max((film.grid.z for film in films), default=0) + 1.0 if films else 0.0,
         mapped=sum(float(film.grid.theta * (film.grid.z + 1)) for film in films),
-        fields=(case.frames + 1.0) * min(2.0, windows) if real else 0.0,
+        fields=(frames(case) + 1.0) * min(2.0, windows) if real else 0.0,
         samples=duration / case.output_interval,
         followed=min(case.run.step_rows * windows, steps) if real else 0.0,
         quantities=float(layout_of(case).size),

@@ -8,8 +8,7 @@ import pytest
 import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE
-from tribodyn.mechanisms.general import run_keys
-from tribodyn.mechanisms.general.kept import OF_LARGE, Layout, layout_of, not_kept
+from tribodyn.mechanisms.general.kept import OF_LARGE, Layout, frames, layout_of, not_kept
 from tribodyn.mechanisms.general.system import MechanismSystem
 from tribodyn.mechanisms.general.variables import BODIES, JOINTS, OIL, observed
 from tribodyn.mechanisms.results import all_there, summarise
@@ -32,7 +31,7 @@ def whole():
 def large():
     """The same mechanism, taken for a large one, with as many pressure fields."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribodyn.mechanisms.general.case.SMALL", 2)
+        patch.setattr("tribodyn.mechanisms.general.kept.SMALL", 2)
         return td.simulate(brief(**{"results.frames": 120}))
 
 
@@ -101,6 +100,5 @@ def test_a_small_model_keeps_all_rows():
     case = brief()
     assert not not_kept(case)
     assert layout_of(case).places is None
-    assert case.frames == 120
-    assert case.frames > run_keys.FEW_FRAMES
+    assert frames(case) == 120
     assert MechanismSystem(case).problem(case.duration).n_kept == layout_of(case).size
