@@ -278,6 +278,8 @@ def _split(text: str) -> tuple[Decimal, str]:
     number, unit = match.group(1), match.group(2).strip()
     if not unit:
         raise MissingUnit("the unit is missing")
+    if unit.startswith(",") and unit[1:2].isdigit():
+        raise UnitProblem("numbers have a decimal point, not a comma")
     return Decimal(number), f"1{unit}" if unit.startswith("/") else unit
 
 

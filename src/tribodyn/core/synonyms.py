@@ -23,6 +23,11 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "rigid": ("fixed",),
     "plane": ("planar",),
     "bushing": ("spring-damper",),
+    # The body that does not move.
+    "world": ("ground",),
+    "base": ("ground",),
+    "frame": ("ground",),
+    "earth": ("ground",),
     # Tables and keys of user-defined mechanisms.
     "links": ("bodies",),
     "parts": ("bodies",),

@@ -17,7 +17,7 @@ JOINT = '[joints.pivot]\nbetween = ["ground", "rod"]\npoint = "0, 0, 0 mm"\naxis
 def test_every_meaning_is_a_word_of_ours() -> None:
     keys = keys_of(kinds()["mechanism"])
     names = {part for path in keys for part in path.split(".")}
-    ours = {*JOINTS, *COMMANDS, *names, *(kind.METHOD for kind in ELEMENTS), "drive", "load"}
+    ours = {*JOINTS, *COMMANDS, *names, *(kind.METHOD for kind in ELEMENTS), "drive", "load", "ground"}
     assert {word for meant in SYNONYMS.values() for word in meant} <= ours
 
 
@@ -31,6 +31,8 @@ def test_every_meaning_is_a_word_of_ours() -> None:
         (f'{BODY}{JOINT}type = "revolute"\nlocation = "0, 0, 0 mm"\n', "joints.pivot.point"),
         (f'{BODY}{JOINT}type = "revolute"\n[drives.motor]\njoint = "pivot"\nrpm = 3\n', "drives.motor.speed"),
         (BODY.replace("centre", "com"), "bodies.rod.centre"),
+        (f'{BODY}{JOINT.replace("ground", "world")}type = "revolute"\n', 'did you mean "ground"?'),
+        (BODY.replace("1 kg", "1,5 kg"), "a decimal point, not a comma"),
     ],
 )
 def test_words_of_other_programs_are_understood(lines: str, hint: str) -> None:

@@ -1,4 +1,4 @@
-"""Texts for users hold no word of the list: README, manual, keys, key results, variables, messages."""
+"""Texts for users hold no word of the list: manual, keys, key results, messages, report, workbench."""
 
 from __future__ import annotations
 
@@ -47,6 +47,22 @@ def descriptions() -> Iterator[tuple[str, str]]:
     yield from ((command, module.HELP) for command, module in COMMANDS.items())
 
 
+def shown() -> Iterator[tuple[str, str]]:
+    """Yield what report and workbench show, and the case files to start from, each with its name."""
+    source = ROOT / "src" / "tribodyn"
+    for path in (*source.rglob("*.html"), *source.glob("mechanisms/*/templates/*.toml")):
+        yield path.name, re.sub(r"\{[%{].*?[%}]\}|<[^>]*>", "", path.read_text(encoding="utf-8"))
+    for path in source.rglob("assets/*.js"):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        # Names inside the scripts have no spaces.
+        texts = (text for line in lines for text in re.findall(r'"([^"]* [^"]*)"', line))
+        yield path.name, "\n".join(texts)
+    for kind, mechanism in MECHANISMS.items():
+        for chapter in mechanism.chapters:
+            captions = (text for section in chapter.sections for text in (section.title, section.caption))
+            yield f"{kind}: {chapter.name}", "\n".join((chapter.title, chapter.lead, *captions))
+
+
 @pytest.mark.parametrize("page", pages(), ids=name)
 def test_pages_have_standard_terms(page: Path) -> None:
     assert found(prose(page)) == []
@@ -54,6 +70,12 @@ def test_pages_have_standard_terms(page: Path) -> None:
 
 def test_descriptions_have_standard_terms() -> None:
     assert {where: found(text) for where, text in descriptions() if found(text)} == {}
+
+
+def test_report_workbench_and_templates_have_standard_terms() -> None:
+    texts = list(shown())
+    assert len(texts) > 40
+    assert {where: found(text) for where, text in texts if found(text)} == {}
 
 
 def test_messages_have_standard_terms() -> None:

@@ -179,7 +179,7 @@ FILMS: Final = Chart(
 ENERGY: Final = ledger_chart(
     WHOLE,
     name="energy",
-    title="Energy ledger",
+    title="Energy balance",
     caption=(
         "What drives and loads put in, what is stored and what became heat since the start. The residual is "
         "what the sum misses: an error of the integration would show there."

@@ -1,4 +1,4 @@
-"""Deviation of the journal, the forces that hold it, and its energy ledger."""
+"""Deviation of the journal, the forces that hold it, and its energy balance."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ FORCES: Final = Chart(
 ENERGY: Final = ledger_chart(
     LEDGER,
     name="energy",
-    title="Energy ledger",
+    title="Energy balance",
     caption=(
         "What the load puts in is moving, stored in the contact, or has become heat of contact damping or of "
         "the film. The residual is what the integration lost or made up."
