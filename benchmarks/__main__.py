@@ -31,6 +31,7 @@ NAMES: Final = (
     "cash",
     "kinks",
     "random_machines",
+    "static_machines",
 )
 """Every benchmark once: to add one, write a module with ``run`` and name it here."""
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"

@@ -137,8 +137,8 @@ class Equilibria:
                 return self._loads.state
         raise self._failure(
             number,
-            "no static equilibrium was found: contact forces within the range of the "
-            "contact law do not balance the loads",
+            "no static equilibrium was found: contact forces within the range of the contact law do not "
+            "balance the loads, because a joint is overloaded or nothing holds a shaft along its axis",
         )
 
     def _require_reached(self, number: int) -> int:
