@@ -74,7 +74,7 @@ def test_micrometres_are_the_float_a_person_expects() -> None:
         ("-inf m", "m", "finite"),
         ("1e999 m", "m", "too large"),
         ("1e999999999 m", "m", "not a unit"),
-        ("1,5 um", "m", "not a unit"),
+        ("1,5 um", "m", "a decimal point, not a comma"),
         ("20 um + 3 um", "m", "not a unit"),
         ("2*3 um", "m", "not a number|not a unit"),
         ("20 m^99999999", "m", "not a unit"),
