@@ -17,7 +17,7 @@ from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.system import MechanismSystem
 
 REFUSED = tomllib.loads(Path(__file__).with_name("refused_mechanisms.toml").read_text(encoding="utf-8"))
-REAL = [name for name, kind in JOINTS.items() if kind.SHAPES]
+REAL = [name for name, kind in JOINTS.items() if kind.SHAPE]
 
 
 def test_the_slider_crank_itself_is_sound() -> None:

@@ -127,7 +127,7 @@ def test_joints_with_clearance_are_those_listed() -> None:
     from tribodyn.mechanisms.general.joints import JOINTS
 
     (real,) = re.findall(r"Clearance exists in ([^;]*) joints; all others are ideal", TEXT)
-    assert set(re.split(", | and ", real)) == {name for name, kind in JOINTS.items() if kind.SHAPES}
+    assert set(re.split(", | and ", real)) == {name for name, kind in JOINTS.items() if kind.SHAPE}
 
 
 def test_there_are_as_many_validation_sets_as_it_says() -> None:

@@ -48,6 +48,22 @@ assert np.allclose(x, 1.5 * result["time"].values ** 2, atol=1e-9) and abs(z).ma
 assert np.allclose(result["reaction_force_global"].sel(axis="z").values, 18.0, rtol=1e-9)
 """
 
+SHAPE = """
+import numpy as np, tribodyn as td
+from tribodyn.mechanisms.general.model import model_of
+found = td.Mechanism("Press", gravity="0, 0, -9.81 m/s^2", run={"duration": "0.2 ms"})
+found.body("pin", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+found.revolute("bore", "ground", "pin", point="0, 0, 0 mm", axis=[0, 1, 0], second_axis=[0, 0, 1])
+oval = {"shape": "oval-bore", "length": "20 mm", "ovality": "5 um"}
+found.clearance("bore", radius="10 mm", radial="20 um", **oval)
+model = model_of(found.case())
+assert model.counterpart.kind("bore") == "cylindrical" and model.clearances["bore"].shape.ovality == 5e-6
+result = td.simulate(found)
+assert np.isclose(result["reaction_force_global"].sel(axis="z").values[0, 0], 9.81, rtol=1e-3)
+# The pin rests where the bore is wide: 20 + 5 um down, less a few asperities of 1 um.
+assert -25.5e-6 < result["displacement"].sel(axis="x").values[0, 0] < -18e-6
+"""
+
 
 def run_with(tmp_path: Path, folder: str, title: str, first: str, script: str) -> None:
     """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
@@ -77,3 +93,7 @@ def test_an_element_of_the_manual_takes_one_file_and_one_line(tmp_path: Path, ti
 
 def test_a_joint_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
     run_with(tmp_path, "joints", "Ball on plane", '    "ideal",\n', JOINT)
+
+
+def test_a_shape_of_a_clearance_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
+    run_with(tmp_path, "shapes", "Oval bore", '    "mesh",\n', SHAPE)

@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from tribodyn.cases.case import demand
 from tribodyn.cases.joint import FormKeys
-from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.shapes import SHAPES
 
 
-def check_film(kind: str, shape: str, pin_length: float | None, form: FormKeys) -> None:
-    """Refuse an oil film that the kernels of the film do not describe.
-
-    Parameters
-    ----------
-    kind, shape
-        Type of the joint and shape of its clearance; an empty text where it has none.
-    pin_length, form
-        Keys of its clearance.
+def check_film(joint: Any) -> None:
+    """Refuse an oil film that the kernels of the film do not describe; the keys are those of its joint.
 
     Raises
     ------
     InputError
         If the joint is not a pin that turns in a round bore.
     """
-    key = "film.viscosity"
+    key, clearance = "film.viscosity", joint.clearance
     words = "an oil film is in the bore of a pin: a clearance with radius, radial and length is needed"
-    demand(shape in SHAPES and SHAPES[shape].BORE, key, words)
-    words = f"an oil film is that of a revolute joint; in a {kind} one oil would also resist sliding"
-    demand("position" not in JOINTS[kind].COORDINATES, key, words)
+    demand(clearance is not None and SHAPES[joint.shape].BORE, key, words)
+    words = f"an oil film is that of a revolute joint; in a {joint.type} one oil would also resist sliding"
+    demand("position" not in joint.kind.COORDINATES, key, words)
     words = "an oil film is as long as its bore: leave pin_length out"
-    demand(pin_length is None, "clearance.pin_length", words)
+    demand(clearance.pin_length is None, "clearance.pin_length", words)
     words = "an oil film is between round surfaces: leave form or film out"
-    demand(form == FormKeys(), "clearance.form", words)
+    demand(clearance.form == FormKeys(), "clearance.form", words)
+    words = "an oil film has one viscosity and one clearance: give constant temperatures"
+    demand(not clearance.temperature.tables, "clearance.temperature.over_time", words)

@@ -134,7 +134,7 @@ def _of_joint(kind: str) -> BuilderMethod:
         without=(
             *(key for key, coordinate in starts.items() if coordinate not in about.COORDINATES),
             *others,
-            *(() if about.SHAPES else OF_JOINT),
+            *(() if about.SHAPE else OF_JOINT),
         ),
     )
 

@@ -4,23 +4,18 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING, ClassVar, Final, Self
-
-from pydantic import create_model
+from typing import TYPE_CHECKING, Final, Self
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import dot, unit
 from tribodyn.cases.fields import (
-    Numbers,
     Vector,
     choice,
     count,
-    file,
     name,
     names,
     number,
     quantity,
-    series,
     switch,
     vector,
 )
@@ -30,73 +25,39 @@ from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanisms.general.film import check_film
 from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.joints.base import JointType
-from tribodyn.mechanisms.general.shapes import SHAPES
-from tribodyn.mechanisms.general.shapes.cylinder import FLANGE
+from tribodyn.mechanisms.general.members import foreign_keys, with_own_keys
+from tribodyn.mechanisms.general.shapes import SHAPES, shapes_of
 
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 _LEAST_ANGLE: Final = 1e-3
 """Sine of the least angle between two axes that must not be parallel."""
 
 
-class ClearanceKeys(NamedGroup):
-    """What makes an ideal joint a real one; without this table it is ideal."""
-
-    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
-        ("axial", "axial_upper"),
-        ("axial", "axial_lower"),
-        ("mesh", "facets"),
-    )
+class _Sizes(NamedGroup):
+    """The sizes that several shapes have."""
 
     radius: float | None = quantity(None, "radius of the pin or ball", "", gt=0, example="9.5 mm")
     radial: float | None = quantity(
         None, "radial clearance: radius of the bore minus radius of the pin", "", gt=0, example="20 um"
     )
     length: float | None = quantity(None, "length of the bore of a cylinder", "", gt=0, example="20 mm")
-    pin_length: float | None = quantity(
-        None,
-        "length of a pin that is shorter than its bore, such as a piston; the pin passes through without it",
-        "",
-        gt=0,
-        example="15 mm",
-    )
-    axial: float | None = quantity(
-        None, "gap at each end face when centred; without it the pin slides freely", "", gt=0, example="50 um"
-    )
-    axial_upper: float | None = quantity(
-        None,
-        "gap at the end face that the axis points to; carries a pin pushed against the axis",
-        "",
-        gt=0,
-        example="50 um",
-    )
-    axial_lower: float | None = quantity(
-        None, "gap at the other end face; carries a pin pushed along the axis", "", gt=0, example="50 um"
-    )
-    flange: float | None = quantity(
-        None,
-        f"outer radius of the end faces; by default {FLANGE} times the radius",
-        "",
-        gt=0,
-        example="12 mm",
-    )
-    band: float = quantity(
-        "40 deg", "half the width of the race of a ball, as a latitude", "assumed", gt=0, le="90 deg"
-    )
+
+
+if TYPE_CHECKING:
+    _OfAllShapes = _Sizes
+else:
+    _OfAllShapes = with_own_keys(_Sizes, SHAPES.values())
+
+
+class ClearanceKeys(_OfAllShapes):
+    """What makes an ideal joint a real one; without this table it is ideal."""
+
     shape: str | None = choice(
         None,
         "shape of the surfaces, if not the default of the joint type",
         "",
         family="tribodyn.mechanisms.general.shapes:SHAPES",
         example="mesh",
-    )
-    mesh: str | None = file("STL file of the bore, global coordinates, outsides anticlockwise", "socket.stl")
-    mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
-    mesh_edge: float | None = quantity(
-        None, "longest edge of a triangle; longer ones are split", "", gt=0, example="0.5 mm"
-    )
-    gap: float | None = quantity(None, "constant gap of a mesh", "", gt=0, example="20 um")
-    facets: Numbers | None = series(
-        "corners of triangles in global coordinates, instead of a file", "", unit="m", example='"0, 0, 1 m"'
     )
     socket: str | None = name(None, "body that carries the bore; by default the first one", "", example="rod")
     friction_coefficient: float = number(
@@ -131,25 +92,11 @@ class ClearanceKeys(NamedGroup):
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several sizes."""
-        demand(len(self.facets or ()) % 9 == 0, "facets", "a triangle has nine coordinates")
+        super().model_post_init(context)
         self.liner.check_contact(self.contact, "")
-        lengths = [length for length in (self.length, self.pin_length) if length is not None]
-        self.form.check(self.contact, min(lengths, default=math.inf), "")
-        demand(
-            not self.has_faces or min(lengths, default=None) == self.length,
-            "pin_length",
-            "a pin with end faces passes through its bore; leave pin_length out, or the axial gaps",
-        )
-        if self.radius is None or self.radial is None:
-            return
-        demand(
-            self.radial <= 0.1 * self.radius, "radial", "the clearance must not exceed a tenth of the radius"
-        )
-        demand(
-            self.flange is None or self.flange > self.radius + self.radial,
-            "flange",
-            f"the end faces must reach beyond the bore, {(self.radius + self.radial) * 1e3:.6g} mm",
-        )
+        if self.radius is not None and self.radial is not None:
+            words = "the clearance must not exceed a tenth of the radius"
+            demand(self.radial <= 0.1 * self.radius, "radial", words)
 
     def with_nodes(self, around: int, along: int) -> Self:
         """Return the clearance with at most so many nodes of its own."""
@@ -158,11 +105,6 @@ class ClearanceKeys(NamedGroup):
         return self.model_copy(
             update={key: min(own, most[key]) for key, own in given.items() if own is not None}
         )
-
-    @property
-    def has_faces(self) -> bool:
-        """Whether it has an end face."""
-        return any(gap is not None for gap in (self.axial, self.axial_upper, self.axial_lower))
 
 
 class _Joint(NamedGroup):
@@ -217,8 +159,7 @@ class _Joint(NamedGroup):
 if TYPE_CHECKING:
     _OfAllTypes = _Joint
 else:
-    _OwnKeys = dict.fromkeys(kind.KEYS for kind in JOINTS.values() if kind.KEYS is not NamedGroup)
-    _OfAllTypes = create_model("_OfAllTypes", __base__=(*_OwnKeys, _Joint), __module__=__name__)
+    _OfAllTypes = with_own_keys(_Joint, JOINTS.values())
 
 
 class JointKeys(_OfAllTypes):
@@ -237,10 +178,7 @@ class JointKeys(_OfAllTypes):
         self._check_own()
         self._check_clearance()
         if self.film is not None:
-            shape, keys = "" if self.clearance is None else self.shape, self.clearance or ClearanceKeys()
-            check_film(self.type, shape, keys.pin_length, keys.form)
-            words = "an oil film has one viscosity and one clearance: give constant temperatures"
-            demand(not keys.temperature.tables, "clearance.temperature.over_time", words)
+            check_film(self)
 
     def _check_axes(self) -> None:
         kind = self.kind
@@ -256,19 +194,16 @@ class JointKeys(_OfAllTypes):
 
     def _check_own(self) -> None:
         """Check the keys of single types."""
-        for other in JOINTS.values():
-            own = other.KEYS.model_fields if other.KEYS is not self.kind.KEYS else {}
-            for key, field in own.items():
-                words = f"this belongs to a {other.NAME}, not {self.kind.named}"
-                demand(getattr(self, key) == field.default, key, words)
+        for kind, key in foreign_keys(self, self.kind, JOINTS.values()):
+            demand(False, key, f"this belongs to a {kind.NAME}, not {self.kind.named}")
         self.kind.check(self)
 
     def _check_clearance(self) -> None:
         clearance = self.clearance
         if clearance is None:
             return
-        shapes = self.kind.SHAPES
-        real = ", ".join(name for name, kind in JOINTS.items() if kind.SHAPES)
+        shapes = shapes_of(self.kind)
+        real = ", ".join(name for name, kind in JOINTS.items() if kind.SHAPE)
         words = f"{self.kind.named} is always ideal; clearance is for: {real}"
         demand(bool(shapes), "clearance.radial", words)
         shape = self.shape
@@ -278,17 +213,14 @@ class JointKeys(_OfAllTypes):
         for key, size in about.NEEDED.items():
             words = f"a joint of the shape {shape} needs {size}"
             demand(getattr(clearance, key) is not None, f"clearance.{key}", words)
+        for kind, key in foreign_keys(clearance, about, SHAPES.values()):
+            demand(False, f"clearance.{key}", f"this belongs to the shape {kind.NAME}, not to {shape}")
         words = f"a form is that of a shaft in a bore, not of the shape {shape}"
         demand(about.BORE or clearance.form == FormKeys(), "clearance.form", words)
-        about.check(clearance)
-        words = f"a length of the pin belongs to the shape cylinder, not to {shape}"
-        demand(about.BORE or clearance.pin_length is None, "clearance.pin_length", words)
+        about.check(self.kind, clearance)
         words = f"a bonded sleeve is that of a shaft in a bore, not of the shape {shape}"
         bonded = clearance.temperature.fit == "bonded"
         demand(about.BORE or not bonded, "clearance.temperature.fit", words)
-        for key in ("axial", "axial_upper", "axial_lower", "flange"):
-            words = f"end faces are for revolute joints, not for a {self.type} one"
-            demand(self.kind.FACES or getattr(clearance, key) is None, f"clearance.{key}", words)
         words = f"this is neither {self.between[0]} nor {self.between[1]}"
         demand(clearance.socket in (None, *self.between), "clearance.socket", words)
 
@@ -321,7 +253,7 @@ class JointKeys(_OfAllTypes):
     def shape(self) -> str:
         """Shape of its clearance."""
         chosen = None if self.clearance is None else self.clearance.shape
-        return chosen or self.kind.SHAPES[0]
+        return chosen or self.kind.SHAPE
 
 
 class SpringKeys(NamedGroup):

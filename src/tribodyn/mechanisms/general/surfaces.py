@@ -147,13 +147,12 @@ def _shape(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys
 
 def _cold(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> Any:
     """Return the shape of a clearance as drawn."""
-    return SHAPES[joint.shape].of(keys, None if keys.facets is None else _facets(case, joint, keys))
+    axes = frame(*axes_of(case, joint))
 
+    def local(points: FloatArray) -> FloatArray:
+        return np.ascontiguousarray(dense.product(points - np.array(joint.point), axes))
 
-def _facets(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> FloatArray:
-    """Return the triangles of a mesh in the axes of the joint, shape (n, 3, 3)."""
-    corners = np.array(keys.facets).reshape(-1, 3, 3)
-    return np.ascontiguousarray(dense.product(corners - np.array(joint.point), frame(*axes_of(case, joint))))
+    return SHAPES[joint.shape].of(keys, local)
 
 
 def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _Round:

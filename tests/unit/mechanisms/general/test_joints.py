@@ -26,17 +26,12 @@ from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.joints.base import ALIGNED
 from tribodyn.mechanisms.general.model import model_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
-from tribodyn.mechanisms.general.shapes import SHAPES
+from tribodyn.mechanisms.general.shapes import SHAPES, shapes_of
 
 OVER_ALL = pytest.mark.parametrize("kind", JOINTS)
 CONSTRAINTS = [name for name, kind in JOINTS.items() if kind.ROWS]
-REAL = [(name, shape) for name, kind in JOINTS.items() for shape in kind.SHAPES]
-SIZES: dict[str, dict[str, Any]] = {
-    "cylinder": {"radius": "10 mm", "radial": "20 um", "length": "20 mm", "axial": "30 um"},
-    "sphere": {"radius": "10 mm", "radial": "20 um"},
-    "ball": {"radius": "10 mm", "radial": "20 um"},
-    "mesh": {"gap": "20 um", "facets": "10, -5, -5, 10, 5, -5, 10, 0, 5 mm"},
-}
+REAL = [(name, shape) for name, kind in JOINTS.items() for shape in shapes_of(kind)]
+FACES = {"axial": "30 um"}
 
 
 def drawn(kind: str, **clearance: Any) -> Mechanism:
@@ -158,19 +153,23 @@ def test_a_misdescribed_joint_is_refused_with_the_reason(kind: str) -> None:
     for other in JOINTS.values():
         if other is not about and other.NEEDED:
             refused(kind, f"this belongs to a {other.NAME}, not {about.named}", **other.NEEDED)
-    if not about.SHAPES:
-        refused(kind, f"{about.named} is always ideal", clearance=SIZES["ball"])
+    if not about.SHAPE:
+        refused(kind, f"{about.named} is always ideal", clearance=SHAPES["ball"].EXAMPLE)
 
 
 @pytest.mark.parametrize(("kind", "shape"), REAL)
 def test_a_clearance_of_another_shape_or_without_a_size_is_refused(kind: str, shape: str) -> None:
-    sizes = {key: value for key, value in SIZES[shape].items() if key != "axial"} | {"shape": shape}
+    sizes = SHAPES[shape].EXAMPLE | {"shape": shape}
     for key, meant in SHAPES[shape].NEEDED.items():
         reason = f"clearance.{key}: .*needs {meant.split(',')[0]}"
         refused(kind, reason, clearance={k: value for k, value in sizes.items() if k != key})
-    for other in SHAPES:
-        if other not in JOINTS[kind].SHAPES:
-            refused(kind, f"{JOINTS[kind].named} has the shape", clearance=SIZES[other] | {"shape": other})
+    for other, about in SHAPES.items():
+        if other not in shapes_of(JOINTS[kind]):
+            refused(kind, f"{JOINTS[kind].named} has the shape", clearance=about.EXAMPLE | {"shape": other})
+        for key in about.KEYS.model_fields.keys() - SHAPES[shape].KEYS.model_fields.keys():
+            if key in about.EXAMPLE:
+                reason = f"clearance.{key}: .*this belongs to the shape {other}, not to {shape}"
+                refused(kind, reason, clearance=sizes | {key: about.EXAMPLE[key]})
 
 
 def about_x(angle: float) -> FloatArray:
@@ -178,17 +177,16 @@ def about_x(angle: float) -> FloatArray:
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
-PLAYS = [(kind, shape, ()) for kind, shape in REAL if shape != "mesh"]
-PLAYS += [(kind, "cylinder", ("axial",)) for kind, about in JOINTS.items() if about.FACES]
+PLAYS: list[tuple[str, str, dict[str, str]]] = [(*pair, {}) for pair in REAL if pair[1] != "mesh"]
+PLAYS += [(kind, "cylinder", FACES) for kind, about in JOINTS.items() if about.FACES]
 
 
 @pytest.mark.parametrize(("kind", "shape", "more"), PLAYS)
 def test_a_clearance_holds_what_its_ideal_counterpart_holds(
-    kind: str, shape: str, more: tuple[str, ...]
+    kind: str, shape: str, more: dict[str, str]
 ) -> None:
     """Beyond the play the surfaces push back along what the ideal joint holds, and nowhere else."""
-    sizes = {key: SIZES[shape][key] for key in (*SHAPES[shape].NEEDED, *more)}
-    model = model_of(drawn(kind, shape=shape, **sizes).case())
+    model = model_of(drawn(kind, shape=shape, **SHAPES[shape].EXAMPLE, **more).case())
     clearance = model.clearances["link"]
     ideal, data = JOINTS[model.counterpart.kind("link")], surfaces([clearance])
     play = SHAPES[shape].room(clearance.shape)

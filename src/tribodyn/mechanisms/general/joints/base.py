@@ -41,8 +41,8 @@ class JointType:
         What its axes are called; empty where it has none.
     COORDINATES
         What can be driven, and followed by elements: ``angle``, ``position``.
-    SHAPES
-        Names of shapes that its clearance may have, the usual one first; none where it is always ideal.
+    SHAPE
+        Name of the shape of its clearance, unless the case gives another one; empty where it is always ideal.
     FACES
         Whether a clearance may have end faces, which hold the pin along the axis.
     CLEARANCE
@@ -59,7 +59,7 @@ class JointType:
     AXIS: ClassVar[str] = ""
     SECOND_AXIS: ClassVar[str] = ""
     COORDINATES: ClassVar[tuple[str, ...]] = ()
-    SHAPES: ClassVar[tuple[str, ...]] = ()
+    SHAPE: ClassVar[str] = ""
     FACES: ClassVar[bool] = False
     CLEARANCE: ClassVar[str] = ""
     KEYS: ClassVar[type[NamedGroup]] = NamedGroup

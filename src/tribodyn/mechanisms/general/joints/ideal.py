@@ -23,7 +23,7 @@ class Revolute(JointType):
     ROWS: ClassVar[tuple[Row, ...]] = (*AT_POINT, *ALIGNED)
     AXIS: ClassVar[str] = "axis"
     COORDINATES: ClassVar[tuple[str, ...]] = ("angle",)
-    SHAPES: ClassVar[tuple[str, ...]] = ("cylinder", "mesh")
+    SHAPE: ClassVar[str] = "cylinder"
     FACES: ClassVar[bool] = True
     CLEARANCE: ClassVar[str] = "pin in a bore, with end faces where `axial` is given"
 
@@ -34,7 +34,7 @@ class Spherical(JointType):
     NAME: ClassVar[str] = "spherical"
     MEANING: ClassVar[str] = "turns about `point`"
     ROWS: ClassVar[tuple[Row, ...]] = AT_POINT
-    SHAPES: ClassVar[tuple[str, ...]] = ("sphere", "mesh")
+    SHAPE: ClassVar[str] = "sphere"
     CLEARANCE: ClassVar[str] = "ball in a race around `axis`"
 
 
@@ -46,7 +46,7 @@ class Cylindrical(JointType):
     ROWS: ClassVar[tuple[Row, ...]] = (*ON_AXIS, *ALIGNED)
     AXIS: ClassVar[str] = "axis"
     COORDINATES: ClassVar[tuple[str, ...]] = ("angle", "position")
-    SHAPES: ClassVar[tuple[str, ...]] = ("cylinder", "mesh")
+    SHAPE: ClassVar[str] = "cylinder"
     CLEARANCE: ClassVar[str] = "pin in a bore"
 
 
@@ -68,7 +68,7 @@ class PinSlot(JointType):
     ROWS: ClassVar[tuple[Row, ...]] = ON_AXIS
     AXIS: ClassVar[str] = "axis of the pin"
     COORDINATES: ClassVar[tuple[str, ...]] = ("position",)
-    SHAPES: ClassVar[tuple[str, ...]] = ("ball", "cylinder")
+    SHAPE: ClassVar[str] = "ball"
     CLEARANCE: ClassVar[str] = 'ball in a bore; `shape = "cylinder"` for a pin that does not tilt in it'
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar, TypeAlias
 
+from tribodyn.cases.case import NamedGroup
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.shapes import Shape
+from tribodyn.mechanisms.general.joints.base import JointType
+
+Local: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
 class ClearanceShape:
@@ -16,8 +20,14 @@ class ClearanceShape:
     ----------
     NAME
         Its name in case files.
+    TYPES
+        Types of joints that may have it, beside those whose usual shape it is.
     NEEDED
         Keys that it needs, with what they are.
+    EXAMPLE
+        Values of these keys.
+    KEYS
+        Keys of its own, beside radius, radial clearance, length and those of all shapes; others refuse them.
     BORE
         Whether it is a shaft in a bore, which takes a form, a pin of another length, a sleeve and a film.
     IDEAL
@@ -26,12 +36,15 @@ class ClearanceShape:
     """
 
     NAME: ClassVar[str]
-    NEEDED: ClassVar[Mapping[str, str]] = {"radius": "its radius", "radial": "its clearance"}
+    TYPES: ClassVar[tuple[str, ...]] = ()
+    NEEDED: ClassVar[dict[str, str]] = {"radius": "its radius", "radial": "its clearance"}
+    EXAMPLE: ClassVar[dict[str, object]] = {"radius": "10 mm", "radial": "20 um"}
+    KEYS: ClassVar[type[NamedGroup]] = NamedGroup
     BORE: ClassVar[bool] = False
     IDEAL: ClassVar[str] = ""
 
-    def check(self, keys: Any) -> None:
-        """Refuse keys of the clearance that do not fit.
+    def check(self, kind: JointType, keys: Any) -> None:
+        """Refuse keys of the clearance that do not fit a type of joint; what it needs is there.
 
         Raises
         ------
@@ -43,11 +56,8 @@ class ClearanceShape:
         """Return the type of the ideal joint that holds the same as a joint of some type."""
         return self.IDEAL or kind
 
-    def of(self, keys: Any, facets: FloatArray | None) -> Shape:
-        """Return the shape as drawn from the keys of a clearance.
-
-        ``facets`` are the triangles of the case in the axes of the joint [m], shape (n, 3, 3), if any.
-        """
+    def of(self, keys: Any, local: Local) -> Shape:
+        """Return the shape as drawn; ``local`` takes points of the drawing into the axes of the joint [m]."""
         raise NotImplementedError
 
     def room(self, shape: Any) -> tuple[float, float, float]:

@@ -4,18 +4,28 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.cases.case import NamedGroup
+from tribodyn.cases.fields import quantity
 from tribodyn.joints.shapes import Ball, Sphere
-from tribodyn.mechanisms.general.shapes.base import ClearanceShape
+from tribodyn.mechanisms.general.shapes.base import ClearanceShape, Local
+
+
+class RaceKeys(NamedGroup):
+    """Size of a race."""
+
+    band: float = quantity(
+        "40 deg", "half the width of the race of a ball, as a latitude", "assumed", gt=0, le="90 deg"
+    )
 
 
 class BallInRace(ClearanceShape):
     """A ball in a race."""
 
     NAME: ClassVar[str] = "sphere"
+    KEYS: ClassVar[type[NamedGroup]] = RaceKeys
     IDEAL: ClassVar[str] = "spherical"
 
-    def of(self, keys: Any, facets: FloatArray | None = None) -> Sphere:
+    def of(self, keys: Any, local: Local) -> Sphere:
         """Return the ball and its race."""
         return Sphere(keys.radius, keys.radial, keys.band)
 
@@ -26,6 +36,6 @@ class BallInBore(ClearanceShape):
     NAME: ClassVar[str] = "ball"
     IDEAL: ClassVar[str] = "pin-slot"
 
-    def of(self, keys: Any, facets: FloatArray | None = None) -> Ball:
+    def of(self, keys: Any, local: Local) -> Ball:
         """Return the ball."""
         return Ball(keys.radius, keys.radial)
