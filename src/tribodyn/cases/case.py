@@ -1,4 +1,7 @@
-"""What every case has in common: frozen groups of keys, building from what a user wrote, changed copies."""
+"""What every case has in common: frozen groups of keys, building from what a user wrote, changed copies.
+
+One file because groups, building and changed copies are one protocol that calls itself in a circle.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A mechanism that a user describes: bodies, joints, drives, loads and springs by their names."""
+"""A mechanism that a user describes: bodies, joints, drives, loads and springs by their names.
+
+One file because the checks compare tables that the class declares.
+"""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from tribodyn.mechanisms.general.contacts import Contacts
+from tribodyn.mechanisms.general.figures.joints import draw_maps
 from tribodyn.mechanisms.general.sections import joints
 
 NAMES = [f"pin{k}" for k in range(12)]
@@ -57,3 +58,15 @@ def test_the_same_note_of_many_surfaces_is_given_for_a_few_with_the_number_of_th
     assert [note.split()[1] for note in notes[:-1]] == NAMES[-4:]
     assert notes[-1] == "The same of 8 more surfaces, where damping carries less."
     assert len(contacts.notes(peaks, {"pressure_at_rest": peaks["pressure_peak"]})) == 0
+
+
+def test_a_figure_of_many_surfaces_shows_those_with_the_largest_values(many: xr.Dataset) -> None:
+    faces = many.assign(wear_depth=many["wear_depth"] * 0.5).assign_coords(
+        surface=[f"{n}:face" for n in NAMES]
+    )
+    both = xr.concat([many, faces], "surface", data_vars="minimal")
+    figure = draw_maps("wear_depth", "Wear depth", "wear", "", both.assign_attrs(title="Many"))
+    captions = [axes.get_title(loc="left") for axes in figure.axes]
+    assert {f"{name}:barrel" for name in NAMES[4:]} <= set(captions)
+    assert not any("face" in text for text in captions)
+    assert "8 surfaces of 24 with the largest values" in "".join(text.get_text() for text in figure.texts)

@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, caption, finish, note, sheet
 from tribodyn.figures.unrolled import COLOURS
-from tribodyn.mechanisms.general.sections.joints import LAID_FLAT, WORN, real_joints, surfaces
+from tribodyn.mechanisms.general.sections.joints import LAID_FLAT, MOST, WORN, real_joints, surfaces
 from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, rolled
 from tribodyn.views.wear import fitting_unit
@@ -48,8 +48,14 @@ def draw_orbits(dataset: xr.Dataset) -> Figure:
 def draw_maps(name: str, title: str, label: str, unit: str, dataset: xr.Dataset) -> Figure:
     """Draw the largest values of a field on every surface that is not empty."""
     found = [part for part in surfaces(dataset, name) if part[3].max(initial=0.0) > 0.0]
+    which = ""
+    if real_joints(dataset).which and len(found) > MOST:
+        largest = sorted(range(len(found)), key=lambda k: -float(found[k][3].max()))[:MOST]
+        found = [found[k] for k in sorted(largest)]
+        every = dataset.sizes["film" if "film" in dataset[name].dims else "surface"]
+        which = f", {MOST} surfaces of {every} with the largest values"
     names = [surface for surface, *_ in found]
-    figure, panels = _grid(dataset, f"{title}{real_joints(dataset).which}", names, 2.2)
+    figure, panels = _grid(dataset, f"{title}{which}", names, 2.2)
     for axes, (surface, place, theta, fields) in zip(panels, found, strict=False):
         field = fields.max(axis=0)
         shown, size = (unit, 1e6) if unit else fitting_unit(float(field.max()))
