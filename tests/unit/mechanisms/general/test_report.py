@@ -123,7 +123,7 @@ def test_a_flat_mechanism_is_seen_across_its_plane(flat: int) -> None:
 def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) -> None:
     family = FIGURES[name]
     if not family.drawable(RESULT):
-        assert name == "wear_history"
+        assert name in ("wear_history", "modes")
         return
     assert family.draw(RESULT).axes
     assert family.draw(RESULT.isel(time=slice(0, 0), frame=slice(0, 0))).axes
@@ -134,7 +134,7 @@ def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) 
 )
 def test_every_section_has_data_where_the_result_has(section) -> None:
     whole = section.payload(RESULT)
-    assert (whole is None) == (section.name == "wear-history")
+    assert (whole is None) == (section.name in ("wear-history", "modes"))
     empty = section.payload(RESULT.isel(time=slice(0, 0), frame=slice(0, 0)))
     assert empty is None or section.name == "wear"
 
@@ -146,3 +146,12 @@ def test_each_joint_with_clearance_has_its_orbit_and_each_joint_its_forces() -> 
     assert forces is not None
     assert orbits["names"] == ["wrist"]
     assert forces["names"] == ["main", "pin", "wrist", "guide"]
+
+
+def test_natural_frequencies_are_drawn_where_a_result_has_them() -> None:
+    values = np.arange(2.0 * RESULT.sizes["time"]).reshape(-1, 2)
+    found = RESULT.assign_coords(mode=["1", "2"]).assign(
+        natural_frequency=(("time", "mode"), values), damping_ratio=(("time", "mode"), 1e-3 * values)
+    )
+    assert FIGURES["modes"].drawable(found)
+    assert len(FIGURES["modes"].draw(found).axes) == 2
