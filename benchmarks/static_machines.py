@@ -28,18 +28,23 @@ _OUTPUT: Final = "error_rms_um_last"
 
 def run(quick: bool = False) -> dict[str, Any]:
     """Print and return how analyses ended, and the ratio of static to dynamic rms errors."""
-    found = [one(seed) for seed in range(3 if quick else MACHINES)]
-    ratios = [ratio for _, ratio in found if math.isfinite(ratio)]
-    summary = {
-        "machines": len(found),
-        "outcomes": dict(Counter(outcome for outcome, _ in found)),
+    found = summary([one(seed) for seed in range(3 if quick else MACHINES)])
+    print(found, flush=True)
+    return found
+
+
+def summary(runs: list[tuple[str, float]]) -> dict[str, Any]:
+    """Return counts and quantiles of what :func:`one` returned."""
+    ratios = [ratio for _, ratio in runs if math.isfinite(ratio)]
+    off = np.abs(np.array(ratios) - 1.0)
+    return {
+        "machines": len(runs),
+        "outcomes": dict(Counter(outcome for outcome, _ in runs)),
         "compared": len(ratios),
         "static over dynamic": quantiles(ratios) if ratios else {},
-        "within 5 %": int(np.sum(np.abs(np.array(ratios) - 1.0) < 0.05)),
-        "within 20 %": int(np.sum(np.abs(np.array(ratios) - 1.0) < 0.2)),
+        "within 5 %": int(np.sum(off < 0.05)),
+        "within 20 %": int(np.sum(off < 0.2)),
     }
-    print(summary, flush=True)
-    return summary
 
 
 def one(seed: int) -> tuple[str, float]:
