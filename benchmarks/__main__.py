@@ -21,7 +21,6 @@ NAMES: Final = (
     "joint_kernel",
     "vsv",
     "mechanism",
-    "ring",
     "film",
     "growth",
     "long_run",

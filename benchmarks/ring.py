@@ -1,6 +1,6 @@
 """A ring of N vanes in the general engine: processor time and memory of the parts of a run.
 
-python -m benchmarks ring           N = 5 to 80, one drive cycle each
+python -m benchmarks.ring           N = 5 to 80, one drive cycle each
 python -m benchmarks.ring 40 1      one ring over one cycle, as JSON
 
 Each vane is that of the built-in case ``vsv-free`` on the same synchronising ring: N + 3 bodies, 2 N + 4
@@ -176,4 +176,7 @@ def run(quick: bool = False) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(one(int(sys.argv[1]), float(sys.argv[2]))))
+    if len(sys.argv) > 2:
+        print(json.dumps(one(int(sys.argv[1]), float(sys.argv[2]))))
+    else:
+        run()
