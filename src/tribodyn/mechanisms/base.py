@@ -314,7 +314,7 @@ class MechanismDescriptor:
     headlines
         Its headline numbers by their names in ``summary.json``, in reading order.
     key_numbers
-        Names of those that a reader wants first.
+        Names of those that a reader wants first; ``*`` stands for any part of a name.
     of_cycle
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
     by_part

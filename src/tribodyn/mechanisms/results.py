@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 import xarray as xr
@@ -104,9 +105,11 @@ def headlines_of_case(case: Case) -> dict[str, Headline]:
     return mechanism.headlines_of(parts) | summary.EFFORT
 
 
-def key_numbers_of(kind: str) -> tuple[str, ...]:
-    """Return the names of the headline numbers that a reader of a kind of results wants first."""
-    return MECHANISMS[kind].key_numbers if kind in MECHANISMS else ()
+def key_numbers_of(kind: str, names: Iterable[str]) -> list[str]:
+    """Return those of the names of a kind of results that a reader wants first, in that order."""
+    given = list(names)
+    wanted = MECHANISMS[kind].key_numbers if kind in MECHANISMS else ()
+    return [name for pattern in wanted for name in given if fnmatchcase(name, pattern)]
 
 
 def known(names: Iterable[str], kind: str) -> dict[str, Headline]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any, Final
@@ -12,7 +12,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from tribodyn.cases import keys_of
 from tribodyn.cases.keys import ASSUMED
-from tribodyn.mechanisms.results import known, mechanism_of, summarise
+from tribodyn.mechanisms.results import key_numbers_of, known, mechanism_of, summarise
 from tribodyn.report import assets
 from tribodyn.report.bands import bands
 from tribodyn.report.content import chapters, reading, variables
@@ -41,10 +41,12 @@ def number(headline: Headline, summary: Mapping[str, Any], name: str) -> Number:
     }
 
 
-def chosen(summary: Mapping[str, Any], names: Iterable[str]) -> list[Number]:
-    """Return those of the named numbers that a summary holds."""
-    found = known(summary, str(summary["kind"]))
-    return [number(found[name], summary, name) for name in names if name in found]
+def first_numbers(summary: Mapping[str, Any]) -> list[Number]:
+    """Return the key results that a reader wants first."""
+    kind = str(summary["kind"])
+    found = known(summary, kind)
+    names = key_numbers_of(kind, found)[:_FIRST_RESULTS]
+    return [number(found[name], summary, name) for name in names]
 
 
 def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -130,7 +132,7 @@ def render(dataset: xr.Dataset, stills: Sequence[Path], folder: Path) -> str:
         warnings_shown=_FIRST_WARNINGS,
         notes=json_attribute(dataset, "notes", []),
         facts=facts(dataset),
-        key=chosen(summary, mechanism.key_numbers)[:_FIRST_RESULTS],
+        key=first_numbers(summary),
         groups=grouped(summary),
         tables=tables(summary),
         opening=shown[0] if shown and shown[0]["playback"] else None,

@@ -31,7 +31,7 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
         Where the sweep is stored: reports of points that are there are linked.
     """
     axes, points = axes_of(dataset), points_of(dataset, folder)
-    first = key_numbers_of(str(dataset.attrs.get("swept_kind", "")))
+    first = key_numbers_of(str(dataset.attrs.get("swept_kind", "")), [axis.name for axis in axes])
     section = Section(
         name="parallel",
         title="All points",

@@ -12,7 +12,7 @@ from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.base import MechanismDescriptor
-from tribodyn.mechanisms.results import headlines_of_case
+from tribodyn.mechanisms.results import headlines_of_case, key_numbers_of
 from tribodyn.results import Headline
 from tribodyn.workbench.controls import controls
 from tribodyn.workbench.cost import Costs
@@ -207,10 +207,11 @@ class ServerState:
 
     def _headlines(self) -> list[dict[str, Any]]:
         """Return the key results, robust ones first: those of impacts depend on the history."""
-        key = self.mechanism.key_numbers
         known = headlines_of_case(self.origin.case)
-        found = [_headline(name, about, name in key) for name, about in known.items()]
-        return sorted(found, key=lambda number: (not number["robust"], not number["key"]))
+        key = key_numbers_of(self.origin.case.case, known)
+        place = {name: number for number, name in enumerate(key)}
+        found = [_headline(name, about, name in place) for name, about in known.items()]
+        return sorted(found, key=lambda number: (not number["robust"], place.get(number["name"], len(key))))
 
 
 def _headline(name: str, about: Headline, key: bool) -> dict[str, Any]:

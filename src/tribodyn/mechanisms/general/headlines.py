@@ -254,11 +254,13 @@ HEADLINES: Final[dict[str, Headline]] = {
     ),
 }
 KEY_NUMBERS: Final = (
+    "frequency_Hz_*",
+    "error_lasting_*",
     "joint_force_lasting_N",
-    "joint_force_max_N",
-    "offset_max_um",
     "peak_pressure_MPa",
+    "offset_max_um",
     "drive_moment_lasting_Nm",
+    "joint_force_max_N",
     "energy_residual_percent",
 )
 
