@@ -146,7 +146,7 @@ class _NativeWalk(Walk):
             np.array([each.value for each in vectors]),
             end,
             np.array(self.marks),
-            self.rows,
+            self.kept.rows,
             position,
             np.array([self.t]),
             t_end,
@@ -157,7 +157,8 @@ class _NativeWalk(Walk):
         found = counts(solver.memory)
         solver.free()
         self.t, self.y = t_end, y
-        self.next_mark = self.n_rows = int(position[0])
+        self.next_mark = int(position[0])
+        self.kept.numbers = self.next_mark, 0
         self.statistics.steps += found["steps"]
         self.statistics.rhs_evaluations += found["rhs"]
         self.statistics.jacobian_evaluations += found["jac"]

@@ -321,7 +321,7 @@ def test_a_pinned_run_stays_behind_with_differences(at: Opened) -> None:
     person.press("p")
     person.slider().focus()
     person.press("Home")
-    person.wait_until_shown({CLEARANCE: "1 um"})
+    person.wait_until_shown({CLEARANCE: "5 um"})
     rms = person.page.locator("[data-row=vane_angle_error_rms_deg] td").nth(1).inner_text()
     pinned, now = person.page.evaluate(
         "[pageState.pins[0], pageState.shown].map(run => run.headlines.vane_angle_error_rms_deg)"

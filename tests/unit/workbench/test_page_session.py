@@ -274,7 +274,7 @@ async def test_every_message_of_the_greeting_is_what_the_page_needs() -> None:
         assert [control["key"] for control in first] == list(host.state.mechanism.controls)
         clearance = first[0]
         assert (clearance["text"], clearance["number"], clearance["unit"]) == ("20 um", 20.0, "um")
-        assert (clearance["least"], clearance["greatest"], clearance["step"]) == (1.0, 50.0, 1.0)
+        assert (clearance["least"], clearance["greatest"], clearance["step"]) == (5.0, 50.0, 1.0)
         robust = [number["robust"] for number in hello["headlines"]]
         assert robust == sorted(robust, reverse=True)
         assert {section["chapter"] for section in hello["sections"]} == {c["name"] for c in hello["chapters"]}

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -181,8 +180,8 @@ class _Finer:
 
     def key(self, j: int, clearance: Clearance) -> bytes:
         """Return what the grid of a joint follows from."""
-        facts = [getattr(clearance, name) for name in _DECIDING]
-        return pickle.dumps((facts, [depth.tobytes() for depth in self._depths(j)]))
+        facts = tuple(getattr(clearance, name) for name in _DECIDING)
+        return _content((facts, tuple(self._depths(j))))
 
     def grid(self, j: int, clearance: Clearance) -> tuple[SurfaceData, SurfaceMemory]:
         """Return the finer grid of a joint and a memory for it.
@@ -206,6 +205,17 @@ class _Finer:
         """Return the wear depths of the surfaces of a joint [m]."""
         own = [place for place in self._places if place.joint == j]
         return [self._data.nodes[GAP, place.nodes] - place.surface.gap for place in own]
+
+
+def _content(value: object) -> bytes:
+    """Return bytes that are equal where the content of two values is."""
+    if isinstance(value, np.ndarray):
+        return repr(value.shape).encode() + value.tobytes()
+    if isinstance(value, tuple):
+        return b"(%s)" % b",".join(map(_content, value))
+    if is_dataclass(value):
+        return type(value).__name__.encode() + _content(tuple(getattr(value, f.name) for f in fields(value)))
+    return repr(value).encode()
 
 
 def _touch(clearance: Clearance, place: Place) -> Touch:

@@ -65,8 +65,12 @@ class MechanismSystem:
     @cached_property
     def model(self) -> Model:
         """The mechanism as drawn; kinematic analyses have ideal joints, vibrations no friction."""
-        found = model_of(without_friction(self.case) if self._analysis == "vibrations" else self.case)
+        found = model_of(self._modelled)
         return found.counterpart if self._analysis == "kinematic" else found
+
+    @cached_property
+    def _modelled(self) -> MechanismCase:
+        return without_friction(self.case) if self._analysis == "vibrations" else self.case
 
     @property
     def _analysis(self) -> str:
@@ -314,7 +318,7 @@ class MechanismSystem:
 
     @cached_property
     def _layout(self) -> Layout:
-        return layout_of(self.case)
+        return layout_of(self._modelled)
 
     def _of_outputs(self, found: Observed, run: FinishedRun) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
