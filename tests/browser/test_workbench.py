@@ -330,11 +330,12 @@ def test_a_pinned_run_stays_behind_with_differences(at: Opened) -> None:
         100 * (now / pinned - 1), rel=0.06
     )
     assert person.plot("orbit", "plot.plotted.ghosts.map(ghost => ghost.data.clearance)") == [20.0]
-    top = "[plot.plotted].map(({x, y, ghosts}) => [x.at(0), y.at(ghosts[0].data.clearance)])"
-    circle = person.colours(
-        "orbit", f"{top}.flatMap(([x, y]) => [-3, -2, -1, 0, 1, 2, 3].map(by => [x + by, y]))"
-    )
-    assert any(max(colour) < 200 for colour in circle)  # dashed, half as strong as the ink
+    # Dashed: a point on it may lie between two dashes.
+    around = "Array.from({length: 20}, (_, k) => 0.7 + 0.02 * k)"
+    place = "[x.at(r * Math.cos(a)), y.at(r * Math.sin(a))]"
+    given = "({x, y, ghosts: [{data: {clearance: r}}]})"
+    circle = person.colours("orbit", f"[plot.plotted].flatMap({given} => {around}.map(a => {place}))")
+    assert any(max(colour) < 200 for colour in circle)  # half as strong as the ink
     person.press("v")
     person.look_at("mechanism")
     faint = "plot.plotted.solids[1].colours.filter((_, n) => n % 4 === 3)[0]"
