@@ -402,12 +402,13 @@ class System:
         if rank == 0:
             return [], []
         places = dense.svd(self.over_sizes(self.matrix()))[1]
-        u, values, _ = dense.svd(self.scaled()[0])
+        # Of the transposed matrix also the rows that belong to the value zero are known.
+        _, values, left = dense.svd(self.scaled()[0].T)
         share, of_places = float(values[rank - 1]) ** 2, float(places[rank - 1] / places[0]) ** 2
         lost = (HARD / (HARD + share)) ** ROUNDS
         if lost < _INEXACT or share > _BY_MASS * of_places:
             return [], []
-        rows = np.flatnonzero(np.abs(u[:, rank - 1]) > _TAKES_PART)
+        rows = np.flatnonzero(np.abs(left[rank - 1]) > _TAKES_PART)
         bodies = self.model.case.bodies
         named = {b for i in rows for b in self.model.constraint(self.rows[i][0])[1] if b != GROUND}
         tied = sorted(named, key=lambda b: bodies[b].mass)
