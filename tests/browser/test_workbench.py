@@ -16,6 +16,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, StorageState, WebSocketRoute
 from tests.unit.workbench.host import TRIBODYN
 
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise
 
 from .conftest import NO_WEBGL, Reader, Watched, by_bidi
@@ -698,3 +699,74 @@ def _save(person: Person, name: str, act: Callable[[], None]) -> None:
         assert download.value.suggested_filename == name
         assert Path(download.value.path()).stat().st_size > 100_000
     person.press("Escape")
+
+
+@pytest.fixture(scope="module")
+def linkage() -> Iterator[Workbench]:
+    """A workbench of a short run of a four-bar linkage."""
+    with serving(["four-bar", "--set", "run.cycles=0.5"]) as found:
+        yield found
+
+
+def _edit(person: Person, act: str) -> None:
+    """Press a button of the dialog of the model, and wait for the run of the edited model."""
+    person.page.locator(f"#{act}-model").click()
+    person.page.locator("#edit").wait_for(state="hidden", timeout=SOON)
+    person.wait_for("pageState.shown && !requests.awaited")
+
+
+def test_parts_are_removed_and_added_on_the_page(at: Opened, linkage: Workbench, tmp_path: Path) -> None:
+    person = at(server=linkage)
+    person.wait_for("pageState.shown && !requests.awaited")
+    page, dialog = person.page, person.page.locator("#edit")
+    person.press("m")
+    assert person.faults() == []
+    page.locator("#removed").select_option("joints.main")
+    page.locator("#remove-model").click()
+    page.locator("#edit-fault").wait_for(timeout=SOON)
+    assert 'drives.motor.joint: given "main"; "main" is no joint' in page.locator("#edit-fault").inner_text()
+    assert dialog.is_visible()
+    page.locator("#removed").select_option("joints.coupler-pin.clearance")
+    _edit(person, "remove")
+    assert not person.control("joints.coupler-pin.clearance.radial").count()
+    page.locator("#model").click()
+    page.locator("#kind").select_option("joints.*.clearance")
+    page.locator("#part-name").select_option("rocker-pivot")
+    for field, text in {"radius": "6 mm", "radial": "30 um", "length": "12 mm"}.items():
+        page.locator(f"#fields [data-field={field}]").fill(text)
+    _edit(person, "add")
+    assert person.control("joints.rocker-pivot.clearance.radial").is_visible()
+    _same_after_loading_and_undo(person, at, linkage)
+    _saved_file_runs(person, tmp_path)
+
+
+def _same_after_loading_and_undo(person: Person, at: Opened, server: Workbench) -> None:
+    other = at(person.page.evaluate("location.hash"), server=server)
+    other.wait_for("pageState.shown && !requests.awaited")
+    assert other.shown()["run"] == person.shown()["run"]
+    person.press("u", "u")
+    person.wait_until_shown({})
+    assert person.control("joints.coupler-pin.clearance.radial").is_visible()
+    person.press("r", "r")
+    person.wait_for("pageState.shown && !requests.awaited && pageState.values[EDIT]")
+    assert person.shown()["run"] == other.shown()["run"]
+
+
+def _saved_file_runs(person: Person, folder: Path) -> None:
+    person.press("m")
+    with person.page.expect_download(timeout=SOON) as download:
+        person.page.locator("#save-model").click()
+    download.value.save_as(folder / "case.toml")
+    case = load_case(folder / "case.toml")
+    assert [name for name, joint in case.joints.items() if joint.clearance] == ["rocker-pivot"]
+
+
+def test_a_template_is_started_from(at: Opened, linkage: Workbench) -> None:
+    person = at(server=linkage, width=400)
+    person.wait_for("pageState.shown && !requests.awaited")
+    person.press("m")
+    assert person.overflow() == 0
+    person.page.locator("#template").select_option("latch")
+    _edit(person, "start")
+    assert "atch" in person.page.locator("h1").inner_text()
+    assert person.page.evaluate("Object.keys(pageState.shown.sections)")

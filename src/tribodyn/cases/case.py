@@ -204,6 +204,11 @@ class Case(Group):
         """Return what was written for a key; None where nothing was."""
         return self._given[path].value if path in self._given else None
 
+    @property
+    def given_paths(self) -> tuple[str, ...]:
+        """Dotted paths of the keys and empty tables that were written, in a built-in case or by a user."""
+        return tuple(self._given)
+
     def replace(self, changes: Mapping[str, object], *, source: str = "replace") -> Self:
         """Return a copy with some keys changed; defaults that depend on them follow.
 
@@ -362,16 +367,42 @@ def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCa
     return _rebuilt(case, new, source, faults.found)
 
 
-def with_entries(case: AnyCase, values: Mapping[str, object], source: str) -> AnyCase:
-    """Return a copy of `case` with some values by dotted path, in tables that may be new."""
-    return _rebuilt(case, {path: Entry(value, source, text=True) for path, value in values.items()}, source)
+def with_entries(
+    case: AnyCase, values: Mapping[str, object], source: str, without: Iterable[str] = ()
+) -> AnyCase:
+    """Return a copy of `case` with some values by dotted path, in tables that may be new.
+
+    Parameters
+    ----------
+    case
+        The case.
+    values
+        Values by dotted path, written as in a case file.
+    source
+        Where they come from, for messages.
+    without
+        Dotted paths of tables that are left out.
+
+    Raises
+    ------
+    InputError
+        The values are invalid, or what remains of the case is.
+    """
+    new = {path: Entry(value, source, text=True) for path, value in values.items()}
+    return _rebuilt(case, new, source, without=without)
 
 
 def _rebuilt(
-    case: AnyCase, new: Mapping[str, Entry], source: str, found: Iterable[InputError] = ()
+    case: AnyCase,
+    new: Mapping[str, Entry],
+    source: str,
+    found: Iterable[InputError] = (),
+    without: Iterable[str] = (),
 ) -> AnyCase:
     """Return a copy of `case` with other entries; ``found`` as for :func:`build`."""
-    kept = scans.entries_kept(case._given, case._scans, new)
+    left_out = tuple(f"{table}." for table in without)
+    given = {path: entry for path, entry in case._given.items() if not f"{path}.".startswith(left_out)}
+    kept = scans.entries_kept(given, case._scans, new)
     result = build(type(case), beside(type(case), kept, new), source, found)
     if not result._scans and not any(path in new for path in scans.FOLLOWING):
         result._scans.update(case._scans)

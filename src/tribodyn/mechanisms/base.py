@@ -322,6 +322,9 @@ class MechanismDescriptor:
         ``joints``, and then by name; see :class:`ByPart`.
     controls
         Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
+    parts
+        Tables that a user adds and removes on a page, such as ``joints.*``, with the keys that most of them
+        need.
     bearings
         The function that returns the shafts in bores of a case by the names of their joints, as
         ``module:function``; empty where there are none.
@@ -337,6 +340,7 @@ class MechanismDescriptor:
     templates: Mapping[str, str] = field(default_factory=dict)
     by_part: Mapping[str, Mapping[str, ByPart]] = field(default_factory=dict)
     controls: tuple[str, ...] = ()
+    parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     bearings: str = ""
 
     def bearings_of(self, case: Case) -> Mapping[str, Bearing]:

@@ -42,6 +42,10 @@ class Costs:
         # Anew: threads may be looking at the ones before.
         self.seconds = {**self.seconds, choices: last}
 
+    def knows(self, case: Case) -> bool:
+        """Return whether a run with these equations was made before."""
+        return choices_of(case) in self.seconds
+
     def expected(self, case: Case) -> float | None:
         """Return what a run will take [s], as if all equations cost the same; None before any run."""
         seconds = self.seconds

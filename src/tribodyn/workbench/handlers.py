@@ -13,10 +13,12 @@ from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from tribodyn.workbench.access import TOKEN, Endpoint, SessionStore, argument_of
+from tribodyn.workbench.description import DOWNLOADS
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.page_session import PageSession
-from tribodyn.workbench.server_state import DOWNLOADS, ServerState
+from tribodyn.workbench.server_state import ServerState
 from tribodyn.workbench.sessions import NEW
+from tribodyn.workbench.variant import SAVED
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
@@ -167,7 +169,7 @@ class Download(_Handler):
         toml = self.visitor.cases.get(self.get_query_argument("run", ""))
         if name not in DOWNLOADS or toml is None:
             raise HTTPError(404)
-        content = toml.encode() if name == "case.toml" else await self._made(name, toml)
+        content = toml.encode() if name == SAVED else await self._made(name, toml)
         self.set_header("Content-Type", _KINDS[_suffix(name)])
         self.set_header("Content-Disposition", f'attachment; filename="{name}"')
         self.finish(content)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, TypeAlias
 
 from tribodyn.core.quoting import brief
@@ -14,6 +14,7 @@ LARGEST: Final = 65_536
 _MOST_VALUES: Final = 200
 _LONGEST_KEY, _LONGEST_TEXT = 200, 2000
 _LARGEST_NUMBER: Final = 2**32
+_EDIT_FIELDS: Final = ("template", "removed", "added")
 _RUN_DIGITS: Final = 16
 _POINTS: Final = (9, 25)
 """Least and greatest number of points of a sweep."""
@@ -26,6 +27,25 @@ class InvalidMessage(ValueError):
 
 
 @dataclass(frozen=True)
+class Edit:
+    """How a model differs from the case of the workbench.
+
+    Attributes
+    ----------
+    template
+        Name of the template that it starts from; empty for the case of the workbench.
+    removed
+        Dotted paths of the tables that are left out.
+    added
+        Values of the tables that are added, by dotted path.
+    """
+
+    template: str = ""
+    removed: tuple[str, ...] = ()
+    added: Values = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class RunRequest:
     """A run with other values; ``rest``: the gesture has ended; ``agreed``: the user accepts its cost."""
 
@@ -33,6 +53,7 @@ class RunRequest:
     values: Values
     rest: bool = False
     agreed: bool = False
+    edit: Edit = Edit()
 
 
 @dataclass(frozen=True)
@@ -108,7 +129,20 @@ def parsed(text: str | bytes) -> Message:
 
 
 def _run(said: Mapping[str, Any]) -> RunRequest:
-    return RunRequest(_number(said), _values(said), _switch(said, "rest"), _switch(said, "agreed"))
+    agreed = _switch(said, "agreed")
+    return RunRequest(_number(said), _values(said), _switch(said, "rest"), agreed, _edit(said))
+
+
+def _edit(said: Mapping[str, Any]) -> Edit:
+    edit = said.get("edit", {})
+    if not isinstance(edit, dict) or edit.keys() - _EDIT_FIELDS:
+        raise InvalidMessage(f"edit: an object with {', '.join(_EDIT_FIELDS)} is needed")
+    removed = edit.get("removed", [])
+    if not isinstance(removed, list) or len(removed) > _MOST_VALUES:
+        raise InvalidMessage(f"removed: a list of at most {_MOST_VALUES} tables is needed")
+    if not all(isinstance(table, str) and len(table) <= _LONGEST_KEY for table in removed):
+        raise InvalidMessage(f"removed: names of at most {_LONGEST_KEY} characters are needed")
+    return Edit(_text(edit, "template", ""), tuple(removed), _values(edit, "added"))
 
 
 def _sweep(said: Mapping[str, Any]) -> Sweep:
@@ -130,7 +164,7 @@ def _pin(kept: bool) -> Callable[[Mapping[str, Any]], Pin]:
 
 
 _KINDS: Final[dict[str, tuple[frozenset[str], Callable[[Mapping[str, Any]], Message]]]] = {
-    "run": (frozenset({"number", "values", "rest", "agreed"}), _run),
+    "run": (frozenset({"number", "values", "rest", "agreed", "edit"}), _run),
     "drawn": (frozenset({"number"}), lambda said: Drawn(_number(said))),
     "cancel": (frozenset({"number"}), lambda said: Cancel(_number(said))),
     "pin": (frozenset({"run"}), _pin(True)),
@@ -165,12 +199,12 @@ def _text(said: Mapping[str, Any], name: str, default: str | None = None) -> str
     return value
 
 
-def _values(said: Mapping[str, Any]) -> Values:
-    values = said.get("values", {})
+def _values(said: Mapping[str, Any], name: str = "values") -> Values:
+    values = said.get(name, {})
     if not isinstance(values, dict) or len(values) > _MOST_VALUES:
-        raise InvalidMessage(f"values: at most {_MOST_VALUES} keys with their values are needed")
+        raise InvalidMessage(f"{name}: at most {_MOST_VALUES} keys with their values are needed")
     if any(len(key) > _LONGEST_KEY for key in values):
-        raise InvalidMessage(f"values: keys of at most {_LONGEST_KEY} characters are needed")
+        raise InvalidMessage(f"{name}: keys of at most {_LONGEST_KEY} characters are needed")
     return {key: _value(key, value) for key, value in values.items()}
 
 

@@ -18,9 +18,11 @@ from typing import Any, Final
 from tribodyn.core.errors import TribodynError
 from tribodyn.workbench import frame
 from tribodyn.workbench.cost import in_words, refuse_rows
+from tribodyn.workbench.edits import edited
 from tribodyn.workbench.messages import (
     Cancel,
     Drawn,
+    Edit,
     InvalidMessage,
     Message,
     Pin,
@@ -55,6 +57,11 @@ def _read(origin: Origin, values: Values) -> Variant:
     return variant.filled()
 
 
+def _same(one: RunRequest, other: RunRequest) -> bool:
+    """Return whether two requests are for the same run."""
+    return one.values == other.values and one.edit == other.edit
+
+
 class PageSession:
     """Serves one page.
 
@@ -74,6 +81,7 @@ class PageSession:
         self, state: ServerState, visitor: Visitor, send: Send, log_error: Callable[[str], None]
     ) -> None:
         self.state, self.visitor, self.send, self.log_error = state, visitor, send, log_error
+        self.origin, self.edit = state.origin, Edit()
         self.newest: RunRequest | None = None
         self.served: RunRequest | None = None
         self.before: Values = {}
@@ -151,7 +159,7 @@ class PageSession:
         running, self.newest = self.served, request
         if self._ahead is not None:
             self._ahead.cancel()
-        if running is not None and running.values != request.values and (request.rest or running.agreed):
+        if running is not None and not _same(running, request) and (request.rest or running.agreed):
             self._stop()
         self._woken.set()
 
@@ -169,11 +177,12 @@ class PageSession:
             if self.newest is None:
                 continue
             request, self.newest = self.newest, None
-            if self.served is not None and self.served.values != request.values:
+            if self.served is not None and not _same(self.served, request):
                 self.before = self.served.values
             self.served = request
             try:
-                variant = await self.visitor.read(partial(_read, self.state.origin, request.values))
+                await self._edit(request.edit)
+                variant = await self.visitor.read(partial(_read, self.origin, request.values))
                 answered = await self._answer(request, variant)
             except GivenUp:
                 continue
@@ -182,6 +191,17 @@ class PageSession:
                 continue
             if answered and request.rest and self.newest is None:
                 self._ahead = self._begin(self._compute_neighbours(request))
+
+    async def _edit(self, edit: Edit) -> None:
+        """Take the case as the page has edited it, and describe it to the page."""
+        if edit == self.edit:
+            return
+        self.origin = await self.visitor.read(partial(edited, self.state.origin, edit))
+        self.edit, self.before = edit, {}
+        description = await self.visitor.read(partial(self.state.described, self.origin, edit))
+        unchanged = self.origin.varied({})
+        self.visitor.note(unchanged.run, unchanged.toml)
+        self.report({"type": "model", **description})
 
     async def _answer(self, request: RunRequest, variant: Variant) -> bool:
         """Send the answer to a request; False if the page got the reason why there is none."""
@@ -252,7 +272,8 @@ class PageSession:
             share = min(event["reached"] / (variant.case.campaign_cycles or total), 1.0)
             self._report_state("running", "", None, request.number, share)
 
-        limit = rules.longest if request.agreed else 3.0 * rules.unasked
+        known = self.state.costs.knows(variant.case)
+        limit = 3.0 * rules.unasked if known and not request.agreed else rules.longest
         self.job = self.state.order(variant, limit, on_event, budget=self.visitor.budget)
         try:
             return await self.state.made(variant, self.job)
@@ -302,10 +323,10 @@ class PageSession:
     async def _compute_neighbours(self, request: RunRequest) -> None:
         """Compute the runs one step to either side of the slider that moved last."""
         await asyncio.sleep(_CALM)
-        around = partial(neighbours, self.state.origin, request.values, self.before)
+        around = partial(neighbours, self.origin, request.values, self.before)
         for values in await self.visitor.read(lambda: [*around()]):
             with suppress(TribodynError, Failed, GivenUp):
-                await self._kept_ahead(await self.visitor.read(partial(_read, self.state.origin, values)))
+                await self._kept_ahead(await self.visitor.read(partial(_read, self.origin, values)))
 
     async def _kept_ahead(self, variant: Variant) -> None:
         state, rules = self.state, self.state.rules
@@ -326,9 +347,9 @@ class PageSession:
             old.cancel()
         made: Callable[[], SeriesPlan]
         made = (
-            partial(sweep_of, self.state, said)
+            partial(sweep_of, self.state, self.origin, said)
             if isinstance(said, Sweep)
-            else partial(slope_of, self.state, said)
+            else partial(slope_of, self.state, self.origin, said)
         )
         try:
             plan = await self.visitor.read(made)

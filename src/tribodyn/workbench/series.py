@@ -20,7 +20,7 @@ from tribodyn.workbench.controls import shown_number, text
 from tribodyn.workbench.cost import in_words, refuse_rows
 from tribodyn.workbench.messages import Slope, Sweep, Values
 from tribodyn.workbench.server_state import ServerState
-from tribodyn.workbench.variant import Variant
+from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker_pool import Failed, GivenUp
 
@@ -119,6 +119,7 @@ class _Along:
     """A key, and the values of the others."""
 
     state: ServerState
+    origin: Origin
     key: Key
     values: Values
 
@@ -126,7 +127,7 @@ class _Along:
         """Return the cases with these values of the key; refuse those that take too long."""
         found: dict[str, Variant] = {}
         for value in texts:
-            variant = self.state.origin.varied({**self.values, self.key.path: value})
+            variant = self.origin.varied({**self.values, self.key.path: value})
             refuse_rows(variant.case)
             self._refuse_long(variant)
             found.setdefault(variant.run, variant.filled())
@@ -144,23 +145,23 @@ class _Along:
             )
 
 
-def _along(state: ServerState, path: str, values: Values) -> _Along:
-    keys = state.origin.keys
+def _along(state: ServerState, origin: Origin, path: str, values: Values) -> _Along:
+    keys = origin.keys
     path = plain_path(path, keys)
     if path not in keys:
         raise InputError("there is no such key", key=path)
-    return _Along(state, keys[path], {name: value for name, value in values.items() if name != path})
+    return _Along(state, origin, keys[path], {name: value for name, value in values.items() if name != path})
 
 
-def sweep_of(state: ServerState, asked: Sweep) -> SeriesPlan:
-    """Plan a sweep.
+def sweep_of(state: ServerState, origin: Origin, asked: Sweep) -> SeriesPlan:
+    """Plan a sweep of a case that a page shows.
 
     Raises
     ------
     InputError
         There is nothing to sweep over.
     """
-    along = _along(state, asked.key, asked.values)
+    along = _along(state, origin, asked.key, asked.values)
     variants = along.variants(_levels(along.key, asked))
 
     def say(points: Sequence[Point], finished: bool) -> dict[str, Any]:
@@ -201,7 +202,7 @@ def _written(key: Key, number: float) -> str:
     return f"{float(f'{number:.{_DIGITS}g}')!r} {key.unit}".strip()
 
 
-def slope_of(state: ServerState, asked: Slope) -> SeriesPlan:
+def slope_of(state: ServerState, origin: Origin, asked: Slope) -> SeriesPlan:
     """Plan to find the slope at the present value of a key.
 
     Raises
@@ -209,8 +210,8 @@ def slope_of(state: ServerState, asked: Slope) -> SeriesPlan:
     InputError
         The value is no number, or zero.
     """
-    along = _along(state, asked.key, asked.values)
-    middle = shown_number(along.key, state.origin.varied(asked.values).case.at(along.key.path))
+    along = _along(state, origin, asked.key, asked.values)
+    middle = shown_number(along.key, origin.varied(asked.values).case.at(along.key.path))
     if not middle:
         raise InputError("a slope needs a number other than zero", key=asked.key)
     variants = along.variants(_written(along.key, middle * (1.0 + share)) for share in AROUND)

@@ -21,7 +21,6 @@ from tornado.httpserver import HTTPServer
 
 from tribodyn.core import machine
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, SessionStore, SingleSession
 from tribodyn.workbench.handlers import ServerContext, application, assets
 from tribodyn.workbench.server_state import Rules, ServerState
@@ -150,7 +149,7 @@ async def attended(
     port, name = listeners[0].getsockname()[1], own_name()
     endpoint = Endpoint("http", frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
     person = SingleSession(Visitor(chosen.room))
-    state = ServerState(origin, MECHANISMS[origin.case.kind()], WorkerPool(size, Limits()), chosen)
+    state = ServerState(origin, WorkerPool(size, Limits()), chosen)
     opened_at = f"http://{name}:{port}/?{TOKEN}={person.token}"
     await serve(state, endpoint, person, listeners, lambda: opened(opened_at), stop, log_error)
 
@@ -184,9 +183,7 @@ async def many(
     hosts
         Names that browsers know it by, with their ports where these are not 443.
     """
-    state = ServerState(
-        origin, MECHANISMS[origin.case.kind()], WorkerPool(size, Limits(), max(1, size - 1)), SHARED
-    )
+    state = ServerState(origin, WorkerPool(size, Limits(), max(1, size - 1)), SHARED)
     endpoint = Endpoint("https", hosts, "__Host-tribodyn")
     await serve(state, endpoint, Sessions(SHARED.room), listeners, opened, stop, log_error)
 

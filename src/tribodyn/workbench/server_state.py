@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
 from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.versions import version
-from tribodyn.mechanisms.base import MechanismDescriptor
-from tribodyn.mechanisms.results import headlines_of_case, key_numbers_of
-from tribodyn.results import Headline
-from tribodyn.workbench.controls import controls
 from tribodyn.workbench.cost import Costs
-from tribodyn.workbench.messages import LARGEST
+from tribodyn.workbench.description import description
+from tribodyn.workbench.messages import LARGEST, Edit
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.visitor import Budget
 from tribodyn.workbench.worker_pool import Failed, Job, WorkerPool
@@ -25,7 +21,6 @@ COMPILING: Final = 60.0
 """Time that compiling usually takes [s]."""
 _LEAST_SHARE: Final = 0.01
 """Share of a long run that counts as completed when no progress was reported."""
-DOWNLOADS: Final = ("case.toml", "result.nc", "report.html")
 OnEvent = Callable[[Mapping[str, Any]], None]
 
 
@@ -65,8 +60,8 @@ class ServerState:
 
     Attributes
     ----------
-    origin, mechanism
-        The case it was started with, and the descriptor of its mechanism.
+    origin
+        The case it was started with.
     pool
         The workers.
     rules
@@ -78,7 +73,6 @@ class ServerState:
     """
 
     origin: Origin
-    mechanism: MechanismDescriptor
     pool: WorkerPool
     rules: Rules = field(default_factory=Rules)
     costs: Costs = field(default_factory=Costs)
@@ -170,62 +164,20 @@ class ServerState:
 
     @cached_property
     def hello(self) -> dict[str, Any]:
-        """First message to a page: the case and its controls, key results and charts."""
-        case = self.origin.case
-        sections = [
-            {
-                "name": section.name,
-                "title": section.title,
-                "caption": section.caption,
-                "widget": section.widget,
-                "chapter": chapter.name,
-                "playback": chapter.playback,
-            }
-            for chapter in self.mechanism.chapters
-            for section in chapter.sections
-        ]
+        """First message to a page."""
+        return {"type": "hello", **self.described(self.origin, Edit())}
+
+    def described(self, origin: Origin, edit: Edit) -> dict[str, Any]:
+        """Return what a page is told of a case, and of the edit that made it."""
+        return {**description(origin), "edit": asdict(edit), "limits": self._limits}
+
+    @property
+    def _limits(self) -> dict[str, int]:
         return {
-            "type": "hello",
-            "title": case.title,
-            "mechanism": case.kind(),
-            "case": self.origin.name,
-            "version": version("tribodyn"),
-            "controls": controls(case, self.mechanism.controls),
-            "headlines": self._headlines(),
-            "chapters": [
-                {"name": chapter.name, "title": chapter.title, "lead": chapter.lead}
-                for chapter in self.mechanism.chapters
-            ],
-            "sections": sections,
-            "downloads": list(DOWNLOADS),
-            "limits": {
-                "pins": self.rules.pins,
-                "messages_per_second": self.rules.messages,
-                "message_bytes": LARGEST,
-            },
+            "pins": self.rules.pins,
+            "messages_per_second": self.rules.messages,
+            "message_bytes": LARGEST,
         }
-
-    def _headlines(self) -> list[dict[str, Any]]:
-        """Return the key results, robust ones first: those of impacts depend on the history."""
-        known = headlines_of_case(self.origin.case)
-        key = key_numbers_of(self.origin.case.case, known)
-        place = {name: number for number, name in enumerate(key)}
-        found = [_headline(name, about, name in place) for name, about in known.items()]
-        return sorted(found, key=lambda number: (not number["robust"], place.get(number["name"], len(key))))
-
-
-def _headline(name: str, about: Headline, key: bool) -> dict[str, Any]:
-    """Return a key result as the page reads it."""
-    return {
-        "name": name,
-        "label": about.label,
-        "unit": about.unit,
-        "group": about.group,
-        "meaning": about.meaning,
-        "digits": about.digits,
-        "robust": not about.over,
-        "key": key,
-    }
 
 
 def refusal(number: int, error: Exception) -> dict[str, Any]:

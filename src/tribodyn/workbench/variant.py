@@ -19,7 +19,9 @@ from tribodyn.workbench.messages import Values
 from tribodyn.workbench.ranges import track
 
 _DIGITS: Final = 16
-_FILES: Final = "a page may not name files of this machine; start the workbench with a case that does"
+SAVED: Final = "case.toml"
+"""Name of the file as which a page saves a case."""
+NO_FILES: Final = "a page may not name files of this machine; start the workbench with a case that does"
 
 
 @dataclass(frozen=True)
@@ -34,11 +36,14 @@ class Origin:
         As it was given: a built-in case or a file.
     changes
         Values that were changed there and then, by dotted path.
+    edited
+        Whether a page has edited it: then its runs are made from the file that the page saves.
     """
 
     case: Case
     name: str
     changes: Mapping[str, str] = field(default_factory=dict)
+    edited: bool = False
 
     @cached_property
     def texts(self) -> dict[str, str]:
@@ -63,7 +68,7 @@ class Origin:
             key = self.keys.get(plain_path(path, self.keys))
             with faults.noted():
                 if key is not None and key.kind == FILE:
-                    raise InputError(_FILES, key=path)
+                    raise InputError(NO_FILES, key=path)
         faults.raise_any()
         case = self.case.replace(values, source="") if values else self.case
         return Variant(self, case, {path: self._canonical(case, path) for path in values})
@@ -119,20 +124,29 @@ class Variant:
     @property
     def command(self) -> str:
         """The command that makes this very run."""
-        changes = {**self.origin.changes, **self.values}
-        options = [f"--set {shlex.quote(f'{path}={value}')}" for path, value in changes.items()]
-        return " ".join(["tribodyn run", shlex.quote(self.origin.name), *options])
+        options = [f"--set {shlex.quote(f'{path}={value}')}" for path, value in self._changes.items()]
+        return " ".join(["tribodyn run", shlex.quote(self._source), *options])
 
     @property
     def python(self) -> str:
         """Lines of Python that make this very run."""
         return "\n".join(self._lines())
 
+    @property
+    def _source(self) -> str:
+        """Name of the case or file that the run is made from."""
+        return SAVED if self.origin.edited else self.origin.name
+
+    @property
+    def _changes(self) -> dict[str, str]:
+        """Values that differ from that case; a saved file holds them."""
+        return {} if self.origin.edited else {**self.origin.changes, **self.values}
+
     def _lines(self) -> Iterator[str]:
-        changes = {**self.origin.changes, **self.values}
+        changes = self._changes
         yield "import tribodyn as td"
         yield ""
-        yield f"case = td.load_case({self.origin.name!r})"
+        yield f"case = td.load_case({self._source!r})"
         if changes:
             yield "case = case.replace({"
             yield from (f"    {path!r}: {value!r}," for path, value in changes.items())

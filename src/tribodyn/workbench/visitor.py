@@ -99,6 +99,11 @@ class Visitor:
         self.cases.move_to_end(run)
         self._forget()
 
+    def note(self, run: str, toml: str) -> None:
+        """Keep the text of a case, which can be saved before it is run."""
+        self.cases.setdefault(run, toml)
+        self._forget()
+
     def frame(self, run: str) -> bytes | None:
         """Return the body of a frame that is kept."""
         if run not in self.frames:

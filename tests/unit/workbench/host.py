@@ -17,7 +17,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.httpserver import HTTPServer
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from tribodyn.mechanisms.catalogue import MECHANISMS, load_case
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.views.encode import packed
 from tribodyn.workbench import frame
 from tribodyn.workbench.access import AccessControl, Endpoint, SingleSession
@@ -221,7 +221,7 @@ async def hosting(
         endpoint = Endpoint("https", frozenset({PUBLIC}), "__Host-tribodyn")
     person = SingleSession(Visitor(chosen.room))
     origin = Origin(load_case(case), case)
-    state = ServerState(origin, MECHANISMS[origin.case.kind()], pool or Pretending(), chosen)
+    state = ServerState(origin, pool or Pretending(), chosen)
     complaints: list[str] = []
     open_sessions = sessions or person
     context = ServerContext(

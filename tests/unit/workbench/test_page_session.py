@@ -6,6 +6,7 @@ import asyncio
 
 from tests.unit.workbench.host import Answer, Pretending, hosting, in_loop
 
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.workbench.frame import KEPT
 from tribodyn.workbench.page_session import _UNHURRIED as UNHURRIED
 from tribodyn.workbench.server_state import Rules
@@ -114,6 +115,36 @@ async def test_keys_that_name_files_are_refused_and_no_control_has_one() -> None
             assert fault["key"] == key
             assert "may not name files" in fault["message"]
         assert not set(files) & {control["key"] for control in host.state.hello["controls"]}
+
+
+@in_loop
+async def test_an_edited_model_is_described_before_its_run_and_can_be_saved() -> None:
+    async with hosting(case="four-bar") as host:
+        page = await host.greeted()
+        edit = {"template": "", "removed": ["joints.coupler-pin.clearance"], "added": {}}
+        await page.run(1, {"drives.motor.speed": "250 rpm"}, rest=True, edit=edit)
+        model = await page.until("model")
+        assert model["edit"] == edit
+        assert "joints.coupler-pin.clearance" not in model["removable"]
+        assert not any(control["key"].endswith("clearance.radial") for control in model["controls"])
+        assert (await page.picture()).header["command"] == "tribodyn run case.toml"
+        saved = await host.get(f"/download/case.toml?run={model['run']}&{host.secret}")
+        assert b"[joints.coupler-pin]" in saved.body
+        assert b"coupler-pin.clearance" not in saved.body
+        await page.run(2, {}, rest=True)
+        assert (await page.until("model"))["removable"] == host.state.hello["removable"]
+
+
+@in_loop
+async def test_an_edit_that_is_refused_leaves_the_model_as_it_was() -> None:
+    async with hosting(case="four-bar") as host:
+        page = await host.greeted()
+        await page.run(1, {}, rest=True, edit={"removed": ["joints.main"]})
+        (fault,) = (await page.until("refused"))["faults"]
+        assert fault["key"] == "drives.motor.joint"
+        await page.run(2, {"joints.coupler-pin.clearance.radial": "25 um"}, rest=True)
+        assert (await page.picture()).number == 2
+        assert [said["type"] for said in page.heard].count("model") == 0
 
 
 @in_loop
@@ -271,7 +302,7 @@ async def test_every_message_of_the_greeting_is_what_the_page_needs() -> None:
         page = await host.open()
         hello = await page.until("hello")
         first = [control for control in hello["controls"] if control["first"]]
-        assert [control["key"] for control in first] == list(host.state.mechanism.controls)
+        assert [control["key"] for control in first] == list(MECHANISMS["vsv"].controls)
         clearance = first[0]
         assert (clearance["text"], clearance["number"], clearance["unit"]) == ("20 um", 20.0, "um")
         assert (clearance["least"], clearance["greatest"], clearance["step"]) == (5.0, 50.0, 1.0)

@@ -1,6 +1,8 @@
 // Figures in their boxes: made when they come near the screen, repainted when size or theme change.
 
 const figures = [];
+/** Tells which figures are near the screen. */
+let watcher = null;
 
 /** Put a plot area into a box; it takes the keyboard, and `keys` says what each key does. */
 function plotArea(box, height, keys, hint) {
@@ -100,6 +102,12 @@ class Figure {
     if (awaited) this.box.querySelector(".plot")?.focus();
   }
 
+  /** Leave the page: a browser lends few drawing contexts of the graphics card. */
+  leave() {
+    this.near = false;
+    this.box.querySelector(".plot")?.plotted?.gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+
   repaint() {
     this.stale = !this.near;
     if (!this.near || !this.widget || !this.data) return;
@@ -114,9 +122,12 @@ class Figure {
   }
 }
 
-/** Find the figures of the page and watch which of them are near the screen. */
+/** Find the figures of the page and watch which of them are near the screen; those of before are let go. */
 function watchFigures() {
-  const watcher = new IntersectionObserver(
+  watcher?.disconnect();
+  figures.forEach((figure) => figure.leave());
+  figures.length = 0;
+  watcher = new IntersectionObserver(
     (entries) => {
       for (const entry of entries) {
         const figure = figures.find((one) => one.box === entry.target);

@@ -12,16 +12,24 @@ function makeControls() {
   pageState.controls = new Map(pageState.hello.controls.map((control) => [control.key, control]));
   const first = document.getElementById("first");
   first.replaceChildren(...pageState.hello.controls.filter((one) => one.first).map(controlOf));
-  const search = document.getElementById("search");
+  document.querySelector("#controls .others").replaceChildren();
+  find();
+}
+
+/** Show the controls that the search asks for. */
+function find() {
+  findControls(document.getElementById("search").value, document.getElementById("all-keys").getAttribute("aria-pressed") === "true");
+}
+
+/** Connect the search. */
+function startControls() {
   const all = document.getElementById("all-keys");
-  const find = () => findControls(search.value, all.getAttribute("aria-pressed") === "true");
-  search.addEventListener("input", find);
+  document.getElementById("search").addEventListener("input", find);
   all.addEventListener("click", () => {
     all.setAttribute("aria-pressed", String(all.getAttribute("aria-pressed") !== "true"));
     find();
   });
   pageState.on("requested", find);
-  find();
 }
 
 /** Show the controls whose name or meaning holds some words, or all; and those that differ from the case. */

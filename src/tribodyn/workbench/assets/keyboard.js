@@ -7,6 +7,7 @@ const KEYS = [
   { keys: ["r", "Ctrl+y", "Ctrl+Z"], does: "redo", act: () => pageState.redo() },
   { keys: ["Escape"], does: "stop the run that is waited for", act: () => requests.stop() },
   { keys: ["c"], does: "copy or save the run", act: () => openAway() },
+  { keys: ["m"], does: "start from a template, add or remove parts", act: () => model.open() },
   { keys: ["/"], does: "search any key", act: () => document.getElementById("search").focus() },
   { keys: ["1"], shown: "1 … 8", does: "go to a slider", act: () => focusControl(0) },
   ...[2, 3, 4, 5, 6, 7, 8].map((n) => ({ keys: [String(n)], act: () => focusControl(n - 1) })),

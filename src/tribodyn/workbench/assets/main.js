@@ -2,16 +2,13 @@
 
 /** Take the first message of the server; after a lost connection the run is requested again. */
 function greeted(hello) {
-  const again = pageState.hello !== null;
-  Object.assign(server, { connected: true });
-  pageState.hello = hello;
-  if (!again) {
-    document.title = `${hello.title} – workbench`;
-    document.querySelector("h1").textContent = hello.title;
-    makeControls();
-    makeViews();
+  const first = pageState.hello === null;
+  Object.assign(server, { connected: true, edit: "" });
+  // An edited model is described again when it is requested.
+  if (!pageState.values[EDIT]) adopt(hello);
+  if (first) {
     const wanted = readAddress();
-    const known = Object.entries(wanted).filter(([key]) => pageState.controls.has(key));
+    const known = Object.entries(wanted).filter(([key]) => isKnown(key, wanted));
     // The first run is of what is left of it, and does not take this away.
     if (known.length < Object.keys(wanted).length) trouble("The address names keys that this case does not have.", 2);
     pageState.values = Object.fromEntries(known);
@@ -19,6 +16,34 @@ function greeted(hello) {
   pageState.pins.forEach(({ run }) => line.say({ type: "pin", run }));
   pageState.tell("requested");
   requests.send(true);
+}
+
+/** Tell whether a key of the address is one of the case; those of an edited model are checked by the server. */
+function isKnown(key, wanted) {
+  return EDIT in wanted || pageState.controls.has(key);
+}
+
+/** Make the page of the case that was described. */
+function describe() {
+  const { title } = pageState.hello;
+  document.title = `${title} – workbench`;
+  document.querySelector("h1").textContent = title;
+  makeControls();
+  makeViews();
+}
+
+/** Take the description of a case; what was shown of another model goes. */
+function adopt({ type: _, ...hello }) {
+  const edit = editText(hello.edit);
+  Object.assign(server, { edit });
+  if (edit === pageState.built) return;
+  pageState.pins.forEach(({ run }) => line.say({ type: "unpin", run: run.run }));
+  Object.assign(pageState, { hello, built: edit, shown: null, trail: [], pins: [] });
+  Object.assign(chosen, { curve: null, against: null });
+  sweeps.clear();
+  forgetSlope();
+  describe();
+  model.arrived();
 }
 
 /** Ask before something long is run; what is shown stays. */
@@ -43,6 +68,7 @@ function stateArrived({ state, message, seconds, share = null }) {
 
 line.hear = {
   hello: greeted,
+  model: adopt,
   state: stateArrived,
   run: (run) => requests.arrived(run),
   refused: (message) => requests.refused(message),
@@ -72,7 +98,7 @@ pageState.on("shown", () => {
   if (key && slope.key !== key) askSlope(key);
 });
 
-for (const [id, act] of Object.entries({ undo: pageState.undo, redo: pageState.redo, pin: togglePin, stop: requests.stop, "take-away": openAway })) {
+for (const [id, act] of Object.entries({ undo: pageState.undo, redo: pageState.redo, pin: togglePin, stop: requests.stop, "take-away": openAway, model: model.open })) {
   document.getElementById(id).addEventListener("click", act);
 }
 document.getElementById("all").addEventListener("click", (event) => {
@@ -82,10 +108,13 @@ document.getElementById("all").addEventListener("click", (event) => {
 });
 document.getElementById("help").addEventListener("click", () => document.getElementById("keys").showModal());
 addEventListener("hashchange", () => {
-  const values = Object.fromEntries(Object.entries(readAddress()).filter(([key]) => pageState.controls.has(key)));
+  const wanted = readAddress();
+  const values = Object.fromEntries(Object.entries(wanted).filter(([key]) => isKnown(key, wanted)));
   if (pageState.hello && !sameValues(values, pageState.values)) pageState.gesture(values);
 });
 theme.dark.addEventListener("change", drawTracks);
+startControls();
+model.connect();
 startKeyboard();
 clock.start();
 line.open();

@@ -3,8 +3,14 @@
 /** Runs that show through, the newest last. */
 const TRAIL = 4;
 
+/** Key under which the edit of the model, as JSON, stands among the requested values. */
+const EDIT = "@edit";
+const NO_EDIT = { template: "", removed: [], added: {} };
+
 const pageState = {
   hello: null,
+  /** The edit, as text, of the model that the page is made for. */
+  built: null,
   controls: new Map(),
   /** Requested values that differ from the case: text by key. */
   values: {},
@@ -92,9 +98,30 @@ function sameValues(a, b) {
   return keys.length === Object.keys(b).length && keys.every((key) => key in b && plain(a[key]) === plain(b[key]));
 }
 
+/** Return values without the edit of the model, and the edit. */
+function parted({ [EDIT]: edit, ...values }) {
+  return { values, edit: editOf(edit) };
+}
+
+/** Return the edit that a text holds; one that is damaged edits nothing. */
+function editOf(text) {
+  try {
+    return { ...NO_EDIT, ...JSON.parse(text || "{}") };
+  } catch {
+    return NO_EDIT;
+  }
+}
+
+/** Return an edit as a text, empty where it edits nothing. */
+function editText({ template, removed, added }) {
+  const text = JSON.stringify({ template, removed, added });
+  return text === JSON.stringify(NO_EDIT) ? "" : text;
+}
+
 /** Return values in words: what differs from the case. */
 function valuesInWords(values) {
-  const parts = Object.entries(values).map(([key, text]) => `${key} = ${text}`);
+  const parts = Object.entries(parted(values).values).map(([key, text]) => `${key} = ${text}`);
+  if (values[EDIT]) parts.unshift("edited model");
   return parts.length ? parts.join(", ") : "the case as it is";
 }
 

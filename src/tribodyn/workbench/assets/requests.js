@@ -42,13 +42,14 @@ const requests = {
   ask(values, rest, agreed = false) {
     requests.number += 1;
     requests.awaited = requests.number;
-    line.say({ type: "run", number: requests.number, values, rest, agreed });
+    line.say({ type: "run", number: requests.number, ...parted(values), rest, agreed });
     tellState();
   },
 
   /** Draw a run, and say so with the next picture of the screen: faster than that none need be sent. */
   arrived(run) {
     requests.typed.delete(run.number);
+    if (server.edit) run.values = { ...run.values, [EDIT]: server.edit };
     if (server.state === "running") Object.assign(server, READY);
     if (run.number === requests.awaited) requests.awaited = 0;
     // From here on values are written as the case model writes them: "0.03 mm" as "30 um".
@@ -70,25 +71,32 @@ const requests = {
   /** Take back what cannot be, and say why beside it; what is shown stays. */
   refused({ number, faults, message }) {
     if (number === requests.awaited) requests.awaited = 0;
+    if (model.refused(number, faults, message)) return tellState();
     const typed = requests.typed.get(number);
     requests.typed.delete(number);
     const told = faults.filter(({ key, message: text }) => complain(key ?? typed?.key, text));
     if (told.length < faults.length) trouble(message, number);
     if (typed && pageState.values[typed.key] === typed.text) requests.takeBack(typed);
-    tellState();
+    return tellState();
   },
 
   /** Forget a value that was typed and refused; its text stays in its box. */
   takeBack({ before, key }) {
+    requests.forget(before);
+    keepText(key);
+  },
+
+  /** Forget the last gesture: the values before it are those requested. */
+  forget(before) {
     pageState.values = before;
     if (pageState.past.length && sameValues(pageState.past[pageState.past.length - 1], before)) pageState.past.pop();
     writeAddress();
     pageState.tell("requested");
-    keepText(key);
   },
 };
 
-const server = { ...READY, state: "loading", connected: false };
+/** State of the server, and the edit of the model that it serves, as JSON. */
+const server = { ...READY, state: "loading", connected: false, edit: "" };
 
 /** Say what is waited for, and whose the numbers are meanwhile. */
 function tellState() {

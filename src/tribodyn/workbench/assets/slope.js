@@ -13,7 +13,7 @@ function askSlope(key) {
     if (requests.awaited) return askSlope(key);
     requests.number += 1;
     Object.assign(slope, { key, number: requests.number, done: 0, of: 0, finished: false, headlines: {} });
-    line.say({ type: "slope", number: slope.number, key, values: pageState.values });
+    line.say({ type: "slope", number: slope.number, key, values: parted(pageState.values).values });
     return tellNumbers();
   }, PATIENCE);
 }

@@ -30,7 +30,7 @@ function toggleSweep(key) {
   }
   const values = { ...pageState.values };
   sweeps.set(key, { number: requests.number, points: [], of: ends.points ?? 0, finished: false, values });
-  line.say({ type: "sweep", number: requests.number, key, values, ...ends });
+  line.say({ type: "sweep", number: requests.number, key, values: parted(values).values, ...ends });
   return drawTracks();
 }
 

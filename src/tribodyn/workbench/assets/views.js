@@ -10,7 +10,6 @@ const SOLID = new Set(["scene", "linkage"]);
 function makeViews() {
   const place = document.getElementById("views");
   place.replaceChildren();
-  figures.length = 0;
   for (const { name, title, lead } of pageState.hello.chapters) {
     const sections = pageState.hello.sections.filter((section) => section.chapter === name);
     const moving = sections.some((one) => one.playback);
