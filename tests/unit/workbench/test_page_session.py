@@ -132,7 +132,7 @@ async def test_an_edited_model_is_described_before_its_run_and_can_be_saved() ->
         assert b"[joints.coupler-pin]" in saved.body
         assert b"coupler-pin.clearance" not in saved.body
         await page.run(2, {}, rest=True)
-        assert (await page.until("model"))["removable"] == host.state.hello["removable"]
+        assert (await page.until("model"))["removable"] == list(host.state.hello["removable"])
 
 
 @in_loop
