@@ -39,3 +39,44 @@ def test_bodies_and_joints_move_with_the_slider(opened: Callable[..., Any], tmp_
         reader.look_at("orbits")
         place = [22.0 * np.cos(turn), 21.0 * np.sin(turn)]
         assert reader.plot("orbits", "plot.plotted.now[0]") == pytest.approx(place, abs=1e-3)
+
+
+def test_clearance_is_magnified_and_arrows_are_shown_by_controls(
+    opened: Callable[..., Any], tmp_path: Path
+) -> None:
+    made = result()
+    force = made["reaction_force_global"].copy(deep=True)
+    force[:, 1, 1] = 500.0
+    reader = opened(write(made.assign(reaction_force_global=force), tmp_path), width=390)
+    reader.look_at("mechanism")
+    figure = reader.page.locator("#mechanism")
+    corners = "plot.plotted.solids.map((solid) => solid.corners.length)"
+    before = reader.plot("mechanism", f"[...plot.plotted.solids[0].points, {corners}]")
+    assert before[-1][2] > 0
+    slider = figure.locator(".magnifier input")
+    slider.evaluate("slider => { slider.value = slider.min; slider.dispatchEvent(new Event('input')); }")
+    after = reader.plot("mechanism", f"[...plot.plotted.solids[0].points, {corners}]")
+    assert figure.locator(".magnifier output").inner_text() == "1×"
+    assert after[-1] == before[-1]
+    assert after[:-1] != before[:-1]
+    figure.get_by_role("button", name="Forces").click()
+    assert reader.plot("mechanism", corners)[2] == 0
+    assert reader.overflow() == 0
+
+
+def test_names_of_joints_do_not_overlap(opened: Callable[..., Any], tmp_path: Path) -> None:
+    reader = opened(write(result(), tmp_path), width=390)
+    reader.look_at("mechanism")
+    crowd = """(() => {
+      const stage = plot.plotted;
+      const [{ at }] = stage.names;
+      stage.names = Array.from({ length: 30 }, (_, k) => ({ text: `a long name ${k}`, at, aside: [8, -12] }));
+      stage.draw();
+      return stage.written;
+    })()"""
+    boxes = reader.plot("mechanism", crowd)
+    assert len(boxes) >= 8
+    for k, one in enumerate(boxes):
+        for other in boxes[:k]:
+            beside = one["right"] < other["left"] or other["right"] < one["left"]
+            assert beside or one["bottom"] <= other["top"] or other["bottom"] <= one["top"]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -16,6 +16,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.frames import GROUND
+
+Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
+"""Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3)."""
 
 MM: Final = 1e3
 _FLAT: Final = 0.2
@@ -46,6 +49,8 @@ class Mark:
         Place [m] and direction in the drawing; no direction for a ball.
     real
         Whether it has clearance.
+    grounded
+        Whether one of its bodies is the ground.
     """
 
     name: str
@@ -53,6 +58,7 @@ class Mark:
     point: FloatArray
     axis: FloatArray | None
     real: bool
+    grounded: bool
 
 
 @dataclass(frozen=True)
@@ -73,13 +79,16 @@ class Skeleton:
     outlines
         Lines that show elements: numbers of the bodies that carry one, −1 for the ground, and the points of
         each in the drawing [m], shape (n, 3).
+    springs
+        Lines along springs, likewise.
     """
 
     bodies: tuple[str, ...]
     centres: FloatArray
     points: tuple[FloatArray, ...]
     marks: tuple[Mark, ...]
-    outlines: tuple[tuple[tuple[int, FloatArray], ...], ...] = ()
+    outlines: tuple[Outline, ...] = ()
+    springs: tuple[Outline, ...] = ()
 
     def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
         """Return the ends of the lines of a body [mm], shape (..., n, 3).
@@ -115,7 +124,7 @@ class Skeleton:
 
 def outline_at(
     drawn: Skeleton,
-    outline: tuple[tuple[int, FloatArray], ...],
+    outline: Outline,
     position: FloatArray,
     orientation: FloatArray,
 ) -> FloatArray:
@@ -140,7 +149,9 @@ def skeleton(case: MechanismCase) -> Skeleton:
         np.array(own if len(own) > 1 else [*own, centre]) for own, centre in zip(ends, centres, strict=True)
     )
     marks = tuple(_mark(case, name, names) for name in case.joints)
-    return Skeleton(names, centres, points, marks, tuple(_outlines(case, names)))
+    return Skeleton(
+        names, centres, points, marks, tuple(_outlines(case, names)), tuple(_springs(case, names))
+    )
 
 
 def _ends(case: MechanismCase) -> Iterator[tuple[str, Vector]]:
@@ -156,11 +167,26 @@ def _ends(case: MechanismCase) -> Iterator[tuple[str, Vector]]:
         yield from [] if output.reference_point is None else [(output.reference, output.reference_point)]
 
 
-def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[tuple[tuple[int, FloatArray], ...]]:
-    """Yield the lines that show elements."""
+def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[Outline]:
+    """Yield the lines that show elements but springs."""
     for _, _, keys in case.elements():
-        for outline in keys.outlines(case.joints):
-            yield tuple((-1 if body == GROUND else bodies.index(body), points) for body, points in outline)
+        for outline in () if keys.IS_SPRING else keys.outlines(case.joints):
+            yield _numbered(outline, bodies)
+
+
+def _springs(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[Outline]:
+    """Yield the lines along springs, linear ones first."""
+    for spring in case.springs.values():
+        first, second = np.array(spring.points)[:, None]
+        yield _numbered(zip(spring.between, (first, second), strict=True), bodies)
+    for _, _, keys in case.elements():
+        for outline in keys.outlines(case.joints) if keys.IS_SPRING else ():
+            yield _numbered(outline, bodies)
+
+
+def _numbered(outline: Iterable[tuple[str, FloatArray]], bodies: tuple[str, ...]) -> Outline:
+    """Return a line by the numbers of its bodies."""
+    return tuple((-1 if body == GROUND else bodies.index(body), points) for body, points in outline)
 
 
 def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:
@@ -168,7 +194,7 @@ def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:
     first = joint.between[0]
     axis = np.array(unit(joint.axis, "axis")) if joint.axis is not None and joint.kind.AXIS else None
     body = -1 if first == GROUND else bodies.index(first)
-    return Mark(name, body, np.array(joint.point), axis, joint.real is not None)
+    return Mark(name, body, np.array(joint.point), axis, joint.real is not None, GROUND in joint.between)
 
 
 def rotated(quaternion: FloatArray, vectors: FloatArray) -> FloatArray:

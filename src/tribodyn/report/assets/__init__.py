@@ -24,6 +24,7 @@ SCRIPTS: Final = (
     "camera.js",
     "stage.js",
     "scene.js",
+    "joints.js",
     "linkage.js",
     "choice.js",
 )

@@ -5,23 +5,31 @@ const THICK = { rod: 0.011, joint: 0.019, pin: 0.08, block: 0.03, line: 0.003 };
 
 widgets.linkage = (box) => {
   const stage = turnableStage(box);
+  const state = { data: null, ghosts: [], magnification: 0, arrows: new Set(["force"]) };
+  const again = () => show(clock.frame);
+  const magnifier = sceneMagnifier(state, again);
+  const arrows = element("span", { class: "buttons" });
+  tools(box, arrows, element("span", { class: "gap" }), magnifier.label);
   const key = tools(box);
-  const state = { data: null, ghosts: [] };
 
   const take = (data, ghosts) => {
     Object.assign(state, { data, ghosts });
+    magnifier.label.hidden = !data.magnification;
+    if (data.magnification) magnifier.take(data.magnification);
+    arrows.replaceChildren(...Object.entries(data.forces).map(([kind, about]) => arrowButton(state, kind, about, again)));
     key.replaceChildren(
       ...data.bodies.map(({ name, colour }) => element("span", { class: "key" }, bar(colour), name)),
     );
   };
   const show = (frame) => {
-    const { data, ghosts } = state;
+    const { data, ghosts, magnification } = state;
     stage.camera ??= new Camera(shownPlaces(data), data.eye, data.up, stage.wide());
-    const others = new Solid();
-    for (const { data: other, strength } of ghosts) addLinkage(others, other, frame, strength);
-    const solid = new Solid();
-    addLinkage(solid, data, frame, 1);
-    stage.set([solid, others], jointNames(data, frame));
+    const [solid, clear, above] = [new Solid(), new Solid(), new Solid()];
+    for (const { data: other, strength } of ghosts) addLinkage(clear, other, frame, strength, magnification);
+    addLinkage(solid, data, frame, 1, magnification);
+    addBores(clear, data, frame, magnification);
+    for (const kind of state.arrows) addArrows(above, data, kind, frame);
+    stage.set([solid, clear, above], jointNames(data, frame));
   };
   return { take, paint: () => clock.frames || show(0), show };
 };
@@ -52,8 +60,8 @@ function pointAt(points, n, frame, number) {
   return [points[at], points[at + 1], points[at + 2]];
 }
 
-/** Add all rods and joints at one frame; those of another run are faint. */
-function addLinkage(solid, data, frame, strength) {
+/** Add all rods, joints and springs at one frame; those of another run are faint. */
+function addLinkage(solid, data, frame, strength, magnification) {
   const paint = (name) => [...theme.rgb(name), 255 * strength];
   for (const { n, points, colour, solid: own } of data.bodies) {
     if (own) addSolid(solid, own, frame, paint(colour));
@@ -75,7 +83,11 @@ function addLinkage(solid, data, frame, strength) {
       solid.rod(...ends, THICK.line * data.size, paint(colour), 4);
     }
   }
-  for (const joint of data.joints) addJoint(solid, data, joint, frame, paint(joint.real ? "vermilion" : "quiet"));
+  for (const points of data.springs) addCoil(solid, data, points, frame, paint("green"));
+  for (const joint of data.joints) {
+    addJoint(solid, data, joint, frame, magnification, paint(joint.real ? "vermilion" : "quiet"));
+    if (joint.grounded) addGround(solid, data, joint, frame, paint("pale"));
+  }
 }
 
 /** Add a body in its sizes: a round one between the middles of its ends, a box from its centre and three faces. */
@@ -96,20 +108,6 @@ function addSolid(solid, { n, points, radius }, frame, colour) {
 function addBlock(solid, at, half, colour) {
   const [from, to] = [-half, half].map((by) => [at[0] + by, at[1], at[2]]);
   solid.bar(from, to, [0, 0, 1], 2 * half, 2 * half, colour);
-}
-
-/** Add a joint: a short pin along its axis, or a ball where it has none. */
-function addJoint(solid, data, joint, frame, colour) {
-  const shown = Math.min(frame, joint.points.length / 6 - 1);
-  const at = pointAt(joint.points, 2, shown, 0);
-  const axis = minus(pointAt(joint.points, 2, shown, 1), at);
-  const ball = Math.hypot(...axis) < 0.5;
-  if (ball) {
-    solid.ball(at, 1.2 * THICK.joint * data.size, colour);
-    return;
-  }
-  const half = 0.5 * THICK.pin * data.size;
-  solid.rod(...[-half, half].map((by) => plus(at, unit(axis), by)), THICK.joint * data.size, colour, 16);
 }
 
 /** Return the joints' names where the joints are; those of one place stand side by side. */

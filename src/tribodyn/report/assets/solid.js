@@ -38,6 +38,22 @@ class Solid {
     this.loft([loop(from), loop(to)], colour);
   }
 
+  /** Add a cone from the middle of its base to its tip. */
+  cone(from, tip, radius, colour, sides = 12) {
+    const [u, v] = across(from, tip);
+    const loop = (centre, size) => circle(sides).map(([c, s]) => plus(plus(centre, u, size * c), v, size * s));
+    this.loft([loop(from, radius), loop(tip, 0)], colour);
+  }
+
+  /** Add a sleeve about a middle, of half its length along a direction, from an inner to an outer radius. */
+  sleeve(middle, along, half, inner, outer, colour, sides = 32) {
+    const [u, v] = across(middle, plus(middle, along));
+    const loop = (radius, by) =>
+      circle(sides).map(([c, s]) => plus(plus(plus(middle, along, by), u, radius * c), v, radius * s));
+    const skin = [loop(inner, -half), loop(inner, half), loop(outer, half), loop(outer, -half), loop(inner, -half)];
+    this.loft(skin, colour, false);
+  }
+
   /** Add a ball. */
   ball(centre, radius, colour, sides = 16) {
     const rings = Array.from({ length: sides / 2 + 1 }, (_, n) => {

@@ -2,8 +2,11 @@
 
 const AMBIENT = 0.62;
 const DIFFUSE = 0.42;
-/** Height of a line of names [px]. */
+/** Height of a line of names, and side of the corner with the three directions [px]. */
 const LINE = 15;
+const CORNER = 62;
+/** Lines by which a name may stand away from where it belongs. */
+const FARTHEST = 8;
 const VERTEX = `#version 300 es
 uniform mat4 see;
 in vec3 point;
@@ -64,8 +67,8 @@ class Stage {
     if (this.gl) drawByCard(this, matrix, light);
     else drawByHand(this, matrix, light);
     const pen = this.words.fresh();
-    const written = [];
-    for (const name of this.names) this.write(pen, matrix, name, written);
+    this.written = [];
+    for (const name of this.names) this.write(pen, matrix, name, this.written);
     this.showDirections(pen);
   }
 
@@ -80,28 +83,41 @@ class Stage {
     ];
   }
 
-  /** Write a name with a line to what it names, farther away where another is written already. */
+  /** Write a name beside what it names, with a line to it, where no other is written; one without room is left out. */
   write(pen, matrix, { text, at, aside }, written) {
-    const [x, y] = this.project(matrix, at);
     pen.font = theme.font();
-    const wide = pen.measureText(text).width;
-    const room = this.area.clientWidth - wide - 6;
-    const a = aside[0] < 0 ? Math.max(x + aside[0], wide + 6) : Math.min(x + aside[0], room);
-    const near = (other, b) => Math.abs(other.a - a) < 0.5 * (other.wide + wide) && Math.abs(other.b - b) < LINE;
-    let b = Math.max(y + aside[1], LINE);
-    while (written.some((other) => near(other, b))) b += (Math.sign(aside[1]) || -1) * LINE;
-    written.push({ a, b, wide });
+    const [x, y] = this.project(matrix, at);
+    const box = this.room(x, y, pen.measureText(text).width, aside, written);
+    if (!box) return;
+    written.push(box);
+    const middle = 0.5 * (box.top + box.bottom);
     Object.assign(pen, { strokeStyle: theme.colour("quiet"), lineWidth: 1, fillStyle: theme.colour("ink") });
     pen.beginPath();
     pen.moveTo(x, y);
-    pen.lineTo(a, b);
+    pen.lineTo(Math.max(box.left, Math.min(x, box.right)), middle);
     pen.stroke();
-    pen.textBaseline = "middle";
-    pen.textAlign = Math.abs(aside[0]) < 15 ? "center" : aside[0] < 0 ? "right" : "left";
-    const up = pen.textAlign === "center" ? Math.sign(aside[1]) * 9 : 0;
     Object.assign(pen, { strokeStyle: theme.colour("card"), lineWidth: 3, lineJoin: "round" });
-    pen.strokeText(text, a + Math.sign(aside[0]) * 3, b + up);
-    pen.fillText(text, a + Math.sign(aside[0]) * 3, b + up);
+    Object.assign(pen, { textBaseline: "middle", textAlign: "left" });
+    pen.strokeText(text, box.left, middle);
+    pen.fillText(text, box.left, middle);
+  }
+
+  /** Return the box of a name beside a point [px], farther away where others are; nothing where there is no room. */
+  room(x, y, wide, [right, down], written) {
+    const [width, height] = [this.area.clientWidth, this.area.clientHeight];
+    const taken = [...written, { left: 0, right: CORNER, top: height - CORNER, bottom: height }];
+    const apart = (a, b) => a.right < b.left || b.right < a.left || a.bottom <= b.top || b.bottom <= a.top;
+    for (let k = 0; k < FARTHEST; k++) {
+      for (const [a, b] of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
+        const beside = x + a * right;
+        const begin = Math.abs(right) < 15 ? beside - 0.5 * wide : a * right < 0 ? beside - wide - 3 : beside + 3;
+        const left = Math.max(3, Math.min(begin, width - wide - 3));
+        const middle = y + b * (down + (Math.sign(down) || -1) * k * LINE);
+        const box = { left, right: left + wide, top: middle - 0.5 * LINE, bottom: middle + 0.5 * LINE };
+        if (box.top >= 0 && box.bottom <= height && taken.every((other) => apart(box, other))) return box;
+      }
+    }
+    return null;
   }
 
   /** Draw the three directions in the corner. */

@@ -10,13 +10,17 @@ import pytest
 import xarray as xr
 from tests.unit.mechanisms.general.made_up import N, result
 
+from tribodyn.cases.case import with_entries
 from tribodyn.mechanisms import results
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.general.figures import FIGURES
 from tribodyn.mechanisms.general.sections import CHAPTERS
-from tribodyn.mechanisms.general.sections.mechanism import at_frames
+from tribodyn.mechanisms.general.sections.mechanism import at_frames, data
 from tribodyn.mechanisms.general.skeleton import case_of, rotated, skeleton, view
 from tribodyn.mechanisms.general.variables import VARIABLES
 from tribodyn.results.schema import check
+from tribodyn.views.encode import Packed
+from tribodyn.views.playback import playback_times
 
 RESULT = result()
 
@@ -101,6 +105,58 @@ def test_bodies_are_drawn_where_they_are() -> None:
     np.testing.assert_allclose(crank, [[0.0, 0.0, 0.0], [0.0, 50.0, 0.0]], atol=0.1)
     rod = drawn.lines(1, position[quarter, 1], orientation[quarter, 1])
     np.testing.assert_allclose(np.linalg.norm(rod[1] - rod[0]), 120.0, atol=0.1)
+
+
+def _at(values: Packed, size: int) -> np.ndarray:
+    return values.array.reshape(-1, size)
+
+
+def test_pins_move_in_their_bores_as_the_result_has_it() -> None:
+    payload = data(RESULT)
+    assert payload is not None
+    joints = {joint["name"]: joint for joint in payload["joints"]}
+    clearance = joints["wrist"]["clearance"]
+    assert clearance["radial"] == pytest.approx(0.02)
+    frames = playback_times(RESULT)
+    turn = 2.0 * np.pi * frames / 0.012
+    # The bore turns with the rod; between rows the made-up rates are differences.
+    swing = -np.arcsin(50.0 / 120.0 * np.sin(turn))
+    x, y = 0.022 * np.cos(turn), 0.021 * np.sin(turn)
+    expected = np.stack(
+        [x * np.cos(swing) - y * np.sin(swing), x * np.sin(swing) + y * np.cos(swing)], axis=-1
+    )
+    found = _at(clearance["offset"], 3)
+    np.testing.assert_allclose(found[:, :2], expected, atol=1e-4)
+    assert np.abs(found[:, 2]).max() == 0.0
+    assert joints["main"]["clearance"] is None
+    assert payload["magnification"]["value"] >= 1.0
+    assert [name for name, joint in joints.items() if joint["grounded"]] == ["main", "guide"]
+
+
+def test_arrows_are_the_forces_of_the_result() -> None:
+    force = RESULT["reaction_force_global"].copy(deep=True)
+    force[:, 1, 0] = 100.0
+    payload = data(RESULT.assign(reaction_force_global=force))
+    assert payload is not None
+    assert payload["forces"]["force"]["scale"] == pytest.approx(100.0)
+    assert _at(payload["forces"]["force"]["at"][str(RESULT["joint"].values[1])], 3)[0].tolist() == [
+        100.0,
+        0.0,
+        0.0,
+    ]
+    assert "moment" not in payload["forces"]
+
+
+def test_springs_are_drawn_between_their_ends() -> None:
+    spring = {"between": "ground, slider", "first_point": "300, 0, 0 mm", "second_point": "170, 0, 0 mm"}
+    case = with_entries(
+        load_case("slider-crank"), {f"springs.back.{k}": v for k, v in spring.items()}, "test"
+    )
+    drawn = skeleton(case)
+    ((first, second),) = drawn.springs
+    assert (first[0], second[0]) == (-1, drawn.bodies.index("slider"))
+    assert drawn.outlines == ()
+    np.testing.assert_allclose(second[1], [[0.17, 0.0, 0.0]])
 
 
 def test_a_quaternion_turns_vectors() -> None:

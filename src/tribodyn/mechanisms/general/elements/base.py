@@ -158,6 +158,8 @@ class ElementKeys(NamedGroup):
         A complete case file with one element of this kind, which holds for tests of all kinds.
     LAW
         Force law, see :class:`ForceLaw`; None for a constraint.
+    IS_SPRING
+        Whether its outline is drawn as a coil.
     """
 
     TABLE: ClassVar[str]
@@ -167,6 +169,7 @@ class ElementKeys(NamedGroup):
     MOMENT_OF: ClassVar[int] = 0
     EXAMPLE: ClassVar[str]
     LAW: ClassVar[Callable[[Any, Any], None] | None] = None
+    IS_SPRING: ClassVar[bool] = False
 
     @property
     def named_joints(self) -> dict[str, tuple[str, ...]]:

@@ -32,6 +32,7 @@ class NonlinearSpring(PointsKeys):
     FORCE: ClassVar[str] = "force that pushes the two points apart"
     MOMENT: ClassVar[str] = "none"
     LAW: ClassVar = elastic
+    IS_SPRING: ClassVar[bool] = True
     EXAMPLE: ClassVar[str] = (
         ARM
         + """[nonlinear_springs.rubber]

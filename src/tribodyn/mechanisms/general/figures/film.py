@@ -59,7 +59,8 @@ class MechanismFilm:
         """Return all points that are drawn at any time [mm]."""
         drawn, position, orientation = self._drawn, self._position, self._orientation
         lines = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
-        return [*lines, *(outline_at(drawn, line, position, orientation) for line in drawn.outlines)]
+        elements = (*drawn.outlines, *drawn.springs)
+        return [*lines, *(outline_at(drawn, line, position, orientation) for line in elements)]
 
     def show(self, frame: int) -> None:
         """Draw the mechanism at one of the times."""

@@ -61,7 +61,7 @@ def draw_at(
     axes: Axes, drawn: Skeleton, plane: FloatArray, position: FloatArray, orientation: FloatArray, colour: str
 ) -> None:
     """Draw elements and bodies at one moment; names in ink alone."""
-    for outline in drawn.outlines:
+    for outline in (*drawn.outlines, *drawn.springs):
         x, y = (outline_at(drawn, outline, position, orientation) @ plane.T).T
         axes.plot(x, y, color=GREY if colour == INK else PALE, linewidth=0.7)
     for body in range(len(drawn.bodies)):

@@ -10,10 +10,12 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.mechanisms.general.sections.shafts import Shafts
+from tribodyn.mechanisms.general.skeleton import case_of
 from tribodyn.views.bushing import Unrolled
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
 from tribodyn.views.encode import packed
-from tribodyn.views.playback import in_playback, playback_times
+from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, shares
@@ -107,24 +109,23 @@ def orbits(dataset: xr.Dataset) -> Payload | None:
     times = playback_times(dataset)
     if times.size < 2:
         return None
-    names, chosen = _names(dataset), real_joints(dataset)
-    parts = {names[j]: _orbit(dataset, j, times) for j in chosen.joints}
+    names, chosen, shafts = _names(dataset), real_joints(dataset), Shafts(dataset, case_of(dataset))
+    parts = {names[j]: _orbit(shafts, j, times) for j in chosen.joints}
     return choice("orbit", f"joint{chosen.which}", parts)
 
 
-def _orbit(dataset: xr.Dataset, joint: int, times: FloatArray) -> dict[str, Any]:
-    time, inside = dataset["time"].values, in_playback(dataset)
-    x, y = (1e6 * dataset["displacement"].values[:, joint, i] for i in range(2))
-    clearance = 1e6 * float(dataset["clearance"].values[joint])
-    now = {"x": packed(np.interp(times, time, x)), "y": packed(np.interp(times, time, y))}
+def _orbit(shafts: Shafts, joint: int, times: FloatArray) -> dict[str, Any]:
+    x, y = 1e6 * shafts.path(joint)[:, :2].T
+    clearance = 1e6 * float(shafts.dataset["clearance"].values[joint])
+    at_x, at_y = 1e6 * shafts.at(joint, times)[:, :2].T
     return {
         "clearance": clearance,
-        "reach": 1.25 * max(clearance, peak(x[inside]), peak(y[inside])),
+        "reach": 1.25 * max(clearance, peak(x), peak(y)),
         "joined": False,
         "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
         "places": ["shaft"],
-        "paths": [{"x": packed(x[inside]), "y": packed(y[inside])}],
-        "at": [now],
+        "paths": [{"x": packed(x), "y": packed(y)}],
+        "at": [{"x": packed(at_x), "y": packed(at_y)}],
     }
 
 

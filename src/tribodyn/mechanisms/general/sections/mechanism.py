@@ -10,6 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.body_solids import body_solid
+from tribodyn.mechanisms.general.sections.scene import clearances, forces, magnified
 from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.encode import packed
@@ -53,6 +54,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
         return None
     drawn, (position, orientation) = skeleton(case), motion
     bodies = [drawn.lines(b, position[:, b], orientation[:, b]) for b in range(len(drawn.bodies))]
+    real = clearances(dataset, case, drawn, orientation)
     solids = [_solid(drawn, b, body, position, orientation) for b, body in enumerate(case.bodies.values())]
     marks = [_mark(drawn, mark, position, orientation) for mark in drawn.marks]
     outlines = [outline_at(drawn, outline, position, orientation) for outline in drawn.outlines]
@@ -69,9 +71,18 @@ def data(dataset: xr.Dataset) -> Payload | None:
             for k, (name, points, solid) in enumerate(zip(drawn.bodies, bodies, solids, strict=True))
         ],
         "joints": [
-            {"name": mark.name, "real": mark.real, "points": packed(points)}
+            {
+                "name": mark.name,
+                "real": mark.real,
+                "grounded": mark.grounded,
+                "points": packed(points),
+                "clearance": real.get(mark.name),
+            }
             for mark, points in zip(drawn.marks, marks, strict=True)
         ],
+        "magnification": magnified(real.values()),
+        "forces": forces(dataset),
+        "springs": [packed(outline_at(drawn, line, position, orientation)) for line in drawn.springs],
         "outlines": [
             {"colour": _colour(outline[0][0]), "n": points.shape[1], "points": packed(points)}
             for outline, points in zip(drawn.outlines, outlines, strict=True)
@@ -118,8 +129,9 @@ SECTION: Final = Section(
     name="mechanism",
     title="The mechanism",
     caption=(
-        "Bodies with a shape in their sizes, others as rods between their joints; joints with clearance "
-        "stand out; elements show as thin lines. "
+        "Bodies with a shape in their sizes, others as rods between their joints. Pins and balls in bores "
+        "move magnified. Springs show as coils, other elements as thin lines. "
+        "Arrows are forces and moments of joints on their second bodies. "
         "Drag to turn it, or use the arrow keys."
     ),
     needs=("position", "orientation", "body", "joint"),

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip
 from tribodyn.views.encode import packed
+from tribodyn.views.magnified import magnification
 from tribodyn.views.playback import at_frames, playback_times
 from tribodyn.views.section import Payload, Section
-
-_SHOWN_CLEARANCE: Final = 0.35
-"""Share of the trunnion radius as which the clearance is first shown."""
 
 
 def data(dataset: xr.Dataset) -> Payload | None:
@@ -33,26 +30,12 @@ def data(dataset: xr.Dataset) -> Payload | None:
             "collar": joint.collar_radius * MM,
             "clearance": dataset.attrs["clearance"] * MM,
         },
-        "magnification": _magnification(joint.radius / dataset.attrs["clearance"]),
+        "magnification": magnification(joint.radius / dataset.attrs["clearance"]),
         "pivot": [float(value) for value in crank_pivot(case)],
         "crank_tip": packed(crank_tip(case, at_frames(dataset, "theta_a"))),
         **{name: packed(at_frames(dataset, name)) for name in ("theta_b", "theta_v", "phi_x", "phi_y")},
         **{name: packed(at_frames(dataset, name, MM)) for name in ("h_1", "e_x", "e_y")},
     }
-
-
-def _magnification(ratio: float) -> dict[str, Any]:
-    """Return the range of the magnification and where it begins: round numbers.
-
-    Parameters
-    ----------
-    ratio
-        Trunnion radius over clearance.
-    """
-    first = _SHOWN_CLEARANCE * ratio
-    digit = 10.0 ** np.floor(np.log10(first))
-    value = float(max(np.floor(first / digit) * digit, 1.0))
-    return {"value": value, "most": 2.0 * value}
 
 
 SECTION: Final = Section(

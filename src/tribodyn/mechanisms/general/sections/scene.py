@@ -1,0 +1,109 @@
+"""What a scene shows of joints: the motion in their clearances, to be magnified; forces and moments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.frames import frame
+from tribodyn.mechanisms.general.parts import JointKeys
+from tribodyn.mechanisms.general.races import axes_of
+from tribodyn.mechanisms.general.sections.joints import loaded_joints
+from tribodyn.mechanisms.general.sections.shafts import Shafts
+from tribodyn.mechanisms.general.skeleton import MM, Skeleton, rotated
+from tribodyn.views.encode import packed
+from tribodyn.views.magnified import magnification
+from tribodyn.views.playback import playback_times
+
+_SUSTAINED: Final = 99.0
+"""Percentile of the force over time for which an arrow has its full length."""
+
+
+def clearances(
+    dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, orientation: FloatArray
+) -> dict[str, dict[str, Any]]:
+    """Return the pins and balls of joints with clearance at the frames, by the names of the joints.
+
+    Parameters
+    ----------
+    dataset, case, drawn
+        The result, its case, and what is drawn of it.
+    orientation
+        Quaternions of the bodies at the frames, shape (n_frames, n_bodies, 4).
+
+    Returns
+    -------
+    dict
+        Radii, length and radial clearance [mm]; at the frames the offset of the pin from the axis of its bore
+        [mm] and the difference of their directions, global axes. The length of a ball is zero.
+    """
+    shafts, times, known = Shafts(dataset, case), playback_times(dataset), dataset["clearance"].values
+    found = {}
+    for number, (name, joint) in enumerate(case.joints.items()):
+        keys = joint.real
+        if keys is None or keys.radius is None or not np.isfinite(known[number]):
+            continue
+        to_global = _axes(case, joint, drawn, orientation)
+        offset, tilt = shafts.at(number, times), _tilt(dataset, number, times)
+        if joint.kind.COORDINATES:
+            offset = offset * [1.0, 1.0, 0.0]
+        if not (np.isfinite(offset).all() and np.isfinite(tilt).all()):
+            continue
+        found[name] = {
+            "radius": MM * keys.radius,
+            "length": MM * (keys.length or 0.0),
+            "radial": MM * float(known[number]),
+            "offset": packed(MM * np.einsum("nij,nj->ni", to_global, offset)),
+            "tilt": packed(np.einsum("nij,nj->ni", to_global, tilt)),
+        }
+    return found
+
+
+def magnified(found: Iterable[dict[str, Any]]) -> dict[str, Any] | None:
+    """Return the range of the magnification, None where there is no clearance to magnify."""
+    ratios = [one["radius"] / one["radial"] for one in found if one["radial"] > 0.0]
+    return magnification(min(ratios)) if ratios else None
+
+
+def _axes(case: MechanismCase, joint: JointKeys, drawn: Skeleton, orientation: FloatArray) -> FloatArray:
+    """Return the axes of a joint at the frames as columns, which its bore carries; shape (n_frames, 3, 3)."""
+    columns = frame(*axes_of(case, joint))
+    carrier = joint.between[0 if joint.sign > 0.0 else 1]
+    if carrier not in drawn.bodies:
+        return np.broadcast_to(columns, (orientation.shape[0], 3, 3))
+    turned = rotated(orientation[:, None, drawn.bodies.index(carrier)], columns.T)
+    return np.asarray(np.swapaxes(turned, 1, 2))
+
+
+def _tilt(dataset: xr.Dataset, joint: int, times: FloatArray) -> FloatArray:
+    """Return how the direction of a shaft differs from that of its bore, axes of the joint, shape (n, 3)."""
+    time = dataset["time"].values
+    x, y = (np.interp(times, time, dataset[name].values[:, joint]) for name in ("tilt_x", "tilt_y"))
+    return np.stack([y, -x, 0.0 * x], axis=-1)
+
+
+def forces(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return forces [N] and moments [N m] of the joints that carry most, on their second bodies.
+
+    Each with the size that an arrow of full length stands for, which impacts exceed.
+    """
+    times, time = playback_times(dataset), dataset["time"].values
+    names = [str(name) for name in dataset["joint"].values]
+    found: dict[str, Any] = {}
+    for kind, unit in (("force", "N"), ("moment", "N m")):
+        values = np.nan_to_num(dataset[f"reaction_{kind}_global"].values)
+        arrows = {
+            names[j]: np.stack([np.interp(times, time, column) for column in values[:, j].T], axis=-1)
+            for j in loaded_joints(dataset).joints
+        }
+        sizes = [np.percentile(np.linalg.norm(one, axis=-1), _SUSTAINED) for one in arrows.values()]
+        scale = float(max(sizes, default=0.0))
+        if scale > 0.0:
+            at = {name: packed(one) for name, one in arrows.items()}
+            found[kind] = {"unit": unit, "scale": scale, "at": at}
+    return found

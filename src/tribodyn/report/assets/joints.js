@@ -1,0 +1,121 @@
+// Joints of a mechanism: pins in bores, balls, supports; springs; forces and moments. Lengths in mm.
+
+/** Turns of a spring, straight parts of a turn, and its radius over the size of the mechanism. */
+const COIL = { turns: 7, parts: 10, radius: 0.018 };
+/** Length of an arrow of usual force over the size of the mechanism, and how many times that it may be long. */
+const ARROW = { length: 0.2, most: 1.6, least: 0.02, thick: 0.005, head: 0.03 };
+const ARROW_COLOURS = { force: "ink", moment: "purple" };
+/** How much of what is behind it a bore hides, of 255. */
+const BORE = 70;
+
+/** Return one of packed points, `n` a frame, at a frame of the clock; another run may have fewer. */
+function pointNow(points, n, frame, number) {
+  return pointAt(points, n, Math.min(frame, points.length / (3 * n) - 1), number);
+}
+
+/** Return where a joint is, its direction, and its pin as it is drawn; a ball has no direction. */
+function jointAt(data, { points, clearance }, frame, magnification) {
+  const at = pointNow(points, 2, frame, 0);
+  const direction = minus(pointNow(points, 2, frame, 1), at);
+  const ball = Math.hypot(...direction) < 0.5;
+  const [axis, least] = [unit(direction), THICK.joint * data.size];
+  if (!clearance) return { at, pin: at, axis, along: axis, ball, radius: ball ? 1.2 * least : least, half: 0.5 * THICK.pin * data.size };
+  const radius = Math.max(clearance.radius, 0.6 * least);
+  // All joints are magnified alike, but a wide clearance stays within what is drawn of its bore.
+  const factor = Math.min(magnification, radius / clearance.radial);
+  return {
+    at,
+    pin: plus(at, pointNow(clearance.offset, 1, frame, 0), factor),
+    axis,
+    along: unit(plus(axis, pointNow(clearance.tilt, 1, frame, 0), factor)),
+    ball: ball || !clearance.length,
+    radius,
+    gap: factor * clearance.radial,
+    half: 0.6 * Math.max(clearance.length, 2 * radius),
+  };
+}
+
+/** Add the pin or ball of a joint. */
+function addJoint(solid, data, joint, frame, magnification, colour) {
+  const { pin, along, ball, radius, half } = jointAt(data, joint, frame, magnification);
+  if (ball) solid.ball(pin, radius, colour);
+  else solid.rod(plus(pin, along, -half), plus(pin, along, half), radius, colour, 20);
+}
+
+/** Add the bores of joints with clearance, as wide as the magnified clearance makes them; they are seen through. */
+function addBores(solid, data, frame, magnification) {
+  const colour = [...theme.rgb("part-bushing"), BORE];
+  for (const joint of data.joints.filter(({ clearance }) => clearance)) {
+    const { at, axis, ball, radius, gap, half } = jointAt(data, joint, frame, magnification);
+    if (ball) solid.ball(at, radius + gap, colour, 20);
+    else solid.sleeve(at, axis, 0.8 * half, radius + gap, Math.max(1.8 * radius, 1.35 * radius + gap), colour);
+  }
+}
+
+/** Add the support of a joint on the ground: a foot below it, across its axis. */
+function addGround(solid, data, { points }, frame, colour) {
+  const top = pointNow(points, 2, frame, 0);
+  const axis = unit(minus(pointNow(points, 2, frame, 1), top));
+  const across_ = minus(data.up, axis.map((value) => dot(axis, data.up) * value));
+  const down = unit((Math.hypot(...across_) > 0.3 ? across_ : data.up).map((value) => -value));
+  const [u, v] = across(top, plus(top, down));
+  const size = THICK.joint * data.size;
+  const square = (far, half) =>
+    [[1, 1], [1, -1], [-1, -1], [-1, 1]].map(([a, b]) => plus(plus(plus(top, down, far * size), u, half * size * a), v, half * size * b));
+  solid.loft([square(0.9, 0.5), square(2.4, 1.3)], colour);
+  solid.loft([square(2.4, 1.9), square(2.8, 1.9)], colour);
+}
+
+/** Add a spring as a coil between its ends. */
+function addCoil(solid, data, points, frame, colour) {
+  const [from, to] = [0, 1].map((end) => pointNow(points, 2, frame, end));
+  const [u, v] = across(from, to);
+  const [count, radius, along] = [COIL.turns * COIL.parts, COIL.radius * data.size, minus(to, from)];
+  const place = (k) => {
+    const angle = (2 * Math.PI * k) / COIL.parts;
+    const middle = plus(from, along, 0.1 + (0.8 * k) / count);
+    return plus(plus(middle, u, radius * Math.cos(angle)), v, radius * Math.sin(angle));
+  };
+  const turns = Array.from({ length: count + 1 }, (_, k) => place(k));
+  const line = [from, plus(from, along, 0.1), ...turns, plus(from, along, 0.9), to];
+  for (let k = 1; k < line.length; k++) solid.rod(line[k - 1], line[k], THICK.line * data.size, colour, 5);
+}
+
+/** Return the button that shows forces or moments; its words say what an arrow of full length stands for. */
+function arrowButton({ arrows }, kind, { unit: of, scale }, changed) {
+  const label = `${kind === "force" ? "Forces" : "Moments"}: full arrow ${number(scale, 2)} ${of}`;
+  const made = button(
+    label,
+    () => {
+      if (!arrows.delete(kind)) arrows.add(kind);
+      made.setAttribute("aria-pressed", String(arrows.has(kind)));
+      changed();
+    },
+    { "aria-pressed": String(arrows.has(kind)) },
+  );
+  return made;
+}
+
+/** Add the forces or moments of joints as arrows that begin in the joints; those of moments have two heads. */
+function addArrows(solid, data, kind, frame) {
+  const about = data.forces[kind];
+  const colour = theme.rgb(ARROW_COLOURS[kind]);
+  for (const [name, vectors] of Object.entries(about ? about.at : {})) {
+    const { points } = data.joints.find((joint) => joint.name === name);
+    const vector = pointNow(vectors, 1, frame, 0);
+    const share = Math.hypot(...vector) / about.scale;
+    if (share < ARROW.least) continue;
+    const length = ARROW.length * data.size * Math.min(share, ARROW.most);
+    addArrow(solid, data.size, pointNow(points, 2, frame, 0), unit(vector), length, kind === "moment" ? 2 : 1, colour);
+  }
+}
+
+/** Add an arrow with some heads. */
+function addArrow(solid, size, from, along, length, heads, colour) {
+  const head = Math.min(ARROW.head * size, 0.6 * length);
+  solid.rod(from, plus(from, along, length - head), ARROW.thick * size, colour, 8);
+  for (let k = 0; k < heads; k++) {
+    const tip = length - 0.7 * k * head;
+    solid.cone(plus(from, along, tip - head), plus(from, along, tip), 0.35 * head, colour);
+  }
+}
