@@ -239,9 +239,13 @@ class _KernelCache(caching.FunctionCache):
         self._cache_file = _Files(self._cache_path, base, locator.get_source_stamp())
 
     def load_overload(self, signature: Any, target: Any) -> Any:
-        """Return the compiled function; None where it is not there or damaged, as after a loss of power."""
+        """Return the compiled function; None where it is not there or damaged, as after a loss of power.
+
+        What compilation needs is not imported, as numba would do first.
+        """
         try:
-            return super().load_overload(signature, target)
+            with self._guard_against_spurious_io_errors():
+                return self._load_overload(signature, target)
         except Exception:
             with suppress(OSError), locked(Path(self.cache_path)):
                 self.flush()

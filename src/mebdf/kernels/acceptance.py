@@ -32,6 +32,9 @@ REFUTED: Final = 0.9
 """What it leaves, at least, where the Jacobian is wrong."""
 TRUSTED: Final = 10.0
 """Residual that needs no proof, at most, relative to the largest one that the Jacobian was seen to remove."""
+REACHED: Final = 1.0e-2
+"""Share of the trust to which a residual must have been reduced: beside a jump the Jacobian may by chance
+lead to a smaller one on its other side, and no further."""
 NOTHING: Final = 1.0e-3
 """Residual in units of the tolerance that never needs a proof."""
 HARMLESS: Final = 0.1
@@ -51,6 +54,7 @@ def judge(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int:
         # What curvature leaves, relative to the residual, grows with it.
         removed = state.unsolved / state.left
         state.trust = max(state.trust, removed * min(PROVED / state.left, TRUSTED))
+        state.reached = min(state.reached, state.unsolved)
     return IN_DOUBT if _is_doubtful(state) or _has_unproved(state, rows, places, 0.0) else SOLVED
 
 
@@ -64,12 +68,16 @@ def judge_beside_rounding(state: Numbers, rows: FloatArray, places: NDArray[np.i
 @kernel
 def _is_doubtful(state: Numbers) -> bool:
     """Tell whether the last correction leaves more than may be left without a proof."""
-    if state.overshot > 0.0 or state.left <= PROVED:
+    if state.overshot > 0.0:
         return False
     if state.wary > 0:
-        return state.unsolved > NOTHING
-    small = state.settings.tiny * (1.0 if state.unsolved <= state.trust else state.unsolved)
-    return state.unsolved > state.settings.doubtful and state.last_norm <= small
+        return state.left > PROVED and state.unsolved > NOTHING
+    trusted = state.unsolved <= state.trust and state.reached <= max(
+        state.settings.doubtful, REACHED * state.trust
+    )
+    if state.unsolved <= state.settings.doubtful or (trusted and state.left <= PROVED):
+        return False
+    return state.last_norm <= state.settings.tiny * (1.0 if trusted else state.unsolved)
 
 
 @kernel

@@ -169,7 +169,7 @@ def iterate(
     if verdict in (DIVERGED, FALSE) or state.iteration >= MAX_ITERATIONS[state.stage]:
         if verdict == FALSE:
             state.wary = max(state.wary, CAUTION)
-            state.trust = 0.0
+            state.trust, state.reached = 0.0, math.inf
         newton_failed(state, rows, places.size > 0)
         return 0
     state.jacobian_age += state.differenced

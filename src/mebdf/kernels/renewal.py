@@ -40,7 +40,7 @@ from mebdf.kernels.state import Numbers
 def take_over(state: Numbers, rows: FloatArray, matrices: FloatArray) -> int:
     """Keep a new Jacobian if it is finite, and the one before it."""
     state.phase = FACTORISE
-    state.trust = 0.0
+    state.trust, state.reached = 0.0, math.inf
     for i in range(rows.shape[1]):
         rows[at.SEEN, i] = 0.0
     if state.outside == 0:

@@ -152,6 +152,8 @@ class Numbers:
     """Time at which failures began to be counted."""
     trust: float
     """Largest residual, in units of the tolerance, that the present Jacobian is trusted to remove."""
+    reached: float
+    """Smallest residual, in units of the tolerance, to which it was seen to reduce one."""
     overshot: float
     """What the last correction was magnified by to rise above rounding, 0 where it was not."""
     trace_of_j: float

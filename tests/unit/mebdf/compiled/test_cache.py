@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import pickle
 import shutil
+import subprocess
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -45,6 +47,13 @@ def test_what_was_compiled_is_found(place: Path) -> None:
     assert first(2.0) == second(2.0) == 4.0
     assert (misses(first), misses(second)) == (1, 0)
     assert len(list(place.glob("*.nbc"))) == 1
+
+
+def test_what_is_found_needs_no_compiler() -> None:
+    use = "import sys; from mebdf.kernels.elementary import portable; portable.sin(1.0); print(*sys.modules)"
+    for _ in range(2):  # the first one may compile
+        done = subprocess.run([sys.executable, "-c", use], capture_output=True, text=True, check=True)
+    assert not set(done.stdout.split()) & {"numba.np.arraymath", "scipy.linalg", "cffi"}
 
 
 @pytest.mark.parametrize("pattern", ["*.nbi", "*.nbc"])

@@ -18,19 +18,32 @@ from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 
 _SCAN: Final = 1441
 _BLOCK: Final = 32
-_BISECTIONS: Final = 60
+_BISECTIONS: Final = 50
+"""From the spacing of the scan to below rounding."""
 _MEETING: Final = 1.0e-4
 """Depth to which the closure falls between the assemblies, over its height elsewhere, when they meet: 2°."""
 
 
 def closure(lengths: Lengths, theta_a: FloatArray, theta_v: FloatArray) -> FloatArray:
     """Return |S1S2|² − l_2² [m²] of the ideal mechanism, Eqs. 12 to 18; arguments broadcast [rad]."""
+    return _closure(lengths, *_crank_end(lengths, theta_a), theta_v)
+
+
+def _crank_end(lengths: Lengths, theta_a: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return x and z of S1 [m]."""
     s1_x = lengths.l_m * portable.cos(lengths.gamma) - lengths.l_1 * portable.sin(theta_a)
     s1_z = lengths.l_m * portable.sin(lengths.gamma) + lengths.l_1 * portable.cos(theta_a)
-    theta_b = portable.atan2(-lengths.l_4 * portable.cos(theta_v), lengths.l_3)
-    d_x = lengths.l_3 * portable.sin(lengths.phi - theta_b) - s1_x
-    d_y = lengths.l_4 * portable.sin(theta_v) - lengths.l_4
-    d_z = lengths.l_3 * portable.cos(lengths.phi - theta_b) - s1_z
+    return s1_x, s1_z
+
+
+def _closure(lengths: Lengths, s1_x: FloatArray, s1_z: FloatArray, theta_v: FloatArray) -> FloatArray:
+    """Return the closure [m²] with S1 given; the ring's arm is at φ − θ_b, tan θ_b = −l_4 cos θ_v / l_3."""
+    arm = lengths.l_4 * portable.cos(theta_v)
+    scale = lengths.l_3 / np.sqrt(lengths.l_3**2 + arm**2)
+    sine, cosine = portable.sin(lengths.phi), portable.cos(lengths.phi)
+    d_x = scale * (lengths.l_3 * sine + arm * cosine) - s1_x
+    d_y = lengths.l_4 * (portable.sin(theta_v) - 1.0)
+    d_z = scale * (lengths.l_3 * cosine - arm * sine) - s1_z
     return np.asarray(d_x**2 + d_y**2 + d_z**2 - lengths.l_2 * lengths.l_2)
 
 
@@ -58,9 +71,10 @@ def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
     # In blocks whose arrays stay in the cache of the processor.
     blocks = np.array_split(theta_a, theta_a.size // _BLOCK + 1)
     low, high = np.concatenate([_bracket(lengths, sign, block) for block in blocks], axis=1)
+    s1 = _crank_end(lengths, theta_a)
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
-        above = sign * closure(lengths, theta_a, middle) > 0.0
+        above = sign * _closure(lengths, *s1, middle) > 0.0
         high = np.where(above, middle, high)
         low = np.where(above, low, middle)
     return np.asarray(0.5 * (low + high))
