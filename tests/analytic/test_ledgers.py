@@ -69,7 +69,7 @@ def test_both_close_at_40_micrometres(vsv_run):
     assert fraction(clearance, run) < ALLOWED
 
 
-@pytest.mark.parametrize("solver", ["mebdf", "bdf"])
+@pytest.mark.parametrize("solver", ["mebdf", pytest.param("bdf", marks=pytest.mark.long)])
 def test_both_fall_with_the_tolerance(vsv_run, solver):
     # Relative and absolute tolerances together. The works are parabolas through the ends of steps: where
     # forces have kinks, in impacts, single runs scatter from 1e-6 to 1.2e-4; so means are compared.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -25,6 +26,8 @@ NEEDED = {
 }
 NAMES = {*sys.stdlib_module_names, *NEEDED}
 """Names of planted modules: all of Python, and what tribodyn is made of and needs."""
+HELPED = {"run", "sweep", "find", "workbench", "serve", "validate"}
+"""Commands that may start helper processes: each is run by itself. The others run one after another."""
 SHORT = ("vsv", "--set", "run.duration=2 ms", "--set", "run.output_interval=1 ms", "--quiet")
 VARIED = (*SHORT, "--vary", "joint.clearance=20:30:10 um", "--workers", "2", "--summary-only")
 FOUND = (*SHORT, "--vary", "joint.clearance=10..60um", "--until", "vane_angle_error_max_deg=0.03")
@@ -56,6 +59,17 @@ REFUSED_BY = {
     "fit": ("fit", "vsv", "--data", "missing.csv", "--vary", "joint.clearance=1..2"),
 }
 """Commands with arguments that they refuse."""
+
+ONE_AFTER_ANOTHER = """
+import json, sys
+from tribodyn.__main__ import main
+if __name__ == "__main__":
+    for status, given in json.loads(sys.argv.pop()):
+        sys.argv[1:] = given
+        if main() != status:
+            sys.exit(f"{given} did not end with {status}")
+"""
+"""Runs commands in one process, as the installed script does one."""
 
 
 @pytest.fixture(scope="module")
@@ -96,19 +110,30 @@ def test_a_planted_module_is_noted(planted: Path) -> None:
     assert imported([sys.executable, "-c", "import numpy"], planted)[1] >= {"numpy"}
 
 
+TRIED = [
+    (status, given)
+    for status, tried in ((DONE, DONE_BY), (BAD_INPUT, REFUSED_BY))
+    for given in tried.values()
+]
+
+
 @pytest.mark.parametrize(
-    ("arguments", "status"),
-    [
-        pytest.param(given, status, id=f"{name}-{status}")
-        for status, commands in ((DONE, DONE_BY), (BAD_INPUT, REFUSED_BY))
-        for name, given in commands.items()
-    ],
+    ("status", "arguments"),
+    [pytest.param(*tried, id=f"{tried[1][0]}-{tried[0]}") for tried in TRIED if tried[1][0] in HELPED],
 )
 def test_no_command_imports_from_the_working_directory(
-    arguments: tuple[str, ...], status: int, planted: Path, script: list[str]
+    status: int, arguments: tuple[str, ...], planted: Path, script: list[str]
 ) -> None:
     assert imported([*script, *arguments], planted) == (status, set())
     assert not (planted / "planted-code").exists()
+
+
+def test_commands_without_helpers_import_nothing_from_there(planted: Path, tmp_path: Path) -> None:
+    tried = [(status, given) for status, given in TRIED if given[0] not in HELPED]
+    script = tmp_path / "tribodyn"
+    script.write_text(ONE_AFTER_ANOTHER)
+    status, found = imported([sys.executable, str(script), json.dumps(tried)], planted)
+    assert (status, found) == (DONE, set())
 
 
 def test_the_process_that_compiles_imports_nothing_from_there(

@@ -19,7 +19,16 @@ def test_the_page_shows_four_commands_with_their_answers() -> None:
     assert [command.split()[0] for command, _ in SHOWN] == ["sweep", "find", "sweep", "sweep"]
 
 
-@pytest.mark.parametrize(("command", "answer"), SHOWN, ids=["sweep", "find", "samples", "wear"])
+NAMES = ("sweep", "find", "samples", "wear")
+
+
+@pytest.mark.parametrize(
+    ("command", "answer"),
+    [
+        pytest.param(*shown, id=name, marks=[pytest.mark.long] if name == "samples" else [])
+        for name, shown in zip(NAMES, SHOWN, strict=True)
+    ],
+)
 def test_a_command_answers_as_shown(
     command: str,
     answer: str,
