@@ -69,13 +69,7 @@ def factorise(pattern: Pattern, blocks: FloatArray) -> int:
     for s in range(steps.shape[0]):
         target = blocks[steps[s, 1]]
         if steps[s, 0] == SUBTRACT:
-            left, right = blocks[steps[s, 2]], blocks[steps[s, 3]]
-            for i in range(N):
-                for k in range(N):
-                    factor = left[i, k]
-                    if factor != 0.0:
-                        for j in range(N):
-                            target[i, j] -= factor * right[k, j]
+            _subtract(target, blocks[steps[s, 2]], blocks[steps[s, 3]])
         elif steps[s, 0] == DIVIDE:
             _divide(target, blocks[steps[s, 2]])
         else:
@@ -86,9 +80,38 @@ def factorise(pattern: Pattern, blocks: FloatArray) -> int:
 
 
 @kernel
+def _is_zero(block: FloatArray, row: int) -> bool:
+    """Tell whether a row of a block is zero, as those are that a joint does not have."""
+    a, b, c, d, e, f = block[row, 0], block[row, 1], block[row, 2], block[row, 3], block[row, 4], block[row, 5]
+    return a == 0.0 and b == 0.0 and c == 0.0 and d == 0.0 and e == 0.0 and f == 0.0
+
+
+@kernel
+def _subtract(target: FloatArray, left: FloatArray, right: FloatArray) -> None:
+    """Subtract the product of two blocks, row by row."""
+    for i in range(N):
+        if _is_zero(left, i):
+            continue
+        a, b, c = target[i, 0], target[i, 1], target[i, 2]
+        d, e, f = target[i, 3], target[i, 4], target[i, 5]
+        for k in range(N):
+            factor = left[i, k]
+            a -= factor * right[k, 0]
+            b -= factor * right[k, 1]
+            c -= factor * right[k, 2]
+            d -= factor * right[k, 3]
+            e -= factor * right[k, 4]
+            f -= factor * right[k, 5]
+        target[i, 0], target[i, 1], target[i, 2] = a, b, c
+        target[i, 3], target[i, 4], target[i, 5] = d, e, f
+
+
+@kernel
 def _divide(target: FloatArray, inverse: FloatArray) -> None:
     """Multiply a block by an inverse from the right, row by row."""
     for i in range(N):
+        if _is_zero(target, i):
+            continue
         a, b, c = target[i, 0], target[i, 1], target[i, 2]
         d, e, f = target[i, 3], target[i, 4], target[i, 5]
         for j in range(N):
@@ -114,21 +137,15 @@ def _substitute(steps: IntArray, blocks: FloatArray, x: FloatArray) -> None:
     """Subtract products of blocks with nodes; a node with itself is multiplied by its inverse."""
     for s in range(steps.shape[0]):
         block, target, source = blocks[steps[s, 0]], steps[s, 1], steps[s, 2]
-        if target == source:
-            a, b, c = x[target, 0], x[target, 1], x[target, 2]
-            d, e, f = x[target, 3], x[target, 4], x[target, 5]
-            for i in range(N):
-                x[target, i] = (
-                    block[i, 0] * a
-                    + block[i, 1] * b
-                    + block[i, 2] * c
-                    + block[i, 3] * d
-                    + block[i, 4] * e
-                    + block[i, 5] * f
-                )
-            continue
+        a, b, c = x[source, 0], x[source, 1], x[source, 2]
+        d, e, f = x[source, 3], x[source, 4], x[source, 5]
         for i in range(N):
-            total = 0.0
-            for j in range(N):
-                total += block[i, j] * x[source, j]
-            x[target, i] -= total
+            product = (
+                block[i, 0] * a
+                + block[i, 1] * b
+                + block[i, 2] * c
+                + block[i, 3] * d
+                + block[i, 4] * e
+                + block[i, 5] * f
+            )
+            x[target, i] = product if target == source else x[target, i] - product

@@ -78,13 +78,13 @@ def _direction(
 
 @kernel
 def fill_rows(coupling: Record, now: Record) -> None:
-    """Fill residual, rate and wanted acceleration of all rows, N and G; of a leg, its terms of them."""
+    """Fill residual, rate and wanted acceleration of all rows, N and G; of a leg, its terms of them.
+
+    Entries of N that are zero for a kind of row are never written.
+    """
     work, twist = now.work, now.twist
     w, w_rate, w_second = work[0, :3], work[1, :3], work[2, :3]
     f, swing, twice, arm = work[3, :3], work[4, :3], work[5, :3], work[0, 3:6]
-    for m in range(6):
-        for i in range(6):
-            now.N[m, i] = 0.0
     for m in range(coupling.n_terms):
         kind, i = coupling.row_kind[m], coupling.row_axis[m]
         if kind in (POINT, POSITION):
@@ -92,9 +92,12 @@ def fill_rows(coupling: Record, now: Record) -> None:
             now.residual[m] = now.pose.d[i] - now.prescribed[m, 0]
             now.rate[m] = twist[i] - now.prescribed[m, 1]
             now.gamma[m] = now.prescribed[m, 2] - now.bias[i]
+            for j in range(12):
+                now.G[m, j] = 0.0 + now.H[i, j]
             continue
         if kind in (COORDINATE, DISTANCE, PATH):
             _fill_term(coupling, now)
+            multiply(now.N[:1], now.H, now.G[:1])
             continue
         _direction(coupling, now, m, w, w_rate, w_second)
         for k in range(3):
@@ -110,7 +113,8 @@ def fill_rows(coupling: Record, now: Record) -> None:
             acceleration += arm[k] * now.bias[3 + k] + w[k] * twice[k]
             acceleration += 2.0 * w_rate[k] * swing[k] + w_second[k] * f[k]
         now.residual[m], now.rate[m], now.gamma[m] = residual, rate, -acceleration
-    multiply(now.N, now.H, now.G)
+        for j in range(12):
+            now.G[m, j] = 0.0 + arm[0] * now.H[3, j] + arm[1] * now.H[4, j] + arm[2] * now.H[5, j]
 
 
 @kernel

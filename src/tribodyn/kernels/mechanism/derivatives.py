@@ -8,6 +8,7 @@ wrench, that of the axes it is given in, and that of its arms. Its rows change b
 
 from __future__ import annotations
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
@@ -61,20 +62,30 @@ def _fill_forces(coupling: Record, now: Record) -> None:
 def _add_slope(now: Record) -> None:
     """Add −Hᵀ δW."""
     work, slope = now.work, now.slope
-    for i in range(6):
+    for k in range(6):
+        if _is_zero(slope, k):
+            continue
         for j in range(12):
             in_position = in_velocity = 0.0
-            for k in range(6):
-                in_position += slope[i, k] * now.H[k, j] + slope[i, 6 + k] * now.Vq[k, j]
-                in_velocity += slope[i, 6 + k] * now.H[k, j]
-            work[i, j], now.strip[i, j] = in_position, in_velocity
-    for i in range(12):
-        for k in range(6):
+            for m in range(6):
+                in_position += slope[k, m] * now.H[m, j] + slope[k, 6 + m] * now.Vq[m, j]
+                in_velocity += slope[k, 6 + m] * now.H[m, j]
+            work[k, j], now.strip[k, j] = in_position, in_velocity
+        for i in range(12):
             factor = now.H[k, i]
             if factor != 0.0:
                 for j in range(12):
                     now.Kq[i, j] -= factor * work[k, j]
                     now.Kv[i, j] -= factor * now.strip[k, j]
+
+
+@kernel
+def _is_zero(matrix: FloatArray, row: int) -> bool:
+    """Tell whether a row of a matrix is zero."""
+    for j in range(matrix.shape[1]):
+        if matrix[row, j] != 0.0:
+            return False
+    return True
 
 
 @kernel

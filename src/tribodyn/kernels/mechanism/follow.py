@@ -21,6 +21,7 @@ from tribodyn.kernels.mechanism.solution import (
     kinematics,
     largest_residual,
     mark_angles,
+    refresh_velocities,
 )
 from tribodyn.kernels.mechanism.vectors import turn
 from tribodyn.kernels.signals import Signals
@@ -72,8 +73,8 @@ def follow(
         if not largest_residual(parts, now, parts.constants.size) <= closed:
             return k
         _stop(now.bodies)
-        kinematics(parts, now, signals, times[k])
-        correct_velocities(parts, now, signals, pattern, blocks, times[k])
+        refresh_velocities(parts, now)
+        correct_velocities(parts, now, pattern, blocks)
         collect(now.bodies, motion[k])
         for b in range(now.bodies.size - 1):
             body, begin = now.bodies[b], N_STATES * b + TURNING

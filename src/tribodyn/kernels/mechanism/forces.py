@@ -47,14 +47,15 @@ from tribodyn.kernels.signals import Signals, evaluate
 def force(
     data: MechanismData, memory: MechanismMemory, number: int, t: float, within: float, mode: float
 ) -> None:
-    """Fill wrench, slope, powers and stored energy of a coupling; what ``mode`` asks for of a contact."""
+    """Fill wrench, powers and stored energy of a coupling; slopes, and reports of a contact, by ``mode``."""
     coupling, now = data.parts.couplings[number], memory.now.couplings[number]
     for i in range(6):
         now.wrench[i] = 0.0
     for i in range(N_POWERS):
         now.powers[i] = 0.0
     now.stored = 0.0
-    clear(now.slope)
+    if mode == SLOPES:
+        clear(now.slope)
     kind = coupling.force
     if kind == SPRINGS:
         _springs(coupling, now)

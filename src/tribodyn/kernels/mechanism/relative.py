@@ -38,18 +38,21 @@ WHOLE_TURN: Final = 2.0 * math.pi
 @kernel
 def relative_motion(coupling: Record, now: Record, bodies: Any) -> None:
     """Fill pose, twist, its rate without accelerations, and H."""
+    _relative_position(coupling, now, bodies)
+    relative_velocity(coupling, now, bodies)
+
+
+@kernel
+def _relative_position(coupling: Record, now: Record, bodies: Any) -> None:
+    """Fill what velocities do not change: displacement, rotation, angle and H."""
     socket, shaft = bodies[coupling.socket], bodies[coupling.shaft]
-    pose, x, u, w_s = now.pose, now.x, now.u, now.w_s
-    scratch = now.work
-    arm, point = scratch[0, :3], scratch[1, :3]
+    pose, x, arm, point = now.pose, now.x, now.work[0, :3], now.work[1, :3]
     for i in range(3):
         for j in range(3):
             now.small[i, j] = socket.A[j, i]
     multiply(coupling.to_socket, now.small, now.RT)
     multiply(now.RT, shaft.A, now.B)
     multiply(now.B, coupling.shaft_axes, pose.rotation)
-    turn(coupling.to_socket, socket.w, w_s)
-    # Position.
     for i in range(3):
         point[i] = shaft.r[i] - socket.r[i]
     turn(now.RT, point, x)
@@ -59,7 +62,17 @@ def relative_motion(coupling: Record, now: Record, bodies: Any) -> None:
     turn(coupling.to_socket, coupling.socket_point, point)
     for i in range(3):
         pose.d[i] = x[i] - point[i]
-    # Velocity.
+    _fill_map(coupling, now)
+    raw = atan2(pose.rotation[1, 0], pose.rotation[0, 0])
+    now.angle = raw + WHOLE_TURN * round((now.angle_mark - raw) / WHOLE_TURN)
+
+
+@kernel
+def relative_velocity(coupling: Record, now: Record, bodies: Any) -> None:
+    """Fill twist and its rate without accelerations, where positions are filled."""
+    socket, shaft = bodies[coupling.socket], bodies[coupling.shaft]
+    pose, x, u, w_s, arm, point = now.pose, now.x, now.u, now.w_s, now.work[0, :3], now.work[1, :3]
+    turn(coupling.to_socket, socket.w, w_s)
     cross(shaft.w, coupling.shaft_point, point)
     turn(now.B, point, arm)
     for i in range(3):
@@ -74,9 +87,6 @@ def relative_motion(coupling: Record, now: Record, bodies: Any) -> None:
         pose.w[i] -= w_s[i]
         now.twist[i], now.twist[3 + i] = pose.v[i], pose.w[i]
     _fill_bias(coupling, now, shaft)
-    _fill_map(coupling, now)
-    raw = atan2(pose.rotation[1, 0], pose.rotation[0, 0])
-    now.angle = raw + WHOLE_TURN * round((now.angle_mark - raw) / WHOLE_TURN)
 
 
 @kernel

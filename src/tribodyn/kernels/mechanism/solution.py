@@ -38,6 +38,7 @@ from tribodyn.kernels.mechanism.data import (
     COORDINATE,
     DIRECTION,
     NONE,
+    PATH,
     REPORTS,
     WORK,
     MechanismData,
@@ -48,7 +49,7 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.kernels.mechanism.forces import force
 from tribodyn.kernels.mechanism.law import call_law, fill_law
-from tribodyn.kernels.mechanism.relative import relative_motion
+from tribodyn.kernels.mechanism.relative import relative_motion, relative_velocity
 from tribodyn.kernels.signals import Signals
 
 HARD: Final = 1.0e-8
@@ -72,6 +73,18 @@ def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
         relative_motion(coupling, state, now.bodies)
         if coupling.n_terms > 0:
             prescribe(coupling, state, signals, t, within)
+            fill_rows(coupling, state)
+        if coupling.first_leg != NONE:
+            _add_term(state, now.couplings[coupling.first_leg])
+
+
+@kernel
+def refresh_velocities(parts: Parts, now: Now) -> None:
+    """Fill the kinematics anew after a change of velocities alone."""
+    for k in range(parts.couplings.size):
+        coupling, state = parts.couplings[k], now.couplings[k]
+        relative_velocity(coupling, state, now.bodies)
+        if coupling.n_terms > 0:
             fill_rows(coupling, state)
         if coupling.first_leg != NONE:
             _add_term(state, now.couplings[coupling.first_leg])
@@ -343,10 +356,11 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
 
 
 @kernel
-def correct_velocities(
-    parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float
-) -> None:
-    """Make velocities those that the constraints allow, by impulses, and fill the kinematics with them."""
+def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+    """Make velocities those that the constraints allow, by impulses, and fill the kinematics with them.
+
+    Those of the positions must have been filled.
+    """
     assemble(parts, now, pattern, blocks)
     for b in range(parts.bodies.size):
         for i in range(6):
@@ -361,7 +375,16 @@ def correct_velocities(
         for i in range(3):
             body.v[i] += now.x[b, i]
             body.w[i] += now.x[b, 3 + i]
-    kinematics(parts, now, signals, t)
+    refresh_velocities(parts, now)
+
+
+@kernel
+def _has_path(parts: Parts) -> bool:
+    """Tell whether any row depends on the direction of a velocity."""
+    for k in range(parts.couplings.size):
+        if parts.couplings[k].n_terms > 0 and parts.couplings[k].row_kind[0] == PATH:
+            return True
+    return False
 
 
 @inlined
@@ -379,13 +402,15 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
     kinematics(parts, now, data.signals, t)
     if n_rows > 0:
         close(parts, now, data.signals, data.mass, blocks, t)
-        correct_velocities(parts, now, data.signals, data.mass, blocks, t)
+        correct_velocities(parts, now, data.mass, blocks)
     collect(now.bodies, memory.settled)
     forces(data, memory, t, REPORTS)
     redundant = parts.constants.rank < n_rows
     if redundant:
         share(parts, now)
-    assemble(parts, now, data.mass, blocks)
+    if redundant or n_rows == 0 or _has_path(parts):
+        # Otherwise the factors of the correction of velocities hold.
+        assemble(parts, now, data.mass, blocks)
     take_accelerations(parts, now, data.mass, blocks)
     if redundant:
         set_compliance(parts, now)
