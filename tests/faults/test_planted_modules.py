@@ -136,12 +136,13 @@ def test_commands_without_helpers_import_nothing_from_there(planted: Path, tmp_p
     assert (status, found) == (DONE, set())
 
 
-def test_the_process_that_compiles_imports_nothing_from_there(
-    planted: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("ahead", [False, True])
+def test_processes_that_compile_import_nothing_from_there(
+    ahead: bool, planted: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(planted)
     _log(planted).unlink(missing_ok=True)
-    with compilation._child() as child:
+    with compilation._child(ahead=ahead) as child:
         child.communicate(timeout=60)
     assert not _log(planted).exists()
 

@@ -27,6 +27,7 @@ import numpy as np
 from llvmlite import binding
 from numba.core import caching, codegen
 
+from mebdf.compiled import claims
 from mebdf.compiled.private_folder import NotPrivate, locked, mark_used, private_folder, prune
 
 _config: Final[Any] = nb.config  # made from the environment: its names are in no stub
@@ -77,11 +78,14 @@ class Sources:
         return f"{self.package.name}/{path.relative_to(self.package).as_posix()}"
 
 
-def cached(dispatcher: Any, sources: Sources) -> Any:
-    """Return a compiled function that keeps its machine code in :func:`folder`, if there is one."""
+def cached(dispatcher: Any, sources: Sources, kind: str = "") -> Any:
+    """Return a compiled function that keeps its machine code in :func:`folder`, if there is one.
+
+    ``kind`` tells apart what is compiled of the same function with other options.
+    """
     function = getattr(dispatcher, "py_func", None)  # None where NUMBA_DISABLE_JIT is set
     if function is not None and os.path.isfile(inspect.getfile(function)) and folder(sources) is not None:
-        dispatcher._cache = _KernelCache(function, sources)
+        dispatcher._cache = _KernelCache(function, sources, kind)
     return dispatcher
 
 
@@ -164,8 +168,8 @@ def _hash(path: str) -> str:
 class _Locator(caching._CacheLocator):
     """Tells numba where the machine code of a function is, and which function that is."""
 
-    def __init__(self, sources: Sources, function: Any, path: str) -> None:
-        self._sources = sources
+    def __init__(self, sources: Sources, kind: str, function: Any, path: str) -> None:
+        self._sources, self._kind = sources, kind
         self._py_file = path  # numba's own messages ask for it
         self._line = function.__code__.co_firstlineno
 
@@ -183,23 +187,34 @@ class _Locator(caching._CacheLocator):
     def get_disambiguator(self) -> str:
         """Return what tells functions of one name apart, the same in every copy of the package."""
         place = self._sources.name_of(Path(self._py_file))
-        return f"{hashlib.sha256(place.encode()).hexdigest()[:12]}-{self._line}"
+        return f"{hashlib.sha256(place.encode()).hexdigest()[:12]}-{self._line}{self._kind}"
 
 
 class _Locators(NamedTuple):
     """Makes the locator of a function of a package."""
 
     sources: Sources
+    kind: str
 
     def from_function(self, function: Any, path: str) -> _Locator:
-        return _Locator(self.sources, function, path)
+        return _Locator(self.sources, self.kind, function, path)
 
 
 class _Implementation(caching.CompileResultCacheImpl):
-    def __init__(self, function: Any, sources: Sources) -> None:
-        locators: Any = [_Locators(sources)]  # numba only asks them for ``from_function``
+    def __init__(self, function: Any, sources: Sources, kind: str) -> None:
+        locators: Any = [_Locators(sources, kind)]  # numba only asks them for ``from_function``
         self._locator_classes = locators
         super().__init__(function)
+
+
+def share_work(sources: Sources) -> None:
+    """From now on, wait for functions that another process compiles which shares the work, too.
+
+    For processes that do nothing but compile: what they have claimed they hold until they end.
+    """
+    for each in (*sources.below, sources):
+        if (place := folder(each)) is not None:
+            claims.share(place)
 
 
 class DamagedCode(Exception):
@@ -231,18 +246,29 @@ def _digest(content: bytes | memoryview) -> bytes:
 class _KernelCache(caching.FunctionCache):
     """Numba's cache of a function that other processes may fill and remove at the same time."""
 
-    def __init__(self, function: Any, sources: Sources) -> None:
-        implementation: Any = partial(_Implementation, sources=sources)
+    def __init__(self, function: Any, sources: Sources, kind: str) -> None:
+        implementation: Any = partial(_Implementation, sources=sources, kind=kind)
         self._sources, self._impl_class = sources, implementation
         super().__init__(function)
         locator, base = self._impl.locator, self._impl.filename_base
         self._cache_file = _Files(self._cache_path, base, locator.get_source_stamp())
 
     def load_overload(self, signature: Any, target: Any) -> Any:
-        """Return the compiled function; None where it is not there or damaged, as after a loss of power.
+        """Return the compiled function; None where it is not there or damaged, as after a loss of power."""
+        found = self._load(signature, target)
+        if found is None and (shared := claims.shared.get(self.cache_path)) is not None:
+            shared.take(self._claim(signature))
+            found = self._load(signature, target)
+            if found is not None:
+                shared.give_back(self._claim(signature))
+        return found
 
-        What compilation needs is not imported, as numba would do first.
-        """
+    def _claim(self, signature: Any) -> str:
+        """Return what tells a compiled function from all others, in every process."""
+        return f"{self._impl.filename_base} {signature}"
+
+    def _load(self, signature: Any, target: Any) -> Any:
+        """Load it from the folder; what compilation needs is not imported, as numba would do first."""
         try:
             with self._guard_against_spurious_io_errors():
                 return self._load_overload(signature, target)
@@ -263,6 +289,8 @@ class _KernelCache(caching.FunctionCache):
             with locked(place):
                 if fingerprint(self._sources) == place.name:
                     self._save(signature, compiled)
+        if (shared := claims.shared.get(self.cache_path)) is not None:
+            shared.give_back(self._claim(signature))
 
     def _save(self, signature: Any, compiled: Any) -> None:
         try:

@@ -33,7 +33,7 @@ class Decorators(NamedTuple):
     entry
         A function that a compiled integrator may be handed.
     kernel
-        Any other function; without the wrapper for being handed on, it compiles faster.
+        Any other function; without the wrappers for being handed on and for Python, it compiles faster.
     unlocked
         A function that takes so long that other threads of the process should go on meanwhile.
     inlined
@@ -50,12 +50,39 @@ class Decorators(NamedTuple):
 def decorators(sources: Sources) -> Decorators:
     """Return the decorators of a package, whose machine code is made from ``sources``."""
 
-    def njit(**options: Any) -> Any:
-        return lambda function: cached(nb.njit(**_OPTIONS, **options)(function), sources)
+    def njit(kind: str = "", **options: Any) -> Any:
+        return lambda function: cached(nb.njit(**_OPTIONS, **options)(function), sources, kind)
+
+    def kernel(function: Any) -> Any:
+        bare = njit(no_cfunc_wrapper=True, no_cpython_wrapper=True)(function)
+        if bare is function:  # NUMBA_DISABLE_JIT is set
+            return function
+        return _for_kernels(bare, njit("called", no_cfunc_wrapper=True)(function))
 
     return Decorators(
         entry=njit(),
-        kernel=njit(no_cfunc_wrapper=True),
+        kernel=kernel,
         unlocked=njit(nogil=True, no_cfunc_wrapper=True),
         inlined=njit(inline="always", no_cfunc_wrapper=True),
     )
+
+
+def _for_kernels(bare: Any, called: Any) -> Any:
+    """Return a compiled function without a wrapper for Python; Python calls another one, compiled then.
+
+    The wrapper takes the arguments apart. For those of a mechanism it takes a second to compile, and every
+    kernel above would contain it once more.
+    """
+
+    def add_overload(compiled: Any) -> None:
+        bare.overloads[tuple(compiled.signature.args)] = compiled  # numba's own lets Python find it, too
+
+    def compile_for_python(*arguments: Any, **named: Any) -> Any:
+        entry = called._compile_for_args(*arguments, **named)
+        for compiled in called.overloads.values():
+            if compiled.entry_point is entry:
+                bare._insert([kind._code for kind in compiled.signature.args], entry, False)
+        return entry
+
+    bare.add_overload, bare._compile_for_args, bare.for_python = add_overload, compile_for_python, called
+    return bare

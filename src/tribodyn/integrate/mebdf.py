@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Problem, Solution
-from tribodyn.integrate.binding import argument_types, is_compiled
+from tribodyn.integrate.binding import argument_types, is_compiled, kernel_types, machine_code
 from tribodyn.integrate.driver import IntegrationTask, Walk
+from tribodyn.integrate.schedule import make_schedule
 
 if TYPE_CHECKING:
     from mebdf.kernels.state import Mass, MebdfState
@@ -248,6 +249,26 @@ class _CompiledWalk(Walk):
         if self._own is not None:
             bad = self._own.places[:, min(int(bad[0]), self._own.places.shape[1] - 1)]
         return int(bad[0]), int(bad[1])
+
+
+def compile_ahead(problem: Problem | None) -> None:
+    """Compile the core of the solver, and then the loop and the functions of a problem, the last ones first.
+
+    For a process that shares the work with one that begins at the other end; nothing is evaluated.
+    """
+    from mebdf.kernels.core import resume
+    from mebdf.kernels.state import state_type
+
+    resume.compile(state_type().types)
+    if problem is None:
+        return
+    types = kernel_types(problem)
+    walk = _CompiledWalk(IntegrationTask(problem, make_schedule(problem.t_span, (), (), ()), rtol=0.1))
+    walk.prepare()
+    for function in reversed(walk._functions):
+        if function is not None:
+            function.__wrapper_address__()
+    machine_code(problem, types)
 
 
 @contextmanager

@@ -29,3 +29,12 @@ def clear(target: FloatArray) -> None:
     for i in range(target.shape[0]):
         for j in range(target.shape[1]):
             target[i, j] = 0.0
+
+
+@kernel
+def is_zero(matrix: FloatArray, row: int) -> bool:
+    """Tell whether a row of a matrix is zero."""
+    j = 0
+    while j < matrix.shape[1] and matrix[row, j] == 0.0:
+        j += 1
+    return j == matrix.shape[1]

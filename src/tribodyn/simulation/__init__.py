@@ -214,11 +214,26 @@ def load_equations(case: Case) -> bool:
     return loaded(case, partial(_first_steps, _session(case)))
 
 
-def compile_for_parent() -> None:
-    """Compile the case that the parent process hands over into numba's cache: the first step does."""
+def compile_for_parent(*, ahead: bool) -> None:
+    """Compile the case that the parent process hands over into numba's cache: the first step does.
+
+    Parameters
+    ----------
+    ahead
+        Whether to compile what another process, which takes these steps, needs last.
+    """
+    from mebdf.compiled.cache import share_work
+    from tribodyn.integrate.mebdf import compile_ahead
+    from tribodyn.kernels.jit import SOURCES
     from tribodyn.mechanisms.catalogue import parse_case
 
-    _first_steps(_session(parse_case(from_parent(), "case")))
+    session = _session(parse_case(from_parent(), "case"))
+    share_work(SOURCES)
+    if ahead:
+        template = getattr(session.system, "template", None)
+        compile_ahead(template() if template else None)
+    else:
+        _first_steps(session)
 
 
 __all__ = ["check", "compile_for_parent", "estimate", "load_equations", "prepare", "simulate"]

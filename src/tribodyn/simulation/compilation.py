@@ -1,7 +1,8 @@
-"""Equations are compiled by a process of their own, which can be stopped.
+"""Equations are compiled by processes of their own, which can be stopped.
 
 Compilation takes minutes and cannot be interrupted inside a process. The process that asked for it loads the
-machine code from the cache.
+machine code from the cache. Where there are two processors a second process compiles the core of the solver
+and what a run needs last; no function is compiled twice.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import Stopped
+from tribodyn.core.machine import processors
 from tribodyn.core.stopping import ask
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
 Steps = Callable[[], Any]
 _Result = TypeVar("_Result")
 
-_CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent()"
+_CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent(ahead={})"
 _LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
 _loaded: Final[set[Choices]] = set()
@@ -115,10 +117,14 @@ def compile_elsewhere(case: Case) -> None:
 
     if folder(SOURCES) is None:
         return
-    with suppress(OSError), _child() as child:
-        assert child.stdin is not None
-        child.stdin.write(json.dumps(case.to_toml()).encode() + b"\n")
-        child.stdin.flush()
+    with suppress(OSError), ExitStack() as stack:
+        child, *helping = (
+            stack.enter_context(_child(ahead=ahead)) for ahead in (False, True)[: processors()]
+        )
+        for process in (child, *helping):
+            assert process.stdin is not None
+            process.stdin.write(json.dumps(case.to_toml()).encode() + b"\n")
+            process.stdin.flush()
         while child.poll() is None:
             ask()
             with suppress(subprocess.TimeoutExpired):
@@ -128,10 +134,10 @@ def compile_elsewhere(case: Case) -> None:
 
 
 @contextmanager
-def _child() -> Iterator[subprocess.Popen[bytes]]:
-    """Start a process that compiles; it has ended when the block has."""
+def _child(*, ahead: bool) -> Iterator[subprocess.Popen[bytes]]:
+    """Start a process that compiles, or that helps it ``ahead``; it has ended when the block has."""
     with subprocess.Popen(
-        [sys.executable, "-P", "-c", _CHILD],
+        [sys.executable, "-P", "-c", _CHILD.format(ahead)],
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

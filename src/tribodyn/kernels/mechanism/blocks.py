@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.kernels.arrays import is_zero
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.data import Pattern
 
@@ -80,17 +81,10 @@ def factorise(pattern: Pattern, blocks: FloatArray) -> int:
 
 
 @kernel
-def _is_zero(block: FloatArray, row: int) -> bool:
-    """Tell whether a row of a block is zero, as those are that a joint does not have."""
-    a, b, c, d, e, f = block[row, 0], block[row, 1], block[row, 2], block[row, 3], block[row, 4], block[row, 5]
-    return a == 0.0 and b == 0.0 and c == 0.0 and d == 0.0 and e == 0.0 and f == 0.0
-
-
-@kernel
 def _subtract(target: FloatArray, left: FloatArray, right: FloatArray) -> None:
-    """Subtract the product of two blocks, row by row."""
+    """Subtract the product of two blocks, row by row; those that a joint does not have are zero."""
     for i in range(N):
-        if _is_zero(left, i):
+        if is_zero(left, i):
             continue
         a, b, c = target[i, 0], target[i, 1], target[i, 2]
         d, e, f = target[i, 3], target[i, 4], target[i, 5]
@@ -110,7 +104,7 @@ def _subtract(target: FloatArray, left: FloatArray, right: FloatArray) -> None:
 def _divide(target: FloatArray, inverse: FloatArray) -> None:
     """Multiply a block by an inverse from the right, row by row."""
     for i in range(N):
-        if _is_zero(target, i):
+        if is_zero(target, i):
             continue
         a, b, c = target[i, 0], target[i, 1], target[i, 2]
         d, e, f = target[i, 3], target[i, 4], target[i, 5]

@@ -8,9 +8,8 @@ wrench, that of the axes it is given in, and that of its arms. Its rows change b
 
 from __future__ import annotations
 
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.arrays import clear, is_zero
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.constraints import row_gradient
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts
@@ -63,7 +62,7 @@ def _add_slope(now: Record) -> None:
     """Add −Hᵀ δW."""
     work, slope = now.work, now.slope
     for k in range(6):
-        if _is_zero(slope, k):
+        if is_zero(slope, k):
             continue
         for j in range(12):
             in_position = in_velocity = 0.0
@@ -77,15 +76,6 @@ def _add_slope(now: Record) -> None:
                 for j in range(12):
                     now.Kq[i, j] -= factor * work[k, j]
                     now.Kv[i, j] -= factor * now.strip[k, j]
-
-
-@kernel
-def _is_zero(matrix: FloatArray, row: int) -> bool:
-    """Tell whether a row of a matrix is zero."""
-    for j in range(matrix.shape[1]):
-        if matrix[row, j] != 0.0:
-            return False
-    return True
 
 
 @kernel

@@ -29,6 +29,7 @@ from tribodyn.kernels.mechanism.solution import (
     set_offsets,
 )
 from tribodyn.mechanisms.general.actions import GIVEN
+from tribodyn.mechanisms.general.decompositions import svd
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.joints import JOINTS
@@ -184,12 +185,12 @@ class System:
         if rows is None and self.known_rank is not None:
             return self.known_rank
         given = self.over_sizes(self.matrix() if rows is None else rows)
-        return rank_of(dense.svd(given)[1])
+        return rank_of(svd(given)[1])
 
     def inverse(self, scaled: FloatArray, rows: FloatArray | None = None) -> FloatArray:
         """Return the pseudo-inverse of rows that were scaled by mass, of the rank of ``rows`` or of all."""
         rank = self.rank(rows)
-        u, values, v = dense.svd(scaled)
+        u, values, v = svd(scaled)
         return np.asarray(dense.product(v[:rank].T / values[:rank], u[:, :rank].T))
 
     def step(self, change: FloatArray) -> None:
@@ -225,7 +226,7 @@ class System:
         """Fill the velocities of the drives, running forward (1) or back (−1); freedoms are at rest."""
         self.now.bodies.v[:] = self.now.bodies.w[:] = 0.0
         self.refresh()
-        correct_velocities(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
+        correct_velocities(self.parts, self.now, self.data.mass, self._blocks)
         self.now.bodies.v[:] *= direction
         self.now.bodies.w[:] *= direction
         self.refresh()
@@ -242,7 +243,7 @@ class System:
         """Return displacements that leave the joints closed, ways over the size, shape (n, 6 n_bodies)."""
         if not self.rows:
             return np.eye(6 * self.n)
-        return dense.svd(self.over_sizes(self.matrix()))[2][rank:]
+        return svd(self.over_sizes(self.matrix()))[2][rank:]
 
     def time_to_move(self, change: float) -> float:
         """Return the time in which no drive moves more than that, ways in units of the size [s]."""
@@ -389,7 +390,7 @@ class System:
 
     def _rank(self) -> tuple[int, FloatArray]:
         """Return rank and vanishing combinations of the rows, each of length one, here."""
-        _, values, left = dense.svd(self.over_sizes(self.matrix()).T)
+        _, values, left = svd(self.over_sizes(self.matrix()).T)
         rank = rank_of(values)
         return rank, left[rank:]
 
@@ -401,9 +402,9 @@ class System:
         """
         if rank == 0:
             return [], []
-        places = dense.svd(self.over_sizes(self.matrix()))[1]
+        places = svd(self.over_sizes(self.matrix()))[1]
         # Of the transposed matrix also the rows that belong to the value zero are known.
-        _, values, left = dense.svd(self.scaled()[0].T)
+        _, values, left = svd(self.scaled()[0].T)
         share, of_places = float(values[rank - 1]) ** 2, float(places[rank - 1] / places[0]) ** 2
         lost = (HARD / (HARD + share)) ** ROUNDS
         if lost < _INEXACT or share > _BY_MASS * of_places:

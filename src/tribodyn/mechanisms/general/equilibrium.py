@@ -35,6 +35,7 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
+from tribodyn.mechanisms.general.decompositions import shortest, svd
 from tribodyn.mechanisms.general.nodes import JointNodes, nodes_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.general.speeds import Speeds, start
@@ -129,7 +130,7 @@ class JointLoads:
         self.begin_to_move()
         collect(self.ideal.now.bodies, self.state)
         g, self.root, length = self.ideal.scaled()
-        u, values, rows = dense.svd(g)
+        u, values, rows = svd(g)
         rank = self.ideal.rank()
         self.held, free = rows[:rank].T, rows[rank:].T
         asked = dense.product(u[:, :rank].T, self.ideal.entries("gamma") / length)
@@ -367,7 +368,7 @@ def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, f
         stiffness, even = loads.stiffness()
         soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
         for _ in range(_MOST_STEPS):
-            step = dense.lstsq(stiffness + soft * even, residual)
+            step = shortest(stiffness + soft * even, residual)
             change, way = loads.change(step)
             if way < _FAR:
                 loads.move(step)

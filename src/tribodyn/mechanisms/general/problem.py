@@ -18,7 +18,8 @@ from tribodyn.mechanisms.actions import WAVE_STEPS
 from tribodyn.mechanisms.base import Carried
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.equations import n_blocks
+from tribodyn.mechanisms.general.equations import mechanism_data, n_blocks, new_memory
+from tribodyn.mechanisms.general.model import Model
 
 FUNCTIONS: Final = CompiledFunctions(
     rhs=functions.rhs,
@@ -94,6 +95,25 @@ def mechanism_problem(
         field_shape=(data.contact.nodes.shape[1] + data.films.wear_node.size,),
         algebra=None if dense else _algebra(data),
         longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
+    )
+
+
+def template(model: Model) -> Problem:
+    """Return a problem of which only the types count, to compile the equations from."""
+    data = mechanism_data(model)
+    n = N_STATES * len(model.bodies)
+    return Problem(
+        functions=FUNCTIONS,
+        data=data,
+        memory=new_memory(data),
+        y0=np.zeros(n),
+        t_span=(0.0, 1.0),
+        breakpoints=(),
+        atol=np.ones(n),
+        state_names=(),
+        n_observed=1,
+        field_shape=(1,),
+        algebra=_algebra(data),
     )
 
 

@@ -37,7 +37,7 @@ from tribodyn.mechanisms.general.openings import of_temperatures, openings, open
 from tribodyn.mechanisms.general.output_columns import kinematic_columns, output_coordinates
 from tribodyn.mechanisms.general.outputs import MOTION, Motion, Output, error_share, limits_of, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
-from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy
+from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy, template
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.sampling import sampled
 from tribodyn.mechanisms.general.start import initial_state
@@ -153,6 +153,10 @@ class MechanismSystem:
             return analysed(problem, self.assembly, self._analysis, self.case.turn)
         problem = sampled(problem, self.model, self.outputs)
         return replace(problem, following=following(self.model, self.period, self.output_times(duration)))
+
+    def template(self) -> Problem:
+        """Return a problem of which only the types count, to compile the equations from."""
+        return template(self.model)
 
     def start(self) -> FloatArray | None:
         """Return the state in which a run begins, shape (13 n,); None for that of the drawing.
