@@ -1,0 +1,165 @@
+"""Where the time of a run goes: functions of the problem, parts of an evaluation, and what follows the run.
+
+python -m benchmarks.shares
+
+The functions are called from compiled loops, on the state and the memory that a run leaves at its end: from
+Python a call first takes its arguments apart, which costs more than an evaluation. A share is time of a call
+times number of calls over the processor time of the integration; Newton's iterations solve once for each
+evaluation. What is left is the solver itself, rows and everything between. Start and result are those of the
+whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+import tribodyn as td
+from benchmarks.engine_loops import PARTS, repeat
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.jit import kernel
+from tribodyn.mechanisms.base import FinishedRun, ResultPart
+from tribodyn.mechanisms.catalogue import MECHANISMS
+from tribodyn.mechanisms.results import summarise
+from tribodyn.simulation.session import Session
+
+CASES: Final = ("vsv", "vsv-free", "vsv-joints")
+CYCLES: Final = 2.0
+CALLS: Final = 400
+PASSES: Final = 3
+
+
+@kernel
+def _evaluated(
+    function: Callable[..., None], t: float, y: FloatArray, data: Any, memory: Any, f: FloatArray, calls: int
+) -> None:
+    for _ in range(calls):
+        function(t, y, data, memory, f)
+
+
+@kernel
+def _differentiated(
+    function: Callable[..., None],
+    t: float,
+    y: FloatArray,
+    data: Any,
+    memory: Any,
+    f: FloatArray,
+    matrix: FloatArray,
+    calls: int,
+) -> None:
+    for _ in range(calls):
+        function(t, y, data, memory, f, matrix)
+
+
+@kernel
+def _advanced(
+    function: Callable[..., None], t: float, y: FloatArray, data: Any, memory: Any, calls: int
+) -> None:
+    for _ in range(calls):
+        function(t, t, y, data, memory)
+
+
+@kernel
+def _accepted(
+    function: Callable[..., None], t: float, y: FloatArray, data: Any, memory: Any, calls: int
+) -> None:
+    for _ in range(calls):
+        function(t, y, data, memory)
+
+
+def _microseconds(loop: Callable[[int], None], calls: int) -> float:
+    """Return the least time of a call [µs]."""
+    loop(1)
+    found = []
+    for _ in range(PASSES):
+        begin = time.thread_time()
+        loop(calls)
+        found.append((time.thread_time() - begin) / calls)
+    return 1e6 * min(found)
+
+
+def _functions(run: FinishedRun, calls: int) -> dict[str, tuple[float, float]]:
+    """Return the time of a call [µs] and the number of calls of the functions of a problem."""
+    problem, cost = run.problem, run.cost
+    functions, data, memory = problem.functions, problem.data, problem.memory
+    t, y, f = run.solution.t_end, run.solution.y_end.copy(), np.empty(problem.y0.size)
+    n_entries = 0 if problem.algebra is None else problem.algebra.n_entries
+    matrix = np.zeros(n_entries) if n_entries else np.zeros((y.size, y.size))
+    row, steps = np.empty(problem.n_observed), cost["steps"]
+    loops: dict[str, tuple[Callable[[int], None], float]] = {
+        "rhs": (lambda n: _evaluated(functions.rhs, t, y, data, memory, f, n), cost["rhs_evaluations"]),
+        "jac": (
+            lambda n: _differentiated(functions.jac, t, y, data, memory, f, matrix, n),
+            cost["jacobian_evaluations"],
+        ),
+        "advance": (
+            lambda n: _advanced(functions.advance, t, y, data, memory, n),
+            steps + run.solution.t.size,
+        ),
+        "accept": (lambda n: _accepted(functions.accept, t, y, data, memory, n), steps),
+        "observe": (
+            lambda n: _evaluated(functions.observe, t, y, data, memory, row, n),
+            float(run.solution.t.size),
+        ),
+    }
+    return {name: (_microseconds(loop, calls), number) for name, (loop, number) in loops.items()}
+
+
+def _parts(run: FinishedRun, calls: int) -> dict[str, float]:
+    """Return the time of a call of parts of an evaluation [µs]."""
+    problem, f = run.problem, np.empty(run.problem.y0.size)
+    arguments = run.solution.t_end, run.solution.y_end.copy(), problem.data, problem.memory, f
+    return {
+        name: _microseconds(lambda n, part=part: repeat(part, n, *arguments), calls)  # type: ignore[misc]
+        for part, name in enumerate(PARTS)
+    }
+
+
+def measure(name: str, cycles: float, calls: int) -> dict[str, Any]:
+    """Run a built-in case, print and return times and shares."""
+    case: Any = td.load_case(name).replace({"run.cycles": cycles})
+    mechanism = MECHANISMS[case.kind()]
+    warm = Session(case.replace({"run.cycles": 0.01}), mechanism, mechanism.system(case))
+    warm.integrated(0.01)
+    begin = time.process_time()
+    session = Session(case, mechanism, mechanism.system(case))
+    problem_found = session.system.problem(case.duration)
+    started, began = time.process_time() - begin, time.process_time()
+    run = session.integrated(case.duration)
+    whole, after = time.process_time() - began, time.process_time()
+    dataset = session.dataset(run, ResultPart())
+    summarise(dataset)
+    result = time.process_time() - after
+    functions = _functions(run, calls)
+    shares = {key: 1e-6 * each * number / whole for key, (each, number) in functions.items()}
+    shares["solver and all else"] = 1.0 - sum(shares.values())
+    print(f"{name}: {case.duration / whole:.1f} times as fast as it moves; start {started:.2f} s, ", end="")
+    print(f"integration {whole:.3f} s, result {result:.2f} s, {problem_found.y0.size} states")
+    for key, share in shares.items():
+        each, number = functions.get(key, (0.0, 0.0))
+        print(f"  {key:32s} {each:8.2f} us {number:8.0f} calls {100.0 * share:5.1f} %")
+    parts = _parts(run, calls) if case.kind() == "mechanism" else {}
+    for key, each in parts.items():
+        print(f"    {key:30s} {each:8.2f} us {100.0 * each / functions['rhs'][0]:5.0f} % of an evaluation")
+    return {
+        "start": started,
+        "integration": whole,
+        "result": result,
+        "functions": {key: {"microseconds": each, "calls": n} for key, (each, n) in functions.items()},
+        "shares": shares,
+        "parts": parts,
+    }
+
+
+def run(quick: bool = False) -> dict[str, Any]:
+    """Measure, print and return; ``quick``: over a moment, for nothing but a trial."""
+    cycles, calls = (0.01, 2) if quick else (CYCLES, CALLS)
+    return {name: measure(name, cycles, calls) for name in (CASES[:2] if quick else CASES)}
+
+
+if __name__ == "__main__":
+    run()
