@@ -21,7 +21,7 @@ from tribodyn.kernels.joints.pressure import node_pressure
 
 table = ContactTable(0.0, 2.0, 1.0, np.ones((3, 4)), np.ones(3), np.ones(32))
 pressure = node_pressure(table, 1e-6, 1e-3, 1.0, 0.5e-6, 1e-3, 0.0)[1]
-print(json.dumps([pressure, *(sum(count.values()) for count in node_pressure.for_python.stats[1:])]))
+print(json.dumps([pressure, *(sum(count.values()) for count in node_pressure.stats[1:])]))
 """
 # Called by node_pressure, which is in another file.
 CALLEE = "kernels/lookup.py"
