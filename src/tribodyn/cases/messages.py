@@ -58,6 +58,10 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
     below = sorted({_shown(key.table) for key in declared.values() if key.table.startswith(f"{table}.")})
     if below:
         return f"this holds only tables: {', '.join(below)}"
+    value = declared.get(as_declared(path.rpartition(".")[0], declared))
+    if value is not None:
+        example = value.example if value.example.startswith("[") else f'"{value.example}"'
+        return f"{value.name} is a value, not a table; write {value.name} = {example}"
     return f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
 
 
@@ -66,19 +70,24 @@ def _shown(path: str) -> str:
 
 
 def _nearest(path: str, keys: Mapping[str, Key]) -> str:
-    """Return what was probably meant: a key of the same table, a table by another word, the same name."""
+    """Return what was probably meant: a key of the same table, a table by another word, the same name.
+
+    Words of other programs come before words that look alike.
+    """
     table, _, name = path.rpartition(".")
     siblings = {key.name: key.path for key in keys.values() if key.table == table}
     tables = {key.table for key in keys.values()}
     beside = {word: f"{table}.{word}" for word in meanings(name) if f"{table}.{word}" in tables}
-    near = difflib.get_close_matches(name[:80], list(siblings), n=1, cutoff=0.6)
-    near = near or [word for word in meanings(name) if word in siblings or word in beside]
+    near = [word for word in meanings(name) if word in siblings or word in beside]
+    near = near or difflib.get_close_matches(name[:80], list(siblings), n=1, cutoff=0.6)
     if near:
         return _nearest_valid((siblings | beside)[near[0]])
-    named = next((word for word in meanings(name) if f"{word}.{ANY_NAME}" in tables), None)
-    if named is not None:
-        return f"write a table [{named}.NAME]"
-    elsewhere = [key.path for key in keys.values() if key.name == name]
+    words = [name] if as_declared(table, keys) in tables else [name, table.rpartition(".")[2]]
+    named = (word for given in words for word in meanings(given) if f"{word}.{ANY_NAME}" in tables)
+    if (first := next(named, None)) is not None:
+        return f"write a table [{first}.NAME]"
+    named_so = ([key.path for key in keys.values() if key.name == word] for word in (name, *meanings(name)))
+    elsewhere = next((paths for paths in named_so if paths), [])
     meant = closest(path, elsewhere or keys) or next(iter(elsewhere), None)
     return _nearest_valid(meant) if meant else ""
 

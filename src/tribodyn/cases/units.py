@@ -135,7 +135,7 @@ def to_si(text: str, like: str) -> float:
     scale = _known(unit)
     if scale.base != _scale(like).base:
         raise UnitProblem(
-            f"{brief(unit)!r} is not a unit of {dimension(like)}{_kinematic(scale, number, unit, like)}"
+            f"{brief(unit)!r} is not a unit of {dimension(like)}{_meant(scale, number, unit, like)}"
         )
     value = scale.si(number)
     if not math.isfinite(value):
@@ -167,11 +167,14 @@ def rms_roughness(text: str) -> float:
     return to_si(text, "m") if factor is None else factor * to_si(length.lstrip("= "), "m")
 
 
-def _kinematic(scale: _Scale, number: Decimal, unit: str, like: str) -> str:
-    """Return what to do where a kinematic viscosity was given for a dynamic one, else nothing."""
-    if dimension(like) != "viscosity" or scale.base != _scale("m^2/s").base:
-        return ""
-    return f': this one is kinematic; say the density, as in "{number:f} {unit} at 870 kg/m^3"'
+def _meant(scale: _Scale, number: Decimal, unit: str, like: str) -> str:
+    """Return what to write for a kinematic viscosity and for turns in some time, else nothing."""
+    wanted, given = dimension(like), scale.base
+    if wanted == "viscosity" and given == _scale("m^2/s").base:
+        return f': this one is kinematic; say the density, as in "{number:f} {unit} at 870 kg/m^3"'
+    if wanted == "angular speed" and given == _scale("Hz").base:
+        return f'; of turns, "{number:f} {unit}" is "{60.0 * scale.si(number):.9g} rpm"'
+    return ""
 
 
 def from_si(value: float, unit: str) -> str:
@@ -327,5 +330,6 @@ def _scale(unit: str) -> _Scale:
     try:
         size, zero, base = looked_up(unit)
     except UnknownUnit as problem:
-        raise UnitProblem(str(problem)) from None
+        known = next((one for one in _KNOWN if one.lower() == unit.lower()), "")
+        raise UnitProblem(f"{problem}, write {known!r}" if known else str(problem)) from None
     return _Scale(size, zero, base)

@@ -167,11 +167,19 @@ def load_case(
     try:
         found = load.read_case(case, kinds(), built_in())
     except InputError:
+        _refuse_template(case)
         if not changes:
             raise
         given = {path: Entry(value, source, text=True) for path, value in changes.items()}
         found = load.read_case(case, kinds(), built_in(), given)
     return found.replace(changes, source=source) if changes else found
+
+
+def _refuse_template(case: str | os.PathLike[str]) -> None:
+    """Refuse the name of a template in the place of a case."""
+    if any(case in mechanism.templates for mechanism in MECHANISMS.values()):
+        words = f"this is a template; write its case file with `tribodyn new {case}`, then run {case}.toml"
+        raise InputError(words, source=os.fspath(case))
 
 
 def templates() -> dict[str, str]:

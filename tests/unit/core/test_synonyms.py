@@ -6,7 +6,7 @@ from tribodyn.cases.keys import keys_of
 from tribodyn.cli.main import COMMANDS
 from tribodyn.core.errors import InputError
 from tribodyn.core.synonyms import SYNONYMS
-from tribodyn.mechanisms.catalogue import kinds, parse_case
+from tribodyn.mechanisms.catalogue import kinds, load_case, parse_case
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.joints import JOINTS
 
@@ -33,8 +33,24 @@ def test_every_meaning_is_a_word_of_ours() -> None:
         (BODY.replace("centre", "com"), "bodies.rod.centre"),
         (f'{BODY}{JOINT.replace("ground", "world")}type = "revolute"\n', 'did you mean "ground"?'),
         (BODY.replace("1 kg", "1,5 kg"), "a decimal point, not a comma"),
+        (BODY.replace("1 kg", "1 KG"), "unknown unit 'KG', write 'kg'"),
+        (f"{BODY}diameter = 3\n", "bodies.rod.radius"),
+        (f'{BODY}material = "steel"\n', "bodies.rod.density"),
+        (f'{BODY}[gravity]\nz = "-9.81 m/s^2"\n', r"gravity is a value, not a table; write gravity = \["),
+        (f"g = 9.81\n{BODY}", "valid one is gravity"),
+        (f"{BODY}{JOINT}[joints.pivot.limits]\nlower = 0\n", r"write a table \[stops.NAME\]"),
+        (f'{BODY}{JOINT}[joints.pivot.clearance]\nclearance = "20 um"\n', "joints.pivot.clearance.radial"),
+        (f'{BODY}[springs.s]\nk = "2 N/mm"\n', "springs.s.stiffness"),
+        (f'{BODY}[drives.m]\nspeed = "300 RPM"\n', "write 'rpm'"),
+        (f'{BODY}[drives.m]\nspeed = "5 Hz"\n', 'of turns, "5 Hz" is "300 rpm"'),
+        (f'{BODY}[drives.m]\nspeed = "300 1/min"\n', 'of turns, "300 1/min" is "300 rpm"'),
     ],
 )
 def test_words_of_other_programs_are_understood(lines: str, hint: str) -> None:
     with pytest.raises(InputError, match=hint):
         parse_case(f'case = "mechanism"\n{lines}', "mine.toml")
+
+
+def test_the_name_of_a_template_in_the_place_of_a_case_is_explained() -> None:
+    with pytest.raises(InputError, match="write its case file with `tribodyn new pendulum`"):
+        load_case("pendulum")
