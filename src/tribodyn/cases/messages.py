@@ -61,7 +61,7 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
     value = declared.get(as_declared(path.rpartition(".")[0], declared))
     if value is not None:
         example = value.example if value.example.startswith("[") else f'"{value.example}"'
-        return f"{value.name} is a value, not a table; write {value.name} = {example}"
+        return f"unknown key; {value.name} is a value, not a table; write {value.name} = {example}"
     return f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
 
 
