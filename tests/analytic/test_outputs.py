@@ -35,6 +35,7 @@ def press(**clearance: str) -> td.Mechanism:
         .output("lean", "rod", quantity="angle", along=[0, 0, 1])
         .output("turn", "crank", quantity="angle", along=[0, 0, 1])
         .output("stroke", "slider", quantity="distance", reference_point="0, 0, 0 mm", point="170, 0, 0 mm")
+        .output("rate", "rod", quantity="angular_velocity", along=[0, 0, 1])
     )
     return drawn.clearance("wrist", **clearance) if clearance else drawn
 
@@ -66,6 +67,8 @@ def test_ideal_values_are_those_of_the_closed_form(worn_press: xr.Dataset) -> No
     assert of(worn_press, "output_ideal", "anywhere") == pytest.approx(0.17 - place, abs=1e-10)
     assert of(worn_press, "output_ideal", "speed") == pytest.approx(speed, abs=1e-8)
     assert of(worn_press, "output_ideal", "lean") == pytest.approx(lean, abs=1e-9)
+    rate = -2.0 * np.pi * CRANK / ROD * np.cos(2.0 * np.pi * column(worn_press, "time")) / np.cos(lean)
+    assert of(worn_press, "output_ideal", "rate") == pytest.approx(rate, abs=1e-8)
     # Whole turns are counted.
     assert of(worn_press, "output_ideal", "turn")[-1] == pytest.approx(2.0 * np.pi, abs=1e-9)
 
@@ -124,6 +127,41 @@ def test_a_reference_that_moves_carries_its_directions() -> None:
     _, _, lean = closed_form(result)
     angle = 2.0 * np.pi * column(result, "time")
     assert of(result, "output_ideal", "seen") == pytest.approx(ROD * np.cos(lean - angle) - ROD, abs=1e-9)
+
+
+def test_errors_at_angles_of_the_crank_are_those_of_the_closed_form() -> None:
+    # A motor of constant speed: an angle is a time. Positions and angles of another joint count, too.
+    at = {"angles": ["90 deg", "180 deg"], "times": ["0.25 s"]}
+    drawn = press(radius="9.5 mm", radial="20 um", length="20 mm", axial="50 um")
+    drawn.output("read", "slider", along=[1, 0, 0], at=at)
+    drawn.output("low", "slider", along=[1, 0, 0], at={"joint": "guide", "positions": ["-50 mm"]})
+    result = td.simulate(drawn)
+    numbers, time = summarise(result), column(result, "time")
+    error = 1e6 * of(result, "output_error", "read")
+    for angle in (90, 180):
+        assert numbers[f"error_at_um_read_{angle}_deg"] == pytest.approx(
+            np.interp(angle / 360.0, time, error)
+        )
+    assert numbers["error_at_um_read_90_deg"] == pytest.approx(numbers["error_at_um_read_0_25_s"])
+    way = of(result, "output_value", "read")
+    comes, goes = (np.flatnonzero(np.diff(np.sign(way + 0.05)) == 2.0 * sense)[0] for sense in (1.0, -1.0))
+    for name, k in (("forward", comes), ("backward", goes)):
+        order = k + np.argsort(way[k : k + 2])
+        expected = np.interp(-0.05, way[order], error[order])
+        assert numbers[f"error_at_{name}_um_low_minus_50_mm"] == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("at", "said"),
+    [
+        ({"joint": "gide", "positions": ["1 mm"]}, "guide"),
+        ({"joint": "guide", "angles": ["1 deg"]}, "no angle"),
+        ({"positions": ["1 mm"]}, "no position"),
+    ],
+)
+def test_an_instant_that_no_joint_has_is_refused(at: dict[str, object], said: str) -> None:
+    with pytest.raises(TribodynError, match=said):
+        press().output("wrong", "slider", along=[1, 0, 0], at=at).case()
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,15 @@
-"""Units in which errors of outputs are shown."""
+"""What results hold of the outputs of a mechanism, and the units in which their errors are shown."""
 
 from __future__ import annotations
 
 import math
 from typing import Final, NamedTuple
+
+from tribodyn.core.quantities import TIME
+from tribodyn.results.variables import JUMP, Variable
+
+_OUTPUT: Final = (*TIME, "output")
+_INSTANT: Final = ("instant",)
 
 
 class ErrorUnit(NamedTuple):
@@ -28,5 +34,31 @@ ERROR_UNITS: Final = {
     "m": ErrorUnit("um", "µm", 1e6),
     "rad": ErrorUnit("deg", "°", 180.0 / math.pi),
     "m/s": ErrorUnit("mm_per_s", "mm/s", 1e3),
+    "rad/s": ErrorUnit("deg_per_s", "°/s", 180.0 / math.pi),
 }
 """By the SI unit of the output."""
+
+OUTPUTS: Final[dict[str, Variable]] = {
+    "output": Variable("", "name of the output", ("output",), named=True, names="outputs"),
+    "output_unit": Variable("", "unit of the output", ("output",), named=True),
+    "output_value": Variable("1", "value of the output, in its unit", _OUTPUT),
+    "output_ideal": Variable("1", "value with ideal joints and the same drives, in its unit", _OUTPUT),
+    "output_error": Variable("1", "difference from the ideal motion, in the unit of the output", _OUTPUT),
+    "output_error_limit": Variable(
+        "1", "error at which the mechanism is worn out, in the unit of the output", ("output",)
+    ),
+    "instant": Variable("", "where an error is read", _INSTANT, named=True, parts="instants"),
+    "instant_output": Variable("", "name of the output whose error is read", _INSTANT, named=True),
+    "error_at": Variable("1", "mean error at the instant, in the unit of the output", _INSTANT),
+    "error_at_forward": Variable(
+        "1", "the same while the drive runs forward, where it runs in both directions", _INSTANT
+    ),
+    "error_at_backward": Variable("1", "the same while the drive runs backward", _INSTANT),
+}
+"""By name; an error in all directions is the length of a vector."""
+OUTPUTS_OF_CYCLE: Final = {
+    "wear_error_share": Variable(
+        "1", "largest error of an output in the cycle over its limit; zero without limits", JUMP
+    )
+}
+"""What a wear campaign writes down about each cycle."""

@@ -14,6 +14,8 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.results.attributes import CARRIED
 from tribodyn.results.dataset import json_attribute
 
+SHORT: Final = 0.01
+"""Share of the time that impacts may last; a sustained maximum leaves it out."""
 _ROUNDING: Final = 1e-9
 
 
@@ -110,3 +112,25 @@ def in_settled(dataset: xr.Dataset) -> NDArray[np.bool_]:
 def settled(dataset: xr.Dataset, values: FloatArray) -> FloatArray:
     """Return values over time, those of the rows that are looked at."""
     return values[in_settled(dataset)]
+
+
+def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
+    """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
+
+    Parameters
+    ----------
+    dataset
+        A result.
+    values
+        Quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
+    """
+    time = settled(dataset, column(dataset, "time"))
+    found = np.abs(settled(dataset, values).reshape(time.size, -1))
+    if time.size == 1:
+        return float(np.max(found))
+    steps = np.diff(time)
+    weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
+    order = np.argsort(found, axis=0)
+    share = np.cumsum(weights[order], axis=0) / weights.sum()
+    rising = np.take_along_axis(found, order, axis=0)
+    return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))

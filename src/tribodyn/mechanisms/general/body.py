@@ -6,7 +6,7 @@ from typing import ClassVar, Final, Literal
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import dot, unit
-from tribodyn.cases.fields import Vector, choice, quantity, vector
+from tribodyn.cases.fields import Numbers, Vector, choice, file, number, quantity, series, vector
 from tribodyn.mechanisms.general.parts import POINT
 from tribodyn.mechanisms.general.solids import NEEDED, SIZES
 
@@ -21,11 +21,13 @@ class BodyKeys(NamedGroup):
         ("mass", "density"),
         ("inertia", "shape"),
         ("centre", "start"),
+        ("mesh", "facets"),
     )
 
-    shape: Literal["rod", "cylinder", "box"] | None = choice(
+    shape: Literal["rod", "cylinder", "box", "mesh"] | None = choice(
         None,
-        "solid of uniform density: a round rod from start to end, a cylinder about the first axis, a box",
+        "solid of uniform density: a round rod from start to end, a cylinder about the first axis, a box, or "
+        "the inside of a mesh",
         "",
         example="rod",
     )
@@ -41,6 +43,22 @@ class BodyKeys(NamedGroup):
         "",
         unit="mm",
         example='["30 mm", "20 mm", "10 mm"]',
+    )
+    mesh: str | None = file("STL file of a closed surface, global coordinates", "lever.stl")
+    mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
+    facets: Numbers | None = series(
+        "corners of triangles in global coordinates, anticlockwise from outside, instead of a file",
+        "",
+        unit="m",
+        example='"0, 0, 1 m"',
+    )
+    scale: float | None = number(None, "size of a mesh over that of its triangles", "", gt=0, example="1.2")
+    scaled_about: Vector | None = vector(
+        None,
+        "point that the scale leaves in place; by default the mass centre",
+        "",
+        unit="mm",
+        example=POINT,
     )
     mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
     centre: Vector = vector(None, "position of the mass centre", "", unit="mm", example=POINT, required=True)

@@ -33,10 +33,11 @@ from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.elements.controller import Controller, check_functions
 from tribodyn.mechanisms.general.frames import GROUND
-from tribodyn.mechanisms.general.output_keys import OutputKeys
+from tribodyn.mechanisms.general.output_keys import JointInstants, OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.run_keys import ROWS, Integration, NodeKeys, ResultKeys, RunKeys
+from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 
 _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
@@ -82,7 +83,7 @@ class MechanismWear(Wear):
 
     LIMIT_OF: ClassVar[Mapping[str, str]] = {
         **Wear.LIMIT_OF,
-        "wear_error_share": "the error limit of an output",
+        **ERROR_LIMIT_OF,
     }
 
 
@@ -269,8 +270,12 @@ class MechanismCase(_WithElements):
     @property
     def wear_limits(self) -> dict[str, float]:
         """The limits of output errors, by what a campaign calls them."""
-        limited = any(output.limit is not None for output in self.outputs.values())
-        return {"wear_error_share": 1.0} if limited else {}
+        return wear_limits_of(self.outputs)
+
+    @property
+    def instants(self) -> tuple[str, ...]:
+        """Names of what reads the errors of outputs at angles, positions or times."""
+        return tuple(instant.name for instant in instants_of(self.outputs))
 
     @property
     def moves(self) -> bool:
@@ -320,9 +325,28 @@ class MechanismCase(_WithElements):
         for name, output in self.outputs.items():
             demand_known(output.body, bodies, f"outputs.{name}.body", "body")
             demand_known(output.reference, bodies, f"outputs.{name}.reference", "body")
+            self._check_instants(f"outputs.{name}.at", output.at)
         for name, joint in self.joints.items():
             if joint.clearance is not None and joint.clearance.pair is not None:
                 demand_known(joint.clearance.pair, self.pairs, f"joints.{name}.clearance.pair", "pair")
+
+    def _check_instants(self, path: str, at: JointInstants) -> None:
+        """Check that there is a joint with the coordinate at whose values an error is read."""
+        if at.joint is not None:
+            demand_known(at.joint, self.joints, f"{path}.joint", "joint")
+        joint = self.joint_of(at)
+        words = "no drive says whose these are; name a joint"
+        demand(joint is not None or not (at.angles or at.positions), f"{path}.joint", words)
+        if joint is None or joint not in self.joints:
+            return
+        kind = self.joints[joint].kind
+        for key, coordinate in (("angles", "angle"), ("positions", "position")):
+            words = f"{joint} is {kind.named}: it has no {coordinate}"
+            demand(not getattr(at, key) or coordinate in kind.COORDINATES, f"{path}.{key}", words)
+
+    def joint_of(self, at: JointInstants) -> str | None:
+        """Return the joint whose coordinate instants count: that of the first drive by default."""
+        return at.joint or next((drive.joint for drive in self.drives.values()), None)
 
     def _check_drives(self) -> None:
         driven: dict[tuple[str, str], str] = {}

@@ -12,8 +12,8 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.headlines import BY_JOINT, HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.general.library import BUILT_IN, TEMPLATES
 from tribodyn.mechanisms.general.mode_numbers import BY_MODE
-from tribodyn.mechanisms.general.output_numbers import BY_OUTPUT
 from tribodyn.mechanisms.general.variables import OF_CYCLE, VARIABLES
+from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 
 
 def _built_in() -> Iterator[tuple[str, BuiltIn]]:
@@ -31,7 +31,7 @@ MECHANISM: Final = MechanismDescriptor(
     headlines=HEADLINES,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
-    by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT, "modes": BY_MODE},
+    by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT, "instants": BY_INSTANT, "modes": BY_MODE},
     controls=(
         "parameters.*.value",
         "joints.*.clearance.radial",

@@ -30,8 +30,13 @@ def followed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: Fo
     """
     if not table.follows:
         return _opposed(case, couplings, table)
-    own = couplings[OBSERVED[table.over]][:, list(case.joints).index(table.follows)]
-    return np.asarray(case.joints[table.follows].sign * (own if own.ndim == 1 else own[:, _Z]))
+    return coordinate(case, couplings, table.follows, table.over)
+
+
+def coordinate(case: MechanismCase, couplings: Mapping[str, FloatArray], joint: str, over: str) -> FloatArray:
+    """Return a coordinate of a joint or its rate, by a name of ``OBSERVED``, shape (n_t,)."""
+    own = couplings[OBSERVED[over]][:, list(case.joints).index(joint)]
+    return np.asarray(case.joints[joint].sign * (own if own.ndim == 1 else own[:, _Z]))
 
 
 def _opposed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:

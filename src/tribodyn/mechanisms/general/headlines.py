@@ -15,7 +15,6 @@ from tribodyn.mechanisms.base import ByPart
 from tribodyn.mechanisms.general.ledger import WHOLE
 from tribodyn.mechanisms.general.readings import (
     above_zero,
-    lasting,
     least,
     of_joint,
     of_surfaces,
@@ -24,7 +23,16 @@ from tribodyn.mechanisms.general.readings import (
     wear_life,
     wear_rate,
 )
-from tribodyn.results.reading import column, in_settled, peak, period, reversals_held, settled, time_mean
+from tribodyn.results.reading import (
+    column,
+    in_settled,
+    lasting,
+    peak,
+    period,
+    reversals_held,
+    settled,
+    time_mean,
+)
 from tribodyn.results.summary import Headline
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 

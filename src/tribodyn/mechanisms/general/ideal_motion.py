@@ -161,7 +161,7 @@ class IdealMechanism:
         self.put(t, state)
         system, found = self.system, np.zeros(len(outputs), dtype=bool)
         units = np.tile(np.repeat([system.size, 1.0], 3), system.n)
-        scales = np.array([1.0 if output.unit == "rad" else system.size for output in outputs])
+        scales = np.array([1.0 if output.as_place().unit == "rad" else system.size for output in outputs])
         kept = system.position()
         for freedom in system.freedoms(self.rank):
             ends = []

@@ -29,6 +29,7 @@ from tribodyn.mechanisms.general.variables import (
     of_parts,
     place_of,
 )
+from tribodyn.mechanisms.output_keys import instants_of
 from tribodyn.mechanisms.playback import EVEN
 
 OF_LARGE: Final = (
@@ -188,6 +189,7 @@ def _read_of_joints(case: MechanismCase) -> Iterator[str]:
     yield from _OF_FLASH if any(has_conductors(case.of_pair(keys).surfaces) for keys in real) else ()
     yield from ("film_pressure_max",) if _has_films(case) else ()
     yield from (OBSERVED[table.over] for table in case.followed() if table.follows)
+    yield from (OBSERVED[f"{at.kind}s"] for at in instants_of(case.outputs) if at.kind != "time")
     if case.outputs and case.run.analysis == "kinematic":
         yield from ("reaction_moment", "relative_rate")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Final
 
@@ -12,13 +13,16 @@ from tribodyn.joints.shapes import Ball, Cylinder, Sphere
 from tribodyn.mechanisms.general.actions import GIVEN
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.followed import coordinate
 from tribodyn.mechanisms.general.ideal_motion import IdealMechanism
 from tribodyn.mechanisms.general.kinematics import velocity_ratios
 from tribodyn.mechanisms.general.model import model_of
 from tribodyn.mechanisms.general.outputs import Output
 from tribodyn.mechanisms.general.superposition import CAUSES, JointReaction, superposed
+from tribodyn.mechanisms.output_instants import errors_at
+from tribodyn.mechanisms.output_keys import Instant, instant_coordinates, instants_of
 
-_SIGNED: Final = ("distance", "angle")
+_SIGNED: Final = ("distance", "angle", "angular_velocity")
 """Quantities whose errors have a sign without a direction."""
 
 
@@ -59,6 +63,35 @@ def kinematic_columns(
     }
 
 
+def instant_errors(
+    case: MechanismCase, times: FloatArray, error: FloatArray, couplings: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return errors at angles and positions of joints, and times, as :func:`.errors_at`; none without.
+
+    Parameters
+    ----------
+    case
+        The mechanism.
+    times
+        Rising [s], shape (n_t,).
+    error
+        Of its outputs, shape (n_t, n_outputs).
+    couplings
+        What is observed of joints, see :class:`~.variables.Observed`.
+    """
+    instants = instants_of(case.outputs)
+    if not instants:
+        return {}
+
+    def drive(instant: Instant) -> FloatArray:
+        joint = case.joint_of(case.outputs[instant.output].at)
+        assert joint is not None
+        return coordinate(case, couplings, joint, f"{instant.kind}s")
+
+    period = math.inf if case.period is None else case.period
+    return errors_at(instants, times, dict(zip(case.outputs, error.T, strict=True)), drive, period)
+
+
 def output_coordinates(case: MechanismCase, outputs: Sequence[Output]) -> dict[str, list[str]]:
     """Return the names of outputs with their units, of a kinematic analysis those of its drives."""
     if not outputs:
@@ -67,5 +100,6 @@ def output_coordinates(case: MechanismCase, outputs: Sequence[Output]) -> dict[s
     return {
         "output": [output.name for output in outputs],
         "output_unit": [output.unit for output in outputs],
+        **instant_coordinates(case.outputs),
         **({"drive": drives, "cause": list(CAUSES)} if case.run.analysis == "kinematic" else {}),
     }

@@ -2,33 +2,56 @@
 
 from __future__ import annotations
 
-from typing import Final, Literal
+from collections.abc import Mapping
+from typing import ClassVar, Final, Literal
 
 from tribodyn.cases import fields
-from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.case import demand
 from tribodyn.cases.directions import unit
-from tribodyn.cases.fields import Vector, choice, name, vector
+from tribodyn.cases.fields import Numbers, Vector, choice, name, series, vector
 from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.parts import POINT
+from tribodyn.mechanisms.output_keys import ErrorKeys, InstantKeys
 
-UNITS: Final = {"position": "m", "distance": "m", "angle": "rad", "velocity": "m/s"}
-"""Unit of each quantity."""
-_LIMITS: Final = {
-    "position": "error_limit",
-    "distance": "error_limit",
-    "angle": "angle_error_limit",
-    "velocity": "velocity_error_limit",
-}
-"""Key of the limit of an error by the quantity."""
 _AXIS: Final = "[1, 0, 0]"
 
 
-class OutputKeys(NamedGroup):
+class JointInstants(InstantKeys):
+    """Where the error of an output is read, by the coordinate of a joint."""
+
+    positions: Numbers | None = series(
+        "positions of the drive at which the error is read", "", unit="mm", example='["5 mm", "20 mm"]'
+    )
+    joint: str | None = name(
+        None,
+        "joint whose angles or positions these are; by default that of the first drive",
+        "",
+        example='"main"',
+    )
+
+
+class OutputKeys(ErrorKeys):
     """A quantity of the motion, which is compared with that of ideal joints."""
 
-    quantity: Literal["position", "distance", "angle", "velocity"] = choice(
-        "position", "position or velocity of a point, distance of two points, angle of a body", "assumed"
+    UNITS: ClassVar[Mapping[str, str]] = {
+        "position": "m",
+        "distance": "m",
+        "velocity": "m/s",
+        **ErrorKeys.UNITS,
+    }
+    LIMITS: ClassVar[Mapping[str, str]] = {
+        "position": "error_limit",
+        "distance": "error_limit",
+        "velocity": "velocity_error_limit",
+        **ErrorKeys.LIMITS,
+    }
+
+    quantity: Literal["position", "distance", "angle", "velocity", "angular_velocity"] = choice(
+        "position",
+        "position or velocity of a point, distance of two points, angle or angular velocity of a body",
+        "assumed",
     )
+    at: JointInstants = JointInstants()
     body: str = name(None, "body that is observed", "", example='"slider"', required=True)
     point: Vector | None = vector(
         None, "observed point; by default the mass centre", "", unit="mm", example=POINT
@@ -58,30 +81,20 @@ class OutputKeys(NamedGroup):
         gt=0,
         example="0.1 mm",
     )
-    angle_error_limit: float | None = fields.quantity(
-        None, "the same of an angle", "", unit="deg", gt=0, example="0.05 deg"
-    )
     velocity_error_limit: float | None = fields.quantity(
         None, "the same of a velocity", "", gt=0, example="1 mm/s"
     )
 
-    @property
-    def limit(self) -> float | None:
-        """Error at which the mechanism is worn out, in the unit of the quantity."""
-        found: float | None = getattr(self, _LIMITS[self.quantity])
-        return found
-
     def model_post_init(self, context: object, /) -> None:
         """Check that the quantity is defined."""
-        for key in set(_LIMITS.values()) - {_LIMITS[self.quantity]}:
-            words = f"the limit of this error is {_LIMITS[self.quantity]}"
-            demand(getattr(self, key) is None, key, words)
+        super().model_post_init(context)
         demand(self.body != GROUND, "body", f"{GROUND} never moves; name a body")
         demand(
             self.body != self.reference, "reference", "a body does not move against itself; name another one"
         )
+        turns = self.quantity in ErrorKeys.UNITS
         needs_axis = "an angle needs its axis: give along, such as [0, 0, 1]"
-        demand(self.quantity != "angle" or self.along is not None, "along", needs_axis)
+        demand(not turns or self.along is not None, "along", needs_axis)
         if self.quantity == "distance":
             words = "a distance needs its second point: give reference_point"
             demand(self.reference_point is not None, "reference_point", words)
@@ -90,7 +103,7 @@ class OutputKeys(NamedGroup):
                 "along",
                 "a distance has no direction; leave along out, or take a position",
             )
-        if self.quantity == "angle":
+        if turns:
             for key in ("point", "reference_point"):
                 demand(getattr(self, key) is None, key, "an angle needs no point; leave this key out")
         if self.along is not None:

@@ -10,12 +10,11 @@ quaternion the axis takes the part
 
     2 atan2(q·a, q₀)
 
-(the twist of the decomposition into swing and twist).
+(the twist of the decomposition into swing and twist); the angular velocity is its rate.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Final
 
@@ -28,7 +27,7 @@ from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.frames import GROUND
-from tribodyn.mechanisms.general.output_keys import UNITS, OutputKeys
+from tribodyn.mechanisms.general.output_keys import OutputKeys
 from tribodyn.mechanisms.general.skeleton import rotated
 
 if TYPE_CHECKING:
@@ -57,6 +56,8 @@ class Motion:
     angular_velocity: FloatArray
 
 
+_RATE_OF: Final = {"velocity": "position", "angular_velocity": "angle"}
+"""Quantities that are rates, with what they are rates of."""
 MOTION: Final = tuple(field.name for field in fields(Motion))
 """What outputs are computed from."""
 
@@ -84,14 +85,21 @@ class Output:
     centres: FloatArray
 
     @property
+    def is_rate(self) -> bool:
+        """Whether it is the rate of another quantity."""
+        return self.keys.quantity in _RATE_OF
+
+    @property
     def unit(self) -> str:
         """Its SI unit."""
-        return UNITS[self.keys.quantity]
+        return self.keys.unit
 
     def components(self, motion: Motion) -> FloatArray:
         """Return what a motion makes of it, shape (n_t, 1), or (n_t, 3) where it has no direction."""
         if self.keys.quantity == "angle":
             return self._angle(motion)[:, None]
+        if self.keys.quantity == "angular_velocity":
+            return self._turning(motion)[:, None]
         point, rate = self._point_in_reference(motion)
         if self.keys.quantity == "distance":
             return np.asarray(np.linalg.norm(point, axis=1, keepdims=True))
@@ -99,10 +107,10 @@ class Output:
         return found if self.keys.along is None else (dense.product(found, self._along))[:, None]
 
     def as_place(self) -> Output:
-        """Return the position whose rate a velocity is; any other output itself."""
-        if self.keys.quantity != "velocity":
+        """Return the position or angle whose rate a velocity is; any other output itself."""
+        if not self.is_rate:
             return self
-        return replace(self, keys=self.keys.model_copy(update={"quantity": "position"}))
+        return replace(self, keys=self.keys.model_copy(update={"quantity": _RATE_OF[self.keys.quantity]}))
 
     def value(self, components: FloatArray) -> FloatArray:
         """Return its value over time, shape (n_t,): of three components the length."""
@@ -120,11 +128,11 @@ class Output:
 
     def rate(self, motion: Motion) -> FloatArray:
         """Return the rate of its value, of a velocity the value itself, shape (n_t,)."""
+        if self.is_rate:
+            return self.value(self.components(motion))
         if self.keys.quantity == "angle":
             return self._turning(motion)
         point, rate = self._point_in_reference(motion)
-        if self.keys.quantity == "velocity":
-            return self.value(self.components(motion))
         if self.keys.quantity == "distance" or self.keys.along is None:
             length = np.linalg.norm(point, axis=1)
             return np.asarray(np.sum(point * rate, axis=1) / np.where(length > 0.0, length, np.nan))
@@ -184,27 +192,6 @@ def outputs_of(case: MechanismCase) -> tuple[Output, ...]:
         )
         for name, keys in case.outputs.items()
     )
-
-
-def limits_of(outputs: Sequence[Output]) -> FloatArray:
-    """Return the errors at which outputs are worn out, in their units; NaN without a limit, shape (n,)."""
-    limits = [output.keys.limit for output in outputs]
-    return np.array([np.nan if limit is None else limit for limit in limits])
-
-
-def error_share(columns: Mapping[str, FloatArray], outputs: Sequence[Output]) -> float:
-    """Return the largest error of an output over its limit; zero without limits.
-
-    Parameters
-    ----------
-    columns
-        Of the outputs, ``output_error`` of shape (n_t, n) among them; none without outputs.
-    outputs
-        In this order.
-    """
-    shares = np.abs(columns["output_error"]) / limits_of(outputs) if outputs else np.zeros(1)
-    known = shares[np.isfinite(shares)]
-    return float(np.max(known, initial=0.0))
 
 
 def motion_of(state: FloatArray) -> Motion:

@@ -10,36 +10,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.results.reading import column, peak, settled
+from tribodyn.results.reading import column, peak
 from tribodyn.results.reading import cycles as cycles_held
 
-SHORT: Final = 0.01
-"""Share of the time that impacts may last; a sustained maximum leaves it out."""
-
-
 _ROUNDING: Final = 1.0e-9
-
-
-def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
-    """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
-
-    Parameters
-    ----------
-    dataset
-        A result.
-    values
-        Quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
-    """
-    time = settled(dataset, column(dataset, "time"))
-    found = np.abs(settled(dataset, values).reshape(time.size, -1))
-    if time.size == 1:
-        return float(np.max(found))
-    steps = np.diff(time)
-    weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
-    order = np.argsort(found, axis=0)
-    share = np.cumsum(weights[order], axis=0) / weights.sum()
-    rising = np.take_along_axis(found, order, axis=0)
-    return max(float(np.interp(1.0 - SHORT, *pair)) for pair in zip(share.T, rising.T, strict=True))
 
 
 def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> FloatArray:

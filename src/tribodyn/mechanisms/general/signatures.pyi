@@ -310,12 +310,14 @@ class Signatures:
         body: str,
         *,
         quantity: str | None = ...,
+        at: Table | None = ...,
+        angle_error_limit: str | None = ...,
+        angular_velocity_error_limit: str | None = ...,
         point: Vector | None = ...,
         reference: str | None = ...,
         reference_point: Vector | None = ...,
         along: Vector | None = ...,
         error_limit: str | None = ...,
-        angle_error_limit: str | None = ...,
         velocity_error_limit: str | None = ...,
     ) -> Self: ...
     def pair(

@@ -1,7 +1,8 @@
 """Mass properties of simple solids of uniform density, as defaults of a body's keys.
 
 A rod is round and goes from one point to another; a cylinder, solid or hollow, is round about the first
-principal axis of the body; a box has its sides along the principal axes.
+principal axis of the body; a box has its sides along the principal axes; a mesh is a closed surface of
+triangles.
 """
 
 from __future__ import annotations
@@ -22,10 +23,15 @@ NEEDED: Final[Mapping[str, tuple[str, ...]]] = {
     "rod": ("start", "end", "radius"),
     "cylinder": ("centre", "length", "radius"),
     "box": ("centre", "size"),
+    "mesh": ("facets",),
 }
 """Keys that each solid needs."""
-OPTIONAL: Final[Mapping[str, tuple[str, ...]]] = {"cylinder": ("inner_radius",)}
+OPTIONAL: Final[Mapping[str, tuple[str, ...]]] = {
+    "cylinder": ("inner_radius",),
+    "mesh": ("scale", "scaled_about"),
+}
 SIZES: Final = tuple(dict.fromkeys(key for keys in (*NEEDED.values(), *OPTIONAL.values()) for key in keys))
+_FILES: Final = {"facets": 'a mesh needs its triangles, such as mesh = "lever.stl"'}
 FOLLOWING: Final = ("mass", "centre", "inertia", "first_axis", "second_axis")
 
 
@@ -72,7 +78,8 @@ def check(given: Given) -> None:
     shape = given["shape"]
     known = (*NEEDED[shape], *OPTIONAL.get(shape, ()), "density")
     for key in NEEDED[shape]:
-        demand(key in given, key, f"a {shape} needs {', '.join(NEEDED[shape])}")
+        words = _FILES.get(key, f"a {shape} needs {', '.join(NEEDED[shape])}")
+        demand(key in given, key, words)
     for key in SIZES:
         demand(key in known or key not in given, key, f"a {shape} has {', '.join(known)}")
     demand("density" in given or "mass" in given, "density", f"a {shape} needs its density, or its mass")
@@ -124,4 +131,22 @@ def _box(given: Given) -> Solid:
     return a * b * c, inertia, {}
 
 
-_SOLIDS: Final[Mapping[str, Callable[[Given], Solid]]] = {"rod": _rod, "cylinder": _cylinder, "box": _box}
+def _mesh(given: Given) -> Solid:
+    # Imported here: reading other cases needs no arrays.
+    from tribodyn.mechanisms.general.mesh_solid import mesh_solid
+
+    solid, scale = mesh_solid(given["facets"]), given.get("scale", 1.0)
+    centre = solid.centre
+    if "scaled_about" in given:
+        centre = given["scaled_about"] + scale * (centre - given["scaled_about"])
+    placed = {"centre": centre, "first_axis": solid.axes[0], "second_axis": solid.axes[1]}
+    inertia = tuple((scale * scale * solid.squares).tolist())
+    return scale**3 * solid.volume, inertia, {key: tuple(v.tolist()) for key, v in placed.items()}
+
+
+_SOLIDS: Final[Mapping[str, Callable[[Given], Solid]]] = {
+    "rod": _rod,
+    "cylinder": _cylinder,
+    "box": _box,
+    "mesh": _mesh,
+}

@@ -34,8 +34,8 @@ from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
-from tribodyn.mechanisms.general.output_columns import kinematic_columns, output_coordinates
-from tribodyn.mechanisms.general.outputs import MOTION, Motion, Output, error_share, limits_of, outputs_of
+from tribodyn.mechanisms.general.output_columns import instant_errors, kinematic_columns, output_coordinates
+from tribodyn.mechanisms.general.outputs import MOTION, Motion, Output, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy, template
 from tribodyn.mechanisms.general.reversals import Reversals
@@ -49,6 +49,7 @@ from tribodyn.mechanisms.general.variables import (
 )
 from tribodyn.mechanisms.general.vibrations import Vibrations, vibrations_of, without_friction
 from tribodyn.mechanisms.general.worn import depth_of, least_roughness, worn_model
+from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED, NOT_KEPT
 
@@ -215,7 +216,7 @@ class MechanismSystem:
             "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
             "wear_roughness": float(np.max(run.problem.data.contact.surfaces["roughness"])),
             "wear_force_mean": max(means),
-            "wear_error_share": error_share(self._of_outputs(self._observed(run), run)[0], self.outputs),
+            "wear_error_share": error_share(self._of_outputs(self._observed(run), run)[0], self.case.outputs),
         }
 
     def gather(self, run: FinishedRun) -> ResultPart:
@@ -252,7 +253,7 @@ class MechanismSystem:
             },
             fields={
                 "clearance": self._clearances(),
-                **({"output_error_limit": limits_of(self.outputs)} if self.outputs else {}),
+                **self._errors(of_outputs, found, run),
                 **self._film_pressure(run),
                 **peaks,
                 **of_contacts,
@@ -334,6 +335,15 @@ class MechanismSystem:
         if self._analysis == "kinematic":
             columns |= kinematic_columns(self.assembly, self.outputs, path.times, found.couplings)
         return columns, notes
+
+    def _errors(
+        self, columns: dict[str, FloatArray], found: Observed, run: FinishedRun
+    ) -> dict[str, FloatArray]:
+        """Return limits of the errors of outputs, and errors at instants; nothing without outputs."""
+        if not self.outputs:
+            return {}
+        at = instant_errors(self.case, run.solution.t, columns["output_error"], found.couplings)
+        return {"output_error_limit": limits_of(self.case.outputs), **at}
 
     def _vibrations(self, found: Observed, run: FinishedRun) -> Vibrations:
         """Return frequencies and modes with what is to be said of them; nothing of other analyses."""

@@ -14,6 +14,7 @@ from tribodyn.kernels.film.quantities import FILM, FILM_PEAKS
 from tribodyn.kernels.joints.surface.quantities import PEAKS
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
 from tribodyn.mechanisms.general.reversals import PEAKS as REVERSAL_PEAKS
+from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
 from tribodyn.results.peaks import of_reversals_described
 from tribodyn.results.variables import FRAME, JUMP, STAGE, Variable, described
 
@@ -21,7 +22,6 @@ AXES: Final = ("x", "y", "z")
 ENTRIES: Final = ("w", *AXES)
 _VECTOR: Final = ("axis",)
 _ELEMENT: Final = (*TIME, "element")
-_OUTPUT: Final = (*TIME, "output")
 _CAUSE: Final = (*TIME, "output", "joint", "cause")
 _MODE: Final = (*TIME, "mode")
 _RATIO: Final = (*TIME, "output", "drive")
@@ -103,14 +103,7 @@ OF_ELEMENTS: Final[dict[str, Variable]] = {
 """What an element transmits; see its kind for sign and place."""
 
 OF_OUTPUTS: Final[dict[str, Variable]] = {
-    "output": Variable("", "name of the output", ("output",), named=True, names="outputs"),
-    "output_unit": Variable("", "unit of the output", ("output",), named=True),
-    "output_value": Variable("1", "value of the output, in its unit", _OUTPUT),
-    "output_ideal": Variable("1", "value with ideal joints and the same drives, in its unit", _OUTPUT),
-    "output_error": Variable("1", "difference from the ideal motion, in the unit of the output", _OUTPUT),
-    "output_error_limit": Variable(
-        "1", "error at which the mechanism is worn out, in the unit of the output", ("output",)
-    ),
+    **OUTPUTS,
     "drive": Variable("", "name of the drive", ("drive",), named=True, names="drives"),
     "cause": Variable("", "what an estimated error is divided into", ("cause",), named=True),
     "error_estimate": Variable(
@@ -118,7 +111,7 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
     ),
     "output_ratio": Variable("1", "rate of the output for a unit rate of one drive, SI units", _RATIO),
 }
-"""Of what is compared with the ideal motion; an error in all directions is the length of a vector."""
+"""Of what is compared with the ideal motion."""
 
 OF_MODES: Final[dict[str, Variable]] = {
     "mode": Variable("", "number of the mode", ("mode",), named=True, parts="modes"),
@@ -142,9 +135,7 @@ OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_roughness": Variable("m", "largest combined rms roughness of a joint in the cycle", JUMP),
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
-    "wear_error_share": Variable(
-        "1", "largest error of an output in the cycle over its limit; zero without limits", JUMP
-    ),
+    **OUTPUTS_OF_CYCLE,
 }
 """What a wear campaign writes down about each cycle."""
 

@@ -16,6 +16,7 @@ from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature, cold_geometry
 from tribodyn.core.errors import Faults
+from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 from tribodyn.papers.cheng_2022.reduced.actions import (
     COMPONENTS,
     DRIVE_TABLES,
@@ -24,6 +25,7 @@ from tribodyn.papers.cheng_2022.reduced.actions import (
     VaneLoad,
     VanePassing,
 )
+from tribodyn.papers.cheng_2022.reduced.outputs import DEFAULT, VaneOutput
 
 if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths
@@ -113,6 +115,7 @@ class VaneWear(Wear):
     LIMIT_OF: ClassVar[Mapping[str, str]] = {
         **Wear.LIMIT_OF,
         "wear_angle_error_max": "wear.angle_error_limit",
+        **ERROR_LIMIT_OF,
     }
     angle_error_limit: float | None = quantity(
         None,
@@ -158,6 +161,7 @@ class VsvCase(BushingCase):
     mechanism: MechanismKeys = MechanismKeys()
     drive: CrankKeys = CrankKeys()
     loads: VsvLoadKeys = VsvLoadKeys()
+    outputs: Mapping[str, VaneOutput] = tables("what is compared with the motion without clearance")
     wear: VaneWear = VaneWear()
     solver: Solver = Solver()
     run: VsvRunKeys = VsvRunKeys(cycles=2.0)
@@ -165,7 +169,7 @@ class VsvCase(BushingCase):
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from the contact law and the formulation, and the length."""
-        defaults = super().resolve(given) | _rod_inertias(given)
+        defaults = super().resolve(given) | _rod_inertias(given) | DEFAULT
         if given.get("mechanism.formulation") == "paper":
             defaults |= {"joint.friction": "moment", "run.start": "centred"}
         if "run.duration" not in given:
@@ -194,9 +198,15 @@ class VsvCase(BushingCase):
 
     @property
     def wear_limits(self) -> dict[str, float]:
-        """The limit of the vane-angle error [rad], by what a campaign calls it."""
+        """The limits of the vane-angle error [rad] and of outputs, by what a campaign calls them."""
         limit = self.wear.angle_error_limit
-        return {} if limit is None else {"wear_angle_error_max": limit}
+        own = {} if limit is None else {"wear_angle_error_max": limit}
+        return own | wear_limits_of(self.outputs)
+
+    @property
+    def instants(self) -> tuple[str, ...]:
+        """Names of what reads the errors of outputs at angles of the crank or times."""
+        return tuple(instant.name for instant in instants_of(self.outputs))
 
     @property
     def settling_cycles(self) -> int:

@@ -6,6 +6,7 @@ from typing import Final
 
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import MechanismDescriptor
+from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.engine import ENGINE
 from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES, KEY_NUMBERS
@@ -25,6 +26,7 @@ MECHANISM: Final = MechanismDescriptor(
     headlines=HEADLINES,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
+    by_part={"outputs": BY_OUTPUT, "instants": BY_INSTANT},
     controls=(
         "joint.clearance",
         "joint.friction_coefficient",

@@ -11,7 +11,17 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.results.reading import column, largest, norm, outside, peak, reversals_held, rms, time_mean
+from tribodyn.results.reading import (
+    column,
+    largest,
+    lasting,
+    norm,
+    outside,
+    peak,
+    reversals_held,
+    rms,
+    time_mean,
+)
 from tribodyn.results.summary import Headline
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
@@ -28,12 +38,14 @@ def _speed_error(dataset: xr.Dataset) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Peak:
-    """A maximum that is told twice: outside the impacts, and with them.
+    """A maximum that is given twice, outside the impacts and with them, and the sustained maximum.
 
     Attributes
     ----------
     names
         Of the number outside and of the one with impacts.
+    sustained
+        Name of the sustained maximum; empty where an output has it.
     label, unit, group, meaning
         See :class:`~tribodyn.results.summary.Headline`.
     quantity
@@ -55,12 +67,21 @@ class _Peak:
     scale: float
     values: Callable[[xr.Dataset], FloatArray]
     digits: int = 2
+    sustained: str = ""
 
     @property
     def headlines(self) -> dict[str, Headline]:
-        """Both numbers, by name."""
+        """The numbers, by name."""
         quiet, loud = self.names
+        lasts = Headline(
+            f"{self.label}, sustained",
+            self.unit,
+            self.group,
+            "Exceeded during 1 % of the time only; impacts excluded.",
+            lambda d: lasting(d, self.values(d)) * self.scale,
+        )
         return {
+            **({self.sustained: lasts} if self.sustained else {}),
             quiet: Headline(
                 f"{self.label}, largest outside impacts",
                 self.unit,
@@ -102,6 +123,7 @@ _LOADS: Final = (
         "contact_force",
         1.0,
         lambda d: norm(d, "F_cx", "F_cy"),
+        sustained="contact_force_lasting_N",
     ),
     _Peak(
         ("pressure_outside_MPa", "peak_pressure_MPa"),
@@ -112,6 +134,7 @@ _LOADS: Final = (
         "pressure",
         1e-6,
         lambda d: column(d, "p_max"),
+        sustained="pressure_lasting_MPa",
     ),
     _Peak(
         ("tilt_outside_mrad", "tilt_max_mrad"),
@@ -144,6 +167,7 @@ _LOADS: Final = (
         "drive_moment",
         1.0,
         lambda d: column(d, "M_d"),
+        sustained="drive_moment_lasting_Nm",
     ),
 )
 

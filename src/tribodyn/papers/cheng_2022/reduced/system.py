@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.temperature import cold_geometry
@@ -33,6 +33,7 @@ from tribodyn.mechanisms.bushing import (
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
+from tribodyn.mechanisms.output_keys import error_share, instant_coordinates
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -40,6 +41,7 @@ from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warni
 from tribodyn.papers.cheng_2022.reduced.course import course
 from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE, ledger_columns
 from tribodyn.papers.cheng_2022.reduced.loads import terms_of
+from tribodyn.papers.cheng_2022.reduced.outputs import output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_vane_angle
@@ -194,6 +196,7 @@ class VsvSystem:
             "wear_force_mean": _mean(t, portable.hypot(rows["F_cx"], rows["F_cy"])),
             "wear_angle_error_max": float(np.abs(error).max()),
             "wear_angle_error_rms": _mean(t, error**2) ** 0.5,
+            "wear_error_share": error_share(output_columns(self.case.outputs, rows), self.case.outputs),
         }
 
     def gather(self, run: FinishedRun) -> ResultPart:
@@ -214,12 +217,23 @@ class VsvSystem:
         found |= loading(law, bushing.touch, pressure, found["separation_least"])
         speed = rows["omega_v"] * bushing.geometry.radius
         found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
+        outputs = output_columns(self.case.outputs, rows)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         when = instant(largest["pressure_peak_time"], turns, self.vsv.drive.impact_time)
         return ResultPart(
             coordinates=self._coordinates(run),
-            columns=force_parts(rows) | ledger | moving,
-            fields=self._fields(run) | of_reversals(memory.peaks, WATCHED),
+            columns=force_parts(rows) | ledger | moving | outputs,
+            fields={
+                **self._fields(run),
+                **of_reversals(memory.peaks, WATCHED),
+                **output_fields(
+                    self.case.outputs,
+                    run.solution.t,
+                    outputs["output_error"],
+                    rows["theta_a"],
+                    self.period,
+                ),
+            },
             attributes={
                 "formulation": self.vsv.formulation,
                 **bushing_facts(self.case),
@@ -247,7 +261,7 @@ class VsvSystem:
             failure=self._failure(run),
         )
 
-    def _coordinates(self, run: FinishedRun) -> dict[str, FloatArray]:
+    def _coordinates(self, run: FinishedRun) -> dict[str, ArrayLike]:
         pictures = run.solution.picture_times
         times = pictures[self._is_snapshot(run)]
         frames = pictures[self._playback(run)]
@@ -263,6 +277,9 @@ class VsvSystem:
             "snapshot_direction": _directions(run.problem.data.actions.segments, times),
             "theta": self.bushing.theta,
             "z": self.bushing.z,
+            "output": list(self.case.outputs),
+            "output_unit": [output.unit for output in self.case.outputs.values()],
+            **instant_coordinates(self.case.outputs),
         }
 
     def _clearance(self, run: FinishedRun) -> FloatArray | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.kernels.vsv.quantities import AIR, COLLAR, ENERGIES, MOTION, REACTIONS, WATCHED
+from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
 from tribodyn.results.peaks import of_reversals_described
 from tribodyn.results.variables import JUMP, SNAPSHOT, Variable, described
 
@@ -15,12 +16,14 @@ OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_force_mean": Variable("N", "contact force, mean over the cycle", JUMP),
     "wear_angle_error_max": Variable("rad", "vane-angle error, largest in the cycle", JUMP),
     "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
+    **OUTPUTS_OF_CYCLE,
 }
 """What a wear campaign writes down about each cycle."""
 
 VARIABLES: Final[dict[str, Variable]] = {
     **described(MOTION, COLLAR, REACTIONS, AIR, ENERGIES),
     **of_reversals_described(WATCHED),
+    **OUTPUTS,
     "snapshot_theta_v": Variable("rad", "vane angle of the snapshot", SNAPSHOT),
     "snapshot_direction": Variable("1", "direction of vane rotation at the snapshot, +1 or -1", SNAPSHOT),
     "energy_gravity": Variable("J", "gravity energy of all bodies, from the start"),

@@ -12,9 +12,8 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart, plain
-from tribodyn.mechanisms.general.readings import lasting
 from tribodyn.results.outputs import ERROR_UNITS
-from tribodyn.results.reading import column, peak, settled
+from tribodyn.results.reading import column, lasting, peak, settled
 from tribodyn.results.summary import Headline
 
 _AT_REST: Final = 1.0e-9
@@ -125,3 +124,33 @@ BY_OUTPUT: Final[dict[str, ByPart]] = {
     for measure in READINGS
 } | {"error_of_limit_percent": _of_limit}
 """Key results of each output, by what stands before its name."""
+
+
+_PASSES: Final = {
+    "error_at": ("at the instant", "Mean error, with its sign, where the key `at` of the output reads it."),
+    "error_at_forward": ("at the instant, forward", "The same while the drive runs forward."),
+    "error_at_backward": ("at the instant, backward", "The same while the drive runs backward."),
+}
+"""Labels and meanings of errors at instants, by variable."""
+
+
+def _at(variable: str, unit: str, instant: str) -> Headline:
+    """Return the key result of an instant; NaN where its error has another unit or is not known."""
+    label, meaning = _PASSES[variable]
+    _, shown, scale = ERROR_UNITS[unit]
+
+    def compute(dataset: xr.Dataset) -> float:
+        k = dataset["instant"].values.tolist().index(instant)
+        output = number_of(dataset, str(dataset["instant_output"].values[k]))
+        of_unit = str(dataset["output_unit"].values[output]) == unit
+        return scale * float(column(dataset, variable)[k]) if of_unit else math.nan
+
+    return Headline(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)
+
+
+BY_INSTANT: Final[dict[str, ByPart]] = {
+    f"{variable}_{spelled}": partial(_at, variable, unit)
+    for unit, (spelled, _, _) in ERROR_UNITS.items()
+    for variable in _PASSES
+}
+"""Key results of each instant, by what stands before its name."""
