@@ -13,38 +13,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tribodyn as td
-from tribodyn.mechanisms.journal.parameters import Journal
-from tribodyn.mechanisms.journal.problem import journal_problem
+from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.stribeck import stribeck
-from tribodyn.mechanisms.journal.system import journal_of
+from tribodyn.mechanisms.journal.system import JournalSystem, journal_of
 from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
-ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
 COARSE, FINE = 2e-6, 1e-7
 """Fixed steps of the explicit run [s]."""
 
 
-def fixed_step(journal: Journal, step: float, duration: float) -> tuple[NDArray[np.float64], ...]:
+def fixed_step(
+    case: JournalCase, step: float, duration: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Walk a journal by Euler's explicit method with a fixed step, as no solver of tribodyn does.
 
-    Returns times [s], eccentricities [m] and contact forces [N].
+    Returns times [s] and eccentricities [m].
     """
-    problem = journal_problem(journal, duration=duration, atol=ATOL)
+    problem = JournalSystem(case).problem(duration)
     call, data, memory = problem.functions, problem.data, problem.memory
-    y, rate, row = problem.y0.copy(), np.empty(problem.y0.size), np.empty(problem.n_observed)
-    times, eccentricities, forces = [], [], []
+    y, rate = problem.y0.copy(), np.empty(problem.y0.size)
+    times, eccentricities = [], []
     for t in np.arange(0.0, duration, step):
-        call.observe(t, y, data, memory, row)
         times.append(t)
-        eccentricities.append(np.hypot(row[0], row[1]))
-        forces.append(np.hypot(row[8], row[9]))
+        eccentricities.append(np.hypot(y[0], y[1]))
         call.rhs(t, y, data, memory, rate)
         if not np.isfinite(rate).all():
             break
         y += step * rate
+        call.advance(t, t + step, y, data, memory)
         call.accept(t + step, y, data, memory)
-    return np.array(times), np.array(eccentricities), np.array(forces)
+    return np.array(times), np.array(eccentricities)
 
 
 def draw_coarse(target: Path) -> None:
@@ -53,11 +52,10 @@ def draw_coarse(target: Path) -> None:
         {"contact.law": "ke", "run.duration": "4 ms", "run.output_interval": "2 us"}
     )
     result = td.simulate(case)
-    journal = journal_of(case)
     figure, axes = plt.subplots(figsize=(7.6, 3.4), layout="constrained")
     e = np.hypot(result["e_x"], result["e_y"])
     for step, colour in ((COARSE, VERMILION), (FINE, GREY)):
-        t, coarse, _ = fixed_step(journal, step, 4e-3)
+        t, coarse = fixed_step(case, step, 4e-3)
         label = f"explicit Euler, {step * 1e6:g} µs"
         axes.plot(t * 1e3, coarse * 1e6, color=colour, linewidth=0.9, label=label)
     axes.plot(result["time"] * 1e3, e * 1e6, color=BLUE, linewidth=1.1, label="MEBDF")

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tribodyn.contact import RSDC, SurfacePair, law, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
 from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
-from tribodyn.kernels.journal.quantities import OBSERVED
-from tribodyn.mechanisms.journal.parameters import Journal, Loads
-from tribodyn.mechanisms.journal.problem import journal_problem
+from tribodyn.kernels.mechanism.data import VELOCITY
+from tribodyn.mechanisms.journal.system import JournalSystem, journal_of
 
 MakeJoint = Callable[..., BushingJoint]
 MASS = 0.253
@@ -67,20 +68,29 @@ def test_calibrated_on_the_plate_is_near_on_the_journal(make: MakeJoint, name: s
     assert bounce(joint.table).restitution == pytest.approx(wanted, abs=1e-6)
 
 
-def test_agrees_with_the_journal_as_a_mechanism(make: MakeJoint, table_1_pair: SurfacePair) -> None:
-    joint = make("rsdc", "lankarani-nikravesh")
+def test_agrees_with_the_journal_as_a_mechanism() -> None:
+    case: Any = td.load_case("journal-dry").replace(
+        {
+            **{f"loads.force_{axis}": "0 N" for axis in "xy"},
+            "contact.damping_factor": "lankarani-nikravesh",
+            "contact.minimum_entry_velocity": "1e-6 m/s",
+            "solver.rtol": 1e-7,
+            "solver.atol.position": "1e-13 m",
+            "solver.atol.velocity": "1e-9 m/s",
+            "solver.grid.theta": 384,
+            "solver.grid.z": 2,
+        }
+    )
+    joint = journal_of(case).joint
     speed = design_speed(joint, mass=MASS, pressure=50e6)
     made = drop(joint, mass=MASS, speed=speed)
-    smooth = dataclasses.replace(joint, friction=dataclasses.replace(joint.friction, coefficient=0.0))
-    journal = Journal(MASS, 1.0, 0.0, False, 0.0, Loads(0.0, 0.0), smooth)
     onset, duration = onset_eccentricity(joint), 60.0 * joint.roughness / speed
-    problem = journal_problem(
-        journal, duration=duration, start=np.array([onset, 0.0]), atol=(1e-13, 1.0, 1e-9, 1.0)
-    )
-    problem.memory.joint.entry_velocity[:] = 0.0
-    flying = dataclasses.replace(problem, y0=np.array([onset, 0.0, speed, 0.0]))
-    solution = integrate(flying, rtol=1e-7, output_times=np.linspace(0.0, duration, 3001))
-    rows = {name: solution.rows[:, k] for k, name in enumerate(OBSERVED)}
+    system = JournalSystem(case.replace({"run.start_x": f"{onset!r} m"}))
+    problem = system.problem(duration)
+    problem.memory.contact.entry_velocity[:] = 0.0
+    problem.y0[VELOCITY] = speed
+    solution = integrate(problem, rtol=1e-7, output_times=np.linspace(0.0, duration, 3001))
+    rows = system.rows(solution.rows)
     outside = np.flatnonzero((rows["e_x"] <= onset) & (rows["e_x_dot"] < 0.0))[0]
     # Two integrators with steps of their own, at whose ends points enter contact.
     assert made.restitution == pytest.approx(-rows["e_x_dot"][outside] / speed, abs=2e-4)

@@ -23,7 +23,7 @@ SPEEDS = np.geomspace(0.1, 3e4, 45)
 @pytest.fixture(scope="module")
 def journal(make_joint: Callable[..., BushingJoint]) -> Journal:
     film = Film(0.01, 20e-6, 6e-3, 20e-3, Roughness((0.392e-6, 1.586e-6)), grid=FilmGrid(96, 16))
-    return Journal(0.253, 5e-4, 5e-6, False, 0.0, Loads(200.0, 100.0), make_joint(coefficient=FRICTION), film)
+    return Journal(False, 0.0, Loads(200.0, 100.0), make_joint(coefficient=FRICTION), film)
 
 
 @pytest.fixture(scope="module")

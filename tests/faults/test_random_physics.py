@@ -141,6 +141,7 @@ def dry_journal(chance: Chance) -> Changes:
         | contact(chance)
         | size
         | {
+            "joint.friction": "traction",
             "journal.mass": f"{around(chance, 0.253, 4)} kg",
             "journal.speed": f"{chance.choice([0.0, between(chance, 1, 300)])} rad/s",
             "journal.tilt": bool(chance.uniform() < 0.5),

@@ -13,8 +13,6 @@ import pytest
 from tribodyn.contact import law
 from tribodyn.joints.clearances import Clearance, places
 from tribodyn.joints.shapes import Cylinder
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.joints.quantities import Extremes
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.checks import (
     AREA_LIMIT,
@@ -89,9 +87,10 @@ def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str
 
 
 def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    found = new_record(Extremes)
-    found.separation_least = seen["depth"] * vsv.joint.roughness
-    found.tensile_clip_time = seen["clipped"] * T_END
+    found = {
+        "separation_least": seen["depth"] * vsv.joint.roughness,
+        "tensile_clip_time": seen["clipped"] * T_END,
+    }
     numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
     return journal_checks.warnings(
         found, vsv.joint, loading(seen), **numbers, statistics=cost, when=instant(PEAK)

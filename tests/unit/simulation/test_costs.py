@@ -95,7 +95,7 @@ def test_counts_are_those_of_the_problem(name: str) -> None:
     work, system = work_of(case), MECHANISMS[case.kind()].system(case)  # type: ignore[arg-type]
     problem = system.problem(case.duration)
     assert work.states == problem.y0.size
-    assert work.quantities == problem.n_observed
+    assert work.quantities == problem.n_kept
     assert work.nodes + work.mapped == math.prod(problem.field_shape)
     assert work.samples == pytest.approx(system.output_times(case.duration).size, rel=0.01)
     pictures = system.picture_times(case.duration).size

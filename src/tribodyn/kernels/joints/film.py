@@ -33,6 +33,8 @@ from tribodyn.kernels.joints.surface.station import (
 from tribodyn.kernels.joints.surface.tilt import AXIS, fill_tilt, moment_of
 
 SLIDES: Final = 1.0
+LEVEL: Final = 1.0e-13
+"""Displacement of the ends of a shaft by its tilt, over the clearance, that is rounding; so with speeds."""
 
 Oil: Final = record_type(
     ("film", "f8", (5,)),
@@ -69,7 +71,7 @@ def film_wrench(
     With ``slopes`` above 0 its derivatives in d, ϑ, v and ω are added to ``jacobian`` (6, 12). ``scratch`` is
     that of the joints with clearance, ``pose`` as there.
     """
-    _look(memory, pose, scratch)
+    _look(film, memory, pose, scratch)
     status = wrench_in_chart(film, memory, pose.w[2], oil.film)
     if status != CONVERGED:
         oil.status = status
@@ -117,13 +119,20 @@ def new_oil(n: int) -> NDArray[np.void]:
 
 
 @kernel
-def _look(memory: FilmMemory, pose: Record, scratch: Record) -> None:
-    """Fill tilt and station of the scratch, and the state of the film."""
+def _look(film: FilmData, memory: FilmMemory, pose: Record, scratch: Record) -> None:
+    """Fill tilt and station of the scratch, and the state of the film.
+
+    A tilt of rounding is none: a level film is solved on half its length.
+    """
     u, tilt, station = memory.work.state, scratch.tilt, scratch.station
     fill_tilt(AXIS, pose.rotation, pose.w, tilt)
     fill_station(SLIDES, pose, tilt, station)
     u[0], u[1], u[2], u[3] = station.d[0], station.d[1], tilt.phi[0], -tilt.phi[1]
     u[4], u[5], u[6], u[7] = station.v[0], station.v[1], tilt.rate[0], -tilt.rate[1]
+    size, rate = film.constants.clearance, abs(u[4]) + abs(u[5]) + abs(pose.w[2]) * film.constants.clearance
+    half = 0.5 * film.constants.length
+    if half * (abs(u[2]) + abs(u[3])) < LEVEL * size and half * (abs(u[6]) + abs(u[7])) <= LEVEL * rate:
+        u[2] = u[3] = u[6] = u[7] = 0.0
 
 
 @kernel

@@ -34,9 +34,7 @@ class JournalJoint(PlainJoint):
     friction_coefficient: float = number(
         0.0, "coefficient of friction mu_f; the paper's section 4 has no friction", SECTION_4, ge=0, le=2
     )
-    friction: Literal["traction", "moment"] = choice(
-        "traction", "traction along the actual slip, or a moment that leaves the motion alone", ASSUMED
-    )
+    friction: Literal["traction"] = choice("traction", "traction along the actual slip", ASSUMED)
 
 
 class Shaft(Group):

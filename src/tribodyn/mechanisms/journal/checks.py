@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tribodyn.core.quantities import Record
 from tribodyn.joints import BushingJoint
 from tribodyn.mechanisms.checks import ENERGY_LIMIT, TIGHTEN, of_contact, of_load, of_steps
 
 
 def warnings(
-    extremes: Record,
+    extremes: Mapping[str, float],
     joint: BushingJoint,
     load: Mapping[str, float],
     *,
@@ -47,8 +46,8 @@ def warnings(
         else "",
         *of_contact(
             joint.touch,
-            separation=float(extremes.separation_least),
-            clipped=float(extremes.tensile_clip_time) / t_end if t_end > 0.0 else 0.0,
+            separation=extremes["separation_least"],
+            clipped=extremes["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,
         ),
         *of_load(load, when),

@@ -7,7 +7,6 @@ friction slides at ω r_j.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Final
 
 import numpy as np
@@ -15,13 +14,13 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.joints.bushing import new_memory
 from tribodyn.kernels import dense
-from tribodyn.kernels.journal.data import JournalData, JournalMemory
-from tribodyn.kernels.journal.equations import least_gap
-from tribodyn.kernels.journal.functions import static_residual
+from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import report, wrench_and_jacobian
+from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
 from tribodyn.mechanisms.balance import damped_newton
 from tribodyn.mechanisms.journal.parameters import Journal
-from tribodyn.mechanisms.journal.problem import journal_data, journal_memory
 
 _START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)
 """Separations over σ tried for the first guess."""
@@ -94,54 +93,64 @@ def equilibrium(
         If no equilibrium is found: the load is more than contact and film can carry.
     """
     turning = journal if speed is None else replace(journal, speed=speed)
-    data = journal_data(turning)
-    memory = journal_memory(turning, data)
-    static_residual(np.zeros(journal.freedoms), data, memory, *_room(journal.freedoms))
-    load = memory.scratch.load[:2].copy()
-    starts = _starts(turning, load)
+    statics = _Statics(turning)
+    starts = _starts(turning)
     if guess is not None:
         starts.insert(0, np.asarray(guess, dtype=np.float64))
-    half = data.joint.z[-1]
+    half = statics.joint.z[-1]
     scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])[: journal.freedoms]
     for start in starts:
-        q = damped_newton(
-            partial(_residual, data, memory), start[: journal.freedoms], scale, 0.5 * journal.joint.roughness
-        )
-        if q is not None and _in_range(data, memory):
-            return _described(turning, data, memory, q)
+        q = damped_newton(statics, start[: journal.freedoms], scale, 0.5 * journal.joint.roughness)
+        if q is not None and statics.in_range:
+            statics(q)
+            return Equilibrium(turning, statics.state[:4].copy(), statics.contact, statics.oil)
     raise InputError(
-        f"no equilibrium was found: {portable.hypot(*load):.4g} N may be more than this bearing can carry",
+        f"no equilibrium was found: {journal.loads.force:.4g} N may be more than this bearing can carry",
         key="loads.force_x",
     )
 
 
-def _room(n: int) -> tuple[FloatArray, FloatArray]:
-    return np.empty(n), np.empty((n, n))
+class _Statics:
+    """The loads on a journal whose axis is at rest, over its attitude."""
+
+    def __init__(self, journal: Journal) -> None:
+        self.journal, self.joint = journal, journal.joint.data()
+        self.film = None if journal.film is None else (journal.film.data(), journal.film.memory())
+        self.memory, self.state = new_memory(self.joint), np.zeros(8)
+        self.contact, self.oil = np.zeros(5), np.zeros(5)
+        loads = journal.loads
+        self.load = np.array([loads.force_x, loads.force_y, loads.moment_x, loads.moment_y])
+
+    def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the generalised loads at an attitude (n,), and their derivative (n, n).
+
+        The moments of the joint act on the tilts as M sec²φ, because a point of the axis at height z moves
+        by −z sec²φ dφ.
+        """
+        n, speed, scratch = q.size, self.journal.speed, self.memory.scratch
+        self.state[:n] = q
+        fill_pose(self.state, speed, 0.0, scratch.pose)
+        wrench_and_jacobian(self.joint, self.memory, scratch.pose, scratch.wrench, scratch.jacobian)
+        jacobian, of_film = np.zeros((5, 9)), np.zeros((5, 9))
+        from_wrench(scratch.wrench, self.contact)
+        from_jacobian(scratch.jacobian, jacobian)
+        if self.film is not None:
+            film_wrench_and_jacobian(*self.film, self.state, speed, self.oil, of_film)
+        tangent = np.append([0.0, 0.0], portable.tan(self.state[2:4]))
+        sec2, wrench = 1.0 + tangent**2, (self.contact + self.oil)[:4]
+        gradient = sec2[:, None] * (jacobian + of_film)[:4, :4] + np.diag(2.0 * sec2 * tangent * wrench)
+        return (self.load + sec2 * wrench)[:n], gradient[:n, :n]
+
+    @property
+    def in_range(self) -> bool:
+        """Whether the contact law reaches the attitude last looked at; Newton may end where it does not."""
+        report(self.joint, self.memory, self.memory.scratch.pose)
+        deepest = self.journal.joint.table.h_first * self.journal.joint.roughness
+        return bool(self.memory.scratch.report.separation_min >= deepest)
 
 
-def _residual(data: JournalData, memory: JournalMemory, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-    residual, jacobian = _room(q.size)
-    static_residual(q, data, memory, residual, jacobian)
-    return residual, jacobian
-
-
-def _in_range(data: JournalData, memory: JournalMemory) -> bool:
-    """Tell whether the contact law reaches the attitude last looked at; Newton may end where it does not."""
-    return bool(least_gap(data.joint, memory.scratch.state) >= data.constants.deepest)
-
-
-def _starts(journal: Journal, load: FloatArray) -> list[FloatArray]:
-    """Lay the journal against the bushing in the direction of the load [N], shape (2,)."""
-    size = float(portable.hypot(*load))
-    direction = load / size if size > 0.0 else np.array([1.0, 0.0])
+def _starts(journal: Journal) -> list[FloatArray]:
+    """Lay the journal against the bushing in the direction of the load."""
     clearance, roughness = journal.joint.geometry.clearance, journal.joint.roughness
     depths = [max(clearance - depth * roughness, 0.1 * clearance) for depth in _START_DEPTHS]
-    return [np.append(e * direction, [0.0, 0.0]) for e in depths]
-
-
-def _described(journal: Journal, data: JournalData, memory: JournalMemory, q: FloatArray) -> Equilibrium:
-    """Return the equilibrium at ``q`` with the wrenches on the journal there."""
-    _residual(data, memory, q)
-    attitude = np.zeros(4)
-    attitude[: q.size] = q
-    return Equilibrium(journal, attitude, memory.scratch.wrench.copy(), memory.scratch.film.copy())
+    return [np.append(e * journal.loads.direction, [0.0, 0.0]) for e in depths]

@@ -1,4 +1,4 @@
-"""Parameters of a journal in a bushing, SI units."""
+"""Parameters of a journal in a bushing at rest but for its rotation, SI units."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication.film import Film
-from tribodyn.mechanisms.actions import Term
 
 
 @dataclass(frozen=True)
 class Loads:
-    """What acts on the centre of the journal, all of it constant.
+    """What acts on the centre of the journal.
 
     Attributes
     ----------
@@ -47,30 +45,22 @@ class Loads:
 
 @dataclass(frozen=True)
 class Journal:
-    """A rigid journal in a bushing under stated loads.
+    """A journal in a bushing under stated loads, for its static equilibrium.
 
     Attributes
     ----------
-    mass
-        Mass [kg].
-    transverse_inertia, spin_inertia
-        Moments of inertia about the centre, across and along the axis [kg m²].
     tilts
         Whether the journal can tilt; otherwise it stays parallel to the bushing.
     speed
         Speed of rotation ω about Z, right-handed, kept by a drive [rad/s].
     loads
-        Constant loads.
+        Loads at the start.
     joint
         The bushing.
     film
         The oil film; none by default.
-    terms
-        Loads from tables; targets and coordinates as in ``kernels/journal``.
-    spin
-        Speed over time [rad/s] in the place of ``speed``; none by default.
-    slip_velocity
-        Speed of the centre below which loads against its motion fade [m/s].
+    changes
+        Whether load or speed follow a table.
 
     Raises
     ------
@@ -78,17 +68,12 @@ class Journal:
         If bushing and film are not of one size.
     """
 
-    mass: float
-    transverse_inertia: float
-    spin_inertia: float
     tilts: bool
     speed: float
     loads: Loads
     joint: BushingJoint
     film: Film | None = None
-    terms: tuple[Term, ...] = ()
-    spin: Signal | None = None
-    slip_velocity: float = 0.0
+    changes: bool = False
 
     def __post_init__(self) -> None:
         """Refuse a film of another size than the bushing."""
@@ -98,11 +83,6 @@ class Journal:
         given = (film.clearance, film.radius, film.length)
         if not np.allclose(given, (size.clearance, size.radius, size.length), rtol=1e-9, atol=0.0):
             raise InputError("the film has another clearance, radius or length than the joint", key="film")
-
-    @property
-    def changes(self) -> bool:
-        """Whether load or speed follow a table."""
-        return bool(self.terms) or self.spin is not None
 
     @property
     def freedoms(self) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Final
 
@@ -15,10 +15,12 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, Stopped
 from tribodyn.core.problem import Problem
 from tribodyn.core.quantities import names
-from tribodyn.core.signals import constant
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.kernels.journal.quantities import FILM, OBSERVED, WATCHED
-from tribodyn.lubrication import explain
+from tribodyn.kernels import dense
+from tribodyn.kernels.joints.quantities import EXTREMES
+from tribodyn.kernels.joints.surface.quantities import N_REPORT, REPORTED
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
+from tribodyn.kernels.mechanism.functions import observe_surfaces
 from tribodyn.mechanisms.base import FinishedRun, ResultPart, Worn
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
@@ -29,52 +31,69 @@ from tribodyn.mechanisms.bushing import (
     of_temperature,
     pressure_at_rest,
 )
-from tribodyn.mechanisms.checks import (
-    beyond_law,
-    extremes,
-    instant,
-    of_clearance,
-    of_damping_pressure,
-    of_tables,
-)
+from tribodyn.mechanisms.checks import instant, of_clearance, of_damping_pressure, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
+from tribodyn.mechanisms.general.assembly import Assembly, assemble
+from tribodyn.mechanisms.general.checks import failure
+from tribodyn.mechanisms.general.model import model_of
+from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
-from tribodyn.mechanisms.journal.course import angle
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
 from tribodyn.mechanisms.journal.ledger import ledger_columns, residual_fraction
-from tribodyn.mechanisms.journal.loads import terms_of
+from tribodyn.mechanisms.journal.model import BEARING, inertia, mechanism_of
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
-from tribodyn.mechanisms.journal.problem import journal_problem
-from tribodyn.mechanisms.peaks import of_run
+from tribodyn.mechanisms.journal.quantities import FILM, LOADS, WATCHED
+from tribodyn.mechanisms.journal.rows import TURNED, layout_of, peaks_of, rebounds_of, rows_of
 
 SETTLED: Final = 0.01
 """Distance from the static equilibrium, over the clearance, within which a journal has settled."""
+_LOADS: Final = ("force_x", "force_y", "moment_x", "moment_y")
+_TURN: Final = slice(ORIENTATION, VELOCITY)
+_RELATIVE: Final = np.repeat([1.0, 0.0, 1.0], [ORIENTATION, VELOCITY - ORIENTATION, N_STATES - VELOCITY])
+"""Share of the relative tolerance that holds for each state: the position is the eccentricity."""
 
 
 def journal_of(case: JournalCase) -> Journal:
-    """Return the journal that a case describes."""
-    shaft, loads, joint = case.journal, case.loads, bushing_of(case)
+    """Return the journal that a case describes, as it is at the start."""
+    joint, more = bushing_of(case), case.loads.more
+    changes = bool(more) or case.drive.speed is not None
     return Journal(
-        mass=shaft.mass,
-        transverse_inertia=shaft.transverse_inertia,
-        spin_inertia=shaft.spin_inertia,
-        tilts=shaft.tilt,
-        speed=shaft.speed,
-        spin=None if case.drive.speed is None else case.drive.speed.curve(),
-        terms=tuple(terms_of(case)),
-        slip_velocity=case.slip_velocity,
-        loads=Loads(loads.force_x, loads.force_y, loads.moment_x, loads.moment_y),
+        tilts=case.journal.tilt,
+        speed=case.journal.speed if case.drive.speed is None else case.drive.speed.curve().at_start,
+        loads=_loads_at_start(case) if more else Loads(**{key: getattr(case.loads, key) for key in _LOADS}),
         joint=joint,
         film=case.film.film(joint.geometry, case.surfaces) if case.film.lubricated else None,
+        changes=changes,
     )
+
+
+def _loads_at_start(case: JournalCase) -> Loads:
+    """Return what loads are at the start, of an axis at rest."""
+    system = JournalSystem(case)
+    problem = system.centred(case.duration)
+    problem.functions.enter(0.0, problem.y0, problem.data, problem.memory)
+    row = np.zeros(problem.n_observed)
+    problem.functions.observe(0.0, problem.y0, problem.data, problem.memory, row)
+    rows = system.rows(row[None, problem.kept])
+    return Loads(*(float(rows[name][0]) for name in names(LOADS)))
 
 
 @dataclass(frozen=True)
 class JournalSystem:
-    """The journal of a case; see :class:`~tribodyn.mechanisms.base.SimulatedSystem`."""
+    """The journal of a case; see :class:`~tribodyn.mechanisms.base.SimulatedSystem`.
+
+    It moves as the mechanism that it is; results are in the coordinates and signs of the source paper.
+    """
 
     case: JournalCase
+
+    @cached_property
+    def assembly(self) -> Assembly:
+        """The journal, its bearing, drive and loads as a mechanism, put together."""
+        found = assemble(model_of(mechanism_of(self.case)))
+        found.require_sound()
+        return found
 
     @cached_property
     def journal(self) -> Journal:
@@ -101,8 +120,49 @@ class JournalSystem:
         start = np.array([run.start_x, run.start_y, 0.0, 0.0])
         if run.start == "equilibrium":
             start = equilibrium(self.journal).attitude
-        return journal_problem(
-            self.journal, duration=duration, start=start, atol=self.case.solver.atol.as_tuple
+        return self._started(start, duration)
+
+    def centred(self, duration: float) -> Problem:
+        """Return the problem of a journal that starts in the middle of its bushing."""
+        return self._started(np.zeros(4), duration)
+
+    def _started(self, attitude: FloatArray, duration: float) -> Problem:
+        """Return the problem of a journal whose axis starts at rest at (e_x, e_y, φ_x, φ_y) [m, rad]."""
+        assembly, case = self.assembly, self.case
+        state = assembly.state.copy()
+        state[:2] += attitude[:2]
+        state[_TURN] = _leaning(attitude[2:])
+        problem = mechanism_problem(
+            assembly,
+            duration=duration,
+            rtol=case.solver.rtol,
+            atol=_tolerances(case),
+            state=state,
+            dense=case.solver.name != "mebdf",
+        )
+        places, report = layout_of(assembly.model.case).places, problem.n_observed + np.arange(N_REPORT)
+        assert places is not None
+        return replace(
+            problem,
+            functions=replace(problem.functions, observe=observe_surfaces),
+            n_observed=problem.n_observed + N_REPORT,
+            kept=np.append(places, report),
+            relative=_RELATIVE,
+        )
+
+    def rows(self, values: FloatArray) -> dict[str, FloatArray]:
+        """Return what was observed by name, in the terms of the paper; ``values`` are rows of a run."""
+        first = values.shape[1] - N_REPORT
+        case, mechanism = self.case, self.assembly.model.case
+        loads = [(load.point or (0.0, 0.0, 0.0), load.frame) for load in mechanism.loads.values()]
+        return rows_of(
+            layout_of(mechanism).observed(values[:, :first]),
+            dict(zip(names(REPORTED), values[:, first:].T, strict=True)),
+            joints=len(mechanism.joints),
+            heights=np.array([z for (_, _, z), _ in loads]),
+            signs=np.array([-1.0 if frame == "body" else 1.0 for _, frame in loads]),
+            spin_inertia=inertia(case)[2],
+            tilts=case.journal.tilt,
         )
 
     def output_times(self, duration: float) -> FloatArray:
@@ -116,22 +176,22 @@ class JournalSystem:
 
     def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run."""
-        rows = run.rows(OBSERVED)
+        rows = self.rows(run.solution.rows)
         # Whoever wants to stop does not wait for what takes many evaluations of a fine film.
         balance = None if run.solution.failure == INTERRUPTED else self.balance
         columns = self._columns(rows)
         residual = residual_fraction(columns, self.journal)
         grid_error = grid_force_error(self.journal.joint, rows)
-        found = run.problem.memory.joint.extremes
-        largest = of_run(run.problem.memory.peaks, WATCHED)
+        at_steps = _at_steps(run)
+        largest = peaks_of(run.solution.t, rows, at_steps)
         law = self.case.contact.law_of(self.case.surface_pair)
         joint, pressure = self.journal.joint, largest["pressure_peak"]
-        load = loading(law, joint.touch, pressure, float(found.separation_least))
+        load = loading(law, joint.touch, pressure, at_steps["separation_least"])
         at_rest, speed = pressure_at_rest(joint, rows), rows["omega"] * joint.geometry.radius
         damped = of_damping_pressure(pressure, at_rest)
         return ResultPart(
             columns=columns,
-            fields=self._numbers(run, rows, balance),
+            fields=self._numbers(run, rows, balance, largest | at_steps),
             attributes={
                 **self._facts(),
                 "energy_residual": residual,
@@ -142,7 +202,7 @@ class JournalSystem:
             },
             warnings=[
                 *warnings(
-                    found,
+                    at_steps,
                     self.journal.joint,
                     load,
                     residual=residual,
@@ -151,29 +211,17 @@ class JournalSystem:
                     statistics=run.cost,
                     when=instant(largest["pressure_peak_time"]),
                 ),
-                *of_tables(
-                    self.case.followed(), run.solution.t, partial(self._followed, rows, run.solution.t)
-                ),
+                *of_tables(self.case.followed(), run.solution.t, partial(_followed, rows)),
             ],
             notes=[*of_temperature(self.case), *([damped] if damped else [])],
             failure=self._failure(run),
         )
 
-    def _followed(
-        self, rows: Mapping[str, FloatArray], times: FloatArray, table: FollowedTable
-    ) -> FloatArray:
-        """Return what a table follows at times [s]: angle [rad], speed [rad/s], or speed of the centre."""
-        if table.over == "speeds":
-            return np.asarray(rows["omega"])
-        if table.over == "velocities":
-            return np.asarray(portable.hypot(rows["e_x_dot"], rows["e_y_dot"]))
-        spin = self.journal.spin
-        return angle(constant(self.journal.speed) if spin is None else spin, times)
-
     def _columns(self, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
         """Return what is stored over time."""
         oil = self.journal.film is not None
-        kept = {name: values for name, values in force_parts(rows).items() if oil or name not in names(FILM)}
+        left_out = {TURNED, *(() if oil else names(FILM))}
+        kept = {name: values for name, values in force_parts(rows).items() if name not in left_out}
         return kept | ledger_columns(rows, lubricated=oil)
 
     def _facts(self) -> dict[str, object]:
@@ -191,14 +239,18 @@ class JournalSystem:
         return facts
 
     def _numbers(
-        self, run: FinishedRun, rows: dict[str, FloatArray], balance: Equilibrium | None
+        self,
+        run: FinishedRun,
+        rows: dict[str, FloatArray],
+        balance: Equilibrium | None,
+        largest: Mapping[str, float],
     ) -> dict[str, FloatArray]:
-        """Return what a run has one of, arrays of shape ()."""
+        """Return what a run has one of, arrays of shape (); ``largest`` are peaks and extremes."""
         found = {
             "settling_time": self._settling_time(run, rows, balance),
             "contact_start": _contact_start(run, rows),
-            **of_run(run.problem.memory.peaks, WATCHED),
-            **extremes(run.problem.memory.joint.extremes, run.problem.memory.counts),
+            **largest,
+            "rebounds": rebounds_of(rows),
             "e_x_balance": np.nan if balance is None else float(balance.attitude[0]),
             "e_y_balance": np.nan if balance is None else float(balance.attitude[1]),
         }
@@ -233,12 +285,45 @@ class JournalSystem:
         """Return why the run stopped before its end, empty if it did not."""
         if run.solution.failure in (None, INTERRUPTED):
             return run.solution.failure or ""
-        memory, reason = run.problem.memory, str(run.solution.failure)
-        if memory.course.beyond > 0.0:
-            return beyond_law(self.journal.joint.table.h_first, run.solution.t_end, "journal and bushing")
-        if memory.scratch.film_status > 0.0:
-            reason += f"; the film had no answer: {explain(int(memory.scratch.film_status))}"
-        return reason
+        reached = float(run.solution.t_end)
+        found = failure(run.problem, self.assembly.model, (f"{BEARING}:bushing",), reached)
+        return found or str(run.solution.failure)
+
+
+def _followed(rows: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
+    """Return what a table follows: angle [rad], speed [rad/s], or speed of the centre [m/s]."""
+    if table.over == "velocities":
+        return np.asarray(portable.hypot(rows["e_x_dot"], rows["e_y_dot"]))
+    return rows["omega" if table.over == "speeds" else TURNED]
+
+
+def _at_steps(run: FinishedRun) -> dict[str, float]:
+    """Return peaks and extremes of contact and film that kernels noted at accepted steps, by name."""
+    memory = run.problem.memory
+    records = [*memory.contact.peaks, *memory.oil["peaks"]]
+    wanted = (*(f"{name}_peak{time}" for name in names(WATCHED) for time in ("", "_time")), *names(EXTREMES))
+    return {name: float(record[name]) for record in records for name in record.dtype.names if name in wanted}
+
+
+def _leaning(tilt: FloatArray) -> FloatArray:
+    """Return the quaternion of an axis that leans by (φ_x, φ_y) [rad], shape (4,); φ_y is left-handed."""
+    slope = portable.tan(tilt)
+    axis = np.array([-slope[1], -slope[0], 1.0])
+    axis /= dense.norm(axis)
+    # The shortest turn from z to the axis: (1 + z·a, z × a), of any length.
+    turn = np.array([1.0 + axis[2], -axis[1], axis[0], 0.0])
+    return np.asarray(turn / dense.norm(turn))
+
+
+def _tolerances(case: JournalCase) -> tuple[float, float, float, float]:
+    """Return absolute tolerances of positions, orientations, velocities and angular velocities.
+
+    A quaternion is of the order one however small a tilt is: the relative tolerance holds for a tilt across
+    the clearance.
+    """
+    position, tilt, velocity, rate = case.solver.atol.as_tuple
+    widest = 2.0 * case.joint.clearance / case.joint.length
+    return position, tilt + case.solver.rtol * widest, velocity, rate
 
 
 def _contact_start(run: FinishedRun, rows: dict[str, FloatArray]) -> float:

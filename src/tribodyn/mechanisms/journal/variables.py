@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.kernels.joints.quantities import EXTREMES
-from tribodyn.kernels.journal.quantities import COUNTS, ENERGIES, FILM, LOADS, ROTATION, WATCHED
+from tribodyn.mechanisms.journal.quantities import COUNTS, ENERGIES, FILM, LOADS, ROTATION, WATCHED
 from tribodyn.results.peaks import of_run_described
 from tribodyn.results.variables import Variable, described
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Final
 
-from tribodyn.kernels.journal.quantities import OBSERVED
+from tribodyn.kernels.joints.surface.quantities import N_REPORT
+from tribodyn.mechanisms.general.workload import workload as of_mechanism
 from tribodyn.mechanisms.journal.case import JournalCase
+from tribodyn.mechanisms.journal.model import mechanism_of
+from tribodyn.mechanisms.journal.rows import layout_of
 from tribodyn.mechanisms.workload import Keys, Workload
 
 _OF_REBOUND: Final = 35.0
@@ -21,21 +25,15 @@ _IN_OIL: Final = (200.0, 0.1)
 
 def workload(case: JournalCase) -> Workload:
     """Return the counts of a case."""
-    run, grid, film = case.run, case.solver.grid, case.film
-    oil = film.lubricated
-    return Workload(
+    mechanism = mechanism_of(case)
+    found = of_mechanism(mechanism)
+    return replace(
+        found,
         steps=_steps(case),
-        states=8.0 if case.journal.tilt else 4.0,
-        nodes=grid.theta * (grid.z + 2.0),
-        joints=1.0,
         fields=0.0,
-        samples=run.duration / run.output_interval,
-        followed=0.0,
-        quantities=len(OBSERVED),
-        cells=float(film.grid.theta * film.grid.z) if oil else 0.0,
-        band=(film.grid.z if case.journal.tilt else film.grid.z / 2.0) + 1.0 if oil else 0.0,
-        own_matrix=False,
-        compiled=case.solver.name == "mebdf",
+        quantities=float(layout_of(mechanism).size + N_REPORT),
+        # A level film is solved on half its length.
+        band=found.band if case.journal.tilt or not found.cells else 0.5 * case.film.grid.z + 1.0,
         keys=Keys(),
     )
 

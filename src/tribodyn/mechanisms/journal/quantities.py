@@ -1,11 +1,10 @@
-"""What is observed of a journal, in the order in which it is observed."""
+"""What results of a journal hold over time, and whose peaks are kept."""
 
 from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together
-from tribodyn.kernels.joints.quantities import REPORTED, STATES
+from tribodyn.core.quantities import Quantity
 from tribodyn.kernels.joints.quantities import WATCHED as OF_JOINT
 
 FILM: Final = (
@@ -23,36 +22,13 @@ LOADS: Final = (
 )
 ROTATION: Final = (Quantity("omega", "rad s-1", "speed of rotation about Z"),)
 ENERGIES: Final = (Quantity("energy_kinetic", "J", "kinetic energy of the motion in the clearance"),)
-FORCES: Final = (
+WORKS: Final = (
     Quantity("work_loads", "J", "work of the loads"),
     Quantity("work_friction", "J", "work of the bushing friction"),
     Quantity("heat_damping", "J", "damping heat of the contact"),
     Quantity("work_drive", "J", "work of the drive that keeps the speed"),
     Quantity("work_film", "J", "work of the oil film"),
 )
-"""What is integrated from forces on the coordinates of the centre, the tilts and the angle of rotation."""
-WATCHED_TABLES: Final = {"joint": OF_JOINT, "film": (Quantity("film_force", "N", "film force"),)}
-WATCHED: Final = together(WATCHED_TABLES)
-"""Sizes whose peaks are kept, in the order of ``kernels/peaks.py``."""
+WATCHED: Final = (*OF_JOINT, Quantity("film_force", "N", "film force"))
+"""Sizes whose peaks are kept."""
 COUNTS: Final = (Quantity("rebounds", "1", "how often the journal left contact again", ()),)
-
-TABLES: Final = {
-    "states": STATES,
-    "joint": REPORTED,
-    "film": FILM,
-    "loads": LOADS,
-    "rotation": ROTATION,
-    "energies": ENERGIES,
-    "works": FORCES,
-}
-QUANTITIES: Final = together(TABLES)
-"""Everything observed, in the order of a row."""
-OBSERVED: Final = names(QUANTITIES)
-
-Row: Final = of_tables(TABLES)
-States: Final = of_table(STATES)
-Film: Final = of_table(FILM)
-Loads: Final = of_table(LOADS)
-Forces: Final = of_table(FORCES)
-Counts: Final = of_table(COUNTS)
-Watched: Final = of_tables(WATCHED_TABLES)

@@ -1,1 +1,0 @@
-"""Kernels of a rigid journal in a bushing."""
