@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from tribodyn.core.quantities import Record
@@ -55,8 +56,17 @@ def by_address(films: FilmData, memory: FilmMemory) -> ByAddress:
     """Return :func:`film_force` for the films of a mechanism, and where there are none :func:`no_film`."""
     import numba
 
-    now, scratch, oil = map(numba.from_dtype, (CouplingNow, Scratch, Oil))
+    now, scratch, oil = _records()
     types = map(numba.typeof, (films, memory))
     signature = numba.void(numba.float64, *types, numba.int64, now, scratch, oil[::1])
     function: Callable[..., None] = film_force if films.constants.size else no_film
     return ByAddress(function, signature)
+
+
+@cache
+def _records() -> tuple[Any, Any, Any]:
+    """Return the types of a coupling, of the scratch of joints and of an oil film in compiled code."""
+    import numba
+
+    now, scratch, oil = map(numba.from_dtype, (CouplingNow, Scratch, Oil))
+    return now, scratch, oil
