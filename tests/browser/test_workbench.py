@@ -712,6 +712,10 @@ def _edit(person: Person, act: str) -> None:
     """Press a button of the dialog of the model, and wait for the run of the edited model."""
     person.page.locator(f"#{act}-model").click()
     person.page.locator("#edit").wait_for(state="hidden", timeout=SOON)
+    # Other equations may have to be compiled, which the page asks about.
+    person.wait_for("!requests.awaited && (pageState.shown || !document.getElementById('ask').hidden)")
+    if person.page.locator("#ask").is_visible():
+        person.page.locator("#ask [data-yes]").click()
     person.wait_for("pageState.shown && !requests.awaited")
 
 
@@ -766,7 +770,9 @@ def test_a_template_is_started_from(at: Opened, linkage: Workbench) -> None:
     person.wait_for("pageState.shown && !requests.awaited")
     person.press("m")
     assert person.overflow() == 0
-    person.page.locator("#template").select_option("latch")
+    first = "document.getElementById('first')"
+    assert person.page.evaluate(f"{first}.scrollWidth - {first}.clientWidth") <= 0
+    person.page.locator("#template").select_option("pendulum")
     _edit(person, "start")
-    assert "atch" in person.page.locator("h1").inner_text()
+    assert "Pendulum" in person.page.locator("h1").inner_text()
     assert person.page.evaluate("Object.keys(pageState.shown.sections)")

@@ -37,7 +37,8 @@ widgets.linkage = (box) => {
 /** Return where bodies and joints are, at some of the frames. */
 function shownPlaces({ bodies, joints, outlines }) {
   const SOME = 24;
-  const all = [...bodies, ...bodies.flatMap(({ solid }) => solid ?? []), ...outlines, ...joints.map((joint) => ({ points: joint.points, n: 2, shown: 1 }))];
+  const bores = joints.filter(({ clearance }) => clearance).flatMap(aroundBore);
+  const all = [...bores, ...bodies, ...bodies.flatMap(({ solid }) => solid ?? []), ...outlines, ...joints.map((joint) => ({ points: joint.points, n: 2, shown: 1 }))];
   return all.flatMap(({ points, n, shown = n }) => {
     const frames = points.length / (3 * n);
     const step = Math.max(1, Math.floor(frames / SOME));
@@ -47,6 +48,13 @@ function shownPlaces({ bodies, joints, outlines }) {
     }
     return found;
   });
+}
+
+/** Return points at a distance around a joint on all sides, so that the camera leaves room for its bore. */
+function aroundBore({ points, clearance }) {
+  const far = 2 * clearance.radius;
+  const ways = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+  return ways.map((way) => ({ points: points.map((value, k) => value + far * way[k % 3]), n: 2, shown: 1 }));
 }
 
 /** Return a stretch of colour for the key. */

@@ -13,7 +13,16 @@ function makeControls() {
   const first = document.getElementById("first");
   first.replaceChildren(...pageState.hello.controls.filter((one) => one.first).map(controlOf));
   document.querySelector("#controls .others").replaceChildren();
+  const boxes = [...first.children];
+  fillList("turned", boxes.map((box) => [box.dataset.key, box.getAttribute("aria-label")]));
+  if (boxes.length) bringForward(boxes[0]);
   find();
+}
+
+/** Have one of the first controls be that which a narrow page shows. */
+function bringForward(box) {
+  for (const one of document.querySelectorAll("#first .control")) one.classList.toggle("current", one === box);
+  document.getElementById("turned").value = box.dataset.key;
 }
 
 /** Show the controls that the search asks for. */
@@ -24,6 +33,7 @@ function find() {
 /** Connect the search. */
 function startControls() {
   const all = document.getElementById("all-keys");
+  document.getElementById("turned").addEventListener("change", (event) => bringForward(controlAt(event.target.value)));
   document.getElementById("search").addEventListener("input", find);
   all.addEventListener("click", () => {
     all.setAttribute("aria-pressed", String(all.getAttribute("aria-pressed") !== "true"));

@@ -32,6 +32,7 @@ const ELSEWHERE = [
 /** Put the focus on one of the first controls. */
 function focusControl(n) {
   const box = document.querySelectorAll("#first .control")[n];
+  if (box) bringForward(box);
   (box?.querySelector("input[type=range]") ?? box?.querySelector(".entry"))?.focus();
 }
 
