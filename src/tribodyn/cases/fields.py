@@ -5,6 +5,7 @@ The helpers below make pydantic fields; :func:`tribodyn.cases.keys.keys_of` coll
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, TypeAlias, TypedDict, Unpack
 
 from pydantic import Field
@@ -199,6 +200,14 @@ def _field(
     )
 
 
-def tables(description: str) -> Any:
-    """Declare tables that a user names, each of the group that the annotation ``Mapping[str, ...]`` says."""
-    return Field(default_factory=dict, description=description)
+def tables(description: str, default: Callable[[], dict[str, Any]] = dict) -> Any:
+    """Declare tables that a user names, each of the group that the annotation ``Mapping[str, ...]`` says.
+
+    Parameters
+    ----------
+    description
+        What they are.
+    default
+        Returns those that there are by default.
+    """
+    return Field(default_factory=default, description=description)

@@ -161,7 +161,9 @@ class VsvCase(BushingCase):
     mechanism: MechanismKeys = MechanismKeys()
     drive: CrankKeys = CrankKeys()
     loads: VsvLoadKeys = VsvLoadKeys()
-    outputs: Mapping[str, VaneOutput] = tables("what is compared with the motion without clearance")
+    outputs: Mapping[str, VaneOutput] = tables(
+        "what is compared with the motion without clearance", lambda: {"vane": VaneOutput()}
+    )
     wear: VaneWear = VaneWear()
     solver: Solver = Solver()
     run: VsvRunKeys = VsvRunKeys(cycles=2.0)
