@@ -49,6 +49,19 @@ def test_the_error_grows_by_the_depth_of_the_joint(by_error: xr.Dataset) -> None
     assert 0.5 * depth[-1] < growth < 1.05 * depth[-1]
 
 
+def test_life_by_error_of_one_cycle_is_that_of_the_first_rate_of_a_campaign(by_error: xr.Dataset) -> None:
+    # The pocket widens, so that the error grows more slowly later: here the campaign lasts 1.7 times as long.
+    result = worn(**{"outputs.way.error_limit": "24 um", "wear.depth_limit": "1 mm"})
+    numbers = summarise(result)
+    share, cycles = column(by_error, "wear_error_share"), column(by_error, "wear_cycles")
+    first = (1.0 - share[0]) * cycles[2] / (share[2] - share[0])
+    assert numbers["error_life_cycles_way"] == pytest.approx(first, rel=0.1)
+    assert 1.2 < summarise(by_error)["wear_life_cycles"] / numbers["error_life_cycles_way"] < 2.5
+    assert numbers["wear_life_cycles"] == numbers["error_life_cycles_way"] < numbers["wear_life_cycles_wrist"]
+    assert "error_life_cycles_stroke" not in numbers
+    assert "Life by the error of output way is a linear estimate of 1 cycles" in result.attrs["notes"]
+
+
 def test_life_of_each_joint_at_the_rate_of_one_cycle() -> None:
     result = worn(**{"wear.depth_limit": "2 um"})
     numbers = summarise(result)

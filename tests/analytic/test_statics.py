@@ -277,3 +277,13 @@ def test_shafts_whose_force_passes_through_zero_change_sides() -> None:
     result = td.simulate(case.replace(ideal))
     assert result.attrs["failure"] == ""
     assert summarise(result)["error_rms_deg_vane"] > 0.03
+
+
+def test_superposition_has_no_errors_of_velocities() -> None:
+    # It displaces bodies; what that is for a velocity is the displacement, in another unit.
+    drawn = press(radius="9.5 mm", radial="20 um", length="20 mm", axial="50 um")
+    result = td.simulate(drawn.case().replace({"run.analysis": "kinematic"}))
+    for output, known in (("speed", False), ("rate", False), ("way", True), ("lean", True)):
+        place = result["output"].values.tolist().index(output)
+        estimate = column(result, "error_estimate")[:, place, result["joint"].values.tolist().index("wrist")]
+        assert np.isfinite(estimate).all() == known, output

@@ -15,7 +15,7 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
-from tribodyn.joints.shapes.base import Points
+from tribodyn.joints.shapes.base import Points, Surface
 from tribodyn.joints.shapes.rings import Rings
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.arrays import new_record
@@ -200,7 +200,8 @@ class BushingJoint:
             minimum_velocity=entry.minimum_velocity,
             tensile_clip=entry.tensile_clip,
         )
-        surface = join((self._place,), (law,), depth.ravel())
+        place = Place(0, self.surface, slice(0, depth.size))
+        surface = join((place,), (law,), depth.ravel())
         record = surface.surfaces[0]
         record["along"] = 0.0
         record["torque_radius"] = size.bore_radius if friction.model == "moment" else 0.0
@@ -215,13 +216,12 @@ class BushingJoint:
         )
 
     @property
-    def _place(self) -> Place:
+    def surface(self) -> Surface:
         """The nodes, at angles from which the bushing presses, see ``kernels/joints/bushing.py``."""
         ones, radius = np.ones(self.z.size), self.geometry.radius
         rings = Rings(-radius * ones, self.z, -ones, 0.0 * ones, self._strip)
         surface = rings.surface("bushing", ("z", self.z), 0.0, self.grid.theta, AXIS)
-        surface = replace(surface, gap=self.form_gap.ravel(), lean=radius)
-        return Place(0, surface, slice(0, surface.area.size))
+        return replace(surface, gap=self.form_gap.ravel(), lean=radius)
 
 
 def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> JointMemory:

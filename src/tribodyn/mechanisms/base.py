@@ -278,6 +278,23 @@ class WearingSystem(SimulatedSystem, Protocol):
         """Return what a campaign writes down about the motion of a complete cycle, by name."""
         ...
 
+    def output_lives(self, run: FinishedRun, depth: FloatArray) -> Mapping[str, float]:
+        """Return after how many cycles the errors of outputs reach their limits, by their names.
+
+        Parameters
+        ----------
+        run
+            A complete cycle at least.
+        depth
+            What is worn off at the nodes in each cycle [m], in their shape.
+
+        Returns
+        -------
+        mapping
+            Of all outputs; NaN for those that never do, or of which nothing is known.
+        """
+        ...
+
     def contact_energy(self, worn: Worn) -> float:
         """Return the energy stored in the contact [J]."""
         ...

@@ -118,11 +118,24 @@ def _of_limit(output: str) -> Headline:
     return Headline("Error, of its limit", "%", "Outputs", meaning, compute).of_part(output)
 
 
+def _life(output: str) -> Headline:
+    """Return the life of an output by its error; NaN without a limit."""
+    meaning = "Drive cycles until the error reaches its limit at the wear rate of this run, estimated."
+
+    def compute(dataset: xr.Dataset) -> float:
+        return float(column(dataset, "output_life")[number_of(dataset, output)])
+
+    return Headline("Life by error", "cycles", "Outputs", meaning, compute).of_part(output)
+
+
 BY_OUTPUT: Final[dict[str, ByPart]] = {
     f"error_{measure}_{spelled}": partial(_made, measure, unit)
     for unit, (spelled, _, _) in ERROR_UNITS.items()
     for measure in READINGS
-} | {"error_of_limit_percent": _of_limit}
+} | {
+    "error_of_limit_percent": _of_limit,
+    "error_life_cycles": _life,
+}
 """Key results of each output, by what stands before its name."""
 
 

@@ -47,6 +47,9 @@ OUTPUTS: Final[dict[str, Variable]] = {
     "output_error_limit": Variable(
         "1", "error at which the mechanism is worn out, in the unit of the output", ("output",)
     ),
+    "output_life": Variable(
+        "1", "drive cycles until the error reaches its limit, a linear estimate of one run", ("output",)
+    ),
     "instant": Variable("", "where an error is read", _INSTANT, named=True, parts="instants"),
     "instant_output": Variable("", "name of the output whose error is read", _INSTANT, named=True),
     "error_at": Variable("1", "mean error at the instant, in the unit of the output", _INSTANT),

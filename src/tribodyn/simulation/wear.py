@@ -28,10 +28,14 @@ def simulate_plain(session: Session) -> xr.Dataset:
     system, wear = cast(WearingSystem, session.system), cast(WearingCase, session.case).wear
     run = session.integrated(session.case.duration)
     depth = _archard(system, wear).depth(system.sliding_load(run.problem))
-    life = _linear_life(wear, run.solution.t_end / system.period, depth)
+    cycles = run.solution.t_end / system.period
+    of_outputs, notes = _by_error(system, run, cycles, depth)
+    life = _linear_life(wear, cycles, depth, of_outputs)
     if life:
         life |= _stated_factor(cast(Case, session.case))
-    return session.dataset(run, _worn(system, depth, wear, life))
+    part = _worn(system, depth, wear, life)
+    fields = {**part.fields, **of_outputs}
+    return session.dataset(run, replace(part, fields=fields, notes=[*part.notes, *notes]))
 
 
 def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
@@ -119,12 +123,56 @@ def _deepest(system: WearingSystem, depth: FloatArray, limit: float | None) -> l
     return [f"Worn deepest is {system.part_of(node)}: {share:.3g} % of wear.depth_limit."]
 
 
-def _linear_life(wear: groups.Wear, cycles: float, depth: FloatArray) -> dict[str, object]:
-    """Return after how many cycles the depth limit is reached if the wear of this run goes on."""
+def _linear_life(
+    wear: groups.Wear, cycles: float, depth: FloatArray, of_outputs: Mapping[str, FloatArray]
+) -> dict[str, object]:
+    """Return after how many cycles the first limit is reached if the wear of this run goes on."""
     limit, deepest = wear.depth_limit, float(depth.max(initial=0.0))
-    if limit is None or cycles < 1.0 - 1e-9 or deepest == 0.0:
+    if not _has_cycle(cycles) or deepest == 0.0:
         return {}
-    return {"wear_life_cycles": limit * cycles / deepest}
+    by_error = of_outputs.get("output_life", np.empty(0))
+    by_depth = [] if limit is None else [limit * cycles / deepest]
+    found = [*by_error[np.isfinite(by_error)].tolist(), *by_depth]
+    return {"wear_life_cycles": min(found)} if found else {}
+
+
+def _has_cycle(cycles: float) -> bool:
+    """Return whether a run holds a whole cycle."""
+    return cycles >= 1.0 - 1e-9
+
+
+def _by_error(
+    system: WearingSystem, run: FinishedRun, cycles: float, depth: FloatArray
+) -> tuple[dict[str, FloatArray], list[str]]:
+    """Return the lives by the errors of outputs at the wear of this run, and what is to be said of them.
+
+    Parameters
+    ----------
+    system
+        What wears.
+    run
+        Its run.
+    cycles
+        How many cycles that is.
+    depth
+        What it wore off at the nodes [m].
+    """
+    if not _has_cycle(cycles) or not depth.any():
+        return {}, []
+    found = system.output_lives(run, depth / cycles)
+    known = {name: life for name, life in found.items() if math.isfinite(life)}
+    if not known:
+        return {}, []
+    first = min(known, key=lambda name: known[name])
+    reached = float(depth.max()) / cycles * known[first]
+    share = reached / system.nodes.roughness
+    small = "the contact hardly changes"
+    words = small if share < 1.0 else "a wear campaign follows how the contact changes"
+    note = (
+        f"Life by the error of output {first} is a linear estimate of {cycles:.3g} cycles: by then the "
+        f"largest depth is {1e6 * reached:.3g} um, {share:.2g} times the roughness; {words}."
+    )
+    return {"output_life": np.array(list(found.values()))}, [note]
 
 
 def _stated_factor(case: Case) -> dict[str, object]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Final
 
 import numpy as np
 
@@ -21,9 +20,6 @@ from tribodyn.mechanisms.general.outputs import Output
 from tribodyn.mechanisms.general.superposition import CAUSES, JointReaction, superposed
 from tribodyn.mechanisms.output_instants import errors_at
 from tribodyn.mechanisms.output_keys import Instant, instant_coordinates, instants_of
-
-_SIGNED: Final = ("distance", "angle", "angular_velocity")
-"""Quantities whose errors have a sign without a direction."""
 
 
 def kinematic_columns(
@@ -52,11 +48,11 @@ def kinematic_columns(
         if known and keys is not None:
             force, moment = couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k]
             spin = couplings["relative_rate"][:, k, 2]
-            real[k] = JointReaction(clearance, keys.friction_coefficient, force, moment, spin)
+            reaction = JointReaction(clearance, keys.friction_coefficient, force, moment, spin)
+            real[k] = reaction.displacements()
     if real:
         estimate[:, :, list(real)] = superposed(IdealMechanism(assembly), outputs, times, real)
-    signed = [output.keys.quantity in _SIGNED or output.keys.along is not None for output in outputs]
-    estimate[:, ~np.array(signed)] = np.nan
+    estimate[:, ~np.array([output.has_displacement for output in outputs])] = np.nan
     return {
         "output_ratio": velocity_ratios(assembly, outputs, times),
         "error_estimate": estimate,

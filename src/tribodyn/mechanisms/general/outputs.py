@@ -90,6 +90,11 @@ class Output:
         return self.keys.quantity in _RATE_OF
 
     @property
+    def has_displacement(self) -> bool:
+        """Whether its error is that of a displacement and has a sign: no velocity, no length of a vector."""
+        return not self.is_rate and (self.keys.quantity == "distance" or self.keys.along is not None)
+
+    @property
     def unit(self) -> str:
         """Its SI unit."""
         return self.keys.unit

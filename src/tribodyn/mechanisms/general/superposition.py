@@ -98,9 +98,9 @@ def superposed(
     mechanism: IdealMechanism,
     outputs: Sequence[Output],
     times: FloatArray,
-    joints: Mapping[int, JointReaction],
+    displaced: Mapping[int, FloatArray],
 ) -> FloatArray:
-    """Return the errors of outputs that each joint causes by itself.
+    """Return the errors of outputs that the displacements of each joint cause by themselves.
 
     Parameters
     ----------
@@ -110,29 +110,29 @@ def superposed(
         To be evaluated, along a direction, about an axis, or a distance.
     times
         Rising, from 0 [s], shape (n_t,).
-    joints
-        Reactions of the joints with clearance, by their numbers.
+    displaced
+        Displacement and rotation of the shaft by the numbers of joints, shape (n_t, n_causes, 6) each.
 
     Returns
     -------
     numpy.ndarray
-        In the units of the outputs, shape (n_t, n_outputs, n_joints, 3), the last over ``CAUSES``.
+        In the units of the outputs, shape (n_t, n_outputs, n_joints, n_causes).
     """
     system = mechanism.system
-    displaced = {k: joint.displacements() for k, joint in joints.items()}
-    rows = {k: [i for i, (number, _) in enumerate(system.rows) if number == k] for k in joints}
+    rows = {k: [i for i, (number, _) in enumerate(system.rows) if number == k] for k in displaced}
+    n_causes = next(iter(displaced.values())).shape[1]
 
     def missed(position: int) -> FloatArray:
-        """Return by how much rows miss for each joint and cause, shape (n_rows, 3 n_joints)."""
-        found = np.zeros((len(system.rows), len(CAUSES) * len(joints)))
-        for place, k in enumerate(joints):
+        """Return by how much rows miss for each joint and cause, shape (n_rows, n_joints n_causes)."""
+        found = np.zeros((len(system.rows), n_causes * len(displaced)))
+        for place, k in enumerate(displaced):
             normals = system.now.couplings["N"][k][: len(rows[k])]
-            columns = slice(len(CAUSES) * place, len(CAUSES) * (place + 1))
+            columns = slice(n_causes * place, n_causes * (place + 1))
             found[rows[k], columns] = normals @ displaced[k][position].T
         return found
 
     found = responses(mechanism, outputs, times, missed)
-    return found.reshape(times.size, len(outputs), len(joints), len(CAUSES))
+    return found.reshape(times.size, len(outputs), len(displaced), n_causes)
 
 
 def responses(

@@ -35,6 +35,7 @@ from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
 from tribodyn.mechanisms.general.output_columns import instant_errors, kinematic_columns, output_coordinates
+from tribodyn.mechanisms.general.output_life import error_growth
 from tribodyn.mechanisms.general.outputs import MOTION, Motion, Output, outputs_of
 from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy, template
@@ -50,6 +51,7 @@ from tribodyn.mechanisms.general.variables import (
 from tribodyn.mechanisms.general.vibrations import Vibrations, vibrations_of, without_friction
 from tribodyn.mechanisms.general.worn import depth_of, least_roughness, worn_model
 from tribodyn.mechanisms.output_keys import error_share, limits_of
+from tribodyn.mechanisms.output_life import lives
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.results.attributes import CARRIED, NOT_KEPT
 
@@ -207,6 +209,20 @@ class MechanismSystem:
     def contact_energy(self, worn: Worn) -> float:
         """Return the energy stored in the contact [J]."""
         return stored_energy(self.problem(self.period, worn))
+
+    def output_lives(self, run: FinishedRun, depth: FloatArray) -> dict[str, float]:
+        """Return after how many cycles the errors of outputs reach their limits, by their names."""
+        limits = limits_of(self.case.outputs)
+        known = self._analysis == "dynamic" and not self.assembly.strain
+        if not known or not np.isfinite(limits).any():
+            return dict.fromkeys(self.case.outputs, np.nan)
+        film = self._playback(run)
+        times = run.solution.picture_times[film]
+        pressure = np.asarray(run.solution.pictures[film, : self.maps.n_nodes], dtype=np.float64)
+        growth = error_growth(self.assembly, self.outputs, self.maps.places, times, pressure, depth)
+        columns, _ = self._of_outputs(self._observed(run), run)
+        error = np.stack([np.interp(times, run.solution.t, one) for one in columns["output_error"].T], axis=1)
+        return dict(zip(self.case.outputs, lives(error, growth, limits).tolist(), strict=True))
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""

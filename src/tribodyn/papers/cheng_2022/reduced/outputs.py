@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Final, Literal
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from tribodyn.cases.fields import choice
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.mechanisms.output_instants import errors_at
 from tribodyn.mechanisms.output_keys import ErrorKeys, instants_of, limits_of
 
@@ -24,6 +26,8 @@ class VaneOutput(ErrorKeys):
     )
 
 
+_HANDS: Final = np.array([1.0, 1.0, 1.0, -1.0])
+"""Signs of e_x, e_y, φ_x and φ_y, which is left-handed, over right-handed ones."""
 DEFAULT: Final = {"outputs.vane.quantity": "angle"}
 """The output that every case has."""
 
@@ -65,3 +69,43 @@ def output_fields(
     instants, errors = instants_of(outputs), dict(zip(outputs, error.T, strict=True))
     at = errors_at(instants, times, errors, lambda instant: crank, period) if instants else {}
     return {"output_error_limit": limits_of(outputs), **at}
+
+
+def error_growth(
+    outputs: Mapping[str, VaneOutput], mechanism: Record, poses: FloatArray, moved: FloatArray
+) -> FloatArray:
+    """Return what displacements of the trunnion add to the errors of outputs, shape (n_t, n_outputs).
+
+    Parameters
+    ----------
+    outputs
+        By name.
+    mechanism
+        Sizes of the mechanism, as kernels read them.
+    poses
+        θ_a, e_x, e_y, φ_x and φ_y [rad and m], shape (n_t, 5).
+    moved
+        Displacement [m] and rotation [rad] of the trunnion, right-handed, shape (n_t, 6).
+
+    Returns
+    -------
+    numpy.ndarray
+        In the units of the outputs; NaN for angular velocities.
+    """
+    change = moved[:, [0, 1, 3, 4]] * _HANDS
+    angles = [
+        [_vane_angle(mechanism, *(pose + side * np.append(0.0, step))) for side in (0.5, -0.5)]
+        for pose, step in zip(poses, change, strict=True)
+    ]
+    of_angle = -np.diff(np.array(angles), axis=1)
+    is_angle = [keys.quantity == "angle" for keys in outputs.values()]
+    return np.asarray(np.where(is_angle, of_angle, np.nan))
+
+
+def _vane_angle(
+    mechanism: Record, theta_a: float, e_x: float, e_y: float, phi_x: float, phi_y: float
+) -> float:
+    """Return the angle of the vane of a trunnion that is displaced and tilted [rad]."""
+    from tribodyn.kernels.vsv.closure import vane_angle
+
+    return float(vane_angle(mechanism, theta_a, e_x, e_y, math.tan(phi_x), math.tan(phi_y)))

@@ -33,7 +33,8 @@ from tribodyn.mechanisms.bushing import (
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
-from tribodyn.mechanisms.output_keys import error_share, instant_coordinates
+from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, limits_of
+from tribodyn.mechanisms.output_life import lives, shaft_displacements
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -41,7 +42,7 @@ from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warni
 from tribodyn.papers.cheng_2022.reduced.course import course
 from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE, ledger_columns
 from tribodyn.papers.cheng_2022.reduced.loads import terms_of
-from tribodyn.papers.cheng_2022.reduced.outputs import output_columns, output_fields
+from tribodyn.papers.cheng_2022.reduced.outputs import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_vane_angle
@@ -49,6 +50,8 @@ from tribodyn.papers.cheng_2022.reduced.times import following, output_times, sn
 from tribodyn.results.attributes import CARRIED
 from tribodyn.wear import loaded_depth
 
+_POSE: Final = ("theta_a", "e_x", "e_y", "phi_x", "phi_y")
+"""What the angle of the vane follows from."""
 _FOLLOWED: Final = {
     ("the vane", "angles"): "theta_v",
     ("the crank", "angles"): "theta_a",
@@ -184,6 +187,20 @@ class VsvSystem:
         assert worn.carried is not None
         data = self.worn_bushing(worn.depth).data(worn.depth)
         return contact_energy(data, worn.carried.state, worn.carried.entry_velocity)
+
+    def output_lives(self, run: FinishedRun, depth: FloatArray) -> dict[str, float]:
+        """Return after how many cycles the errors of outputs reach their limits, by their names."""
+        film, rows = self._playback(run), run.rows(OBSERVED)
+        times = run.solution.picture_times[film]
+        states = np.stack([np.interp(times, run.solution.t, rows[name]) for name in _POSE], axis=1)
+        weight = (run.solution.pictures[film, 0] * self._area).reshape(times.size, -1)
+        surface = self.bushing.surface
+        moved = shaft_displacements(surface.position, surface.normal, weight, depth.ravel())
+        growth = error_growth(self.case.outputs, run.problem.data.mechanism, states, moved)
+        error = output_columns(self.case.outputs, rows)["output_error"]
+        error = np.stack([np.interp(times, run.solution.t, one) for one in error.T], axis=1)
+        found = lives(error, growth, limits_of(self.case.outputs))
+        return dict(zip(self.case.outputs, found.tolist(), strict=True))
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return what a campaign writes down about the motion of one cycle."""
