@@ -19,6 +19,7 @@ from tribodyn.mechanisms.general.readings import (
     of_joint,
     of_surfaces,
     offset,
+    partner_share,
     sizes,
     wear_life,
     wear_rate,
@@ -389,6 +390,20 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Drive cycles until this joint is worn to the depth limit, at its last rate; all of them, those of "
         "the campaign included.",
         wear_life,
+    ),
+    "bore_life_cycles": _named(
+        "Life of the bore",
+        "cycles",
+        "Joints",
+        "Drive cycles until the bore alone is worn to the depth limit, where both partners wear.",
+        lambda d, j: wear_life(d, j, 1.0 - partner_share(d, j)),
+    ),
+    "shaft_life_cycles": _named(
+        "Life of the shaft",
+        "cycles",
+        "Joints",
+        "Drive cycles until the shaft alone is worn to the depth limit, where both partners wear.",
+        lambda d, j: wear_life(d, j, partner_share(d, j)),
     ),
     "partner_wear_depth_nm": _named(
         "Wear depth of the partner",

@@ -69,8 +69,17 @@ def wear_rate(dataset: xr.Dataset, joint: int) -> float:
     return above_zero(float(depth[-1] - depth[-2]) / float(cycles[-1] - cycles[-2]))
 
 
-def wear_life(dataset: xr.Dataset, joint: int) -> float:
-    """Return after how many cycles a joint is worn to the depth limit."""
+def wear_life(dataset: xr.Dataset, joint: int, share: float = 1.0) -> float:
+    """Return after how many cycles a joint, or what has a share of its depth, is worn to the limit."""
     cycles, depth = _worn_depths(dataset, joint)
-    left = float(dataset.attrs["wear_depth_limit"]) - float(depth[-1])
-    return float(cycles[-1]) + left / wear_rate(dataset, joint)
+    left = float(dataset.attrs["wear_depth_limit"]) - share * float(depth[-1])
+    return float(cycles[-1]) + left / (share * wear_rate(dataset, joint))
+
+
+def partner_share(dataset: xr.Dataset, joint: int) -> float:
+    """Return the share of the wear of a joint that is worn off its shaft."""
+    surfaces = of_surfaces(dataset, joint)
+    worn, whole = (
+        float(np.nansum(column(dataset, name)[surfaces])) for name in ("partner_wear_depth", "wear_depth")
+    )
+    return worn / whole
