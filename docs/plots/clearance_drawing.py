@@ -15,7 +15,7 @@ from matplotlib.patches import Circle, Rectangle
 
 import tribodyn as td
 from tribodyn.figures.style import BLUE, GREY, INK, VERMILION
-from tribodyn.mechanisms.general.headlines import lasting
+from tribodyn.results.reading import lasting
 
 STEEL: Final = "#c9d3dd"
 BORE: Final = "#e3d9c8"

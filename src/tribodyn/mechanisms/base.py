@@ -21,6 +21,7 @@ from tribodyn.cases.load import BuiltIn
 from tribodyn.cases.messages import Remarks
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.mechanisms.workload import Workload
 from tribodyn.results.summary import Headline
 from tribodyn.results.variables import Variable
@@ -33,57 +34,6 @@ if TYPE_CHECKING:
 
 
 WearRates: TypeAlias = tuple[float | FloatArray, float | FloatArray]
-
-
-@dataclass(frozen=True)
-class Carried:
-    """What a run hands on to the next one, which begins where it ended in the drive's cycle.
-
-    Attributes
-    ----------
-    state
-        The states, shape (n,).
-    entry_velocity
-        Memory of contact: δ̇₋ at the nodes [m/s], in the shape of the nodes.
-    """
-
-    state: FloatArray
-    entry_velocity: FloatArray
-
-
-@dataclass(frozen=True)
-class Worn:
-    """The joints that a run is made with.
-
-    Attributes
-    ----------
-    depth
-        Wear depth at the nodes [m], in their shape.
-    carried
-        Where the run goes on from; None for the start of the case.
-    """
-
-    depth: FloatArray
-    carried: Carried | None = None
-
-
-@dataclass(frozen=True)
-class WearNodes:
-    """The nodes of all that wears.
-
-    Attributes
-    ----------
-    area
-        Area that each node stands for [m²], in the shape of the nodes.
-    roughness
-        The least combined rms roughness σ among them [m].
-    n_states
-        Length of the state that :class:`Carried` hands on.
-    """
-
-    area: FloatArray
-    roughness: float
-    n_states: int
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.base import Carried
+from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.simulation.history import History, appended, empty_history, thinned
 from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
 

@@ -18,7 +18,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import open_regular
 from tribodyn.core.quoting import LONGEST, brief
 from tribodyn.core.versions import provenance
-from tribodyn.mechanisms.base import Carried
+from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.results.atomic import replacing
 from tribodyn.simulation.campaign import Campaign
 from tribodyn.simulation.history import columns

@@ -10,14 +10,8 @@ import xarray as xr
 from tribodyn.core.stopping import Stop, skipped
 from tribodyn.core.versions import provenance
 from tribodyn.integrate import INTERRUPTED, integrate
-from tribodyn.mechanisms.base import (
-    FinishedRun,
-    MechanismDescriptor,
-    ResultPart,
-    SimulatedSystem,
-    SystemCase,
-    Worn,
-)
+from tribodyn.mechanisms.base import FinishedRun, MechanismDescriptor, ResultPart, SimulatedSystem, SystemCase
+from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
 from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
 from tribodyn.simulation import hashes

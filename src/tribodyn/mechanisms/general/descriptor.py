@@ -9,7 +9,8 @@ from tribodyn.cases.load import BuiltIn, flat
 from tribodyn.core import toml
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.headlines import BY_JOINT, HEADLINES, KEY_NUMBERS
+from tribodyn.mechanisms.general.headlines import HEADLINES, KEY_NUMBERS
+from tribodyn.mechanisms.general.joint_numbers import BY_JOINT
 from tribodyn.mechanisms.general.library import BUILT_IN, TEMPLATES
 from tribodyn.mechanisms.general.mode_numbers import BY_MODE
 from tribodyn.mechanisms.general.variables import OF_CYCLE, VARIABLES

@@ -1,4 +1,7 @@
-"""A case of a mechanism as a system to integrate, and what its runs tell."""
+"""A case of a mechanism as a system to integrate, and what its runs tell.
+
+One file because all of it is asked of one object, which computes assembly, start and maps once.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
-from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
+from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.general import checks
 from tribodyn.mechanisms.general.analysis import NOTES, analysed
@@ -53,6 +56,7 @@ from tribodyn.mechanisms.general.worn import depth_of, least_roughness, worn_mod
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_life import lives
 from tribodyn.mechanisms.playback import frame_times, shown
+from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.results.attributes import CARRIED, NOT_KEPT
 
 _STATES: Final = 13

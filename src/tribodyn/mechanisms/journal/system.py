@@ -21,7 +21,7 @@ from tribodyn.kernels.joints.quantities import EXTREMES
 from tribodyn.kernels.joints.surface.quantities import N_REPORT, REPORTED
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.kernels.mechanism.functions import observe_surfaces
-from tribodyn.mechanisms.base import FinishedRun, ResultPart, Worn
+from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -45,6 +45,7 @@ from tribodyn.mechanisms.journal.model import BEARING, inertia, mechanism_of
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
 from tribodyn.mechanisms.journal.quantities import FILM, LOADS, WATCHED
 from tribodyn.mechanisms.journal.rows import TURNED, layout_of, peaks_of, rebounds_of, rows_of
+from tribodyn.mechanisms.wear_state import Worn
 
 SETTLED: Final = 0.01
 """Distance from the static equilibrium, over the clearance, within which a journal has settled."""

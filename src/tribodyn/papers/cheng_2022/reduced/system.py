@@ -21,7 +21,7 @@ from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import BEYOND, BEYOND_LAW
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
-from tribodyn.mechanisms.base import Carried, FinishedRun, ResultPart, WearNodes, WearRates, Worn
+from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -37,6 +37,7 @@ from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, li
 from tribodyn.mechanisms.output_life import lives, shaft_displacements
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
+from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warnings
 from tribodyn.papers.cheng_2022.reduced.course import course
