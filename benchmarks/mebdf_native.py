@@ -13,7 +13,7 @@ from numba.core.types import FunctionType
 from benchmarks.problems import JAC, RHS, Benchmark
 from mebdf.kernels.arrays import copy
 from mebdf.kernels.core import resume
-from mebdf.kernels.jit import kernel
+from mebdf.kernels.jit import entry, kernel
 from mebdf.kernels.phases import FAILED, NEED_F, NEED_JACOBIAN
 from mebdf.kernels.state import HISTORY, JACOBIAN, F, Y, new_state
 
@@ -38,7 +38,7 @@ def _run(rhs, jac, state):  # type: ignore[no-untyped-def]
             return False
 
 
-@kernel
+@entry
 def _repeated(rhs, jac, state, start, repeats):  # type: ignore[no-untyped-def]
     """Integrate again and again from the same start."""
     failed = False

@@ -67,7 +67,9 @@ def test_shares_are_those_of_results_in_the_folder(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("case", "said"), [("vsv", "has no output"), ("ideal", "no joint has clearance")], ids=["vsv", "ideal"]
+    ("case", "said"),
+    [("vsv", "one joint with clearance, which causes all"), ("ideal", "no joint has clearance")],
+    ids=["vsv", "ideal"],
 )
 def test_without_outputs_or_clearances_there_is_nothing_to_divide(
     case: str, said: str, tmp_path: Path

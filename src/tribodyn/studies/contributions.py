@@ -146,12 +146,14 @@ def real_joints(case: Case) -> tuple[str, ...]:
     Raises
     ------
     InputError
-        It has no outputs, or no such joint.
+        It has no outputs, or fewer joints than could share the error.
     """
     if not getattr(case, "outputs", None):
         words = "the case has no output whose error could be divided; write one, such as outputs.NAME.body"
         raise InputError(words, key="outputs")
     joints: Mapping[str, Any] = getattr(case, "joints", {})
+    if not joints:
+        raise InputError("the case has one joint with clearance, which causes all of the error", key="case")
     found = tuple(name for name, joint in joints.items() if joint.real is not None)
     if not found:
         raise InputError("no joint has clearance; write joints.NAME.clearance", key="joints")

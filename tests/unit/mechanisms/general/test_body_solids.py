@@ -52,6 +52,9 @@ def test_a_body_without_a_shape_has_no_solid() -> None:
     assert body_solid(case.bodies["part"]) is None
 
 
+REACTIONS = ("reaction_force", "reaction_force_global", "reaction_moment_global")
+
+
 def test_the_scene_moves_solids_with_their_bodies() -> None:
     """Check that a rod that turns about the origin by a right angle lies along Y in the last frame."""
     case = drawn("rod", mass="1 kg", start="0, 0, 0 mm", end="100, 0, 0 mm", radius="5 mm").case()
@@ -61,8 +64,10 @@ def test_the_scene_moves_solids_with_their_bodies() -> None:
             "position": (("time", "body", "axis"), [[[0.05, 0.0, 0.0]], [[0.0, 0.05, 0.0]]]),
             "orientation": (("time", "body", "part"), [[[1.0, 0.0, 0.0, 0.0]], [[half, 0.0, 0.0, half]]]),
             "frame_time": ("frame", [0.0, 1.0]),
+            "clearance": ("joint", [np.nan] * len(case.joints)),
+            **dict.fromkeys(REACTIONS, (("time", "joint", "axis"), np.zeros((2, len(case.joints), 3)))),
         },
-        coords={"time": [0.0, 1.0]},
+        coords={"time": [0.0, 1.0], "joint": list(case.joints)},
         attrs={"case": case.to_toml()},
     )
     payload = mechanism.data(dataset)
