@@ -1,4 +1,4 @@
-"""Headline numbers of a mechanism: of the whole."""
+"""Key results of a mechanism as a whole."""
 
 from __future__ import annotations
 

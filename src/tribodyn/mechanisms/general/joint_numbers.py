@@ -1,4 +1,4 @@
-"""Headline numbers of each joint by its name, and how a sustained maximum is told beside its peak."""
+"""Key results of each joint by its name; the sustained maximum of a quantity stands beside its peak."""
 
 from __future__ import annotations
 
