@@ -29,7 +29,7 @@ from tribodyn.kernels.mechanism.solution import (
     set_offsets,
 )
 from tribodyn.mechanisms.general.actions import GIVEN
-from tribodyn.mechanisms.general.decompositions import svd
+from tribodyn.mechanisms.general.decompositions import complement, has_full_rank, pseudo_inverse, svd
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.joints import JOINTS
@@ -185,11 +185,13 @@ class System:
         if rows is None and self.known_rank is not None:
             return self.known_rank
         given = self.over_sizes(self.matrix() if rows is None else rows)
-        return rank_of(svd(given)[1])
+        return min(given.shape) if has_full_rank(given, DEPENDENT) else rank_of(svd(given)[1])
 
     def inverse(self, scaled: FloatArray, rows: FloatArray | None = None) -> FloatArray:
         """Return the pseudo-inverse of rows that were scaled by mass, of the rank of ``rows`` or of all."""
         rank = self.rank(rows)
+        if rank == min(scaled.shape) and (found := pseudo_inverse(scaled)) is not None:
+            return found
         u, values, v = svd(scaled)
         return np.asarray(dense.product(v[:rank].T / values[:rank], u[:, :rank].T))
 
@@ -376,7 +378,7 @@ class System:
         if not self.rows:
             return 0, np.zeros((0, 0))
         rank, vanishing = self._rank()
-        if rank == len(self.rows):
+        if rank == min(len(self.rows), 6 * self.n):
             return rank, vanishing
         kept = self.position()
         rng = np.random.default_rng(1)
@@ -390,7 +392,11 @@ class System:
 
     def _rank(self) -> tuple[int, FloatArray]:
         """Return rank and vanishing combinations of the rows, each of length one, here."""
-        _, values, left = svd(self.over_sizes(self.matrix()).T)
+        given = self.over_sizes(self.matrix())
+        if has_full_rank(given, DEPENDENT):
+            m, n = given.shape
+            return min(m, n), complement(given) if m > n else np.zeros((0, m))
+        _, values, left = svd(given.T)
         rank = rank_of(values)
         return rank, left[rank:]
 

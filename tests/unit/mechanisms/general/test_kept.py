@@ -9,10 +9,12 @@ import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.general.kept import OF_LARGE, Layout, frames, layout_of, not_kept
+from tribodyn.mechanisms.general.sections.mechanism import data
 from tribodyn.mechanisms.general.system import MechanismSystem
 from tribodyn.mechanisms.general.variables import BODIES, JOINTS, OIL, observed
 from tribodyn.mechanisms.results import all_there, summarise
 from tribodyn.results import json_attribute
+from tribodyn.views.playback import playback_times
 
 BRIEF = {"run.cycles": 0.02}
 EFFORT = ("wall_time_s", "real_time_factor")
@@ -40,6 +42,15 @@ def test_what_is_kept_has_the_same_bits(whole, large):
     assert left_out == {*BODIES, *JOINTS} - {*OF_LARGE, *OIL}
     for name in large.variables:
         np.testing.assert_array_equal(large[name].values, whole[name].values, err_msg=str(name))
+
+
+def test_a_large_model_is_drawn_with_its_forces(whole, large):
+    times = playback_times(whole)
+    for kind, drawn in data(large)["forces"].items():
+        for name, arrow in drawn["at"].items():
+            known = whole[f"reaction_{kind}_global"].sel(joint=name).values
+            expected = np.stack([np.interp(times, whole["time"].values, one) for one in known.T], axis=-1)
+            np.testing.assert_allclose(arrow.array, expected.ravel(), atol=1e-5 * np.max(np.abs(known)))
 
 
 def test_key_results_are_the_same(whole, large):

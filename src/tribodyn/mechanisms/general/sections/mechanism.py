@@ -81,7 +81,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
             for mark, points in zip(drawn.marks, marks, strict=True)
         ],
         "magnification": magnified(real.values()),
-        "forces": forces(dataset),
+        "forces": forces(dataset, case, drawn, orientation),
         "springs": [packed(outline_at(drawn, line, position, orientation)) for line in drawn.springs],
         "outlines": [
             {"colour": _colour(outline[0][0]), "n": points.shape[1], "points": packed(points)}

@@ -87,20 +87,24 @@ def _tilt(dataset: xr.Dataset, joint: int, times: FloatArray) -> FloatArray:
     return np.stack([y, -x, 0.0 * x], axis=-1)
 
 
-def forces(dataset: xr.Dataset) -> dict[str, Any]:
+def forces(
+    dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, orientation: FloatArray
+) -> dict[str, Any]:
     """Return forces [N] and moments [N m] of the joints that carry most, on their second bodies.
 
-    Each with the size that an arrow of full length stands for, which impacts exceed.
+    In global axes, from those of the joints, which results of large models hold, too. Each with the size that
+    an arrow of full length stands for, which impacts exceed. Parameters are those of :func:`clearances`.
     """
     times, time = playback_times(dataset), dataset["time"].values
-    names = [str(name) for name in dataset["joint"].values]
+    joints = list(case.joints.items())
     found: dict[str, Any] = {}
     for kind, unit in (("force", "N"), ("moment", "N m")):
-        values = np.nan_to_num(dataset[f"reaction_{kind}_global"].values)
-        arrows = {
-            names[j]: np.stack([np.interp(times, time, column) for column in values[:, j].T], axis=-1)
-            for j in loaded_joints(dataset).joints
-        }
+        arrows = {}
+        for j in loaded_joints(dataset).joints:
+            columns = np.nan_to_num(dataset[f"reaction_{kind}"].values[:, j]).T
+            own = np.stack([np.interp(times, time, column) for column in columns], axis=-1)
+            name, joint = joints[j]
+            arrows[name] = np.einsum("nij,nj->ni", _axes(case, joint, drawn, orientation), own)
         sizes = [np.percentile(np.linalg.norm(one, axis=-1), _SUSTAINED) for one in arrows.values()]
         scale = float(max(sizes, default=0.0))
         if scale > 0.0:
