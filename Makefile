@@ -22,7 +22,7 @@ help:
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
-	@echo "make golden      store headline numbers and messages anew"
+	@echo "make golden      store key results and messages anew"
 	@echo "make lint        style, types, layers and spelling"
 	@echo "make format      apply the style"
 	@echo "make docs        build the manual into $(DOCS)"
@@ -50,7 +50,7 @@ test-long: ready
 	done
 
 golden: $(VENV)/.dev
-	$(BIN)/python tests/golden/test_headlines.py
+	$(BIN)/python tests/golden/test_key_results.py
 	$(BIN)/python tests/golden/test_messages.py
 	$(BIN)/python tests/golden/test_signatures.py
 

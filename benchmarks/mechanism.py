@@ -5,7 +5,7 @@ python -m benchmarks.mechanism
 Crank 50 mm, rod 120 mm, started at 5000 rpm without a drive, some eight turns: the crank slows down and
 speeds up as the slider takes its energy and gives it back. Both have rigid bodies in space; Exudyn's joints
 leave out what a flat mechanism has twice. Exudyn takes its default, the generalised-α method, with steps of
-fixed length; we our default at falling tolerances, and keep ledgers and reactions besides. Errors are the
+fixed length; we our default at falling tolerances, and keep balances and reactions besides. Errors are the
 largest ones of the slider's place, against our own run at 1e-11: that Exudyn comes closer to it with every
 shorter step is the agreement of both. Times are of the thread, rows 0.2 ms apart, without compilation and
 without making the model; the least of five, which others disturb least.

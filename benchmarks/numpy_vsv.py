@@ -1,7 +1,7 @@
 """The vane mechanism as a user of NumPy and SciPy would write it: the same equations, without compiled code.
 
 Joint integral over arrays of all nodes, mechanism with small matrices, SciPy's BDF stepped with the memory of
-entry velocities between its steps, its Jacobian by differences. No ledgers, no reactions, no sliding loads.
+entry velocities between its steps, its Jacobian by differences. No balances, no reactions, no sliding loads.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 python -m benchmarks.vsv
 
 The integrators of ``tribodyn.integrate`` and CVODE called natively use the same compiled functions and keep
-the same books: energy ledgers, sliding loads, entry velocities, reactions, output rows. Those of SciPy and
+the same books: energy balances, sliding loads, entry velocities, reactions, output rows. Those of SciPy and
 scikit-sundae are stepped from Python. Each is run at falling tolerances, and the loosest that is accurate
 enough counts. Accuracy is asked against a run at tolerances a hundred times tighter: outside 100 ms after a
 reversal the vane angle within 1e-5° and the contact force within 0.5 %, between 50 and 100 ms the angle
@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.peers import paired, peers, setting
 from benchmarks.vsv_case import NATIVE, RTOL, accurate, errors, one, reference
-from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE, ledger_columns
+from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE, balance_columns
 
 SOLVERS = (NATIVE, "cvode", "bdf", "radau", "lsoda")
 LADDER = ((1e-3, 1.0), (1e-4, 1.0), (1e-4, 0.1), (1e-5, 0.1), (1e-5, 0.01))
@@ -60,8 +60,8 @@ def _row(
 ) -> dict[str, Any]:
     """Return and print cost and errors of a run."""
     found = errors(done, exact)
-    columns = ledger_columns(done["columns"])
-    ledgers = WHOLE.fraction(columns), CLEARANCE.fraction(columns)
+    columns = balance_columns(done["columns"])
+    balances = WHOLE.fraction(columns), CLEARANCE.fraction(columns)
     kept = {name: done[name] for name in ("steps", "rhs", "seconds")}
     shown = " ".join(f"{found[name]:8.1e}" for name in ("angle", "force", "angle 50-100 ms"))
     cost = f"{done['steps']:6d} {done['rhs']:6d} {done['seconds']:8.3f}"
@@ -73,7 +73,7 @@ def _row(
         "atol": tighter,
         **kept,
         **found,
-        "ledgers": ledgers,
+        "balances": balances,
         "accurate": good,
     }
 

@@ -81,7 +81,7 @@ class Hand:
                 return {
                     "whole": took,
                     "run": header["seconds"],
-                    "integration": header["headlines"]["wall_time_s"],
+                    "integration": header["results"]["wall_time_s"],
                 }
 
     async def released(self, seconds: float, seed: int) -> None:

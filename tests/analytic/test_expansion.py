@@ -127,11 +127,11 @@ def cooling() -> td.Case:
     return td.load_case("vsv").replace(EXPANSIONS | table | {"run.duration": "3 s"})
 
 
-def test_a_moving_clearance_closes_both_ledgers(cooling: td.Case) -> None:
+def test_a_moving_clearance_closes_both_balances(cooling: td.Case) -> None:
     run = td.simulate(cooling)
     assert run.attrs["energy_residual"] < 0.01
     assert run.attrs["clearance_energy_residual"] < 0.01
-    # Without its entry the ledger of the clearance would miss more than all that the contact stores.
+    # Without its entry the balance of the clearance would miss more than all that the contact stores.
     stored = np.abs(run["energy_clearance_contact"]).max()
     assert np.abs(run["energy_expansion"]).max() > 5.0 * stored
     clearance = run["radial_clearance"].values

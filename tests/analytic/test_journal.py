@@ -68,7 +68,7 @@ def run(case: Any, duration: float, rows: int, *, problem: Problem | None = None
 
 
 def residual(columns: dict[str, FloatArray]) -> FloatArray:
-    """Return what the energy ledger misses [J]."""
+    """Return what the energy balance misses [J]."""
     stored = columns["energy_kinetic"] + columns["energy_contact"]
     heats = columns["heat_damping"] - columns["work_friction"] - columns["work_film"]
     missed = stored - stored[0] + heats - columns["work_loads"] - columns["work_drive"]
@@ -159,7 +159,7 @@ def test_moments_of_the_load_tilt_the_journal_to_their_side() -> None:
 
 
 @pytest.mark.parametrize("options", JOURNALS.values(), ids=JOURNALS)
-def test_the_ledger_closes_and_heats_only_grow(options: dict[str, Any]) -> None:
+def test_the_energy_balance_closes_and_heats_only_grow(options: dict[str, Any]) -> None:
     duration = 12e-3 if "oil" in options else 3e-3
     columns = run(make(load=(*LOAD, 0.1, -0.05), **options), duration, 301)
     scale = np.abs(columns["work_loads"]).max()

@@ -85,7 +85,7 @@ def test_a_bushing_of_rigid_asperities_is_a_bed_of_springs(make_joint, table_1_p
 
 
 @pytest.mark.parametrize("kind", ["vsv", "journal-dry"])
-def test_the_ledger_closes_with_a_liner(kind):
+def test_the_energy_balance_closes_with_a_liner(kind):
     case = td.load_case(kind).replace({"joint.liner.thickness": "1 mm"})
     run = td.simulate(case.replace({"run.cycles": 0.6}) if kind == "vsv" else case)
     # As without: the tolerance of a run's own check.

@@ -1,4 +1,4 @@
-"""Loads from tables: constants as tables, closed ledgers where tables kink, and balances of what they add."""
+"""Loads from tables: constants as tables, energy balances where tables kink and of what they add."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SAME = 1e-12
 NEIGHBOUR = 1e-9
 """Runs whose loads differ by rounding: 1e-11 after 50 ms."""
 CLOSED = 5e-3
-"""Of the largest term: the ledger of the clearance motion misses 2.2e-3, 1.1e-3 and 6e-4 of it at relative
+"""Of the largest term: the balance of the clearance motion misses 2.2e-3, 1.1e-3 and 6e-4 of it at relative
 tolerances of 1e-3, 1e-4 and 1e-5."""
 OFF = """
 case = "vsv"
@@ -69,7 +69,7 @@ def test_a_constant_table_is_the_constant(form: str) -> None:
         np.testing.assert_allclose(own[name], paper[name], rtol=0.0, atol=same * size)
 
 
-def test_a_kinked_load_closes_the_ledgers() -> None:
+def test_a_kinked_load_closes_the_balances() -> None:
     """A moment over the vane angle, a force over time and a map, two of which kink."""
     result = run(
         OFF
@@ -208,7 +208,7 @@ def test_constant_tables_of_a_journal_are_its_constants() -> None:
         np.testing.assert_allclose(table[name], plain[name], rtol=0.0, atol=SAME * size)
 
 
-def test_a_kinked_load_and_a_reversed_journal_close_their_ledger() -> None:
+def test_a_kinked_load_and_a_reversed_journal_close_their_balance() -> None:
     result = journal(
         JOURNAL
         + """

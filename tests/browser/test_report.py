@@ -333,8 +333,8 @@ def test_lines_of_points_whose_energy_is_missed_are_grey(opened: Opened, tmp_pat
     plan = make_plan(load_case("vsv"), {"joint.clearance": "20:40:10 um"}, Sampling())
     missed = ("", "the energy balance misses 7 %", "")
     numbers = {
-        point.name: {"failure": "", "doubtful": doubt, "contact_force_max_N": 10.0 * k}
-        for k, (point, doubt) in enumerate(zip(plan.points, missed, strict=True))
+        point.name: {"failure": "", "doubtful": warning, "contact_force_max_N": 10.0 * k}
+        for k, (point, warning) in enumerate(zip(plan.points, missed, strict=True))
     }
     reader = opened(write(merge(plan, numbers), tmp_path))
     reader.look_at("parallel")

@@ -171,7 +171,7 @@ def test_the_first_picture_is_of_the_case(at: Opened) -> None:
     assert person.plot("mechanism", "plot.plotted.gl instanceof WebGL2RenderingContext")
     assert person.overflow() == 0
     first = person.page.locator(".live-numbers tbody tr").first
-    expected = person.page.evaluate("pageState.hello.headlines[0].label")
+    expected = person.page.evaluate("pageState.hello.results[0].label")
     assert first.locator("th").inner_text() == expected
     person.keep_picture("workbench")
 
@@ -201,7 +201,7 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
             pageState.shown.values['joint.clearance'] ?? '20 um',
             document.getElementById('whose').textContent,
             document.querySelector('#orbit .plot').plotted.data.clearance,
-            pageState.shown.headlines.vane_angle_error_rms_deg,
+            pageState.shown.results.vane_angle_error_rms_deg,
           ])));
         }"""
     )
@@ -328,7 +328,7 @@ def test_a_pinned_run_stays_behind_with_differences(at: Opened) -> None:
     person.wait_until_shown({CLEARANCE: "5 um"})
     rms = person.page.locator("[data-row=vane_angle_error_rms_deg] td").nth(1).inner_text()
     pinned, now = person.page.evaluate(
-        "[pageState.pins[0], pageState.shown].map(run => run.headlines.vane_angle_error_rms_deg)"
+        "[pageState.pins[0], pageState.shown].map(run => run.results.vane_angle_error_rms_deg)"
     )
     assert float(rms.replace("−", "-").removesuffix(" %")) == pytest.approx(
         100 * (now / pinned - 1), rel=0.06
@@ -566,16 +566,16 @@ def _find_the_clearance_by_keyboard(person: Person) -> None:
     person.wait_for("sweeps.get('joint.clearance')?.finished")
     points = person.page.evaluate("sweeps.get('joint.clearance').points")
     assert len(points) == 15
-    good = [p for p in points if p["headlines"]["vane_angle_error_outside_deg"] < 0.03]
+    good = [p for p in points if p["results"]["vane_angle_error_outside_deg"] < 0.03]
     person.press("[")
     while person.page.evaluate("pageState.text('joint.clearance')") != good[-1]["text"]:
         person.press("]")
         person.wait_for("!requests.awaited")
     person.wait_until_shown({} if good[-1]["text"] == "20 um" else {CLEARANCE: good[-1]["text"]})
-    assert person.shown()["headlines"]["vane_angle_error_outside_deg"] < 0.03
+    assert person.shown()["results"]["vane_angle_error_outside_deg"] < 0.03
     person.wait_for("slope.finished && slope.key === 'joint.clearance'")
     # The vane strays in proportion to the clearance less what the asperities fill: a little more than 1.
-    slope = person.page.evaluate("slope.headlines.vane_angle_error_rms_deg.slope")
+    slope = person.page.evaluate("slope.results.vane_angle_error_rms_deg.slope")
     assert 1.0 < slope < 1.6
 
 
@@ -612,7 +612,7 @@ def _find_the_clearance_by_pointer(person: Person) -> None:
     person.page.mouse.down()
     person.page.mouse.up()
     person.wait_until_shown({CLEARANCE: good["text"]})
-    assert person.shown()["headlines"]["vane_angle_error_outside_deg"] < 0.03
+    assert person.shown()["results"]["vane_angle_error_outside_deg"] < 0.03
 
 
 def _compare_materials_by_pointer(person: Person) -> None:
@@ -681,8 +681,8 @@ def _run_the_command(person: Person, folder: Path) -> None:
 
 
 def _same_numbers(person: Person, again: Mapping[str, Any]) -> None:
-    """Find the headline numbers of the run shown, but for what it took."""
-    for name, value in person.shown()["headlines"].items():
+    """Find the key results of the run shown, but for what it took."""
+    for name, value in person.shown()["results"].items():
         assert name in TIMES or again[name] == value, name
 
 

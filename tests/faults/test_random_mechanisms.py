@@ -1,6 +1,6 @@
 """Random mechanisms of any joints: each runs and obeys mechanics, or is refused in words.
 
-What a run says of itself, ledgers and residuals, is not taken for granted: joints are put together anew from
+What a run says of itself, balances and residuals, is not taken for granted: joints are put together anew from
 the motion of the bodies, and every body that nothing but joints and weight acts on obeys Newton's law.
 """
 

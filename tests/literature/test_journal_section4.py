@@ -121,6 +121,6 @@ def test_in_oil_the_film_hands_the_load_to_the_asperities(oil: dict[str, xr.Data
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_the_ledgers_close(dry: dict[str, xr.Dataset], oil: dict[str, xr.Dataset], law: str) -> None:
+def test_the_energy_balance_closes(dry: dict[str, xr.Dataset], oil: dict[str, xr.Dataset], law: str) -> None:
     for results in (dry, oil):
         assert results[law].attrs["energy_residual"] < 1e-3

@@ -103,7 +103,7 @@ def _peaks(t: FloatArray, columns: dict[str, FloatArray]) -> dict[str, FloatArra
     return found
 
 
-def _ledgers(t: FloatArray) -> dict[str, FloatArray]:
+def _balances(t: FloatArray) -> dict[str, FloatArray]:
     heat = 0.02 * t + 1e-3 * np.sin(2 * t)
     values = {
         "energy_kinetic": 3e-3 * np.sin(t) ** 2,
@@ -182,7 +182,7 @@ def make_result() -> ResultFactory:
     def make(end: float = 2 * PERIOD, *, failure: str = "", **attributes: object) -> xr.Dataset:
         t = np.arange(0.0, end, 5e-3)
         coordinates, fields = _fields(t)
-        columns = {**_motion(t), **_attitude(t), **_forces(t), **_ledgers(t)}
+        columns = {**_motion(t), **_attitude(t), **_forces(t), **_balances(t)}
         peaks = _peaks(t, columns)
         coordinates |= {name: peaks.pop(name) for name in ("reversal", "reversal_time")}
         known = {**BUSHING, **VSV.variables}
@@ -211,7 +211,7 @@ def make_result() -> ResultFactory:
             "impact_time": IMPACT_TIME,
             "start": "equilibrium",
             "worn_volume": 4e-17,
-            "wear_cycles_reached": 2,  # as if of a campaign, so that every headline number is there
+            "wear_cycles_reached": 2,  # as if of a campaign, so that every key result is there
             "flash_temperature": 0.003,  # as if with the conductors of heat
             "wear_life_cycles": 3e6,
             "wear_life_factor": 80.0,

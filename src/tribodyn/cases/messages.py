@@ -98,7 +98,7 @@ def _nearest_valid(path: str) -> str:
 
 @dataclass(frozen=True)
 class Remarks:
-    """What a case says of itself, one sentence each: what to doubt, and what to read its numbers with."""
+    """What a case says of itself, one sentence each: warnings, and what to know when its numbers are read."""
 
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()

@@ -34,7 +34,7 @@ def of_surfaces(case: Case, prefix: str = "", beside: Mapping[str, Sequence[str]
     used = [one for surface in SURFACES for one in _used(case, keys, surface, prefix, beside)]
     warnings = [*_of_asperities(case, keys, prefix), *_of_wear(case, keys, prefix)]
     return Remarks(
-        tuple(warnings + [text for one in used for text in one.doubts()]),
+        tuple(warnings + [text for one in used for text in one.warnings()]),
         tuple([text for one in used for text in one.notes()] + list(_of_heights(case, prefix))),
     )
 
@@ -49,7 +49,7 @@ class _Used:
     known: Property | None
     temperature: float
 
-    def doubts(self) -> Iterator[str]:
+    def warnings(self) -> Iterator[str]:
         path, name = self.key.path, self.material
         if self.known is None:
             if self.value is not None and self.value == self.key.default:

@@ -70,14 +70,14 @@ def _in_words(names: Sequence[str], found: RunDifferences) -> Iterator[str]:
     heads += [[brief(on_one_line(text)) for text in (row["path"], *row["values"])] for row in found.keys]
     rows = [_row(row) for group in found.groups if group["name"] not in LEFT_OUT for row in group["rows"]]
     widths = [max(map(len, column)) for column in zip(*heads, *rows, strict=True)]
-    doubts = [summary["doubtful"] for summary in found.summaries]
-    for table, marks in ((heads, [""] * len(names)), (rows, doubts)):
+    warnings = [summary["doubtful"] for summary in found.summaries]
+    for table, marks in ((heads, [""] * len(names)), (rows, warnings)):
         for first, *others in table:
             cells = [f"{text:>{width}}" for text, width in zip(others, widths[1:], strict=True)]
             shown = (grey(cell, mark) for cell, mark in zip(cells, marks, strict=True))
             yield "  ".join([f"{first:<{widths[0]}}", *shown]).rstrip()
     yield from (
-        caution(mark, f"the numbers of {name}") for name, mark in zip(names, doubts, strict=True) if mark
+        caution(mark, f"the numbers of {name}") for name, mark in zip(names, warnings, strict=True) if mark
     )
     if found.stretch:
         yield found.stretch

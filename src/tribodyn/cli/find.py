@@ -88,11 +88,11 @@ def _told(console: Console) -> Callable[[Arrival], None]:
 def _tell(search: Search, root: float, console: Console) -> None:
     """Print what was tried and what was found."""
     asked, limit = search.question, search.question.until
-    unit = asked.headline.unit
+    unit = asked.key_result.unit
     for value in sorted(search.tried):
         console.say(f"  {_shown(asked, value):<16}{search.tried[value]:>12.4g} {unit}")
     low, high = (_shown(asked, end) for end in search.bracket())
-    label = asked.headline.label
+    label = asked.key_result.label
     console.say(
         f"\n{label} reaches {limit.value:g} {unit} at {asked.key.path} = {_shown(asked, root)}".rstrip()
     )

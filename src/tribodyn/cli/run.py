@@ -152,7 +152,7 @@ def _draw(dataset: xr.Dataset, directory: OutputDirectory, console: Console, arg
 
 
 def _tell(summary: dict[str, Any], console: Console) -> None:
-    """Print the headline numbers, notes and warnings."""
+    """Print the key results, notes and warnings."""
     for line in ("", str(summary.get("title", "")), *in_words(summary), ""):
         console.say(line)
     for note in summary["notes"]:

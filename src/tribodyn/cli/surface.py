@@ -139,7 +139,7 @@ def _save(folder: Path, outcome: dict[str, Any], block: str, figure: Figure) -> 
 
 
 def _tell(outcome: dict[str, Any], block: str, output: str | None, console: Console) -> None:
-    """Print the numbers, the doubts, and the block or where to look."""
+    """Print the numbers, the warnings, and the block or where to look."""
     console.say(f"{outcome['kind']} {outcome['file']}")
     for line in _in_words(outcome):
         console.say(line)

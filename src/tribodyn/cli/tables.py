@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from tribodyn.views.numbers import rounded
 
 if TYPE_CHECKING:
-    from tribodyn.results.summary import Headline
+    from tribodyn.results.summary import KeyResult
 
 _SHOWN_IN_FULL: Final = (1e4, 1e9)
 _GREY: Final = "\x1b[2m"
@@ -21,7 +21,7 @@ _PLAIN: Final = "\x1b[0m"
 
 
 def in_words(summary: Mapping[str, object]) -> Iterator[str]:
-    """Give one line for each headline number, aligned, with its unit; grey where they are doubtful.
+    """Give one line for each key result, aligned, with its unit; grey where they are doubtful.
 
     Parameters
     ----------
@@ -30,15 +30,15 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     """
     from tribodyn.results.summary import caution
 
-    doubt = summary.get("doubtful")
-    if doubt:
-        yield f"  {caution(doubt)}"
-    yield from (grey(line, doubt) for line in _numbers(summary))
+    warning = summary.get("doubtful")
+    if warning:
+        yield f"  {caution(warning)}"
+    yield from (grey(line, warning) for line in _numbers(summary))
 
 
-def grey(text: str, doubt: object) -> str:
-    """Return a text that a terminal shows in grey where there is a doubt, unless colours are unwanted."""
-    wanted = doubt and sys.stdout.isatty() and "NO_COLOR" not in os.environ
+def grey(text: str, warning: object) -> str:
+    """Return a text that a terminal shows in grey where there is a warning, unless colours are unwanted."""
+    wanted = warning and sys.stdout.isatty() and "NO_COLOR" not in os.environ
     return f"{_GREY}{text}{_PLAIN}" if wanted else text
 
 
@@ -46,29 +46,29 @@ def _numbers(summary: Mapping[str, object]) -> Iterator[str]:
     """Give a line for each number of the whole, and a table for those of several parts, such as joints."""
     from tribodyn.mechanisms.results import known
 
-    headlines = known(summary, str(summary.get("kind", "")))
-    groups = groupby(headlines.items(), key=lambda item: item[1].group if item[1].part else "")
+    key_results = known(summary, str(summary.get("kind", "")))
+    groups = groupby(key_results.items(), key=lambda item: item[1].group if item[1].part else "")
     for number, (part, items) in enumerate(groups):
         group = dict(items)
         yield from [""] if number else []
         yield from _parts(part, group, summary) if part else _lines(group, summary)
 
 
-def _lines(headlines: Mapping[str, Headline], summary: Mapping[str, object]) -> Iterator[str]:
-    labels = {name: headline.label_in(summary) for name, headline in headlines.items()}
+def _lines(key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) -> Iterator[str]:
+    labels = {name: key_result.label_in(summary) for name, key_result in key_results.items()}
     width = max(map(len, labels.values()), default=0)
-    for name, headline in headlines.items():
-        yield f"  {labels[name]:<{width}}  {_number(summary[name], headline.digits)} {headline.unit}".rstrip()
+    for name, one in key_results.items():
+        yield f"  {labels[name]:<{width}}  {_number(summary[name], one.digits)} {one.unit}".rstrip()
 
 
-def _parts(group: str, headlines: Mapping[str, Headline], summary: Mapping[str, object]) -> Iterator[str]:
+def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) -> Iterator[str]:
     """Give a table with a row for each part and a column for each quantity."""
-    columns = {f"{h.column_in(summary)} {h.unit}".strip(): "" for h in headlines.values()}
+    columns = {f"{h.column_in(summary)} {h.unit}".strip(): "" for h in key_results.values()}
     cells = {
         (h.part, f"{h.column_in(summary)} {h.unit}".strip()): _number(summary[name], h.digits)
-        for name, h in headlines.items()
+        for name, h in key_results.items()
     }
-    parts = dict.fromkeys(h.part for h in headlines.values())
+    parts = dict.fromkeys(h.part for h in key_results.values())
     width = max(map(len, (group, *parts)))
     most = _room(width + 4)
     even = -(-len(columns) // -(-len(columns) // most))
@@ -102,9 +102,9 @@ def _number(value: object, digits: int) -> str:
 _COLUMN: Final = 13
 _LONGEST: Final = 22
 _MOST_ROWS: Final = 40
-_MOST_DOUBTS: Final = 5
+_MOST_WARNINGS: Final = 5
 LEFT_OUT: Final = ("Trust", "Effort")
-"""Groups of headline numbers that say nothing about the machine."""
+"""Groups of key results that say nothing about the machine."""
 
 
 def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iterator[str]:
@@ -119,9 +119,9 @@ def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iter
     """
     given = shown or _varying(record["points"])
     if record["statistics"]:
-        yield from _statistics(record["statistics"], _headlines(given, record["kind"], every=bool(shown)))
+        yield from _statistics(record["statistics"], _key_results(given, record["kind"], every=bool(shown)))
     else:
-        numbers = _headlines(given, record["kind"], every=bool(shown))
+        numbers = _key_results(given, record["kind"], every=bool(shown))
         yield from _points(record["points"], numbers, every=bool(shown))
     yield from _cautions(record["points"])
     yield from _limits(record)
@@ -133,11 +133,11 @@ def _cautions(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     from tribodyn.results.summary import caution
 
     doubtful = [point for point in points if point.get("doubtful")]
-    for point in doubtful[:_MOST_DOUBTS]:
+    for point in doubtful[:_MOST_WARNINGS]:
         at = ", ".join(f"{path} = {value}" for path, value in point["changes"].items())
         yield caution(point["doubtful"], f"the numbers at {at}")
-    if len(doubtful) > _MOST_DOUBTS:
-        yield f"... nor those of {len(doubtful) - _MOST_DOUBTS} more points"
+    if len(doubtful) > _MOST_WARNINGS:
+        yield f"... nor those of {len(doubtful) - _MOST_WARNINGS} more points"
 
 
 def _limits(record: Mapping[str, Any]) -> Iterator[str]:
@@ -145,15 +145,15 @@ def _limits(record: Mapping[str, Any]) -> Iterator[str]:
     from tribodyn.mechanisms.results import known
 
     for entry in record.get("limits", []):
-        headline = known([entry["name"]], record["kind"])[entry["name"]]
-        limit = f"{entry['limit']:g} {headline.unit}".rstrip()
+        key_result = known([entry["name"]], record["kind"])[entry["name"]]
+        limit = f"{entry['limit']:g} {key_result.unit}".rstrip()
         share = 100.0 * entry["within"] / max(entry["points"], 1)
         between = ""
         if "low" in entry:
             between = f" (with 95 % confidence {100 * entry['low']:.0f} to {100 * entry['high']:.0f} %)"
         yield ""
         yield (
-            f"{headline.label}: at most {limit} at {entry['within']} of {entry['points']} points, "
+            f"{key_result.label}: at most {limit} at {entry['within']} of {entry['points']} points, "
             f"{share:.0f} %{between}"
         )
 
@@ -161,7 +161,7 @@ def _limits(record: Mapping[str, Any]) -> Iterator[str]:
 def _sensitivities(record: Mapping[str, Any], shown: Sequence[str]) -> Iterator[str]:
     """Say what share of the variance of each number each parameter makes, alone and in all."""
     found = record.get("sensitivities", {})
-    for name, label in _headlines(shown or list(found), record["kind"], every=bool(shown)).items():
+    for name, label in _key_results(shown or list(found), record["kind"], every=bool(shown)).items():
         if name not in found:
             continue
         yield from ("", f"Sobol' indices of: {label}")
@@ -182,7 +182,7 @@ def _varying(points: Sequence[Mapping[str, Any]]) -> list[str]:
     return [name for name in names if alone or len(values[name]) > 1]
 
 
-def _headlines(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str]:
+def _key_results(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str]:
     """Return the headings of the numbers that a user wants to see, by name."""
     from tribodyn.mechanisms.results import known
 

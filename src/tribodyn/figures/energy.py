@@ -1,4 +1,4 @@
-"""Energy ledgers: what each term amounts to, and what they miss."""
+"""Energy balances: what each term amounts to, and what they miss."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.base import Family
-from tribodyn.views.ledger import Ledger
+from tribodyn.views.energy_balance import EnergyBalance
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import finite, peak, series
 
-TITLE: Final = "Energy ledgers"
+TITLE: Final = "Energy balances"
 LOOKS: Final = (
     (style.INK, style.SOLID),
     (style.BLUE, style.DASHED),
@@ -29,8 +29,8 @@ LOOKS: Final = (
 )
 
 
-def family(ledgers: Sequence[Ledger]) -> Family:
-    """Return the figure of the ledgers of a mechanism."""
+def family(balances: Sequence[EnergyBalance]) -> Family:
+    """Return the figure of the balances of a mechanism."""
     return Family(
         name="energy",
         title=TITLE,
@@ -39,29 +39,29 @@ def family(ledgers: Sequence[Ledger]) -> Family:
             "misses, for everything that moves and for the motion in the clearance, where an error in the "
             "small contact heat cannot hide."
         ),
-        needs=("time", *(ledger.residual for ledger in ledgers)),
-        draw=partial(draw, ledgers),
+        needs=("time", *(balance.residual for balance in balances)),
+        draw=partial(draw, balances),
     )
 
 
-def draw(ledgers: Sequence[Ledger], dataset: xr.Dataset) -> Figure:
-    """Draw the histories of the large terms [J] and the sizes of all of them, for each ledger."""
-    figure = style.sheet(dataset, TITLE, 0.6 + 3.1 * len(ledgers))
-    grid = figure.subplots(len(ledgers), 2, width_ratios=(1.35, 1.0), squeeze=False)
+def draw(balances: Sequence[EnergyBalance], dataset: xr.Dataset) -> Figure:
+    """Draw the histories of the large terms [J] and the sizes of all of them, for each balance."""
+    figure = style.sheet(dataset, TITLE, 0.6 + 3.1 * len(balances))
+    grid = figure.subplots(len(balances), 2, width_ratios=(1.35, 1.0), squeeze=False)
     time_name, time_scale = time_unit(dataset)
-    for (history, sizes), ledger in zip(grid, ledgers, strict=True):
-        terms = {name: label for name, label in ledger.terms.items() if name in dataset}
+    for (history, sizes), balance in zip(grid, balances, strict=True):
+        terms = {name: label for name, label in balance.terms.items() if name in dataset}
         unit, scale = _unit(dataset, terms)
-        _history(history, dataset, ledger, terms, (time_scale, scale))
-        _sizes(sizes, dataset, terms | {ledger.residual: "residual"})
-        style.caption(history, ledger.title)
+        _history(history, dataset, balance, terms, (time_scale, scale))
+        _sizes(sizes, dataset, terms | {balance.residual: "residual"})
+        style.caption(history, balance.title)
         style.finish(history, f"time [{time_name}]", f"energy [{unit}]")
-        style.caption(sizes, _verdict(dataset, ledger), side="right")
+        style.caption(sizes, _verdict(dataset, balance), side="right")
     return figure
 
 
 def _unit(dataset: xr.Dataset, terms: Mapping[str, str]) -> tuple[str, float]:
-    """Return the unit in which the largest term of a ledger reads well, and the factor to it."""
+    """Return the unit in which the largest term of a balance reads well, and the factor to it."""
     largest = max(peak(series(dataset, name)) for name in terms)
     return next(
         ((u, f) for u, f in (("J", 1.0), ("mJ", 1e3), ("µJ", 1e6)) if largest * f >= 1.0), ("nJ", 1e9)
@@ -69,7 +69,11 @@ def _unit(dataset: xr.Dataset, terms: Mapping[str, str]) -> tuple[str, float]:
 
 
 def _history(
-    axes: Axes, dataset: xr.Dataset, ledger: Ledger, terms: Mapping[str, str], scales: tuple[float, float]
+    axes: Axes,
+    dataset: xr.Dataset,
+    balance: EnergyBalance,
+    terms: Mapping[str, str],
+    scales: tuple[float, float],
 ) -> None:
     """Draw the terms that are seen beside the largest, at most six, and always the residual."""
     time, scale = series(dataset, "time", scales[0]), scales[1]
@@ -79,7 +83,7 @@ def _history(
         values = series(dataset, name, scale)
         if finite(values).size and peak(values) >= 0.01 * largest * scale:
             axes.plot(time, values, color=colour, linestyle=dash, linewidth=1.3, label=terms[name])
-    residual = series(dataset, ledger.residual, scale)
+    residual = series(dataset, balance.residual, scale)
     axes.plot(time, residual, color=style.GREY, linewidth=2.6, alpha=0.55, label="residual")
     if finite(series(dataset, others[0])).size:
         axes.legend(
@@ -124,9 +128,9 @@ def _joule(size: float) -> str:
     return "0" if size == 0.0 else f"{size:.1e} J"
 
 
-def _verdict(dataset: xr.Dataset, ledger: Ledger) -> str:
+def _verdict(dataset: xr.Dataset, balance: EnergyBalance) -> str:
     """Return the residual in words."""
-    value = dataset.attrs.get(ledger.attribute)
+    value = dataset.attrs.get(balance.attribute)
     if not isinstance(value, float) or not np.isfinite(value):
         return "residual not known"
-    return f"residual {100.0 * value:.2g} % of {ledger.yardstick}"
+    return f"residual {100.0 * value:.2g} % of {balance.yardstick}"

@@ -1,4 +1,4 @@
-"""Sweeps: one figure for each headline number.
+"""Sweeps: one figure for each key result.
 
 A parameter that runs over numbers gives a line, with one line for each value of a second one that runs over
 names; two that run over numbers give a map; samples, and grids of more parameters, give the number over each
@@ -40,7 +40,7 @@ EFFORT_GROUP: Final = "Effort"
 
 
 def families(dataset: xr.Dataset) -> dict[str, Family]:
-    """Return the figures of a sweep by name, one for each of its headline numbers.
+    """Return the figures of a sweep by name, one for each of its key results.
 
     How much work the points were is left out where it is not asked for by the attribute ``shown``.
     """
@@ -54,7 +54,7 @@ def families(dataset: xr.Dataset) -> dict[str, Family]:
         name: Family(
             name=name,
             title=str(dataset[name].attrs.get("long_name", name)),
-            caption=str(dataset[name].attrs.get("comment") or "Headline number of each point."),
+            caption=str(dataset[name].attrs.get("comment") or "Key result of each point."),
             needs=(name,),
             draw=partial(draw, name=name),
         )
@@ -63,7 +63,7 @@ def families(dataset: xr.Dataset) -> dict[str, Family]:
 
 
 def draw(dataset: xr.Dataset, name: str) -> Figure:
-    """Draw one headline number over what varies.
+    """Draw one key result over what varies.
 
     Parameters
     ----------

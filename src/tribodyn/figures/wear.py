@@ -32,7 +32,7 @@ def draw(dataset: xr.Dataset) -> Figure:
     empty = unloaded_middle(dataset, depth)
     mesh = draw_map(plan, dataset, depth, cut, float(depth.max(initial=0.0)) or 1.0, empty)
     _profiles(profile, dataset, depth, cut)
-    _headline(plan, dataset, depth, unit)
+    _key_result(plan, dataset, depth, unit)
     plan.set_ylabel(z_label(empty), size=style.TEXT)
     style.finish(profile, "angle from +X towards +Y [°]", f"depth [{unit}]")
     bar = figure.colorbar(mesh, ax=[plan, profile], shrink=0.7, aspect=30, pad=0.02)
@@ -42,7 +42,7 @@ def draw(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def _headline(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -> None:
+def _key_result(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -> None:
     """Say how deep and after what."""
     time, period = dataset["time"].values, dataset.attrs.get("cycle_period")
     after = f" after {np.ptp(time) / period:.3g} cycles" if period and time.size else ""

@@ -21,7 +21,7 @@ TIME: Final = 0
 WAVE_STEPS: Final = 24
 """Steps in a wave of a load, at least: a longer step may see its zeros alone. What a wave lends a shaft and
 takes back is up to a hundred times what the contact turns into heat, so that a small delay of the steps would
-show in the ledger."""
+show in the balance."""
 _SAME: Final = 1.0e-12
 """Instants closer than this share of a run are one."""
 _BEFORE: Final = 1.0e-9

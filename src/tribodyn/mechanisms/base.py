@@ -23,7 +23,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.mechanisms.workload import Workload
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:
@@ -250,8 +250,8 @@ class WearingSystem(SimulatedSystem, Protocol):
         ...
 
 
-ByPart: TypeAlias = Callable[[str], Headline]
-"""Returns a headline number of the part with a name; the name of the number ends in that of the part."""
+ByPart: TypeAlias = Callable[[str], KeyResult]
+"""Returns a key result of the part with a name; the name of the number ends in that of the part."""
 
 
 def plain(name: str) -> str:
@@ -278,14 +278,14 @@ class MechanismDescriptor:
         Texts of case files that ``tribodyn new`` copies, by name.
     variables
         Quantities of its results beside those that every result has, by name.
-    headlines
-        Its headline numbers by their names in ``summary.json``, in reading order.
+    key_results
+        Its key results by their names in ``summary.json``, in reading order.
     key_numbers
         Names of those that a reader wants first; ``*`` stands for any part of a name.
     of_cycle
         What its wear campaigns write down about each cycle, by name; empty where nothing wears.
     by_part
-        Headline numbers that each part has, by the table of the case that names these parts, such as
+        Key results that each part has, by the table of the case that names these parts, such as
         ``joints``, and then by name; see :class:`ByPart`.
     controls
         Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
@@ -301,7 +301,7 @@ class MechanismDescriptor:
     case: type[Case]
     built_in: Mapping[str, BuiltIn]
     variables: Mapping[str, Variable]
-    headlines: Mapping[str, Headline]
+    key_results: Mapping[str, KeyResult]
     key_numbers: tuple[str, ...]
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
     templates: Mapping[str, str] = field(default_factory=dict)
@@ -317,15 +317,15 @@ class MechanismDescriptor:
         module, _, name = self.bearings.partition(":")
         return cast("Mapping[str, Bearing]", getattr(importlib.import_module(module), name)(case))
 
-    def headlines_of(self, parts: Mapping[str, Iterable[str]]) -> dict[str, Headline]:
-        """Return all headline numbers in reading order, with those of parts, given as names by table."""
+    def key_results_of(self, parts: Mapping[str, Iterable[str]]) -> dict[str, KeyResult]:
+        """Return all key results in reading order, with those of parts, given as names by table."""
         named = {
             f"{name}_{plain(part)}": made(part)
             for table, numbers in self.by_part.items()
             for part in parts.get(table, ())
             for name, made in numbers.items()
         }
-        return {**self.headlines, **named}
+        return {**self.key_results, **named}
 
     @property
     def kind(self) -> str:

@@ -25,7 +25,7 @@ from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.wear import resampled
 
 _NOT_STORED: Final = ("work_", "heat_")
-"""Observed quantities that reach the user under the names of the ledger instead."""
+"""Observed quantities that reach the user under the names of the balance instead."""
 _SAMPLES: Final = 24
 
 

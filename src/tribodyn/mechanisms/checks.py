@@ -35,7 +35,7 @@ REJECTED_LIMIT: Final = 0.2
 RESTART_LIMIT: Final = 0.05
 """Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
 TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
-"""What makes ledgers close: absolute tolerances alone hold small slips and long ringing."""
+"""What makes balances close: absolute tolerances alone hold small slips and long ringing."""
 
 
 def extremes(*records: Record) -> dict[str, float]:

@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart, plain
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, lasting, peak, settled
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 
 _AT_REST: Final = 1.0e-9
 """Change of an ideal value in one step, over its range, that is none."""
@@ -76,7 +76,7 @@ def number_of(dataset: xr.Dataset, output: str) -> int:
     return [plain(str(name)) for name in dataset["output"].values].index(plain(output))
 
 
-def _made(measure: str, unit: str, output: str) -> Headline:
+def _made(measure: str, unit: str, output: str) -> KeyResult:
     """Return the key result of an output; NaN where its error has another unit or is not known."""
     label, meaning, read = READINGS[measure]
     _, shown, scale = ERROR_UNITS[unit]
@@ -88,7 +88,7 @@ def _made(measure: str, unit: str, output: str) -> Headline:
             return math.nan
         return scale * read(dataset, k)
 
-    return Headline(f"Error, {label}", shown, "Outputs", meaning, compute).of_part(output)
+    return KeyResult(f"Error, {label}", shown, "Outputs", meaning, compute).of_part(output)
 
 
 def _of_error(reduce: Reduction) -> Reading:
@@ -103,7 +103,7 @@ READINGS: Final = {
 """All of them."""
 
 
-def _of_limit(output: str) -> Headline:
+def _of_limit(output: str) -> KeyResult:
     """Return the largest error of an output as a share of its limit [%]; NaN without a limit."""
 
     def compute(dataset: xr.Dataset) -> float:
@@ -115,17 +115,17 @@ def _of_limit(output: str) -> Headline:
         )
 
     meaning = "Largest error in the run over the limit of the output; at 100 % it is worn out."
-    return Headline("Error, of its limit", "%", "Outputs", meaning, compute).of_part(output)
+    return KeyResult("Error, of its limit", "%", "Outputs", meaning, compute).of_part(output)
 
 
-def _life(output: str) -> Headline:
+def _life(output: str) -> KeyResult:
     """Return the life of an output by its error; NaN without a limit."""
     meaning = "Drive cycles until the error reaches its limit at the wear rate of this run, estimated."
 
     def compute(dataset: xr.Dataset) -> float:
         return float(column(dataset, "output_life")[number_of(dataset, output)])
 
-    return Headline("Life by error", "cycles", "Outputs", meaning, compute).of_part(output)
+    return KeyResult("Life by error", "cycles", "Outputs", meaning, compute).of_part(output)
 
 
 BY_OUTPUT: Final[dict[str, ByPart]] = {
@@ -147,7 +147,7 @@ _PASSES: Final = {
 """Labels and meanings of errors at instants, by variable."""
 
 
-def _at(variable: str, unit: str, instant: str) -> Headline:
+def _at(variable: str, unit: str, instant: str) -> KeyResult:
     """Return the key result of an instant; NaN where its error has another unit or is not known."""
     label, meaning = _PASSES[variable]
     _, shown, scale = ERROR_UNITS[unit]
@@ -158,7 +158,7 @@ def _at(variable: str, unit: str, instant: str) -> Headline:
         of_unit = str(dataset["output_unit"].values[output]) == unit
         return scale * float(column(dataset, variable)[k]) if of_unit else math.nan
 
-    return Headline(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)
+    return KeyResult(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)
 
 
 BY_INSTANT: Final[dict[str, ByPart]] = {

@@ -1,4 +1,4 @@
-"""Results of any mechanism: read and checked, and their headline numbers."""
+"""Results of any mechanism: read and checked, and their key results."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import json_attribute, store, summary
 from tribodyn.results.attributes import NOT_KEPT
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import VARIABLES
 
 
@@ -42,7 +42,7 @@ def read(path: str | Path) -> xr.Dataset:
 
 
 def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:
-    """Write a run with its headline numbers, see :func:`tribodyn.results.store.write_run`."""
+    """Write a run with its key results, see :func:`tribodyn.results.store.write_run`."""
     return store.write_run(dataset, directory, summarise(dataset), stale)
 
 
@@ -80,7 +80,7 @@ def all_there(*datasets: xr.Dataset) -> Iterator[None]:
 
 
 def summarise(dataset: xr.Dataset) -> summary.Summary:
-    """Return the headline numbers of a result, see :func:`tribodyn.results.summary.summarise`."""
+    """Return the key results of a result, see :func:`tribodyn.results.summary.summarise`."""
     mechanism = mechanism_of(dataset)
     parts = {
         str(known.parts or known.names): dataset[name].values.tolist()
@@ -88,21 +88,21 @@ def summarise(dataset: xr.Dataset) -> summary.Summary:
         if (known.parts or known.names) in mechanism.by_part and name in dataset.coords
     }
     with all_there(dataset):
-        return summary.summarise(dataset, mechanism.headlines_of(parts))
+        return summary.summarise(dataset, mechanism.key_results_of(parts))
 
 
-def headlines_of(kind: str) -> dict[str, Headline]:
-    """Return the headline numbers of a kind of results, in reading order; of no kind, those of all kinds."""
+def key_results_of(kind: str) -> dict[str, KeyResult]:
+    """Return the key results of a kind of results, in reading order; of no kind, those of all kinds."""
     chosen = [MECHANISMS[kind]] if kind in MECHANISMS else list(MECHANISMS.values())
-    own = {name: headline for mechanism in chosen for name, headline in mechanism.headlines.items()}
+    own = {name: key_result for mechanism in chosen for name, key_result in mechanism.key_results.items()}
     return own | summary.EFFORT
 
 
-def headlines_of_case(case: Case) -> dict[str, Headline]:
-    """Return the headline numbers of the results of a case, those of each of its parts among them."""
+def key_results_of_case(case: Case) -> dict[str, KeyResult]:
+    """Return the key results of the results of a case, those of each of its parts among them."""
     mechanism = MECHANISMS[case.kind()]
     parts = {table: tuple(getattr(case, table)) for table in mechanism.by_part}
-    return mechanism.headlines_of(parts) | summary.EFFORT
+    return mechanism.key_results_of(parts) | summary.EFFORT
 
 
 def key_numbers_of(kind: str, names: Iterable[str]) -> list[str]:
@@ -112,15 +112,15 @@ def key_numbers_of(kind: str, names: Iterable[str]) -> list[str]:
     return [name for pattern in wanted for name in given if fnmatchcase(name, pattern)]
 
 
-def known(names: Iterable[str], kind: str) -> dict[str, Headline]:
-    """Return what is known of those of the names that are headline numbers of a kind, in reading order."""
+def known(names: Iterable[str], kind: str) -> dict[str, KeyResult]:
+    """Return what is known of those of the names that are key results of a kind, in reading order."""
     given = list(names)
-    of_all = {name: headline for name, headline in headlines_of(kind).items() if name in given}
-    own = {name: headline for name, headline in of_all.items() if name not in summary.EFFORT}
+    of_all = {name: key_result for name, key_result in key_results_of(kind).items() if name in given}
+    own = {name: key_result for name, key_result in of_all.items() if name not in summary.EFFORT}
     return own | _of_parts([name for name in given if name not in of_all], kind) | of_all
 
 
-def _of_parts(names: Iterable[str], kind: str) -> dict[str, Headline]:
+def _of_parts(names: Iterable[str], kind: str) -> dict[str, KeyResult]:
     """Return those of the names that are numbers of one part, such as a joint."""
     by_part = MECHANISMS[kind].by_part if kind in MECHANISMS else {}
     return {

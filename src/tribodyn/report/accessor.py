@@ -1,4 +1,4 @@
-"""``result.tribodyn``: figures and headline numbers of a result, in a notebook or a script.
+"""``result.tribodyn``: figures and key results of a result, in a notebook or a script.
 
 >>> result.tribodyn.plot.orbit()  # doctest: +SKIP
 >>> result.tribodyn.summary["vane_angle_error_max_deg"]  # doctest: +SKIP
@@ -51,7 +51,7 @@ class Accessor:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The headline numbers, as in ``summary.json``."""
+        """The key results, as in ``summary.json``."""
         from tribodyn.mechanisms.results import summarise
 
         return summarise(self._dataset)
@@ -86,7 +86,7 @@ class Accessor:
         return animate(self._dataset, Path(path), seconds)
 
     def _repr_html_(self) -> str:
-        """Return the headline numbers as a table, with what the run says of itself."""
+        """Return the key results as a table, with what the run says of itself."""
         return "\n".join(_page(self.summary))
 
 
@@ -160,15 +160,17 @@ def _page(summary: dict[str, Any]) -> Iterator[str]:
     from tribodyn.views.numbers import rounded
 
     yield f"<strong>{escape(str(summary.get('title', '')))}</strong>"
-    doubt = summary.get("doubtful")
+    warning = summary.get("doubtful")
     yield (
-        f"<p><strong>{escape(caution(doubt))}</strong></p><table style='color:gray'>" if doubt else "<table>"
+        f"<p><strong>{escape(caution(warning))}</strong></p><table style='color:gray'>"
+        if warning
+        else "<table>"
     )
-    for name, headline in known(summary, str(summary.get("kind", ""))).items():
+    for name, key_result in known(summary, str(summary.get("kind", ""))).items():
         value = summary[name]
-        number = f"{rounded(value, headline.digits):.4g}" if isinstance(value, float) else str(value)
-        label = escape(headline.label_in(summary))
-        yield f"<tr><td style='text-align:left'>{label}</td><td>{number} {escape(headline.unit)}</td></tr>"
+        number = f"{rounded(value, key_result.digits):.4g}" if isinstance(value, float) else str(value)
+        label = escape(key_result.label_in(summary))
+        yield f"<tr><td style='text-align:left'>{label}</td><td>{number} {escape(key_result.unit)}</td></tr>"
     yield "</table>"
     for kind in ("warnings", "notes"):
         yield from (f"<p>{kind[:-1]}: {escape(text)}</p>" for text in summary.get(kind, ()))

@@ -1,4 +1,4 @@
-"""What assumed numbers do to a run: the band of its headline numbers over a sweep that stands beside it."""
+"""What assumed numbers do to a run: the band of its key results over a sweep that stands beside it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tribodyn.views.numbers import as_read, in_words
 FOLDER: Final = "assumptions"
 """Folder beside a result in which its report looks for the sweep."""
 GROUPS: Final = ("Accuracy", "Load")
-"""Groups of headline numbers that are told."""
+"""Groups of key results that the report shows."""
 
 
 def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict[str, Any] | None:
@@ -30,7 +30,7 @@ def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict
     dataset
         The result of the run.
     summary
-        Its headline numbers.
+        Its key results.
     folder
         Where the report goes.
 
@@ -49,14 +49,14 @@ def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict
     told = known([name for name in summary if name in sweep], str(summary["kind"]))
     rows = [
         {
-            "label": headline.label,
-            "unit": headline.unit,
-            "value": in_words(summary[name], headline.digits),
-            "whole": _band(sweep[name].values, headline.digits),
-            "alone": [_band(_alone(sweep[name], key, here), headline.digits) for key in keys],
+            "label": key_result.label,
+            "unit": key_result.unit,
+            "value": in_words(summary[name], key_result.digits),
+            "whole": _band(sweep[name].values, key_result.digits),
+            "alone": [_band(_alone(sweep[name], key, here), key_result.digits) for key in keys],
         }
-        for name, headline in told.items()
-        if headline.group in GROUPS and not headline.count
+        for name, key_result in told.items()
+        if key_result.group in GROUPS and not key_result.count
     ]
     return {"keys": [{"name": key, "range": _range(sweep[key])} for key in keys], "rows": rows}
 

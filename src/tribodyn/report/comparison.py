@@ -15,14 +15,14 @@ from tribodyn.mechanisms.results import all_there, known, summarise
 from tribodyn.report.beside import chapter_of
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
-from tribodyn.results import Headline, json_attribute
+from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.atomic import write_text
 from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common
 from tribodyn.views.numbers import in_words
 
 OF_STRETCH: Final = ("Accuracy", "Load")
-"""Groups of headline numbers that hang on which stretch of the motion they are taken from."""
+"""Groups of key results that hang on which stretch of the motion they are taken from."""
 NOTABLE: Final = 0.01
 """Relative difference from the first run above which a number stands out."""
 
@@ -55,7 +55,7 @@ class RunDifferences:
     keys
         Keys of the cases that are not the same in all runs: ``path`` and ``values``.
     groups
-        Headline numbers in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each
+        Key results in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each
         run, a cell of ``value``, ``change``, whether that is ``notable`` and the run ``doubtful``.
     stretch
         What loads and accuracy were taken from, in a sentence; empty where that is the whole of each run.
@@ -127,7 +127,7 @@ def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]
     for result, part in zip(results, alike, strict=True):
         whole, cut = summarise(result), summarise(part)
         known_here = known([*whole, *cut], str(whole["kind"]))
-        of_stretch = {name for name, headline in known_here.items() if headline.group in OF_STRETCH}
+        of_stretch = {name for name, key_result in known_here.items() if key_result.group in OF_STRETCH}
         summaries.append(
             {name: value for name, value in whole.items() if name not in of_stretch}
             | {name: value for name, value in cut.items() if name in of_stretch}
@@ -136,55 +136,55 @@ def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]
 
 
 def _about(run: ComparedRun, summary: Mapping[str, Any]) -> dict[str, Any]:
-    """Return name, title and doubts of a run."""
+    """Return name, title and warnings of a run."""
     failure = f"stopped at t = {in_words(summary.get('simulated_time_s', 0.0))} s: {summary['failure']}"
     caution_of_run = caution(summary["doubtful"])
-    doubts = [caution_of_run] if caution_of_run else []
-    doubts += [failure] if summary["failure"] else []
+    warnings = [caution_of_run] if caution_of_run else []
+    warnings += [failure] if summary["failure"] else []
     return {
         "name": run.name,
         "title": summary["title"],
         "link": run.link,
-        "doubts": doubts + json_attribute(run.dataset, "warnings", []),
+        "warnings": warnings + json_attribute(run.dataset, "warnings", []),
     }
 
 
 def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Return, in groups, every headline number that any run has, with the difference from the first run."""
+    """Return, in groups, every key result that any run has, with the difference from the first run."""
     names = {name: None for summary in summaries for name in summary}
     kinds = {str(summary["kind"]) for summary in summaries}
     kind = kinds.pop() if len(kinds) == 1 else ""
     rows = [
         {
-            "label": _label(headline, summaries),
-            "unit": headline.unit,
-            "group": headline.group,
+            "label": _label(key_result, summaries),
+            "unit": key_result.unit,
+            "group": key_result.group,
             "cells": [
                 {
-                    **_cell(summary.get(name), summaries[0].get(name), headline),
+                    **_cell(summary.get(name), summaries[0].get(name), key_result),
                     "doubtful": bool(summary["doubtful"]),
                 }
                 for summary in summaries
             ],
         }
-        for name, headline in known(names, kind).items()
+        for name, key_result in known(names, kind).items()
     ]
     return [
         {"name": name, "rows": list(members)} for name, members in groupby(rows, lambda row: row["group"])
     ]
 
 
-def _label(headline: Headline, summaries: Sequence[Mapping[str, Any]]) -> str:
+def _label(key_result: KeyResult, summaries: Sequence[Mapping[str, Any]]) -> str:
     """Return the label of a row; after how many reversals a peak was looked for, where that is one number."""
-    labels = {headline.label_in(summary) for summary in summaries}
-    return labels.pop() if len(labels) == 1 else headline.label
+    labels = {key_result.label_in(summary) for summary in summaries}
+    return labels.pop() if len(labels) == 1 else key_result.label
 
 
-def _cell(value: Any, first: Any, headline: Headline) -> dict[str, Any]:
+def _cell(value: Any, first: Any, key_result: KeyResult) -> dict[str, Any]:
     """Return a number, and in percent how far it is from that of the first run."""
     if value is None:
         return {"value": "—", "change": "", "notable": False}
-    words = in_words(value, headline.digits)
+    words = in_words(value, key_result.digits)
     if first is None or not first or value == first:
         return {"value": words, "change": "", "notable": False}
     share = (value - first) / abs(first)
@@ -196,7 +196,7 @@ def _cell(value: Any, first: Any, headline: Headline) -> dict[str, Any]:
         "value": words,
         "change": change.replace("-", "−"),
         # How much work it was depends on the machine: no result stands out by that.
-        "notable": abs(share) > NOTABLE and headline.group != "Effort",
+        "notable": abs(share) > NOTABLE and key_result.group != "Effort",
     }
 
 

@@ -17,7 +17,7 @@ from tribodyn.report import assets
 from tribodyn.report.bands import bands
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
-from tribodyn.results import Headline, json_attribute
+from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.summary import caution
 from tribodyn.views.encode import inside_page
 from tribodyn.views.numbers import in_words
@@ -28,16 +28,16 @@ _FIRST_WARNINGS: Final = 2
 """Key results and warnings beside the moving mechanism; all others follow below."""
 
 Number = dict[str, str]
-"""A headline number with ``label``, ``value``, ``unit`` and ``meaning``."""
+"""A key result with ``label``, ``value``, ``unit`` and ``meaning``."""
 
 
-def number(headline: Headline, summary: Mapping[str, Any], name: str) -> Number:
-    """Return a headline number of a summary in words."""
+def number(key_result: KeyResult, summary: Mapping[str, Any], name: str) -> Number:
+    """Return a key result of a summary in words."""
     return {
-        "label": headline.label_in(summary),
-        "value": in_words(summary[name], headline.digits),
-        "unit": headline.unit,
-        "meaning": headline.meaning,
+        "label": key_result.label_in(summary),
+        "value": in_words(summary[name], key_result.digits),
+        "unit": key_result.unit,
+        "meaning": key_result.meaning,
     }
 
 
@@ -53,7 +53,7 @@ def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return the key results of the whole, in their groups."""
     numbers = [entry for entry in known(summary, str(summary["kind"])).items() if not entry[1].part]
     return [
-        {"name": group, "numbers": [number(headline, summary, name) for name, headline in members]}
+        {"name": group, "numbers": [number(key_result, summary, name) for name, key_result in members]}
         for group, members in groupby(numbers, key=lambda entry: entry[1].group)
     ]
 
@@ -67,13 +67,13 @@ def tables(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def _table(group: str, headlines: Mapping[str, Headline], summary: Mapping[str, Any]) -> dict[str, Any]:
-    columns = {(one.column_in(summary), one.unit): one for one in headlines.values()}
+def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, Any]) -> dict[str, Any]:
+    columns = {(one.column_in(summary), one.unit): one for one in key_results.values()}
     cells = {
         (one.part, one.column_in(summary), one.unit): in_words(summary[name], one.digits)
-        for name, one in headlines.items()
+        for name, one in key_results.items()
     }
-    parts = dict.fromkeys(one.part for one in headlines.values())
+    parts = dict.fromkeys(one.part for one in key_results.values())
     return {
         "name": group,
         "columns": [
@@ -175,7 +175,7 @@ def page(template: str = "page.html", *, payload: Mapping[str, Any] | None, **co
 
 
 def _solver(dataset: xr.Dataset) -> dict[str, str]:
-    """Return statistics of the solver and what the ledgers and the grid say."""
+    """Return statistics of the solver and what the balances and the grid say."""
     found = {name: in_words(value) for name, value in json_attribute(dataset, "solver", {}).items()}
     residuals = {
         "energy_residual": "energy residual, whole system",

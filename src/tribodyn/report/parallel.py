@@ -1,4 +1,4 @@
-"""Sweep: every point as a line across parallel axes, from its parameters to its headline numbers."""
+"""Sweep: every point as a line across parallel axes, from its parameters to its key results."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _parameter(dataset: xr.Dataset, name: str, dims: tuple[Any, ...]) -> Paralle
 
 
 def _number(dataset: xr.Dataset, name: str) -> ParallelAxis:
-    """Return the axis of a headline number."""
+    """Return the axis of a key result."""
     about = dataset[name].attrs
     unit = str(about.get("units", ""))
     label = str(about.get("long_name", name)) + (f" [{unit}]" if unit not in ("", "1") else "")
@@ -123,8 +123,8 @@ def points_of(dataset: xr.Dataset, folder: Path | None) -> list[ParallelPoint]:
     failures = [str(failure) for failure in dataset["failure"].values.ravel()]
     given = dataset["doubtful"].values.ravel() if "doubtful" in dataset else [""] * len(names)
     return [
-        ParallelPoint(name, failure, _link(folder, name), str(doubt))
-        for name, failure, doubt in zip(names, failures, given, strict=True)
+        ParallelPoint(name, failure, _link(folder, name), str(warning))
+        for name, failure, warning in zip(names, failures, given, strict=True)
     ]
 
 

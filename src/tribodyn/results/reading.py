@@ -1,4 +1,4 @@
-"""Numbers read off a result: what headline numbers are made of."""
+"""Numbers read off a result: what key results are made of."""
 
 from __future__ import annotations
 

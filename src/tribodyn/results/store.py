@@ -74,7 +74,7 @@ def write_run(
     directory
         Folder to write to; made if missing.
     summary
-        Its headline numbers.
+        Its key results.
     stale
         What else was made from the earlier result; removed once the new one is on the disk.
 

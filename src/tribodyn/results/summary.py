@@ -16,8 +16,8 @@ from tribodyn.results.reading import column, statistic
 
 
 @dataclass(frozen=True)
-class Headline:
-    """One headline number.
+class KeyResult:
+    """One key result.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Headline:
     digits
         How many digits of it hold: neighbouring tolerances agree in them, or nearly.
     over
-        Of a peak, the name of the headline number that says in how much of the motion it was looked for.
+        Of a peak, the name of the key result that says in how much of the motion it was looked for.
     span
         That in words; a plural s follows them.
     part
@@ -73,13 +73,13 @@ class Headline:
         n = summary[self.over]
         return f" {self.span.format(n)}" + ("" if n == 1 else "s")
 
-    def of_part(self, part: str) -> Headline:
+    def of_part(self, part: str) -> KeyResult:
         """Return the number as that of a part with a name."""
         return replace(self, label=f"{self.label}, {part}", part=part, column=self.label)
 
 
 Summary: TypeAlias = dict[str, float | int | str | list[str]]
-"""Headline numbers and texts of a run, as in ``summary.json``."""
+"""Key results and texts of a run, as in ``summary.json``."""
 
 
 def _real_time_factor(dataset: xr.Dataset) -> float:
@@ -90,8 +90,8 @@ def _real_time_factor(dataset: xr.Dataset) -> float:
     return float(time[-1] - time[0]) / statistic("wall_time")(dataset)
 
 
-EFFORT: Final[dict[str, Headline]] = {
-    "simulated_time_s": Headline(
+EFFORT: Final[dict[str, KeyResult]] = {
+    "simulated_time_s": KeyResult(
         "Simulated time",
         "s",
         "Effort",
@@ -99,10 +99,10 @@ EFFORT: Final[dict[str, Headline]] = {
         lambda d: float(np.ptp(column(d, "time"))),
         digits=4,
     ),
-    "steps": Headline(
+    "steps": KeyResult(
         "Steps", "", "Effort", "Accepted steps of the integrator.", statistic("steps"), count=True
     ),
-    "rhs_evaluations": Headline(
+    "rhs_evaluations": KeyResult(
         "Evaluations",
         "",
         "Effort",
@@ -110,10 +110,10 @@ EFFORT: Final[dict[str, Headline]] = {
         statistic("rhs_evaluations"),
         count=True,
     ),
-    "wall_time_s": Headline(
+    "wall_time_s": KeyResult(
         "Wall time", "s", "Effort", "How long the integration took.", statistic("wall_time")
     ),
-    "real_time_factor": Headline(
+    "real_time_factor": KeyResult(
         "Real-time factor",
         "",
         "Effort",
@@ -128,7 +128,7 @@ DOUBTFUL: Final = 0.05
 """Energy that a run misses, over the largest term of its balance, beyond which no number should be used."""
 
 
-def doubt(dataset: xr.Dataset) -> str:
+def warning(dataset: xr.Dataset) -> str:
     """Return why the numbers of a run should not be used: its energy balance; empty where it closes."""
     missed = dataset.attrs.get("energy_residual", 0.0)
     if not isinstance(missed, float) or missed <= DOUBTFUL:
@@ -136,13 +136,13 @@ def doubt(dataset: xr.Dataset) -> str:
     return "the energy balance misses " + ("all" if math.isnan(missed) else f"{100 * missed:.2g} %")
 
 
-def caution(doubt: object, numbers: str = "these numbers") -> str:
-    """Return the sentence that accompanies doubtful numbers, see :func:`doubt`; empty without a reason."""
-    return f"Do not use {numbers}: {doubt}." if doubt else ""
+def caution(reason: object, numbers: str = "these numbers") -> str:
+    """Return the sentence beside numbers that should not be used, see :func:`warning`; else an empty one."""
+    return f"Do not use {numbers}: {reason}." if reason else ""
 
 
-def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary:
-    """Return the headline numbers of a result.
+def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summary:
+    """Return the key results of a result.
 
     A number that the result cannot give (a partial run) is left out.
 
@@ -150,14 +150,14 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
     ----------
     dataset
         A result.
-    headlines
+    key_results
         Those of its mechanism, by name.
 
     Returns
     -------
     dict
         Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none),
-        ``doubtful`` (see :func:`doubt`), the lists of ``warnings`` and ``notes``, the
+        ``doubtful`` (see :func:`warning`), the lists of ``warnings`` and ``notes``, the
         hashes of data and rows, then numbers by name.
     """
     failure = str(dataset.attrs.get("failure", ""))
@@ -166,21 +166,21 @@ def summarise(dataset: xr.Dataset, headlines: Mapping[str, Headline]) -> Summary
         "title": str(dataset.attrs.get("title", "")),
         "status": "failed" if failure else "complete",
         "failure": failure,
-        "doubtful": doubt(dataset),
+        "doubtful": warning(dataset),
         "warnings": json_attribute(dataset, "warnings", []),
         "notes": json_attribute(dataset, "notes", []),
         **{name: str(dataset.attrs[name]) for name in (DATA_HASH, ROWS_HASH) if name in dataset.attrs},
     }
-    for name, headline in {**headlines, **EFFORT}.items():
-        value = _number(headline, dataset)
+    for name, key_result in {**key_results, **EFFORT}.items():
+        value = _number(key_result, dataset)
         if math.isfinite(value):
-            summary[name] = int(value) if headline.count else value
+            summary[name] = int(value) if key_result.count else value
     return summary
 
 
-def _number(headline: Headline, dataset: xr.Dataset) -> float:
-    """Return a headline number, NaN where the result does not hold what it needs."""
+def _number(key_result: KeyResult, dataset: xr.Dataset) -> float:
+    """Return a key result, NaN where the result does not hold what it needs."""
     try:
-        return headline.compute(dataset)
+        return key_result.compute(dataset)
     except (KeyError, ValueError, ZeroDivisionError, IndexError):
         return math.nan

@@ -8,7 +8,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.results.reading import column, cycles, peak
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 
 
 def _wear_rate(dataset: xr.Dataset) -> float:
@@ -20,29 +20,29 @@ def _wear_rate(dataset: xr.Dataset) -> float:
     return peak(column(dataset, "wear_depth")) * 1e9 * 1000.0 / held if whole else math.nan
 
 
-WEAR_NUMBERS: Final[dict[str, Headline]] = {
-    "partner_wear_depth_max_nm": Headline(
+WEAR_NUMBERS: Final[dict[str, KeyResult]] = {
+    "partner_wear_depth_max_nm": KeyResult(
         "Wear depth of the partner",
         "nm",
         "Wear",
         "Its part of the wear depth, at the deepest: what is worn off the shaft, where both wear.",
         lambda d: peak(column(d, "partner_wear_depth")) * 1e9,
     ),
-    "wear_depth_rate_nm_per_1000_cycles": Headline(
+    "wear_depth_rate_nm_per_1000_cycles": KeyResult(
         "Wear rate",
         "nm per 1000 cycles",
         "Wear",
         "Deepest wear if this motion repeats and the pressure stays as it is.",
         _wear_rate,
     ),
-    "worn_volume_mm3": Headline(
+    "worn_volume_mm3": KeyResult(
         "Worn volume",
         "mm³",
         "Wear",
         "What was worn off the bushing, in the campaign or by the same estimate.",
         lambda d: float(d.attrs["worn_volume"]) * 1e9,
     ),
-    "wear_cycles": Headline(
+    "wear_cycles": KeyResult(
         "Cycles of wear",
         "",
         "Wear",
@@ -50,7 +50,7 @@ WEAR_NUMBERS: Final[dict[str, Headline]] = {
         lambda d: float(d.attrs["wear_cycles_reached"]),
         count=True,
     ),
-    "wear_life_cycles": Headline(
+    "wear_life_cycles": KeyResult(
         "Life",
         "cycles",
         "Wear",
@@ -58,7 +58,7 @@ WEAR_NUMBERS: Final[dict[str, Headline]] = {
         "without a campaign a linear estimate.",
         lambda d: float(d.attrs["wear_life_cycles"]),
     ),
-    "wear_life_factor": Headline(
+    "wear_life_factor": KeyResult(
         "Factor of the life",
         "",
         "Wear",

@@ -30,7 +30,7 @@ class SweepJob:
     points
         One or more.
     keep_result
-        Whether outcomes hold the whole result beside the headline numbers.
+        Whether outcomes hold the whole result beside the key results.
     staging
         Path beside which workers of this machine leave it instead; empty for none.
     stop

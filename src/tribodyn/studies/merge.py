@@ -30,14 +30,14 @@ def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:
     plan
         Its points.
     summaries
-        Headline numbers of those that were computed, by name of the point.
+        Key results of those that were computed, by name of the point.
 
     Returns
     -------
     xarray.Dataset
         One dimension for each parameter of a grid, named by its dotted path, and ``point`` for samples. The
         values of the parameters are coordinates (SI; ``shown_unit`` and ``shown_scale`` say how to print
-        them). One variable for each headline number, NaN where a point failed or was not reached, with
+        them). One variable for each key result, NaN where a point failed or was not reached, with
         ``units`` and ``long_name``; the texts ``failure``, ``warnings``, ``doubtful`` and ``points`` of each
         point.
     """
@@ -69,7 +69,7 @@ def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
 
 
 def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float], type, dict[str, str]]:
-    """Return the values of a headline number over all points; a point that failed has none."""
+    """Return the values of a key result over all points; a point that failed has none."""
     told = known([name], kind).get(name)
     about = {"units": told.unit or "1", "long_name": told.label} if told else {"long_name": name}
     values = [math.nan if row.get("failure") else _number(row.get(name)) for row in rows]

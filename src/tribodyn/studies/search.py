@@ -1,4 +1,4 @@
-"""The value of a parameter at which a headline number reaches a limit: a root found with few runs."""
+"""The value of a parameter at which a key result reaches a limit: a root found with few runs."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from tribodyn.cases.units import with_shared_unit
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.results import headlines_of_case
-from tribodyn.results.summary import Headline
+from tribodyn.mechanisms.results import key_results_of_case
+from tribodyn.results.summary import KeyResult
 from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written
@@ -33,7 +33,7 @@ _DIGITS: Final = 5
 
 @dataclass(frozen=True)
 class Limit:
-    """A headline number and the value that it must reach, or not exceed.
+    """A key result and the value that it must reach, or not exceed.
 
     Attributes
     ----------
@@ -68,9 +68,9 @@ class Question:
     until: Limit
 
     @property
-    def headline(self) -> Headline:
+    def key_result(self) -> KeyResult:
         """What is known of the number."""
-        return headlines_of_case(self.case)[self.until.name]
+        return key_results_of_case(self.case)[self.until.name]
 
 
 @dataclass
@@ -175,7 +175,7 @@ def find(
     directory: str | Path | None = None,
     workers: int = 0,
 ) -> float:
-    """Return the value of a parameter at which a headline number reaches a limit.
+    """Return the value of a parameter at which a key result reaches a limit.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def find(
     between
         The range that is searched, such as ``"10..60 um"``; the number must pass the limit in it.
     until
-        Headline number and limit in its unit, such as ``"vane_angle_error_max_deg=0.03"``.
+        Key result and limit in its unit, such as ``"vane_angle_error_max_deg=0.03"``.
     within
         How near the value is found, as a share of the range.
     directory
@@ -265,17 +265,17 @@ def _read(key: Key, text: str) -> float:
 
 
 def limit(text: str, case: Case, option: str) -> Limit:
-    """Return a limit on a number of a case, written ``NAME=NUMBER``, in the unit of the headline number.
+    """Return a limit on a number of a case, written ``NAME=NUMBER``, in the unit of the key result.
 
     A part of the name will do: ``contact_max_N`` is ``contact_force_max_N``, the first with all its words.
 
     Raises
     ------
     InputError
-        There is no such headline number, or what follows is no number.
+        There is no such key result, or what follows is no number.
     """
     name, equals, number = (part.strip() for part in text.partition("="))
-    known = headlines_of_case(case)
+    known = key_results_of_case(case)
     words = name.split("_")
     full = name if name in known else next((n for n in known if set(words) <= set(n.split("_"))), None)
     try:

@@ -22,10 +22,10 @@ STATISTICS: Final[dict[str, Callable[[FloatArray], Any]]] = {
     "median": np.median,
     "p95": lambda values: np.percentile(values, 95.0),
 }
-"""Functions of the finite values of a headline number, by name; ``p5`` is the fifth percentile."""
+"""Functions of the finite values of a key result, by name; ``p5`` is the fifth percentile."""
 
 Statistics = dict[str, dict[str, float]]
-"""Statistics by name of the headline number."""
+"""Statistics by name of the key result."""
 
 
 def statistics(dataset: xr.Dataset) -> list[tuple[dict[str, Any], Statistics]]:
@@ -82,7 +82,7 @@ class Share:
 
 
 def shares(dataset: xr.Dataset, limits: Mapping[str, float]) -> dict[str, Share]:
-    """Return by name of a headline number how many points of a sweep do not exceed its limit.
+    """Return by name of a key result how many points of a sweep do not exceed its limit.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ class Sensitivity:
 
 
 def sensitivities(dataset: xr.Dataset, resamples: int = 499) -> dict[str, dict[str, Sensitivity]]:
-    """Return Sobol' indices by headline number and dotted path of the parameter.
+    """Return Sobol' indices by key result and dotted path of the parameter.
 
     Parameters
     ----------

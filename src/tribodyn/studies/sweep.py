@@ -73,7 +73,7 @@ class Means:
     fresh
         Whether all points are.
     keep_results
-        Whether each point keeps its whole result beside its headline numbers.
+        Whether each point keeps its whole result beside its key results.
     """
 
     workers: int | None = None

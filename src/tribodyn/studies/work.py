@@ -64,7 +64,7 @@ def compute(
     made_by
         Version of tribodyn that planned it; another one does not compute it.
     keep_result
-        Whether the whole result is returned beside the headline numbers.
+        Whether the whole result is returned beside the key results.
     staging
         Path beside which it is left as a file, on a machine whose disk the caller sees: bytes of a worker go
         through two processes before they are written. Where that fails, the result is returned all the same.

@@ -211,7 +211,7 @@ def _without_border(scan: Scan, cutoff: float) -> Scan:
 
 
 def _remarks(roughness: MeasuredSurface) -> Iterator[str]:
-    """Give what makes the numbers doubtful."""
+    """Give warnings about the numbers."""
     found, treatment = roughness.moments, roughness.treatment
     if found.resolved < _UNRESOLVED:
         yield (

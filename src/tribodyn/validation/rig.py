@@ -34,7 +34,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import as_given
-from tribodyn.mechanisms.results import headlines_of_case
+from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.simulation import simulate
 from tribodyn.studies.calibration import VariedKey
 from tribodyn.studies.measured import Measured, MeasuredCurve, MeasuredNumber, read
@@ -121,7 +121,7 @@ class Rig(ValidationSet):
         return parts[names.index(row["quantity"])]
 
     def _of_number(self, row: Mapping[str, str], value: float, half_width: float) -> Comparison:
-        known = headlines_of_case(self.case)
+        known = key_results_of_case(self.case)
         return Comparison(
             row["quantity"],
             known[row["quantity"]].unit if row["quantity"] in known else "",

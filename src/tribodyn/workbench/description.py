@@ -8,8 +8,8 @@ from typing import Any, Final
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS, templates
-from tribodyn.mechanisms.results import headlines_of_case, key_numbers_of
-from tribodyn.results import Headline
+from tribodyn.mechanisms.results import key_numbers_of, key_results_of_case
+from tribodyn.results import KeyResult
 from tribodyn.workbench.controls import controls
 from tribodyn.workbench.edits import addable, removable
 from tribodyn.workbench.variant import SAVED, Origin
@@ -29,7 +29,7 @@ def description(origin: Origin) -> dict[str, Any]:
         "run": origin.varied({}).run,
         "version": version("tribodyn"),
         "controls": controls(case, mechanism.controls),
-        "headlines": _headlines(origin),
+        "results": _key_results(origin),
         **_charts(mechanism),
         "templates": _templates(),
         "removable": removable(case),
@@ -64,16 +64,16 @@ def _charts(mechanism: MechanismDescriptor) -> dict[str, Any]:
     return {"chapters": chapters, "sections": sections}
 
 
-def _headlines(origin: Origin) -> list[dict[str, Any]]:
+def _key_results(origin: Origin) -> list[dict[str, Any]]:
     """Return the key results, robust ones first: those of impacts depend on the history."""
-    known = headlines_of_case(origin.case)
+    known = key_results_of_case(origin.case)
     key = key_numbers_of(origin.case.case, known)
     place = {name: number for number, name in enumerate(key)}
-    found = [_headline(name, about, name in place) for name, about in known.items()]
+    found = [_key_result(name, about, name in place) for name, about in known.items()]
     return sorted(found, key=lambda number: (not number["robust"], place.get(number["name"], len(key))))
 
 
-def _headline(name: str, about: Headline, key: bool) -> dict[str, Any]:
+def _key_result(name: str, about: KeyResult, key: bool) -> dict[str, Any]:
     """Return a key result as the page reads it."""
     return {
         "name": name,

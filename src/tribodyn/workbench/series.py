@@ -90,14 +90,14 @@ class Series:
             "value": shown_number(key, value),
             "text": text(key, value),
             "run": variant.run,
-            "headlines": {},
+            "results": {},
             "failure": "",
         }
         try:
             found = frame.header(await self._frame(variant))
         except Failed as error:
             return point | {"failure": str(error)}
-        return point | {name: found[name] for name in ("headlines", "failure")}
+        return point | {name: found[name] for name in ("results", "failure")}
 
     async def _frame(self, variant: Variant) -> bytes:
         kept = self.visitor.frame(variant.run)
@@ -222,14 +222,14 @@ def slope_of(state: ServerState, origin: Origin, asked: Slope) -> SeriesPlan:
             "type": "slope",
             **about,
             "finished": finished,
-            "headlines": slopes(points) if finished else {},
+            "results": slopes(points) if finished else {},
         }
 
     return SeriesPlan(asked.number, variants, along.key, say)
 
 
 def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:
-    """Return how headline numbers follow a key, in percent a percent, with the standard error of that.
+    """Return how key results follow a key, in percent a percent, with the standard error of that.
 
     The straight line of least squares through all points; numbers that a point lacks, or that are zero on
     average, have none.
@@ -237,14 +237,14 @@ def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:
     Parameters
     ----------
     points
-        With ``value`` and ``headlines``.
+        With ``value`` and ``results``.
     """
-    names = set.intersection(*(set(point["headlines"]) for point in points)) if points else set()
+    names = set.intersection(*(set(point["results"]) for point in points)) if points else set()
     names -= EFFORT.keys()
     x = np.array([point["value"] for point in points], dtype=np.float64)
     found = {}
     for name in names:
-        y = np.array([point["headlines"][name] for point in points], dtype=np.float64)
+        y = np.array([point["results"][name] for point in points], dtype=np.float64)
         if x.size > 2 and y.mean() != 0.0 and np.ptp(x) > 0.0:
             found[name] = _fitted(x / x.mean() - 1.0, y / y.mean())
     return found

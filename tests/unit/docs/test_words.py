@@ -40,7 +40,7 @@ def descriptions() -> Iterator[tuple[str, str]]:
         yield from ((f"{kind}: {key.path}", key.description) for key in keys_of(model).values())
     for kind, mechanism in MECHANISMS.items():
         of_parts = (made("part") for numbers in mechanism.by_part.values() for made in numbers.values())
-        for number in (*mechanism.headlines.values(), *of_parts, *EFFORT.values()):
+        for number in (*mechanism.key_results.values(), *of_parts, *EFFORT.values()):
             yield f"{kind}: {number.label}", f"{number.label}. {number.meaning}"
         for variable, about in mechanism.variables.items():
             yield f"{kind}: {variable}", about.long_name

@@ -1,4 +1,4 @@
-"""The band of headline numbers over a sweep of what is assumed, on the page of the run in its middle."""
+"""The band of key results over a sweep of what is assumed, on the page of the run in its middle."""
 
 from __future__ import annotations
 

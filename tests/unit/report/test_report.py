@@ -12,7 +12,7 @@ import pytest
 from tests.unit.mechanisms.general.made_up import result as linkage
 
 from tribodyn.mechanisms.results import known, summarise
-from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES
+from tribodyn.papers.cheng_2022.reduced.key_results import KEY_RESULTS
 from tribodyn.papers.cheng_2022.reduced.sections import CHAPTERS
 from tribodyn.report import draw_all, write
 from tribodyn.results import build
@@ -64,11 +64,11 @@ def report(make_result, tmp_path_factory):
     return result, draw_all(result, folder / "figures"), write(result, folder)
 
 
-def test_it_shows_every_headline_with_its_meaning(report):
+def test_it_shows_every_key_result_with_its_meaning(report):
     words = _page(report[2]).words
-    for headline in HEADLINES.values():
-        assert headline.label in words
-        assert headline.meaning in words
+    for key_result in KEY_RESULTS.values():
+        assert key_result.label in words
+        assert key_result.meaning in words
     assert "0.1 (the default, assumed)" in words
 
 

@@ -59,9 +59,9 @@ def test_a_sweep_without_any_result_still_has_a_page(sweep, tmp_path):
 
 
 def test_lines_of_points_whose_energy_is_missed_are_marked(sweep):
-    doubts = np.full(sweep["failure"].shape, "", dtype=object)
-    doubts.flat[2] = "the energy balance misses 7 %"
-    marked = sweep.assign(doubtful=(sweep["failure"].dims, doubts.astype(str)))
+    warnings = np.full(sweep["failure"].shape, "", dtype=object)
+    warnings.flat[2] = "the energy balance misses 7 %"
+    marked = sweep.assign(doubtful=(sweep["failure"].dims, warnings.astype(str)))
     found = payload(axes_of(marked), points_of(marked, None), ())
     assert [point["caution"] for point in found["points"]] == [
         "",

@@ -13,7 +13,7 @@ PAGE = Path(__file__).parents[3] / "docs" / "guide" / "results.md"
 
 LISTS = [VARIABLES, EFFORT]
 for _mechanism in MECHANISMS.values():
-    LISTS += [_mechanism.variables, _mechanism.headlines, [f"{name}.png" for name in _mechanism.figures]]
+    LISTS += [_mechanism.variables, _mechanism.key_results, [f"{name}.png" for name in _mechanism.figures]]
 
 
 @pytest.mark.parametrize("names", LISTS)

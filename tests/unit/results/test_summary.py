@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.mechanisms.results import headlines_of, summarise
-from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES
+from tribodyn.mechanisms.results import key_results_of, summarise
+from tribodyn.papers.cheng_2022.reduced.key_results import KEY_RESULTS
 from tribodyn.results import build
 
 PERIOD = 2.0 * np.pi
 IMPACT_TIME = 0.1 * np.pi
 
 
-def test_every_headline_of_a_whole_run_is_a_number(make_result):
+def test_every_key_result_of_a_whole_run_is_a_number(make_result):
     summary = summarise(make_result())
-    assert set(HEADLINES) <= set(summary)
-    assert all(math.isfinite(summary[name]) for name in HEADLINES)
+    assert set(KEY_RESULTS) <= set(summary)
+    assert all(math.isfinite(summary[name]) for name in KEY_RESULTS)
     assert summary["status"] == "complete"
     assert summary["steps"] == 4321
     assert "assumed" in summary["warnings"][0]
@@ -94,14 +94,16 @@ def test_a_reversal_counts_with_the_impacts_that_follow(make_result, end, start,
 
 def test_a_peak_is_told_with_the_reversals_it_was_looked_for_after(make_result):
     summary = summarise(make_result())
-    assert HEADLINES["contact_force_max_N"].label_in(summary) == "Contact force, peak after 3 reversals"
+    assert KEY_RESULTS["contact_force_max_N"].label_in(summary) == "Contact force, peak after 3 reversals"
     one = summarise(make_result(5.0))
-    assert HEADLINES["contact_force_max_N"].label_in(one).endswith("after 1 reversal")
-    assert HEADLINES["contact_force_outside_N"].label_in(one) == HEADLINES["contact_force_outside_N"].label
+    assert KEY_RESULTS["contact_force_max_N"].label_in(one).endswith("after 1 reversal")
+    assert (
+        KEY_RESULTS["contact_force_outside_N"].label_in(one) == KEY_RESULTS["contact_force_outside_N"].label
+    )
 
 
 @pytest.mark.parametrize("kind", MECHANISMS)
-def test_groups_of_headlines_hang_together(kind):
-    groups = [headline.group for headline in headlines_of(kind).values()]
+def test_groups_of_key_results_are_contiguous(kind):
+    groups = [key_result.group for key_result in key_results_of(kind).values()]
     changes = sum(a != b for a, b in itertools.pairwise(groups))
     assert changes == len(set(groups)) - 1

@@ -130,7 +130,7 @@ def test_a_stopped_sweep_keeps_what_it_has(simulated: list[Any], tmp_path: Path)
     assert len(list((tmp_path / "points").iterdir())) == 3
 
 
-def test_headline_numbers_alone_may_be_kept(simulated: list[Any], tmp_path: Path) -> None:
+def test_key_results_alone_may_be_kept(simulated: list[Any], tmp_path: Path) -> None:
     run(make_plan(load_case("vsv"), GRID), tmp_path, Means(0, keep_results=False))
     assert len(list(tmp_path.glob("points/*/summary.json"))) == 4
     assert not list(tmp_path.glob("points/*/result.nc"))

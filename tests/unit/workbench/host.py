@@ -85,7 +85,7 @@ class Pretending(WorkerPool):
     def _content(self, job: Job) -> bytes:
         if job.order["work"] != "picture":
             return b"a file"
-        shown = {"headlines": {"a": 1.0}, "failure": "", "sections": {"one": {"x": packed([1.0, 2.0])}}}
+        shown = {"results": {"a": 1.0}, "failure": "", "sections": {"one": {"x": packed([1.0, 2.0])}}}
         return frame.body({**job.order["header"], **shown})
 
 

@@ -260,7 +260,7 @@ async def test_a_slope_is_that_of_five_runs_around_the_value() -> None:
         runs = {order["header"]["values"].get(CLEARANCE) for order in pool.made}
         assert {"36 um", "38 um", "40 um", "42 um", "44 um"} <= runs
         # The pretended number is always the same.
-        assert told["headlines"]["a"] == {"slope": 0.0, "scatter": 0.0}
+        assert told["results"]["a"] == {"slope": 0.0, "scatter": 0.0}
         await page.say("slope", number=4, key="joint.form.crown", values={})
         assert "other than zero" in (await page.until("refused"))["message"]
 
@@ -306,7 +306,7 @@ async def test_every_message_of_the_greeting_is_what_the_page_needs() -> None:
         clearance = first[0]
         assert (clearance["text"], clearance["number"], clearance["unit"]) == ("20 um", 20.0, "um")
         assert (clearance["least"], clearance["greatest"], clearance["step"]) == (5.0, 50.0, 1.0)
-        robust = [number["robust"] for number in hello["headlines"]]
+        robust = [number["robust"] for number in hello["results"]]
         assert robust == sorted(robust, reverse=True)
         assert {section["chapter"] for section in hello["sections"]} == {c["name"] for c in hello["chapters"]}
         assert not isinstance(await page.hear(), Answer)

@@ -1,4 +1,4 @@
-"""Slopes of headline numbers over five points."""
+"""Slopes of key results over five points."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from tribodyn.workbench.series import AROUND, slopes
 
 
 def points(value, number):
-    return [{"value": value * (1 + share), "headlines": {"a": number(1 + share)}} for share in AROUND]
+    return [{"value": value * (1 + share), "results": {"a": number(1 + share)}} for share in AROUND]
 
 
 def test_the_slope_of_a_power_is_its_exponent_and_a_line_has_no_scatter():
@@ -29,5 +29,5 @@ def test_scatter_is_the_standard_error_of_the_slope():
 
 def test_numbers_that_a_point_lacks_have_no_slope():
     some = points(40.0, lambda x: x)
-    some[2]["headlines"] = {}
+    some[2]["results"] = {}
     assert slopes(some) == {}

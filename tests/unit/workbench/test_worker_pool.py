@@ -62,9 +62,7 @@ async def at_work(made: WorkerPool) -> int:
 def numbers(content: bytes) -> dict[str, Any]:
     """Return what a frame shows, without what the run took."""
     header = frame.header(content)
-    return {"sections": header["sections"]} | {
-        k: v for k, v in header["headlines"].items() if k not in EFFORT
-    }
+    return {"sections": header["sections"]} | {k: v for k, v in header["results"].items() if k not in EFFORT}
 
 
 def test_a_worker_killed_in_mid_run_goes_unnoticed_but_for_the_time(with_pool: Test) -> None:

@@ -59,7 +59,7 @@ class Assembly:
         What the kernels read.
     ideal_rank
         Number of independent constraints if all joints were ideal; in a mechanism with loops.
-    doubts
+    findings_if_ideal
         What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
         when it is led through its cycle.
     strain
@@ -75,7 +75,7 @@ class Assembly:
     state: FloatArray
     data: MechanismData
     ideal_rank: int
-    doubts: tuple[ModelError, ...] = ()
+    findings_if_ideal: tuple[ModelError, ...] = ()
     strain: str = ""
 
     @property
@@ -121,11 +121,11 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
         Wear depth at the nodes of all joints with clearance [m], shape (n_nodes,); none by default.
     """
     findings = list(model.loose())
-    closed, open_joints, doubts = _closed(model)
+    closed, open_joints, findings_if_ideal = _closed(model)
     findings += open_joints
     system = System(model, worn)
     system.take_positions(closed)
-    if doubts:
+    if findings_if_ideal:
         system.close()
     rank, dependent = system.independence()
     redundancy = None
@@ -140,13 +140,13 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     if model.clearances:
         ideal = Misfit(model, System(model.counterpart))
         ideal.system.take_positions(system)
-    if ideal and model.has_loops and not (contradictions or open_joints or doubts):
+    if ideal and model.has_loops and not (contradictions or open_joints or findings_if_ideal):
         ideal_rank, dependent = ideal.system.independence()
-        doubts = _contradictions(ideal.system, dependent)
+        findings_if_ideal = _contradictions(ideal.system, dependent)
     system.parts.constants.rank = rank
     unequal, inexact = system.unequal(rank)
-    contrary = start(system, speeds_of(model), ideal, fits=not doubts)
-    findings += doubts if doubts and contrary else [*unequal, *contrary]
+    contrary = start(system, speeds_of(model), ideal, fits=not findings_if_ideal)
+    findings += findings_if_ideal if findings_if_ideal and contrary else [*unequal, *contrary]
     moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
     state = np.zeros(N_STATES * len(model.bodies))
     collect(system.now.bodies, state)
@@ -161,7 +161,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
         state,
         system.data,
         ideal_rank,
-        tuple(doubts),
+        tuple(findings_if_ideal),
     )
 
 
@@ -174,7 +174,7 @@ def _closed(model: Model) -> tuple[System, list[ModelError], list[ModelError]]:
         With the bodies where all joints close, or miss least.
     findings
         What does not close, whatever the clearances.
-    doubts
+    findings_if_ideal
         What does not close but for the clearances.
     """
     closed = System(model.as_drawn)

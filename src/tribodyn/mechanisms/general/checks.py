@@ -22,19 +22,19 @@ GAP_LIMIT: Final = 1.0e-9
 _TIGHTEN: Final = "Tighten solver.rtol tenfold."
 
 
-def of_ledgers(energy: float, gaps: FloatArray) -> list[str]:
+def of_balance(energy: float, gaps: FloatArray) -> list[str]:
     """Return what is to be said of energy and constraints; empty texts where nothing is.
 
     Parameters
     ----------
     energy
-        What the energy ledger misses, as a fraction of its largest term.
+        What the energy balance misses, as a fraction of its largest term.
     gaps
         Largest residual of a constraint over time [m or rad], shape (n_t,).
     """
     if math.isnan(energy):
         return [
-            "Energy could not be accounted for to the end. Doubt what follows the last finite "
+            "Energy could not be accounted for to the end. Do not use what follows the last finite "
             "energy_residual."
         ]
     gap = float(np.max(gaps, initial=0.0))

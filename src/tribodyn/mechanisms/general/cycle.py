@@ -69,7 +69,9 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
     if not assembly.model.has_loops:
         return Passage()
     ideal = assembly.model.counterpart
-    stuck: tuple[float, ModelError] | None = (0.0, assembly.doubts[0]) if assembly.doubts else None
+    stuck: tuple[float, ModelError] | None = (
+        (0.0, assembly.findings_if_ideal[0]) if assembly.findings_if_ideal else None
+    )
     if stuck is None:
         stuck = _stuck(placed(System(ideal), assembly), assembly.ideal_rank, duration)
     if stuck is None:

@@ -9,8 +9,8 @@ from tribodyn.cases.load import BuiltIn, flat
 from tribodyn.core import toml
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.headlines import HEADLINES, KEY_NUMBERS
 from tribodyn.mechanisms.general.joint_numbers import BY_JOINT
+from tribodyn.mechanisms.general.key_results import KEY_NUMBERS, KEY_RESULTS
 from tribodyn.mechanisms.general.library import BUILT_IN, TEMPLATES
 from tribodyn.mechanisms.general.mode_numbers import BY_MODE
 from tribodyn.mechanisms.general.variables import OF_CYCLE, VARIABLES
@@ -29,7 +29,7 @@ MECHANISM: Final = MechanismDescriptor(
     built_in=dict(_built_in()),
     templates={name: template.text for name, template in TEMPLATES.items()},
     variables=VARIABLES,
-    headlines=HEADLINES,
+    key_results=KEY_RESULTS,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
     by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT, "instants": BY_INSTANT, "modes": BY_MODE},

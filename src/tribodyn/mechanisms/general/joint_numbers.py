@@ -23,7 +23,7 @@ from tribodyn.mechanisms.general.readings import (
     wear_rate,
 )
 from tribodyn.results.reading import column, lasting, peak, settled, time_mean
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 
 
 def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:
@@ -33,9 +33,9 @@ def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByP
         values = column(dataset, f"{quantity}_outside")
         return above_zero(peak(values[:, of_joint(dataset, joint)] if joint else values)) * scale
 
-    def made(joint: str) -> Headline:
+    def made(joint: str) -> KeyResult:
         name = label if joint else f"{label} in a joint"
-        number = Headline(
+        number = KeyResult(
             f"{name}, largest outside impacts",
             unit,
             "Joints" if joint else "Load",
@@ -65,7 +65,7 @@ def pair(
     values: Callable[[xr.Dataset], FloatArray],
     *,
     scale: float = 1.0,
-) -> dict[str, Headline]:
+) -> dict[str, KeyResult]:
     """Return the sustained maximum and the peak with impacts, by their names.
 
     Parameters
@@ -73,7 +73,7 @@ def pair(
     names
         Of the two.
     label, unit, group, meaning
-        As of a :class:`~tribodyn.results.summary.Headline`; the meaning ends in the share of time.
+        As of a :class:`~tribodyn.results.summary.KeyResult`; the meaning ends in the share of time.
     values
         The quantities over time, shape (n_t,) or (n_t, n).
     scale
@@ -81,14 +81,14 @@ def pair(
     """
     quiet, loud = names
     return {
-        quiet: Headline(
+        quiet: KeyResult(
             f"{label}, sustained",
             unit,
             group,
             f"{meaning} for 99 % of the time; impacts excluded.",
             lambda d: above_zero(lasting(d, values(d))) * scale,
         ),
-        loud: Headline(
+        loud: KeyResult(
             f"{label}, peak",
             unit,
             group,
@@ -103,8 +103,8 @@ def pair(
 def _named(
     label: str, unit: str, group: str, meaning: str, compute: Callable[[xr.Dataset, int], float]
 ) -> ByPart:
-    def made(joint: str) -> Headline:
-        number = Headline(label, unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
+    def made(joint: str) -> KeyResult:
+        number = KeyResult(label, unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
         return number.of_part(joint)
 
     return made
@@ -121,7 +121,7 @@ def _pair_named(
 ) -> dict[str, ByPart]:
     """Return the pair of numbers of a joint, see :func:`pair`."""
 
-    def made(name: str, joint: str) -> Headline:
+    def made(name: str, joint: str) -> KeyResult:
         both = pair(
             names,
             label,

@@ -11,18 +11,18 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart
 from tribodyn.results.reading import column
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 
 
 def _of_mode(
     label: str, unit: str, meaning: str, variable: str, reduce: Callable[[FloatArray], float], digits: int = 6
 ) -> ByPart:
-    def made(mode: str) -> Headline:
+    def made(mode: str) -> KeyResult:
         def compute(dataset: xr.Dataset) -> float:
             number = [str(name) for name in dataset["mode"].values].index(mode)
             return reduce(column(dataset, variable)[:, number])
 
-        return Headline(label, unit, "Modes", meaning, compute, digits=digits).of_part(mode)
+        return KeyResult(label, unit, "Modes", meaning, compute, digits=digits).of_part(mode)
 
     return made
 

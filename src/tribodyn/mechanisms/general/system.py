@@ -27,13 +27,13 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.contacts import Contacts
 from tribodyn.mechanisms.general.cycle import drive_through
 from tribodyn.mechanisms.general.element_numbers import transmitted
+from tribodyn.mechanisms.general.energy_balance import TERMS, WHOLE, balance_columns
 from tribodyn.mechanisms.general.films import film_coordinates, film_maps, film_peaks
 from tribodyn.mechanisms.general.flash import flash_temperatures
 from tribodyn.mechanisms.general.followed import followed
 from tribodyn.mechanisms.general.following import following
 from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.kept import Layout, columns, frames, layout_of, not_kept, note
-from tribodyn.mechanisms.general.ledger import TERMS, WHOLE, ledger_columns
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
 from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
@@ -244,12 +244,12 @@ class MechanismSystem:
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         vibrations = self._vibrations(found, run)
-        ledger = ledger_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
+        balance = balance_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
         least = least_energy(self.assembly, found.couplings["reaction_force"], self.case.solver.rtol)
-        energy = {WHOLE.attribute: WHOLE.fraction(ledger, least)}
+        energy = {WHOLE.attribute: WHOLE.fraction(balance, least)}
         if self._analysis != "dynamic":
             energy.clear()
-            del ledger[WHOLE.residual]
+            del balance[WHOLE.residual]
         peaks = self._peaks(run)
         worn = self._worn(depth_of(run.problem.data.contact, self.maps.places))
         contacts = self._contacts(worn)
@@ -268,8 +268,8 @@ class MechanismSystem:
                 **radial_clearances(self.model, run.solution.t),
                 **of_outputs,
                 **vibrations.columns,
-                **{name: values for name, values in found.whole.items() if name not in _IN_LEDGER},
-                **ledger,
+                **{name: values for name, values in found.whole.items() if name not in _IN_BALANCE},
+                **balance,
             },
             fields={
                 "clearance": self._clearances(),
@@ -293,7 +293,7 @@ class MechanismSystem:
                 [*self.assembly.warnings],
                 vibrations.warnings,
                 checks.of_start(self.case.run.start, self._began(run)),
-                *(checks.of_ledgers(missed, found.whole["gap"]) for missed in energy.values()),
+                *(checks.of_balance(missed, found.whole["gap"]) for missed in energy.values()),
                 contacts.warnings(peaks, of_contacts, float(run.solution.t_end)) if peaks else [],
                 of_tables(
                     self.case.followed(), run.solution.t, partial(followed, self.case, found.couplings)
@@ -421,7 +421,7 @@ class MechanismSystem:
         return film_maps(run.problem.data.films, pictures)
 
 
-_IN_LEDGER: Final = frozenset(term.row for term in TERMS.values())
-"""What reaches the user under the names of the ledger instead."""
+_IN_BALANCE: Final = frozenset(term.row for term in TERMS.values())
+"""What reaches the user under the names of the balance instead."""
 
 SYSTEM: Final = MechanismSystem

@@ -41,7 +41,7 @@ def warnings(
         When the contact pressure was largest, in words.
     """
     messages = [
-        f"Energy is missed: {100 * residual:.2g} % of all in the ledger. {TIGHTEN}"
+        f"Energy is missed: {100 * residual:.2g} % of all in the balance. {TIGHTEN}"
         if not residual <= ENERGY_LIMIT
         else "",
         *of_contact(

@@ -7,7 +7,7 @@ from typing import Final
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.journal.case import JournalCase
-from tribodyn.mechanisms.journal.headlines import HEADLINES, KEY_NUMBERS
+from tribodyn.mechanisms.journal.key_results import KEY_NUMBERS, KEY_RESULTS
 from tribodyn.mechanisms.journal.variables import VARIABLES
 
 MECHANISM: Final = MechanismDescriptor(
@@ -20,7 +20,7 @@ MECHANISM: Final = MechanismDescriptor(
         "journal-oil": BuiltIn(JournalCase, "the same in oil", {"film.lubricated": True}),
     },
     variables=VARIABLES,
-    headlines=HEADLINES,
+    key_results=KEY_RESULTS,
     key_numbers=KEY_NUMBERS,
     controls=(
         "joint.clearance",

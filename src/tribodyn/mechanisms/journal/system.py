@@ -39,8 +39,8 @@ from tribodyn.mechanisms.general.model import model_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.checks import warnings
+from tribodyn.mechanisms.journal.energy_balance import balance_columns, residual_fraction
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
-from tribodyn.mechanisms.journal.ledger import ledger_columns, residual_fraction
 from tribodyn.mechanisms.journal.model import BEARING, inertia, mechanism_of
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
 from tribodyn.mechanisms.journal.quantities import FILM, LOADS, WATCHED
@@ -223,7 +223,7 @@ class JournalSystem:
         oil = self.journal.film is not None
         left_out = {TURNED, *(() if oil else names(FILM))}
         kept = {name: values for name, values in force_parts(rows).items() if name not in left_out}
-        return kept | ledger_columns(rows, lubricated=oil)
+        return kept | balance_columns(rows, lubricated=oil)
 
     def _facts(self) -> dict[str, object]:
         case = self.case

@@ -2,12 +2,12 @@
 
 /** Numbers that are shown before they are asked for, the robust ones and those that matter most: beside controls, below them. */
 const MOST_AT_FIRST = { wide: 7, narrow: 4 };
-/** Energy residual above which the reasons for doubt are unfolded [%]. */
+/** Energy residual above which the the warnings are unfolded [%]. */
 const MOST_MISSED = 1;
 const chosen = { curve: null, all: false, against: null };
 
-/** Return a headline number in words. */
-function headlineText(value, digits) {
+/** Return a key result in words. */
+function resultText(value, digits) {
   if (value === undefined || value === null) return "—";
   return Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value).replace("-", "−") : number(value, digits || 3);
 }
@@ -22,16 +22,16 @@ function difference(value, other) {
 
 /** Return the smallest and the largest of a number over the run shown and the trail, in words. */
 function rangeText({ name, digits }) {
-  const values = [...pageState.trail, pageState.shown].map((run) => run.headlines[name]).filter(Number.isFinite);
+  const values = [...pageState.trail, pageState.shown].map((run) => run.results[name]).filter(Number.isFinite);
   const [low, high] = [Math.min(...values), Math.max(...values)];
   if (values.length < 2 || low === high) return "";
-  return `${headlineText(low, digits)} … ${headlineText(high, digits)}`;
+  return `${resultText(low, digits)} … ${resultText(high, digits)}`;
 }
 
 /** Return the largest energy residual of a run [%]; 0 where it has none. */
-function energyMissed(headlines) {
-  const residuals = Object.keys(headlines).filter((name) => name.endsWith("energy_residual_percent"));
-  return Math.max(0, ...residuals.map((name) => headlines[name]));
+function energyMissed(results) {
+  const residuals = Object.keys(results).filter((name) => name.endsWith("energy_residual_percent"));
+  return Math.max(0, ...residuals.map((name) => results[name]));
 }
 
 /** Say what an energy balance that does not close means, and what to do. */
@@ -49,8 +49,8 @@ function tellNumbers() {
   const { shown } = pageState;
   if (!shown) return;
   document.getElementById("whose").textContent = `Numbers and pictures of: ${valuesInWords(shown.values)}`;
-  tellDoubts();
-  const known = pageState.hello.headlines.filter(({ name }) => name in shown.headlines);
+  showWarnings();
+  const known = pageState.hello.results.filter(({ name }) => name in shown.results);
   chosen.curve ??= known.find(({ robust }) => robust)?.name;
   const focused = document.activeElement?.dataset.number;
   const table = document.querySelector("#numbers table");
@@ -70,37 +70,37 @@ function tellNumbers() {
 /** Return the numbers that are shown before all are asked for. */
 function atFirst(rows, robust) {
   if (!robust) return rows.filter(({ key }) => key);
-  return rows.filter(({ key, name }) => key || !Number.isInteger(pageState.shown.headlines[name])).slice(0, MOST_AT_FIRST[isNarrow() ? "narrow" : "wide"]);
+  return rows.filter(({ key, name }) => key || !Number.isInteger(pageState.shown.results[name])).slice(0, MOST_AT_FIRST[isNarrow() ? "narrow" : "wide"]);
 }
 
 /** Return the row of a number; a press of its name chooses it for the curves of sweeps. */
 function numberRow(one) {
   const { name, label, unit, meaning, digits, robust } = one;
-  const value = pageState.shown.headlines[name];
+  const value = pageState.shown.results[name];
   const choose = () => {
     chosen.curve = name;
     tellNumbers();
     drawTracks();
   };
   const about = { "aria-pressed": String(chosen.curve === name), "data-number": name, title: meaning };
-  const words = headlineText(value, digits);
+  const words = resultText(value, digits);
   const range = rangeText(one);
   const main = element("td", { class: "value" }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));
-  const change = difference(value, compared()?.headlines[name]);
+  const change = difference(value, compared()?.results[name]);
   const rest = [change, robust ? range : range && `this run ${words}`, slopeText(name)];
   const cells = rest.map((text) => element("td", {}, text));
   return element("tr", { "data-row": name }, element("th", { scope: "row" }, button(label, choose, about)), main, ...cells);
 }
 
-/** Say what speaks against trusting the run. */
-function tellDoubts() {
+/** Show the warnings of the run. */
+function showWarnings() {
   const { failure, warnings, number: mine } = pageState.shown;
   if (mine >= requests.troubled) trouble(failure && `This run is not complete: ${failure}`, mine);
-  const doubts = document.getElementById("doubts");
-  const missed = energyMissed(pageState.shown.headlines);
+  const list = document.getElementById("warnings");
+  const missed = energyMissed(pageState.shown.results);
   const reasons = missed > MOST_MISSED ? [energyReason(missed), ...warnings] : warnings;
-  doubts.hidden = !reasons.length;
-  if (missed > MOST_MISSED) doubts.open = true;
-  doubts.querySelector("summary").textContent = `Why these numbers may be wrong (${reasons.length})`;
-  doubts.querySelector("ul").replaceChildren(...reasons.map((text) => element("li", {}, text)));
+  list.hidden = !reasons.length;
+  if (missed > MOST_MISSED) list.open = true;
+  list.querySelector("summary").textContent = `Why these numbers may be wrong (${reasons.length})`;
+  list.querySelector("ul").replaceChildren(...reasons.map((text) => element("li", {}, text)));
 }

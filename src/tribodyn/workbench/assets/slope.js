@@ -3,7 +3,7 @@
 /** Time that a slider has the focus, and nothing moves, before its slopes are asked for [ms]. */
 const PATIENCE = 700;
 
-const slope = { key: "", number: -1, done: 0, of: 0, finished: true, headlines: {}, due: null };
+const slope = { key: "", number: -1, done: 0, of: 0, finished: true, results: {}, due: null };
 
 /** Ask for the slopes of a key when its slider rests in focus. */
 function askSlope(key) {
@@ -12,7 +12,7 @@ function askSlope(key) {
     if (focusedSlider() !== key || slope.key === key || !pageState.shown) return;
     if (requests.awaited) return askSlope(key);
     requests.number += 1;
-    Object.assign(slope, { key, number: requests.number, done: 0, of: 0, finished: false, headlines: {} });
+    Object.assign(slope, { key, number: requests.number, done: 0, of: 0, finished: false, results: {} });
     line.say({ type: "slope", number: slope.number, key, values: parted(pageState.values).values });
     return tellNumbers();
   }, PATIENCE);
@@ -27,12 +27,12 @@ function focusedSlider() {
 /** Forget slopes that are of other values. */
 function forgetSlope() {
   if (!slope.key) return;
-  Object.assign(slope, { key: "", number: -1, headlines: {} });
+  Object.assign(slope, { key: "", number: -1, results: {} });
 }
 
-function slopeArrived({ number: mine, done, of, finished, headlines }) {
+function slopeArrived({ number: mine, done, of, finished, results }) {
   if (mine !== slope.number) return;
-  Object.assign(slope, { done, of, finished, headlines });
+  Object.assign(slope, { done, of, finished, results });
   tellNumbers();
 }
 
@@ -45,7 +45,7 @@ function slopeInWords() {
 
 /** Return the slope of a number and its scatter in words. */
 function slopeText(name) {
-  const found = slope.key && slope.headlines[name];
+  const found = slope.key && slope.results[name];
   if (!found) return "";
   const text = `${number(found.slope, 2)} ± ${number(found.scatter, 1)}`;
   return Math.abs(found.scatter) > Math.abs(found.slope) ? `(${text})` : text;

@@ -67,23 +67,23 @@ function drawTracks() {
 
 /** Return the name of the number whose curves are drawn. */
 function numberLabel() {
-  return pageState.hello.headlines.find(({ name }) => name === chosen.curve)?.label ?? "";
+  return pageState.hello.results.find(({ name }) => name === chosen.curve)?.label ?? "";
 }
 
 /** Return the chosen number at each choice of a sweep in words. */
 function choicesInWords({ points }) {
-  const { digits } = pageState.hello.headlines.find(({ name }) => name === chosen.curve);
-  return points.map(({ text, headlines }) => `${text} ${headlineText(headlines[chosen.curve], digits)}`).join(", ");
+  const { digits } = pageState.hello.results.find(({ name }) => name === chosen.curve);
+  return points.map(({ text, results }) => `${text} ${resultText(results[chosen.curve], digits)}`).join(", ");
 }
 
 /** Return the points of a sweep that have the chosen number, with where they are drawn. */
 function placedPoints(canvas, { least, greatest }, { points }) {
-  const there = points.filter(({ headlines }) => Number.isFinite(headlines[chosen.curve]));
-  const [low, high] = ends([there.map(({ headlines }) => headlines[chosen.curve])]);
+  const there = points.filter(({ results }) => Number.isFinite(results[chosen.curve]));
+  const [low, high] = ends([there.map(({ results }) => results[chosen.curve])]);
   const x = scaleOf(least, greatest, 8, canvas.clientWidth - 8);
   const y = scaleOf(low, high === low ? low + 1 : high, canvas.clientHeight - 5, 5);
   return there
-    .map((point) => ({ ...point, x: x.at(point.value), y: y.at(point.headlines[chosen.curve]) }))
+    .map((point) => ({ ...point, x: x.at(point.value), y: y.at(point.results[chosen.curve]) }))
     .sort((a, b) => a.x - b.x);
 }
 

@@ -8,15 +8,15 @@ from falling_disc.variables import VARIABLES
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.results.reading import column, peak
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 
 MECHANISM = MechanismDescriptor(
     folder="falling_disc",
     case=DiscCase,
     built_in={"disc": BuiltIn(DiscCase, "a disc that falls on an elastic floor")},
     variables=VARIABLES,
-    headlines={
-        "floor_force_max_N": Headline(
+    key_results={
+        "floor_force_max_N": KeyResult(
             "Force of the floor, largest",
             "N",
             "Load",

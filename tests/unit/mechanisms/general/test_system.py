@@ -137,7 +137,7 @@ def test_no_blow_falls_between_rows() -> None:
     assert told[0]["force_lasting_N_coupler_pin"] < 0.2 * told[0]["force_max_N_coupler_pin"]
 
 
-def test_power_is_what_the_ledger_says_and_not_the_error_of_a_sum_of_works() -> None:
+def test_power_is_what_the_balance_says_and_not_the_error_of_a_sum_of_works() -> None:
     crank = td.load_case("slider-crank")
     told = [results.summarise(td.simulate(crank.replace({"solver.rtol": rtol}))) for rtol in (1e-4, 1e-6)]
     # The work goes to and fro by 150 J, of which the sum over steps misses 0.1 %, and 5.4 J are lost: such a

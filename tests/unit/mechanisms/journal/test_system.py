@@ -58,7 +58,7 @@ def test_film_variables_are_there_with_oil_only(dry: xr.Dataset, oil: xr.Dataset
     assert set(oil.variables) <= set(VARIABLES) | set(MECHANISMS["journal"].variables)
 
 
-def test_headline_numbers(dry: xr.Dataset, undamped: xr.Dataset, oil: xr.Dataset) -> None:
+def test_key_results(dry: xr.Dataset, undamped: xr.Dataset, oil: xr.Dataset) -> None:
     damped: Any = summarise(dry)
     summary: Any = summarise(undamped)
     assert summary["contact_force_max_N"] > damped["contact_force_max_N"] > 4000.0

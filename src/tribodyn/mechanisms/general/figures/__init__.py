@@ -6,8 +6,8 @@ from typing import Final
 
 from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Animation, Family
+from tribodyn.mechanisms.general.energy_balance import BALANCES
 from tribodyn.mechanisms.general.figures import film, joints, mechanism, solids
-from tribodyn.mechanisms.general.ledger import LEDGERS
 from tribodyn.mechanisms.general.sections.charts import (
     CLEARANCES,
     ERROR_ESTIMATES,
@@ -33,7 +33,7 @@ FIGURES: Final[dict[str, Family]] = {
         joints.PRESSURE,
         joints.FILM_PRESSURE,
         joints.WEAR,
-        energy.family(LEDGERS),
+        energy.family(BALANCES),
         wear.HISTORY,
     )
 }

@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.general.ledger import WHOLE
+from tribodyn.mechanisms.general.energy_balance import WHOLE
 from tribodyn.mechanisms.general.readings import offset, sizes
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
-from tribodyn.views.ledger import ledger_chart
+from tribodyn.views.energy_balance import balance_chart
 
 DEG: Final = 180.0 / np.pi
 
@@ -176,7 +176,7 @@ FILMS: Final = Chart(
     needs=("film_force", "film_pressure_max", "film_thickness_min", "film_pressure_peak", "joint"),
     panels=films,
 )
-ENERGY: Final = ledger_chart(
+ENERGY: Final = balance_chart(
     WHOLE,
     name="energy",
     title="Energy balance",

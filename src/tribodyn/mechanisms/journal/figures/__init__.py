@@ -6,8 +6,8 @@ from typing import Final
 
 from tribodyn.figures import chart, energy
 from tribodyn.figures.base import Family
+from tribodyn.mechanisms.journal.energy_balance import BALANCE
 from tribodyn.mechanisms.journal.figures import path
-from tribodyn.mechanisms.journal.ledger import LEDGER
 from tribodyn.mechanisms.journal.sections.charts import DEVIATION, FORCES
 
 FIGURES: Final[dict[str, Family]] = {
@@ -16,6 +16,6 @@ FIGURES: Final[dict[str, Family]] = {
         chart.family(DEVIATION),
         path.FAMILY,
         chart.family(FORCES),
-        energy.family((LEDGER,)),
+        energy.family((BALANCE,)),
     )
 }

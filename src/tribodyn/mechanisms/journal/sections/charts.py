@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.mechanisms.journal.ledger import LEDGER
+from tribodyn.mechanisms.journal.energy_balance import BALANCE
 from tribodyn.views.charts import Chart, ChartCurve, Panel
-from tribodyn.views.ledger import ledger_chart
+from tribodyn.views.energy_balance import balance_chart
 from tribodyn.views.series import series
 
 _FORCES: Final = (("F_c", "contact force"), ("F_o", "film force"))
@@ -66,8 +66,8 @@ FORCES: Final = Chart(
     needs=("F_cx", "F_cy", "p_max"),
     panels=_forces,
 )
-ENERGY: Final = ledger_chart(
-    LEDGER,
+ENERGY: Final = balance_chart(
+    BALANCE,
     name="energy",
     title="Energy balance",
     caption=(

@@ -27,7 +27,7 @@ GAINS_ENERGY: Final = (
     "the equations of formulation 'paper' can gain energy in an impact, with damping and at small loads too; "
     "compare with mechanism.formulation = 'exact'"
 )
-"""Why a run in ``paper`` may leave the range of the contact law: see the manual, two energy ledgers."""
+"""Why a run in ``paper`` may leave the range of the contact law: see the manual, two energy balances."""
 
 
 def warnings(
@@ -80,7 +80,7 @@ def notes(
     turns: FloatArray,
     carried: bool,
 ) -> list[str]:
-    """Return what a user should know of the numbers without doubting them, one sentence each.
+    """Return what a user should know of the numbers although they are valid, one sentence each.
 
     Parameters
     ----------
@@ -118,11 +118,11 @@ def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> s
 
 
 def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
-    """Say that the ledgers do not close, and why."""
+    """Say that the balances do not close, and why."""
     if math.isnan(whole + clearance):
         return (
             "Energy could not be accounted for to the end: on its way the motion went through a state that "
-            "the mechanism cannot have. Doubt what follows the last finite energy_residual."
+            "the mechanism cannot have. Do not use what follows the last finite energy_residual."
         )
     if max(whole, clearance) <= ENERGY_LIMIT:
         return ""

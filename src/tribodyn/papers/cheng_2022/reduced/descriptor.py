@@ -9,7 +9,7 @@ from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.engine import ENGINE
-from tribodyn.papers.cheng_2022.reduced.headlines import HEADLINES, KEY_NUMBERS
+from tribodyn.papers.cheng_2022.reduced.key_results import KEY_NUMBERS, KEY_RESULTS
 from tribodyn.papers.cheng_2022.reduced.variables import OF_CYCLE, VARIABLES
 
 MECHANISM: Final = MechanismDescriptor(
@@ -23,7 +23,7 @@ MECHANISM: Final = MechanismDescriptor(
         "vsv-engine": ENGINE,
     },
     variables=VARIABLES | OF_CYCLE,
-    headlines=HEADLINES,
+    key_results=KEY_RESULTS,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
     by_part={"outputs": BY_OUTPUT, "instants": BY_INSTANT},

@@ -41,7 +41,7 @@ from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warnings
 from tribodyn.papers.cheng_2022.reduced.course import course
-from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE, ledger_columns
+from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE, balance_columns
 from tribodyn.papers.cheng_2022.reduced.loads import terms_of
 from tribodyn.papers.cheng_2022.reduced.outputs import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
@@ -220,8 +220,8 @@ class VsvSystem:
     def gather(self, run: FinishedRun) -> ResultPart:
         """Return what the mechanism knows about a run."""
         rows = run.rows(OBSERVED)
-        ledger = ledger_columns(rows)
-        whole, of_clearance = WHOLE.fraction(ledger), CLEARANCE.fraction(ledger)
+        balance = balance_columns(rows)
+        whole, of_clearance = WHOLE.fraction(balance), CLEARANCE.fraction(balance)
         worn = run.problem.data.joint.wear - self.bushing.form_gap
         bushing = self.worn_bushing(worn)
         clearance = self._clearance(run)
@@ -240,7 +240,7 @@ class VsvSystem:
         when = instant(largest["pressure_peak_time"], turns, self.vsv.drive.impact_time)
         return ResultPart(
             coordinates=self._coordinates(run),
-            columns=force_parts(rows) | ledger | moving | outputs,
+            columns=force_parts(rows) | balance | moving | outputs,
             fields={
                 **self._fields(run),
                 **of_reversals(memory.peaks, WATCHED),

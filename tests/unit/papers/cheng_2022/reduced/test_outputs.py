@@ -9,7 +9,7 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.core.errors import TribodynError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.results import headlines_of_case, summarise
+from tribodyn.mechanisms.results import key_results_of_case, summarise
 from tribodyn.results.reading import column, settled
 
 TEXT = """
@@ -66,7 +66,7 @@ def test_errors_are_read_where_the_crank_passes_an_angle(vane: xr.Dataset) -> No
 
 def test_commands_find_the_names() -> None:
     case = td.load_case("vsv").replace({"outputs.vane.at.angles": "5 deg"})
-    known = headlines_of_case(case)
+    known = key_results_of_case(case)
     assert {"error_lasting_deg_vane", "error_at_backward_deg_vane_5_deg"} <= known.keys()
 
 

@@ -6,8 +6,8 @@ from typing import Final
 
 from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear
 from tribodyn.figures.base import Family
+from tribodyn.papers.cheng_2022.reduced.energy_balance import BALANCES
 from tribodyn.papers.cheng_2022.reduced.figures import mechanism, vane_error
-from tribodyn.papers.cheng_2022.reduced.ledger import LEDGERS
 from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
 from tribodyn.views.bushing_sections import TILT
 
@@ -22,7 +22,7 @@ FIGURES: Final[dict[str, Family]] = {
         chart.family(TILT),
         pressure.FAMILY,
         wear.FAMILY,
-        energy.family(LEDGERS),
+        energy.family(BALANCES),
         mechanism.FAMILY,
         wear.HISTORY,
     )

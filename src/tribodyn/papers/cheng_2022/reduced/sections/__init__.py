@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import Final
 
-from tribodyn.papers.cheng_2022.reduced.ledger import CLEARANCE, WHOLE
+from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE
 from tribodyn.papers.cheng_2022.reduced.sections import mechanism, vane_error
 from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
 from tribodyn.views import overlay
 from tribodyn.views.bushing_sections import CONTACT_FORCE, ORBIT, PRESSURE, TILT
-from tribodyn.views.ledger import ledger_chart
+from tribodyn.views.energy_balance import balance_chart
 from tribodyn.views.overlay import Overlay, OverlayQuantity, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY, WEAR_MAP, WEAR_STAGES
 
-_WHOLE: Final = ledger_chart(
+_WHOLE: Final = balance_chart(
     WHOLE,
     name="energy",
     title="Energy balance of the whole mechanism",
@@ -23,7 +23,7 @@ _WHOLE: Final = ledger_chart(
         "residual is what the sum misses: an error of the integration would show there."
     ),
 )
-_CLEARANCE: Final = ledger_chart(
+_CLEARANCE: Final = balance_chart(
     CLEARANCE,
     name="clearance-energy",
     title="Energy balance of the motion in the clearance",

@@ -1,4 +1,4 @@
-"""Headline numbers of the journal."""
+"""Key results of the journal."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 
 
 def _one(name: str, scale: float = 1.0) -> Callable[[xr.Dataset], float]:
@@ -15,8 +15,8 @@ def _one(name: str, scale: float = 1.0) -> Callable[[xr.Dataset], float]:
     return lambda run: float(run[name].values) * scale
 
 
-HEADLINES: Final[dict[str, Headline]] = {
-    "settling_time_ms": Headline(
+KEY_RESULTS: Final[dict[str, KeyResult]] = {
+    "settling_time_ms": KeyResult(
         "Settling time",
         "ms",
         "Settling",
@@ -25,14 +25,14 @@ HEADLINES: Final[dict[str, Headline]] = {
         _one("settling_time", 1e3),
         digits=1,
     ),
-    "contact_start_ms": Headline(
+    "contact_start_ms": KeyResult(
         "Contact begins",
         "ms",
         "Settling",
         "When the first asperities meet: the gap falls below the onset separation.",
         _one("contact_start", 1e3),
     ),
-    "rebounds": Headline(
+    "rebounds": KeyResult(
         "Rebounds",
         "",
         "Settling",
@@ -40,38 +40,38 @@ HEADLINES: Final[dict[str, Headline]] = {
         _one("rebounds"),
         count=True,
     ),
-    "contact_force_max_N": Headline(
+    "contact_force_max_N": KeyResult(
         "Contact force, peak",
         "N",
         "Impact",
         "Load on the bushing in the hardest impact, at any step of the integration.",
         _one("contact_force_peak"),
     ),
-    "film_force_max_N": Headline(
+    "film_force_max_N": KeyResult(
         "Film force, peak", "N", "Impact", "What the oil carries at most.", _one("film_force_peak")
     ),
-    "peak_pressure_MPa": Headline(
+    "peak_pressure_MPa": KeyResult(
         "Contact pressure, peak",
         "MPa",
         "Impact",
         "The same for the pressure; compare it with the hardness of the bushing.",
         _one("pressure_peak", 1e-6),
     ),
-    "eccentricity_max_um": Headline(
+    "eccentricity_max_um": KeyResult(
         "Eccentricity, peak",
         "µm",
         "Impact",
         "How far the centre moves off the axis; beyond the clearance the mean planes overlap.",
         _one("eccentricity_peak", 1e6),
     ),
-    "friction_coefficient": Headline(
+    "friction_coefficient": KeyResult(
         "Friction coefficient at the end",
         "",
         "Impact",
         "Friction moment of contact and film over journal radius and load.",
         _one("friction_coefficient_end"),
     ),
-    "flash_temperature_K": Headline(
+    "flash_temperature_K": KeyResult(
         "Flash temperature",
         "K",
         "Impact",
@@ -80,10 +80,10 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda run: float(run.attrs["flash_temperature"]),
         digits=2,
     ),
-    "energy_residual_percent": Headline(
+    "energy_residual_percent": KeyResult(
         "Energy residual",
         "%",
-        "Ledger",
+        "Trust",
         "Error of the energy balance over its largest term; below 1 % is sound.",
         lambda run: float(run.attrs["energy_residual"]) * 100.0,
     ),

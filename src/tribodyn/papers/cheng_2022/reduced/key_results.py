@@ -1,4 +1,4 @@
-"""Headline numbers of the vane mechanism."""
+"""Key results of the vane mechanism."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tribodyn.results.reading import (
     rms,
     time_mean,
 )
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
 
@@ -47,7 +47,7 @@ class _Peak:
     sustained
         Name of the sustained maximum; empty where an output has it.
     label, unit, group, meaning
-        See :class:`~tribodyn.results.summary.Headline`.
+        See :class:`~tribodyn.results.summary.KeyResult`.
     quantity
         Name of the quantity among those whose peaks results hold.
     scale
@@ -70,10 +70,10 @@ class _Peak:
     sustained: str = ""
 
     @property
-    def headlines(self) -> dict[str, Headline]:
+    def key_results(self) -> dict[str, KeyResult]:
         """The numbers, by name."""
         quiet, loud = self.names
-        lasts = Headline(
+        lasts = KeyResult(
             f"{self.label}, sustained",
             self.unit,
             self.group,
@@ -82,7 +82,7 @@ class _Peak:
         )
         return {
             **({self.sustained: lasts} if self.sustained else {}),
-            quiet: Headline(
+            quiet: KeyResult(
                 f"{self.label}, largest outside impacts",
                 self.unit,
                 self.group,
@@ -90,7 +90,7 @@ class _Peak:
                 lambda d: outside(d, self.quantity) * self.scale,
                 digits=4,
             ),
-            loud: Headline(
+            loud: KeyResult(
                 f"{self.label}, peak",
                 self.unit,
                 self.group,
@@ -171,8 +171,8 @@ _LOADS: Final = (
     ),
 )
 
-HEADLINES: Final[dict[str, Headline]] = {
-    "reversals": Headline(
+KEY_RESULTS: Final[dict[str, KeyResult]] = {
+    "reversals": KeyResult(
         "Reversals held",
         "",
         "Accuracy",
@@ -180,15 +180,15 @@ HEADLINES: Final[dict[str, Headline]] = {
         reversals_held,
         count=True,
     ),
-    **_ANGLE_ERROR.headlines,
-    "vane_angle_error_rms_deg": Headline(
+    **_ANGLE_ERROR.key_results,
+    "vane_angle_error_rms_deg": KeyResult(
         "Vane-angle error, rms",
         "°",
         "Accuracy",
         "The same error as an average over the run.",
         lambda d: rms(d, _angle_error(d)),
     ),
-    "vane_speed_error_rms_deg_per_s": Headline(
+    "vane_speed_error_rms_deg_per_s": KeyResult(
         "Vane-speed error, rms",
         "°/s",
         "Accuracy",
@@ -196,7 +196,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: rms(d, _speed_error(d)),
         digits=2,
     ),
-    "contact_force_mean_N": Headline(
+    "contact_force_mean_N": KeyResult(
         "Contact force, mean",
         "N",
         "Load",
@@ -204,8 +204,8 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: time_mean(d, norm(d, "F_cx", "F_cy")),
         digits=4,
     ),
-    **{name: headline for load in _LOADS for name, headline in load.headlines.items()},
-    "flash_temperature_K": Headline(
+    **{name: key_result for load in _LOADS for name, key_result in load.key_results.items()},
+    "flash_temperature_K": KeyResult(
         "Flash temperature",
         "K",
         "Load",
@@ -214,7 +214,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: float(d.attrs["flash_temperature"]),
         digits=2,
     ),
-    "wear_depth_max_nm": Headline(
+    "wear_depth_max_nm": KeyResult(
         "Wear depth",
         "nm",
         "Wear",
@@ -222,7 +222,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: peak(column(d, "wear_depth")) * 1e9,
     ),
     **WEAR_NUMBERS,
-    "energy_residual_percent": Headline(
+    "energy_residual_percent": KeyResult(
         "Energy residual, whole system",
         "%",
         "Trust",
@@ -230,7 +230,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: float(d.attrs["energy_residual"]) * 100.0,
         digits=2,
     ),
-    "clearance_energy_residual_percent": Headline(
+    "clearance_energy_residual_percent": KeyResult(
         "Energy residual, clearance motion",
         "%",
         "Trust",

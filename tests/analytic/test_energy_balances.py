@@ -1,4 +1,4 @@
-"""The two energy ledgers, summed here from what is observed, see the manual, energy.
+"""The two energy balances, summed here from what is observed, see the manual, energy.
 
 Whole mechanism: energies gained and heats against works put in. Clearance motion alone: the same for the
 part of every velocity that the clearance coordinates make.
@@ -29,7 +29,7 @@ def since_start(values):
 
 
 def whole(run):
-    """Return what the ledger of the whole mechanism misses and its largest work [J]."""
+    """Return what the balance of the whole mechanism misses and its largest work [J]."""
     energy = run["energy_kinetic"] + run["energy_gravity"] + run["energy_contact"]
     works = ("drive", "loads", "friction", "collar_friction", "collar_tilt")
     missed = since_start(energy) + run["heat_damping"] - sum(run[f"work_{name}"] for name in works)
@@ -37,7 +37,7 @@ def whole(run):
 
 
 def clearance(run):
-    """Return what the ledger of the clearance motion misses and its largest contact term [J]."""
+    """Return what the balance of the clearance motion misses and its largest contact term [J]."""
     stored = since_start(run["energy_contact"])
     works = ("loads", "friction", "collar")
     missed = run["work_clearance_inertia"] + stored + run["heat_damping"]
@@ -45,8 +45,8 @@ def clearance(run):
     return missed, max(np.abs(stored).max(), np.abs(run["heat_damping"]).max())
 
 
-def fraction(ledger, run):
-    missed, scale = ledger(run)
+def fraction(balance, run):
+    missed, scale = balance(run)
     return np.abs(missed).max() / scale
 
 
@@ -86,11 +86,12 @@ def _fractions(vsv_run, solver, rtol):
         for near in rtol * np.array([0.5, 1.0, 2.0])
     ]
     return [
-        math.exp(np.mean([math.log(fraction(ledger, run)) for run in runs])) for ledger in (clearance, whole)
+        math.exp(np.mean([math.log(fraction(balance, run)) for run in runs]))
+        for balance in (clearance, whole)
     ]
 
 
-def test_what_each_ledger_would_notice(two_cycles):
+def test_what_each_balance_would_notice(two_cycles):
     # The damping heat is 0.9 mJ of 3.5 J put in: booked twice it is lost on the whole mechanism, and more
     # than the largest contact term of the clearance motion.
     twice = two_cycles | {"heat_damping": 2.0 * two_cycles["heat_damping"]}
@@ -100,9 +101,9 @@ def test_what_each_ledger_would_notice(two_cycles):
     tenth = two_cycles | {"heat_damping": 1.1 * two_cycles["heat_damping"]}
     assert fraction(clearance, tenth) > 5.0 * ALLOWED
     # Friction left out is a matter for both.
-    for ledger, name in ((whole, "work_friction"), (clearance, "work_clearance_friction")):
+    for balance, name in ((whole, "work_friction"), (clearance, "work_clearance_friction")):
         without = two_cycles | {name: 0.0 * two_cycles[name]}
-        assert fraction(ledger, without) > ALLOWED
+        assert fraction(balance, without) > ALLOWED
 
 
 def test_heats_have_their_signs(two_cycles):

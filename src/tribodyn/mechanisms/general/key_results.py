@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from tribodyn.mechanisms.general.energy_balance import WHOLE
 from tribodyn.mechanisms.general.joint_numbers import OUTSIDE, pair
-from tribodyn.mechanisms.general.ledger import WHOLE
 from tribodyn.mechanisms.general.readings import (
     above_zero,
     least,
@@ -25,7 +25,7 @@ from tribodyn.results.reading import (
     settled,
     time_mean,
 )
-from tribodyn.results.summary import Headline
+from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
 _ROUNDING: Final = 1e-9
@@ -57,8 +57,8 @@ def _power(dataset: xr.Dataset) -> float:
     return float((gains[-1] - gains[0]) / (time[-1] - time[0])) if works else math.nan
 
 
-HEADLINES: Final[dict[str, Headline]] = {
-    "reversals": Headline(
+KEY_RESULTS: Final[dict[str, KeyResult]] = {
+    "reversals": KeyResult(
         "Reversals held",
         "",
         "Load",
@@ -66,7 +66,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         reversals_held,
         count=True,
     ),
-    "cycles": Headline(
+    "cycles": KeyResult(
         "Cycles evaluated",
         "",
         "Load",
@@ -92,7 +92,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         scale=1e-6,
     ),
     **{name: made("") for name, made in OUTSIDE.items()},
-    "flash_temperature_K": Headline(
+    "flash_temperature_K": KeyResult(
         "Flash temperature, largest",
         "K",
         "Load",
@@ -117,45 +117,45 @@ HEADLINES: Final[dict[str, Headline]] = {
         "Largest force of an actuator",
         lambda d: column(d, "drive_force"),
     ),
-    "power_mean_W": Headline(
+    "power_mean_W": KeyResult(
         "Power put in, mean", "W", "Drive", "Mean power of drives and loads over the run.", _power
     ),
-    "offset_max_um": Headline(
+    "offset_max_um": KeyResult(
         "Offset in a joint, largest",
         "µm",
         "Accuracy",
         "Largest distance of a pin from the centre of its bore.",
         lambda d: peak(settled(d, offset(d))) * 1e6,
     ),
-    "friction_heat_J": Headline(
+    "friction_heat_J": KeyResult(
         "Friction heat",
         "J",
         "Loss",
         "Heat of friction in all joints over the run.",
         lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
     ),
-    "film_pressure_max_MPa": Headline(
+    "film_pressure_max_MPa": KeyResult(
         "Film pressure, peak",
         "MPa",
         "Oil film",
         "Largest pressure in the oil film of any joint.",
         lambda d: peak(settled(d, column(d, "film_pressure_max"))) * 1e-6,
     ),
-    "film_thickness_min_um": Headline(
+    "film_thickness_min_um": KeyResult(
         "Film thickness, smallest",
         "µm",
         "Oil film",
         "Smallest gap of any oil film; below a few rms roughnesses asperities carry a part of the load.",
         lambda d: least(settled(d, column(d, "film_thickness_min"))) * 1e6,
     ),
-    "film_power_mean_W": Headline(
+    "film_power_mean_W": KeyResult(
         "Film friction power, mean",
         "W",
         "Oil film",
         "Mean power that all oil films dissipate.",
         lambda d: time_mean(d, np.nansum(column(d, "film_power"), axis=1)),
     ),
-    "wear_depth_max_nm": Headline(
+    "wear_depth_max_nm": KeyResult(
         "Wear depth, largest",
         "nm",
         "Wear",
@@ -163,7 +163,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         lambda d: peak(column(d, "wear_depth")) * 1e9,
     ),
     **WEAR_NUMBERS,
-    "cycle_scatter_percent": Headline(
+    "cycle_scatter_percent": KeyResult(
         "Scatter of the cycles",
         "%",
         "Trust",
@@ -171,7 +171,7 @@ HEADLINES: Final[dict[str, Headline]] = {
         _scatter,
         digits=2,
     ),
-    "energy_residual_percent": Headline(
+    "energy_residual_percent": KeyResult(
         "Energy residual",
         "%",
         "Trust",

@@ -1,4 +1,4 @@
-"""The energy ledger of the journal.
+"""The energy balance of the journal.
 
 Kinetic energy of the motion in the clearance and energy stored in the contact against the work of loads and
 drive and the heat of friction, contact damping and film. The work of the drive, which turns into heat at
@@ -12,9 +12,9 @@ from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.journal.parameters import Journal
-from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
+from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
 
-LEDGER: Final = Ledger(
+BALANCE: Final = EnergyBalance(
     title="Motion in the clearance",
     put_in={"energy_loads": "load work, in", "energy_drive": "drive work, in"},
     gained={
@@ -41,12 +41,12 @@ _LEAST_SCALE: Final = 1.0e-3
 """Share of load times clearance below which no term counts as large."""
 
 
-def ledger_columns(rows: Mapping[str, FloatArray], *, lubricated: bool) -> dict[str, FloatArray]:
+def balance_columns(rows: Mapping[str, FloatArray], *, lubricated: bool) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from the observed rows."""
     film = {"energy_film": EnergyTerm("work_film", -1.0)} if lubricated else {}
-    return energy_columns(rows, TERMS | film, (LEDGER,))
+    return energy_columns(rows, TERMS | film, (BALANCE,))
 
 
 def residual_fraction(columns: Mapping[str, FloatArray], journal: Journal) -> float:
     """Return the largest residual as a fraction of the largest energy of the motion in the clearance [1]."""
-    return LEDGER.fraction(columns, _LEAST_SCALE * journal.loads.force * journal.joint.geometry.clearance)
+    return BALANCE.fraction(columns, _LEAST_SCALE * journal.loads.force * journal.joint.geometry.clearance)

@@ -1,4 +1,4 @@
-"""Energy balances ("ledgers"): the columns of a result that balance, and their residual.
+"""Energy balances: the columns of a result that balance, and their residual.
 
 Energies gained and heats, minus works put in, are zero up to the error of the integration.
 """
@@ -43,7 +43,7 @@ class EnergyTerm:
 
 
 def energy_columns(
-    rows: Mapping[str, FloatArray], terms: Mapping[str, EnergyTerm], ledgers: Sequence[Ledger]
+    rows: Mapping[str, FloatArray], terms: Mapping[str, EnergyTerm], balances: Sequence[EnergyBalance]
 ) -> dict[str, FloatArray]:
     """Return the columns of energy balances and their residuals [J], each of shape (n_t,).
 
@@ -53,16 +53,16 @@ def energy_columns(
         Observed quantities by name.
     terms
         Origin of each column.
-    ledgers
+    balances
         The balances of these columns.
     """
     columns = {name: term.column(rows) for name, term in terms.items()}
-    return columns | {ledger.residual: ledger.balance(columns) for ledger in ledgers}
+    return columns | {balance.residual: balance.left_over(columns) for balance in balances}
 
 
 @dataclass(frozen=True)
-class Ledger:
-    """One energy ledger of a mechanism.
+class EnergyBalance:
+    """One energy balance of a mechanism.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class Ledger:
         """All columns but the residual, with what figures call them."""
         return {**self.put_in, **self.gained}
 
-    def balance(self, columns: Mapping[str, FloatArray]) -> FloatArray:
+    def left_over(self, columns: Mapping[str, FloatArray]) -> FloatArray:
         """Return what is left over [J], shape (n_t,); a column that is not there is zero."""
         left = sum(_since_start(columns[name]) for name in self.gained if name in columns)
         return np.asarray(left - sum(columns[name] for name in self.put_in if name in columns))
@@ -103,7 +103,7 @@ class Ledger:
     def fraction(self, columns: Mapping[str, FloatArray], least: float = 0.0) -> float:
         """Return the largest residual as a fraction of the largest term of ``measure`` [1].
 
-        Where the ledger met a state that cannot be, it is not a number.
+        Where the balance met a state that cannot be, it is not a number.
 
         Parameters
         ----------
@@ -130,14 +130,14 @@ _SEEN: Final = 0.01
 """Share of the largest term above which a term is drawn."""
 
 
-def ledger_chart(ledger: Ledger, *, name: str, title: str, caption: str) -> Chart:
-    """Return the chart of a ledger."""
-    return Chart(name, title, caption, needs=(ledger.residual,), panels=partial(_panels, ledger))
+def balance_chart(balance: EnergyBalance, *, name: str, title: str, caption: str) -> Chart:
+    """Return the chart of a balance."""
+    return Chart(name, title, caption, needs=(balance.residual,), panels=partial(_panels, balance))
 
 
-def _panels(ledger: Ledger, dataset: xr.Dataset) -> list[Panel]:
-    """Return one ledger, in J or mJ: what is seen beside the largest term, and what is missed."""
-    terms = {name: label for name, label in ledger.terms.items() if name in dataset}
+def _panels(balance: EnergyBalance, dataset: xr.Dataset) -> list[Panel]:
+    """Return one balance, in J or mJ: what is seen beside the largest term, and what is missed."""
+    terms = {name: label for name, label in balance.terms.items() if name in dataset}
     sizes = {name: peak(series(dataset, name)) for name in terms}
     largest = max(sizes.values())
     unit, scale = ("J", 1.0) if largest >= 0.1 else ("mJ", 1e3)
@@ -146,5 +146,5 @@ def _panels(ledger: Ledger, dataset: xr.Dataset) -> list[Panel]:
         ChartCurve(terms[name], series(dataset, name, scale), colour, dash)
         for name, (colour, dash) in zip(seen, LOOKS, strict=False)
     ]
-    curves.append(ChartCurve("residual", series(dataset, ledger.residual, scale), "grey", width=4.0))
+    curves.append(ChartCurve("residual", series(dataset, balance.residual, scale), "grey", width=4.0))
     return [Panel(f"energy [{unit}]", curves)]

@@ -1,4 +1,4 @@
-"""The energy ledger of a mechanism: all bodies, joints, springs, drives and loads."""
+"""The energy balance of a mechanism: all bodies, joints, springs, drives and loads."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
+from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
 
-WHOLE: Final = Ledger(
+WHOLE: Final = EnergyBalance(
     title="Whole mechanism",
     put_in={"energy_in": "drives and loads, in", "energy_expansion": "expansion, in"},
     gained={
@@ -24,7 +24,7 @@ WHOLE: Final = Ledger(
     attribute="energy_residual",
     yardstick="largest term",
 )
-LEDGERS: Final = (WHOLE,)
+BALANCES: Final = (WHOLE,)
 TERMS: Final = {
     "energy_kinetic": EnergyTerm("energy_kinetic"),
     "energy_gravity": EnergyTerm("energy_gravity", since_start=True),
@@ -37,11 +37,11 @@ TERMS: Final = {
 }
 
 
-def ledger_columns(whole: Mapping[str, FloatArray], *, oiled: bool, opening: bool) -> dict[str, FloatArray]:
+def balance_columns(whole: Mapping[str, FloatArray], *, oiled: bool, opening: bool) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from what is observed of the whole.
 
     Those of films and of clearances that follow temperatures are left out where there are none.
     """
     left_out = {"energy_film": not oiled, "energy_expansion": not opening}
     terms = {name: term for name, term in TERMS.items() if not left_out.get(name, False)}
-    return energy_columns(whole, terms, LEDGERS)
+    return energy_columns(whole, terms, BALANCES)

@@ -1,4 +1,4 @@
-"""The two energy ledgers of the vane mechanism, see the manual, energy.
+"""The two energy balances of the vane mechanism, see the manual, energy.
 
 Whole mechanism: kinetic, gravity and stored contact energy against the work of the drive and of the
 air loads and the heat of friction, collar and damping. Clearance motion alone: its inertia and stored
@@ -14,9 +14,9 @@ from collections.abc import Mapping
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.ledger import EnergyTerm, Ledger, energy_columns
+from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
 
-WHOLE: Final = Ledger(
+WHOLE: Final = EnergyBalance(
     title="Whole mechanism",
     put_in={
         "energy_drive": "drive work, in",
@@ -37,7 +37,7 @@ WHOLE: Final = Ledger(
     attribute="energy_residual",
     yardstick="largest term",
 )
-CLEARANCE: Final = Ledger(
+CLEARANCE: Final = EnergyBalance(
     title="Motion in the clearance alone",
     put_in={"energy_clearance_loads": "loads and reactions, in", "energy_expansion": "expansion, in"},
     gained={
@@ -52,7 +52,7 @@ CLEARANCE: Final = Ledger(
     attribute="clearance_energy_residual",
     yardstick="largest contact term",
 )
-LEDGERS: Final = (WHOLE, CLEARANCE)
+BALANCES: Final = (WHOLE, CLEARANCE)
 
 
 TERMS: Final = {
@@ -74,7 +74,7 @@ TERMS: Final = {
 }
 
 
-def ledger_columns(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+def balance_columns(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from the observed rows."""
     expansion = {"energy_expansion": EnergyTerm("work_expansion")} if rows["work_expansion"].any() else {}
-    return energy_columns(rows, TERMS | expansion, LEDGERS)
+    return energy_columns(rows, TERMS | expansion, BALANCES)
