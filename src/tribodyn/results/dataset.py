@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from numpy.typing import ArrayLike
+from xarray.indexes import PandasIndex
 
 from tribodyn.results.variables import VARIABLES, Variable
 
@@ -49,9 +50,25 @@ def build(
     known = {**VARIABLES, **variables}
     return xr.Dataset(
         data_vars={name: _variable(name, values, known) for name, values in data.items()},
-        coords={name: _variable(name, values, known) for name, values in coordinates.items()},
+        coords=_coordinates({name: _variable(name, values, known) for name, values in coordinates.items()}),
         attrs={name: plain_attribute(value) for name, value in (attributes or {}).items()},
     )
+
+
+def _coordinates(given: Mapping[str, xr.Variable]) -> xr.Coordinates:
+    """Return the coordinates with an index of each dimension.
+
+    xarray would make the same, but import pint and dask to see that the arrays are none of theirs.
+    """
+    indexes = {
+        name: PandasIndex(pd.Index(values.values), name, values.dtype)
+        for name, values in given.items()
+        if values.dims == (name,)
+    }
+    variables = dict(given)
+    for index in indexes.values():
+        variables |= index.create_variables(given)
+    return xr.Coordinates(variables, indexes)
 
 
 def _variable(name: str, values: ArrayLike, known: Mapping[str, Variable]) -> xr.Variable:
@@ -62,10 +79,9 @@ def _variable(name: str, values: ArrayLike, known: Mapping[str, Variable]) -> xr
     array = np.asarray(values)
     if array.ndim != len(about.dims):
         raise ValueError(f"{name} has shape {array.shape} but its line says it runs over {about.dims}")
-    # Of an array xarray would make the index itself, but import all of pint to see what kind of array it is.
-    counts = about.dims == (name,) and not about.named
-    held = pd.Index(array) if counts else array
-    return xr.Variable(about.dims, held, {"units": about.units, "long_name": about.long_name})
+    described = {"units": about.units, "long_name": about.long_name}
+    # Plain arrays by the short way, which does not import dask to see that they are none of its own.
+    return xr.Variable(about.dims, array, described, fastpath=True)
 
 
 def plain_attribute(value: object) -> str | int | float:

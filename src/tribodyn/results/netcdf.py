@@ -11,7 +11,6 @@ from typing import Any, Final
 import netCDF4
 import numpy as np
 import xarray as xr
-from xarray.backends import NetCDF4DataStore
 
 from tribodyn.core.quoting import brief
 
@@ -41,18 +40,48 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
     dataset
         Numbers and texts over named dimensions; the attributes are numbers and texts.
     """
-    encoding = {name: {"fletcher32": True} for name, values in dataset.variables.items() if _summable(values)}
-    # The NetCDF library is for one thread at a time, and xarray does not see to that for a file in memory.
+    # The NetCDF library is for one thread at a time.
     with _ONE_AT_A_TIME:
         file = netCDF4.Dataset("result", mode="w", memory=_FIRST_ROOM)
-        # As to_netcdf does it, which would load all of distributed to find out that nobody uses it.
-        store = NetCDF4DataStore(file)  # type: ignore[no-untyped-call]
         try:
-            dataset.dump_to_store(store, encoding=encoding)
+            _fill(file, dataset)
         finally:
             # Not when it is collected: that may be in another thread.
             content = file.close()
     return b"".join([content, _MARK, _checksum(content)])
+
+
+def _fill(file: netCDF4.Dataset, dataset: xr.Dataset) -> None:
+    """Write a dataset by the conventions of xarray's own writer, which imports all of dask and pint."""
+    for name, size in dataset.sizes.items():
+        file.createDimension(str(name), size)
+    beside = sorted(str(name) for name in dataset.coords if name not in dataset.sizes)
+    marked = set()
+    for name, variable in dataset.variables.items():
+        attributes = dict(variable.attrs)
+        if name not in beside and name not in variable.dims:
+            coordinates = [each for each in beside if set(dataset.variables[each].dims) <= set(variable.dims)]
+            attributes |= {"coordinates": " ".join(coordinates)} if coordinates else {}
+            marked.update(coordinates)
+        _write(file, str(name), variable, attributes)
+    unmarked = {"coordinates": " ".join(sorted(set(beside) - marked))} if set(beside) - marked else {}
+    file.setncatts({**dataset.attrs, **unmarked})
+
+
+def _write(file: netCDF4.Dataset, name: str, variable: xr.Variable, attributes: dict[str, Any]) -> None:
+    """Write an array of numbers or texts; numbers that HDF5 can sum up with a checksum."""
+    values = variable.values
+    kind = values.dtype.kind
+    written = file.createVariable(
+        name,
+        values.dtype if kind in "fiu" else str,
+        tuple(map(str, variable.dims)),
+        fletcher32=values.ndim > 0 and values.size > 0 and kind in "fiu",
+        fill_value=math.nan if kind == "f" else None,
+    )
+    written.setncatts(attributes)
+    written.set_auto_maskandscale(False)
+    written[...] = values if kind in "fiu" else values.astype(object)
 
 
 def dataset_of(content: bytes) -> xr.Dataset:
@@ -140,8 +169,3 @@ def _text_size(variable: netCDF4.Variable[Any], room: int, content: bytes) -> in
 
 def _checksum(content: bytes | memoryview) -> bytes:
     return f"{zlib.crc32(content):0{_DIGITS}x}".encode()
-
-
-def _summable(values: xr.Variable) -> bool:
-    """Tell whether HDF5 can hold a checksum of an array: of numbers, and not of none."""
-    return values.ndim > 0 and values.size > 0 and values.dtype.kind in "fiu"

@@ -75,6 +75,8 @@ def resampled(depth: FloatArray, z: FloatArray, fine_z: FloatArray, n_theta: int
     numpy.ndarray
         Depth [m], shape (fine_z.size, n_theta).
     """
+    if not depth.any():
+        return np.zeros((fine_z.size, n_theta))
     from scipy.interpolate import PchipInterpolator
 
     along = PchipInterpolator(z, depth, axis=0)(fine_z)

@@ -5,19 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
+from tribodyn.core.splines import Cubics
 from tribodyn.kernels.vsv.data import CRANK_ANGLE, TIME, VANE
 from tribodyn.mechanisms.actions import Term, crossings, inside, kinks_over, segments_of
 from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import dead_centres, ideal_table
-
-if TYPE_CHECKING:
-    from scipy.interpolate import CubicHermiteSpline
 
 CLEARANCE_ROOM: Final = 0.01
 """What clearance may add to θ_v, generously [rad]."""
@@ -55,24 +53,24 @@ class IdealMotion:
     """
 
     drive: AnyDrive
-    curve: CubicHermiteSpline
+    curve: Cubics
 
     def vane_angle(self, times: FloatArray) -> FloatArray:
         """Return θ_v [rad] at times [s]."""
-        return np.asarray(self.curve(self.drive.angle(times)))
+        return self.curve(self.drive.angle(times))
 
     def direction(self, times: FloatArray) -> FloatArray:
         """Return the direction of the vane's motion, 1, -1, or 0 at rest."""
-        return np.asarray(np.sign(self.drive.speed(times)) * np.sign(self.curve(self.drive.angle(times), 1)))
+        return np.asarray(
+            np.sign(self.drive.speed(times)) * np.sign(self.curve.derivative(self.drive.angle(times)))
+        )
 
 
 def ideal_motion(lengths: Lengths, drive: AnyDrive, duration: float) -> IdealMotion:
     """Return the ideal mechanism over a run of ``duration`` [s]."""
-    from scipy.interpolate import CubicHermiteSpline
-
     first, inverse_step, table = ideal_table(lengths, *drive.crank_range(duration))
     angles = first + np.arange(len(table)) / inverse_step
-    return IdealMotion(drive, CubicHermiteSpline(angles, table[:, 0], inverse_step * table[:, 1]))
+    return IdealMotion(drive, Cubics(angles, table[:, 0], inverse_step * table[:, 1]))
 
 
 def ideal_range(lengths: Lengths, drive: AnyDrive, duration: float) -> tuple[float, float]:

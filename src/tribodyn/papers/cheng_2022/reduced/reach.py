@@ -12,6 +12,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
+from tribodyn.core.splines import bisected, spline
 from tribodyn.kernels.vsv.closure import closure_residual, crank_end
 from tribodyn.kernels.vsv.layout import N_IDEAL
 from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
@@ -141,13 +142,11 @@ def check_reach(lengths: Lengths, first: float, last: float) -> None:
 @lru_cache(maxsize=64)
 def ideal_table(lengths: Lengths, first: float, last: float) -> tuple[float, float, FloatArray]:
     """Return first angle, nodes per radian and (θ_v, step dθ_v/dθ_a), shape (n, 2), over a crank range."""
-    from scipy.interpolate import CubicSpline
-
     check_reach(lengths, first, last)
     angles = np.linspace(first, last, N_IDEAL + 1)
     theta_v = np.unwrap(ideal_vane_angle(lengths, angles))
     step = (last - first) / N_IDEAL
-    slope = CubicSpline(angles, theta_v)(angles, 1)
+    slope = spline(angles, theta_v).derivative(angles)
     return first, 1.0 / step, np.column_stack([theta_v, step * slope])
 
 
@@ -171,8 +170,6 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     first, last
         Smallest and largest crank angle [rad].
     """
-    from scipy.optimize import bisect
-
     angles = np.linspace(first, last, N_IDEAL + 1)
     forward = crank_lever(lengths, angles) > 0.0
     turns = np.flatnonzero(forward[1:] != forward[:-1])
@@ -180,7 +177,7 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
     def lever(angle: float) -> float:
         return float(crank_lever(lengths, np.array([angle]))[0])
 
-    return tuple(bisect(lever, float(angles[k]), float(angles[k + 1]), xtol=1e-12) for k in turns)
+    return tuple(bisected(lever, float(angles[k]), float(angles[k + 1]), 1e-12) for k in turns)
 
 
 def at_limit(mechanism: Record, theta_a: float, y: FloatArray) -> bool:

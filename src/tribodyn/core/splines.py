@@ -1,0 +1,130 @@
+"""Cubic polynomials between nodes, and a root, without SciPy: each of its packages takes 0.3 s to import.
+
+The operations are those of LAPACK's ``gtsv`` and of SciPy's ``PPoly`` and ``bisect`` in their order, so that
+the numbers are theirs to the last bit, on any processor.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class Cubics:
+    """Cubic polynomials between nodes with given values and slopes; the outer ones go on beyond.
+
+    Attributes
+    ----------
+    x
+        Nodes, rising, shape (n,).
+    values, slopes
+        At the nodes, shape (n,).
+    """
+
+    x: FloatArray
+    values: FloatArray
+    slopes: FloatArray
+
+    def _places(self, x: FloatArray) -> tuple[list[FloatArray], FloatArray]:
+        """Return the coefficients of the polynomials at the positions, and the distance from their nodes."""
+        step = np.diff(self.x)
+        chord = np.diff(self.values) / step
+        bend = (self.slopes[:-1] + self.slopes[1:] - 2.0 * chord) / step
+        at = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, step.size - 1)
+        square = (chord - self.slopes[:-1]) / step - bend
+        return [part[at] for part in (self.values, self.slopes, square, bend / step)], x - self.x[at]
+
+    def __call__(self, x: FloatArray) -> FloatArray:
+        """Return the values at positions of any shape."""
+        (value, slope, square, cube), z = self._places(np.asarray(x, float))
+        return np.asarray(value + slope * z + square * (z * z) + cube * (z * z * z))
+
+    def derivative(self, x: FloatArray) -> FloatArray:
+        """Return the first derivatives at positions of any shape."""
+        (_, slope, square, cube), z = self._places(np.asarray(x, float))
+        return np.asarray(slope + square * z * 2.0 + cube * (z * z) * 3.0)
+
+
+def spline(x: FloatArray, values: FloatArray) -> Cubics:
+    """Return the cubic spline through four nodes or more, its third derivative continuous next to the ends.
+
+    Parameters
+    ----------
+    x
+        Nodes, rising, shape (n,).
+    values
+        At the nodes, shape (n,).
+
+    Notes
+    -----
+    Conditions "not a knot"; C. de Boor, *A Practical Guide to Splines*, 1978, chapter IV.
+    """
+    step = np.diff(x)
+    chord = np.diff(values) / step
+    first, last = x[2] - x[0], x[-1] - x[-3]
+    right = np.empty_like(values)
+    right[0] = ((step[0] + 2.0 * first) * step[1] * chord[0] + step[0] ** 2 * chord[1]) / first
+    right[1:-1] = 3.0 * (step[1:] * chord[:-1] + step[:-1] * chord[1:])
+    right[-1] = (step[-1] ** 2 * chord[-2] + (2.0 * last + step[-1]) * step[-2] * chord[-1]) / last
+    slopes = tridiagonal(
+        np.append(step[1:], last),
+        np.concatenate([step[1:2], 2.0 * (step[:-1] + step[1:]), step[-2:-1]]),
+        np.append(first, step[:-1]),
+        right,
+    )
+    return Cubics(x, values, slopes)
+
+
+def tridiagonal(below: FloatArray, diagonal: FloatArray, above: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the solution of a tridiagonal system by elimination with exchange of neighbouring rows.
+
+    Parameters
+    ----------
+    below, diagonal, above
+        The matrix, regular, shapes (n - 1,), (n,), (n - 1,).
+    right
+        Right-hand side, shape (n,).
+    """
+    low, mid, up, b = below.tolist(), diagonal.tolist(), above.tolist(), right.tolist()
+    n = len(mid)
+    far = [0.0] * n
+    for i in range(n - 1):
+        if abs(mid[i]) >= abs(low[i]):
+            factor = low[i] / mid[i]
+            mid[i + 1] -= factor * up[i]
+            b[i + 1] -= factor * b[i]
+            continue
+        factor = mid[i] / low[i]
+        mid[i], mid[i + 1], up[i] = low[i], up[i] - factor * mid[i + 1], mid[i + 1]
+        b[i], b[i + 1] = b[i + 1], b[i] - factor * b[i + 1]
+        if i < n - 2:
+            far[i], up[i + 1] = up[i + 1], -factor * up[i + 1]
+    b[-1] /= mid[-1]
+    b[-2] = (b[-2] - up[-1] * b[-1]) / mid[-2]
+    for i in range(n - 3, -1, -1):
+        b[i] = (b[i] - up[i] * b[i + 1] - far[i] * b[i + 2]) / mid[i]
+    return np.array(b)
+
+
+def bisected(function: Callable[[float], float], low: float, high: float, tolerance: float) -> float:
+    """Return a root between positions where a function has opposite signs, to a tolerance, by bisection."""
+    at_low = function(low)
+    if at_low == 0.0:
+        return low
+    if function(high) == 0.0:
+        return high
+    step = high - low
+    while True:
+        step *= 0.5
+        middle = low + step
+        value = function(middle)
+        if math.copysign(1.0, value) == math.copysign(1.0, at_low):
+            low = middle
+        if value == 0.0 or abs(step) < tolerance + 4.0 * np.finfo(float).eps * abs(middle):
+            return middle
