@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,9 @@ from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.pose import Pose
-from tribodyn.lubrication import Film
+
+if TYPE_CHECKING:
+    from tribodyn.lubrication import Film
 
 SPHERE: Final = "point-lankarani-nikravesh"
 """The point contact that a ball in a race can have."""
