@@ -69,8 +69,10 @@ def _fill(file: netCDF4.Dataset, dataset: xr.Dataset) -> None:
 
 
 def _write(file: netCDF4.Dataset, name: str, variable: xr.Variable, attributes: dict[str, Any]) -> None:
-    """Write an array of numbers or texts; numbers that HDF5 can sum up with a checksum."""
+    """Write an array of numbers, truth values or texts; what HDF5 can sum up with a checksum."""
     values = variable.values
+    if values.dtype.kind == "b":
+        values, attributes = values.astype("i1"), attributes | {"dtype": "bool"}
     kind = values.dtype.kind
     written = file.createVariable(
         name,
