@@ -43,12 +43,18 @@ def extremes(*records: Record) -> dict[str, float]:
     return {name: float(record[name]) for record in records for name in record.dtype.names}
 
 
+TOO_CLOSE: Final = (
+    "is too large for this law, or the grid too coarse for the edge of a tilted pin: more nodes along the "
+    "axis show which"
+)
+"""Why surfaces come closer than a contact law reaches, after what presses them together."""
+
+
 def beyond_law(
     h_first: float,
     t_end: float,
     surfaces: str,
-    cause: str = "the load or the impact is too large for this law, or the grid too coarse for the edge of a "
-    "tilted pin: more nodes along the axis show which",
+    cause: str = f"the load or the impact {TOO_CLOSE}",
 ) -> str:
     """Return why a run stopped at ``t_end`` [s] that left the range of its contact law.
 

@@ -308,15 +308,16 @@ class JointLoads:
             move(bodies[b], change[6 * b : 6 * b + 6], np.zeros(4))
         collect(bodies, self.state)
 
-    @property
-    def beyond_law(self) -> bool:
-        """Whether surfaces overlap further than their contact law reaches."""
-        return any(np.any(contact.gaps(self._place(contact)) < contact.deepest) for contact in self.contacts)
+    def overlapping(self) -> int | None:
+        """Return the first joint whose surfaces overlap further than their contact law reaches."""
+        return next((contact.coupling for contact in self.contacts if self._overlaps(contact)), None)
 
-    @property
-    def lost(self) -> bool:
-        """Whether a shaft has left its socket, or moves along it without end."""
-        return any(self._has_left(contact) for contact in self.contacts)
+    def lost(self) -> int | None:
+        """Return the first joint whose shaft has left its socket, or moves along it without end."""
+        return next((contact.coupling for contact in self.contacts if self._has_left(contact)), None)
+
+    def _overlaps(self, contact: JointNodes) -> bool:
+        return bool(np.any(contact.gaps(self._place(contact)) < contact.deepest))
 
     def _has_left(self, contact: JointNodes) -> bool:
         """Return whether the shaft of one joint has left its socket."""
@@ -349,8 +350,8 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
         loads.look()
         steps, moved, soft = _newton(loads, soft, change) if loads.motions.size else (0, 0.0, soft)
         if steps == 0 or moved < near:
-            return None if loads.beyond_law else loads.state
-        if loads.lost:
+            return loads.state if loads.overlapping() is None else None
+        if loads.lost() is not None:
             return None
         # Where a force passes through zero its shaft lies anywhere, and no look is the last.
         near *= _NEARER

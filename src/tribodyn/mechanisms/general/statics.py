@@ -9,6 +9,7 @@ the ideal motion, so positions that are passed in both directions have two equil
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -17,6 +18,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
+from tribodyn.mechanisms.checks import TOO_CLOSE
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.cycle import closes, placed, where_drives_are
@@ -24,7 +26,7 @@ from tribodyn.mechanisms.general.equilibrium import JointLoads, settled
 from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanisms.general.kinematics import require_motion
 from tribodyn.mechanisms.general.outputs import rotations
-from tribodyn.mechanisms.general.positions import DrivePath, held, walked
+from tribodyn.mechanisms.general.positions import DrivePath, held, undamped, walked
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that is none."""
@@ -76,8 +78,8 @@ def find_equilibria(
     times, picture_times, progress
         As for :func:`tribodyn.mechanisms.general.positions.walked`.
     """
-    path = DrivePath(times, turn)
-    return walked(problem, path, Equilibria(assembly, path), picture_times, progress)
+    path, still = DrivePath(times, turn), replace(problem, data=undamped(problem.data))
+    return walked(still, path, Equilibria(assembly, path), picture_times, progress)
 
 
 class LedLoads(JointLoads):
@@ -86,6 +88,7 @@ class LedLoads(JointLoads):
     def __init__(self, assembly: Assembly, ideal_rank: int) -> None:
         ideal = placed(System(assembly.model.counterpart), assembly)
         super().__init__(assembly, ideal, freedoms=True)
+        self.data = undamped(self.data)
         self._direction = 1.0
         for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):
             system.set_rank(rank)
@@ -118,7 +121,7 @@ class Equilibria:
         times, self._where = np.unique(path.of_drives, return_inverse=True)
         mechanism = IdealMechanism(assembly)
         found = mechanism.follow(times)
-        self._path, self._bodies = path, assembly.model.bodies
+        self._path, self._bodies, self._joints = path, assembly.model.bodies, assembly.model.joints
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
@@ -135,11 +138,22 @@ class Equilibria:
                 self._require_balance(number)
                 self._remember(number)
                 return self._loads.state
-        raise self._failure(
-            number,
-            "no static equilibrium was found: contact forces within the range of the contact law do not "
-            "balance the loads, because a joint is overloaded or nothing holds a shaft along its axis",
-        )
+        raise self._failure(number, f"no static equilibrium was found: {self._why_not()}")
+
+    def _why_not(self) -> str:
+        """Return why the last search ended without an equilibrium, in words."""
+        joints, overlapping, lost = self._joints, self._loads.overlapping(), self._loads.lost()
+        if lost is not None:
+            return (
+                f"the loads move the shaft of joint {joints[lost]} out of its bore; nothing holds it along "
+                "its axis, or a joint is overloaded"
+            )
+        if overlapping is not None:
+            return (
+                f"the surfaces of joint {joints[overlapping]} come closer than the contact law reaches; "
+                f"the load {TOO_CLOSE}"
+            )
+        return "the search for it did not converge"
 
     def _require_reached(self, number: int) -> int:
         """Return the number of the ideal state of a position, if joints close there."""
