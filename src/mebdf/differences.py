@@ -57,18 +57,27 @@ class Differences(Protocol):
         ...
 
 
-def typical_sizes(rtol: FloatArray, atol: FloatArray) -> FloatArray:
+def typical_sizes(rtol: FloatArray, atol: FloatArray, *, algebraic: bool = False) -> FloatArray:
     """Return sizes below which those of variables do not shrink their moves, shape (n,).
 
     SciPy's own solvers take absolute tolerances. Moves by a share ``LEAST`` of these are lost in rounding if
     relative tolerances are small: equations of a variable near zero have other terms, and their rounding is
     that of the size at which both tolerances are equal. No move of these sizes exceeds an absolute tolerance.
 
+    Some hundred roundings leave a Jacobian wrong by per cents, which only slows Newton's iteration. But where
+    rows of a differential-algebraic system cancel (charges of capacitors that touch no ground), short steps
+    magnify that without bound: moves of its variables near zero are those of the size at which both
+    tolerances are equal, as far as the absolute tolerance allows.
+
     Parameters
     ----------
     rtol, atol
         Relative and absolute tolerance of each variable, shape (n,) each; ``rtol`` at least 100 roundings.
+    algebraic
+        Whether some equations have no derivatives.
     """
+    if algebraic:
+        return np.asarray(atol * np.minimum(1.0 / rtol, 1.0 / LEAST))
     return np.asarray(atol * np.maximum(1.0, ROUNDINGS * _EPS / (LEAST * rtol)))
 
 

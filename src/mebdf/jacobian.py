@@ -96,7 +96,8 @@ def make_jacobian(
     """
     n = solver.n
     rtol, atol = tolerances
-    sizes = typical_sizes(rtol, atol)
+    algebraic = mass is not None and bool(mass.algebraic_equations.any())
+    sizes = typical_sizes(rtol, atol, algebraic=algebraic)
 
     def watched(given: Linear) -> Linear:
         if given.algebra is not None:
