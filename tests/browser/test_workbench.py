@@ -295,6 +295,50 @@ def test_every_kind_of_mechanism_has_its_workbench(
         person.page.close()
 
 
+STAGE = "document.querySelector('#mechanism .plot').plotted"
+CRANK = """
+case = "mechanism"
+title = "Crank"
+parameters.length = "50 mm"
+[bodies.crank]
+shape = "rod"
+start = "0, 0, 0 mm"
+end = ["length", "0 mm", "0 mm"]
+radius = "5 mm"
+density = "7850 kg/m^3"
+[joints.main]
+type = "revolute"
+between = ["ground", "crank"]
+point = "0, 0, 0 mm"
+axis = [0, 0, 1]
+[drives.motor]
+joint = "main"
+speed = "600 rpm"
+[run]
+cycles = 1
+output_interval = "5 ms"
+"""
+
+
+def test_a_slider_of_a_parameter_moves_the_mechanism(at: Opened, tmp_path: Path) -> None:
+    file, key = tmp_path / "crank.toml", "parameters.length.value"
+    file.write_text(CRANK)
+    reach = "Math.max(...plot.plotted.solids.map((solid) => Math.max(...solid.points)))"
+    with serving([str(file)]) as server:
+        person = at(server=server)
+        person.wait_until_shown({})
+        person.look_at("mechanism")
+        assert person.plot("mechanism", reach) == pytest.approx(50.0)
+        _drag(person, 0.3, 0.8, steps=3, key=key)
+        person.wait_for("!requests.awaited && pageState.past.length === 1")
+        requested = person.page.evaluate("pageState.values")
+        person.wait_until_shown(requested)
+        length = float(requested[key].removesuffix(" mm"))
+        assert length != 50.0
+        person.wait_for(f"Math.abs({reach.replace('plot.plotted', STAGE)} - {length}) < 1e-3")
+        person.page.close()
+
+
 def test_what_cannot_be_is_said_beside_its_box(at: Opened) -> None:
     person = at()
     person.wait_until_shown({})

@@ -21,6 +21,8 @@ FIRST: Final = 8
 """Controls that a page shows without being asked."""
 FILE: Final = "file"
 """Kind of the keys that name files: no page may turn them."""
+_ABOVE_ZERO: Final = 1.0e-300
+"""Lowest value of a parameter that is positive (SI): its slider begins at its first step."""
 _NO_TRACK: Final = {"least": None, "greatest": None, "step": None}
 
 
@@ -41,7 +43,14 @@ def controls(case: Case, patterns: Sequence[str]) -> list[dict[str, Any]]:
     first = list(dict.fromkeys(_matching(case, keys, patterns)))[:FIRST]
     others = [path for path in keys if path not in first]
     lowest = {path: ROUGH_LIMIT * roughness for path, roughness in case.rough_clearances().items()}
+    # A length that is swept through zero turns a mechanism over.
+    lowest |= {path: _ABOVE_ZERO for path in keys if path.startswith("parameters.") and _is_above(case, path)}
     return [_control(case, keys[path], path in first, lowest.get(path)) for path in (*first, *others)]
+
+
+def _is_above(case: Case, path: str) -> bool:
+    """Tell whether a key has a number above zero."""
+    return (_number(case.at(path)) or 0.0) > 0.0
 
 
 def _stands(case: Case, path: str) -> bool:

@@ -138,3 +138,16 @@ def test_parameters_have_the_first_sliders():
     assert (first["key"], first["label"], first["number"]) == ("parameters.length.value", "length", 0.5)
     assert first["least"] < 0.5 < first["greatest"]
     assert case.replace({first["key"]: "0.6 m"}).at("bodies.rod.end.y") == -0.6
+
+
+def test_sliders_of_lengths_do_not_pass_zero():
+    case = (
+        td.Mechanism("Arm", run={"duration": "1 s"}).parameter("length", "50 mm").parameter("aside", "-50 mm")
+    )
+    case.body(
+        "arm", shape="rod", start="0, 0, 0 mm", end="length, 0, 0 mm", radius="5 mm", density="1 g/cm^3"
+    )
+    case.revolute("pivot", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1])
+    made = {one["key"]: one for one in controls(case.case(), ["parameters.*.value"])}
+    assert made["parameters.length.value"]["least"] == made["parameters.length.value"]["step"]
+    assert made["parameters.aside.value"]["least"] == -200.0
