@@ -62,7 +62,22 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
     if value is not None:
         example = value.example if value.example.startswith("[") else f'"{value.example}"'
         return f"unknown key; {value.name} is a value, not a table; write {value.name} = {example}"
+    absent = _absent(path, keys, declared)
+    if absent:
+        return f"the case has no {absent}; write a table [{absent}] into its file"
     return f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
+
+
+def _absent(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> str:
+    """Return the named table that a key needs, where the case has none of its kind; else empty."""
+    known = as_declared(path, declared)
+    if known not in declared:
+        return ""
+    parts, places = path.split("."), known.split(".")
+    for k in (k for k, place in enumerate(places) if place == ANY_NAME):
+        if not any(key.startswith(f"{'.'.join(parts[:k])}.") for key in keys):
+            return ".".join(parts[: k + 1])
+    return ""
 
 
 def _shown(path: str) -> str:

@@ -53,10 +53,9 @@ def chosen_case(args: Namespace) -> Case:
     """Return the case that the arguments name, with the changes they ask for."""
     from tribodyn.mechanisms.catalogue import load_case
 
-    case = load_case(args.case, _set(args), source="--set")
-    for option, short in (("--solver", _solver(args)), (f"--{args.analysis}", _analysis(args))):
-        case = case.replace(short, source=option) if short else case
-    return case
+    options = {"--set": _set(args), "--solver": _solver(args), f"--{args.analysis}": _analysis(args)}
+    given = [option for option, keys in options.items() if keys]
+    return load_case(args.case, changes(args), source=" and ".join(given))
 
 
 def changes(args: Namespace) -> dict[str, str]:

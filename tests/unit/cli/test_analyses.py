@@ -38,3 +38,9 @@ def test_an_analysis_is_stored_as_any_run(
 def test_a_case_without_analyses_refuses_them(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "vsv", "--static"]) == 2
     assert "--static: run.analysis" in capsys.readouterr().err
+
+
+def test_keys_of_an_analysis_are_set_beside_its_option(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "slider-crank", "--static", "--set", "run.directions=both"]) == 0
+    assert main(["check", "slider-crank", "--kinematic", "--set", "run.directions=both"]) == 2
+    assert "--set and --kinematic: run.directions" in capsys.readouterr().err
