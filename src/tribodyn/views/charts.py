@@ -15,11 +15,11 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.encode import packed
+from tribodyn.views.encode import stepped
 from tribodyn.views.events import impact_time, impact_windows, reversal_times, smooth_limits
 from tribodyn.views.playback import time_unit
 from tribodyn.views.section import Payload, Section
-from tribodyn.views.series import peak, series
+from tribodyn.views.series import finite, peak, series
 
 MOST: Final = 6000
 """Points of a curve above which it is thinned: three for each pixel of a wide screen."""
@@ -50,6 +50,41 @@ def thinned(x: FloatArray, y: FloatArray, most: int = MOST) -> tuple[FloatArray,
     edges = np.linspace(0, x.size, most // 5 + 1).astype(int)
     kept = np.unique(np.concatenate([_extremes(y, a, b) for a, b in pairwise(edges)]))
     return x[kept], y[kept]
+
+
+FINEST: Final = 4000
+"""Parts of an ordinate that a curve may be off by: a tenth of a pixel where it is shown whole."""
+
+
+def straightened(x: FloatArray, y: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
+    """Return a curve without the points that a straight line between its neighbours replaces.
+
+    Stretches are split where a line misses most until none misses more than the tolerance (Douglas and
+    Peucker 1973, along y). Ends, and points at gaps (NaN), stay.
+
+    Parameters
+    ----------
+    x
+        Increasing, shape (n,).
+    y
+        Shape (n,).
+    tolerance
+        What a line may miss, in the unit of ``y``.
+
+    Returns
+    -------
+    tuple of arrays
+        Both of shape (m,), in the order of ``x``.
+    """
+    gap = np.concatenate([[True], ~np.isfinite(y), [True]])
+    kept = gap[:-2] | gap[1:-1] | gap[2:]
+    while True:
+        knots = np.flatnonzero(kept)
+        miss = np.nan_to_num(np.abs(y - np.interp(x, x[knots], y[knots])))
+        far = miss > tolerance
+        if not far.any():
+            return x[kept], y[kept]
+        kept |= far & (miss == np.maximum.reduceat(miss, knots)[np.cumsum(kept) - 1])
 
 
 def _extremes(y: FloatArray, begin: int, end: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
@@ -162,8 +197,7 @@ def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | 
         "scale": scale,
         "turns": [float(turn * scale) for turn in turns],
         "windows": [[float(end * scale) for end in window] for window in impact_windows(dataset)],
-        "x": packed(time * scale, "float64"),
-        "panels": [_panel(panel, time, turns, impact_time(dataset)) for panel in panels],
+        "panels": [_panel(panel, time, scale, turns, impact_time(dataset)) for panel in panels],
     }
 
 
@@ -175,33 +209,41 @@ def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]
         "time": False,
         "turns": [],
         "windows": [],
-        "x": packed(x, "float64"),
-        "panels": [_panel(panel, x, none, 0.0) for panel in panels],
+        "panels": [_panel(panel, x, 1.0, none, 0.0) for panel in panels],
     }
 
 
-def _panel(panel: Panel, x: FloatArray, turns: FloatArray, settling: float) -> dict[str, Any]:
-    """Return a panel as the script reads it."""
+def _panel(panel: Panel, x: FloatArray, scale: float, turns: FloatArray, settling: float) -> dict[str, Any]:
+    """Return a panel as the script reads it, with the abscissa times a scale."""
     limits, note = _limits(panel, x, turns, settling) if panel.smooth else ([], "")
+    shown = limits[1] - limits[0] if limits else _range(panel)
     return {
         "label": panel.label,
         "limits": limits,
         "note": note,
-        "curves": [_curve(curve, x) for curve in panel.curves],
+        "curves": [_curve(curve, x, scale, shown / FINEST) for curve in panel.curves],
     }
 
 
-def _curve(curve: ChartCurve, common: FloatArray) -> dict[str, Any]:
-    """Return a curve as the script reads it; its abscissa only where it is not the common one."""
-    x = common if curve.x is None else curve.x
-    x, y = thinned(x, curve.values) if np.all(np.diff(x) > 0.0) else (x, curve.values)
+def _range(panel: Panel) -> float:
+    """Return the range of all finite values of a panel; 0 when there are none."""
+    values = np.concatenate([np.empty(0), *(finite(curve.values) for curve in panel.curves)])
+    return float(np.ptp(values)) if values.size else 0.0
+
+
+def _curve(curve: ChartCurve, common: FloatArray, scale: float, tolerance: float) -> dict[str, Any]:
+    """Return a curve as the script reads it, without what a screen cannot show."""
+    x = scale * common if curve.x is None else curve.x
+    y = curve.values
+    if np.all(np.diff(x) > 0.0):
+        x, y = straightened(*thinned(x, y), tolerance)
     return {
         "name": curve.name,
         "colour": curve.colour,
         "dash": curve.dash,
         "width": curve.width,
-        "x": None if x is common else packed(x, "float64"),
-        "y": packed(y),
+        "x": stepped(x, 0.0),
+        "y": stepped(y, tolerance),
     }
 
 

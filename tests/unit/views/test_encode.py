@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.views.encode import inside_page, packed, quantised
+from tribodyn.views.encode import inside_page, packed, quantised, stepped
 
 
 def opened(text: str) -> tuple[dict[str, Any], bytes]:
@@ -26,6 +26,30 @@ def test_arrays_travel_as_their_bytes(kind, code):
     ((name, (offset, length)),) = header["x"].items()
     assert (name, offset % 8) == (code, 0)
     assert np.frombuffer(arrays, kind, length, offset).tolist() == [0, 1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize(("finest", "code"), [(1e-3, "q16"), (1e-6, "q32")])
+def test_curves_keep_their_values_to_half_a_step(finest: float, code: str) -> None:
+    values = np.array([-3.0, np.nan, 0.123456789, 7.0])
+    header, arrays = opened(inside_page({"y": stepped(values, finest)}))
+    ((name, (offset, length, low, step)),) = header["y"].items()
+    codes = np.frombuffer(
+        arrays, code.replace("q", "u").replace("16", "2").replace("32", "4"), length, offset
+    )
+    assert name == code
+    assert codes[1] == np.iinfo(codes.dtype).max
+    back = low + step * codes[[0, 2, 3]]
+    assert step <= finest
+    assert back == pytest.approx(values[[0, 2, 3]], rel=0.0, abs=0.500001 * step)
+
+
+@pytest.mark.parametrize("values", [[], [np.nan], [2.0, 2.0]])
+def test_curves_without_range_keep_their_values(values: list[float]) -> None:
+    packed_values = stepped(values, 0.0)
+    low, step = packed_values.scale
+    gap = np.iinfo(packed_values.array.dtype).max
+    back = [np.nan if code == gap else low + step * code for code in packed_values.array]
+    assert np.array_equal(back, values, equal_nan=True)
 
 
 def test_pictures_keep_their_values_to_half_a_step_of_their_own_peak():

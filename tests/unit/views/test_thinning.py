@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tribodyn.views.charts import thinned
+from tribodyn.views.charts import straightened, thinned
 
 
 @given(
@@ -36,3 +36,21 @@ def test_every_peak_of_a_fine_signal_is_there():
     few_x, few_y = thinned(x, y, 500)
     assert few_x.size <= 500
     assert few_y[np.isin(few_x, spikes)] == pytest.approx(y[spikes])
+
+
+@given(
+    y=st.lists(st.floats(-1.0, 1.0) | st.just(float("nan")), min_size=1, max_size=300),
+    tolerance=st.sampled_from([0.0, 0.01, 0.3]),
+)
+def test_lines_replace_points_within_the_tolerance(y: list[float], tolerance: float) -> None:
+    values, x = np.array(y), np.cumsum(1.0 + np.arange(len(y)) % 3)
+    few_x, few_y = straightened(x, values, tolerance)
+    good = np.isfinite(values)
+    assert np.isnan(few_y).sum() == (~good).sum()
+    # Rounding of a line between two points of size 1.
+    assert np.all(np.abs(np.interp(x, few_x, few_y) - values)[good] <= tolerance + 1e-15)
+
+
+def test_a_straight_curve_keeps_its_ends() -> None:
+    x = np.linspace(0.0, 1.0, 1000)
+    assert straightened(x, 2.0 * x, 1e-6)[0].tolist() == [0.0, 1.0]

@@ -76,17 +76,29 @@ function goToPointer(lines, [x]) {
   if (lines.data.time && clock.frames) clock.goTo(lines.x.back(x) / lines.data.scale);
 }
 
-/** Return the number of the point of a curve that is nearest to a place [px] along x, or in the plane. */
-function nearest(lines, y, curve, [px, py], plane) {
-  let [best, least] = [-1, Infinity];
+/** Return the point of a curve over time that is above or below a place, on the line between its points. */
+function pointAt({ x, y }, at) {
+  const n = x.findIndex((value) => value >= at);
+  if (n < 1) return x[n] === at && Number.isFinite(y[n]) ? { x: at, y: y[n], far: 0 } : null;
+  const value = y[n - 1] + ((at - x[n - 1]) / (x[n] - x[n - 1])) * (y[n] - y[n - 1]);
+  return Number.isFinite(value) ? { x: at, y: value, far: 0 } : null;
+}
+
+/** Return the point of a curve in a plane that is nearest to a place [px], on the lines between its points. */
+function nearest(scales, curve, [px, py]) {
+  let best = null;
+  let [ax, ay] = [NaN, NaN];
   for (let n = 0; n < curve.x.length; n++) {
-    if (Number.isNaN(curve.y[n])) continue;
-    const dx = Math.abs(lines.x.at(curve.x[n]) - px);
-    if (dx >= least) continue;
-    const far = plane ? Math.hypot(dx, y.at(curve.y[n]) - py) : dx;
-    if (far < least) [best, least] = [n, far];
+    const [bx, by] = [scales.x.at(curve.x[n]), scales.y.at(curve.y[n])];
+    if (Number.isNaN(by)) continue;
+    const along = ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2);
+    const back = n && !Number.isNaN(curve.y[n - 1]) ? 1 - Math.min(1, Math.max(0, along || 0)) : 0;
+    const [x, y] = back ? [bx - back * (bx - ax), by - back * (by - ay)] : [bx, by];
+    const far = Math.hypot(x - px, y - py);
+    if (far <= REACH && !(far >= best?.far)) best = { x: scales.x.back(x), y: scales.y.back(y), far };
+    [ax, ay] = [bx, by];
   }
-  return least <= REACH ? { n: best, far: least } : null;
+  return best;
 }
 
 /** Write the values under the pointer into the box beside it, and mark them. */
@@ -94,23 +106,24 @@ function tellValues(lines, pen) {
   const { pointer, data, hidden, hover } = lines;
   const place = pointer && !lines.drag && lines.panels.find(({ frame }) => isInside(frame, pointer));
   const plane = !data.time;
+  const time = pointer && lines.x.back(pointer[0]);
   let found = (place ? place.panel.curves : [])
     .filter((curve) => !hidden.has(curve.name))
-    .map((curve) => ({ curve, at: nearest(lines, place.y, curve, pointer, plane) }))
+    .map((curve) => ({ curve, at: plane ? nearest({ x: lines.x, y: place.y }, curve, pointer) : pointAt(curve, time) }))
     .filter(({ at }) => at);
   if (plane) found = found.sort((a, b) => a.at.far - b.at.far).slice(0, 1);
   hover.hidden = !found.length;
   if (!found.length) return;
-  const value = ({ curve, at }) =>
-    plane ? `${number(curve.x[at.n], 4)}, ${number(curve.y[at.n], 4)}` : number(curve.y[at.n], 4);
+  const value = ({ at }) =>
+    plane ? `${number(at.x, 4)}, ${number(at.y, 4)}` : number(at.y, 4);
   const alone = place.panel.curves.length === 1;
   const rows = found.map((one) => element("div", {}, `${alone ? place.panel.label : one.curve.name}: ${value(one)}`));
-  const title = `t = ${lines.x.back(pointer[0]).toFixed(4)} ${data.unit}`;
+  const title = `t = ${time.toFixed(4)} ${data.unit}`;
   hover.replaceChildren(...(plane ? [] : [element("strong", {}, title)]), ...rows);
   placeHover(lines, pointer);
   for (const { curve, at } of found) {
     Object.assign(pen, { fillStyle: theme.colour(curve.colour), strokeStyle: theme.colour("card"), lineWidth: 1 });
-    drawMark(pen, "circle", lines.x.at(curve.x[at.n]), place.y.at(curve.y[at.n]), 3.5);
+    drawMark(pen, "circle", lines.x.at(at.x), place.y.at(at.y), 3.5);
   }
 }
 

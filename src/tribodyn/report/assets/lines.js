@@ -53,9 +53,6 @@ class Lines {
 
   /** Take curves to draw, and those of other runs that show through; zoom and hidden curves stay. */
   take(data, ghosts) {
-    for (const { panels, x } of [data, ...ghosts.map((ghost) => ghost.data)]) {
-      for (const curve of panels.flatMap((panel) => panel.curves)) curve.x ??= x;
-    }
     const wasWhole = !this.view || same(this.view, this.span);
     Object.assign(this, { data, ghosts, span: wholeSpan(data) });
     if (wasWhole) this.view = [...this.span];

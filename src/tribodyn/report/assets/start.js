@@ -15,14 +15,26 @@ function isNarrow() {
 }
 
 const KINDS = { f32: Float32Array, f64: Float64Array, u8: Uint8Array };
+/** Codes of numbers in equal steps. */
+const CODES = { q16: Uint16Array, q32: Uint32Array };
+
+/** Turn codes into numbers; the highest code is a gap. */
+function numbersOf(codes, low, step) {
+  const gap = 2 ** (8 * codes.BYTES_PER_ELEMENT) - 1;
+  return Float64Array.from(codes, (code) => (code === gap ? NaN : low + step * code));
+}
 
 /** Turn places in a buffer after `base` into typed arrays, everywhere in a document. */
 function unpack(node, buffer, base) {
   if (node === null || typeof node !== "object") return node;
   if (Array.isArray(node)) return node.map((one) => unpack(one, buffer, base));
   const keys = Object.keys(node);
-  const Kind = keys.length === 1 && KINDS[keys[0]];
-  if (Kind) return new Kind(buffer, base + node[keys[0]][0], node[keys[0]][1]);
+  const Kind = keys.length === 1 && (KINDS[keys[0]] ?? CODES[keys[0]]);
+  if (Kind) {
+    const [offset, length, ...scale] = node[keys[0]];
+    const array = new Kind(buffer, base + offset, length);
+    return scale.length ? numbersOf(array, ...scale) : array;
+  }
   return Object.fromEntries(keys.map((key) => [key, unpack(node[key], buffer, base)]));
 }
 

@@ -14,7 +14,7 @@ from tribodyn.mechanisms.general.sections.shafts import Shafts
 from tribodyn.mechanisms.general.skeleton import case_of
 from tribodyn.views.bushing import Unrolled
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
-from tribodyn.views.encode import packed
+from tribodyn.views.encode import packed, stepped
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.series import peak
@@ -124,7 +124,7 @@ def _orbit(shafts: Shafts, joint: int, times: FloatArray) -> dict[str, Any]:
         "joined": False,
         "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
         "places": ["shaft"],
-        "paths": [{"x": packed(x), "y": packed(y)}],
+        "paths": [{"x": stepped(x, 0.001 * clearance), "y": stepped(y, 0.001 * clearance)}],
         "at": [{"x": packed(at_x), "y": packed(at_y)}],
     }
 
