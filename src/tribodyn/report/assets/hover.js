@@ -77,7 +77,7 @@ function goToPointer(lines, [x]) {
 }
 
 /** Return the point of a curve over time that is above or below a place, on the line between its points. */
-function pointAt({ x, y }, at) {
+function valueUnder({ x, y }, at) {
   const n = x.findIndex((value) => value >= at);
   if (n < 1) return x[n] === at && Number.isFinite(y[n]) ? { x: at, y: y[n], far: 0 } : null;
   const value = y[n - 1] + ((at - x[n - 1]) / (x[n] - x[n - 1])) * (y[n] - y[n - 1]);
@@ -85,7 +85,7 @@ function pointAt({ x, y }, at) {
 }
 
 /** Return the point of a curve in a plane that is nearest to a place [px], on the lines between its points. */
-function nearest(scales, curve, [px, py]) {
+function nearestOnCurve(scales, curve, [px, py]) {
   let best = null;
   let [ax, ay] = [NaN, NaN];
   for (let n = 0; n < curve.x.length; n++) {
@@ -109,7 +109,7 @@ function tellValues(lines, pen) {
   const time = pointer && lines.x.back(pointer[0]);
   let found = (place ? place.panel.curves : [])
     .filter((curve) => !hidden.has(curve.name))
-    .map((curve) => ({ curve, at: plane ? nearest({ x: lines.x, y: place.y }, curve, pointer) : pointAt(curve, time) }))
+    .map((curve) => ({ curve, at: plane ? nearestOnCurve({ x: lines.x, y: place.y }, curve, pointer) : valueUnder(curve, time) }))
     .filter(({ at }) => at);
   if (plane) found = found.sort((a, b) => a.at.far - b.at.far).slice(0, 1);
   hover.hidden = !found.length;
