@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
@@ -36,7 +36,7 @@ def replacing(path: Path) -> Iterator[Path]:
     _flush_folder(path.parent)
 
 
-def stage(path: Path, content: bytes) -> Path:
+def stage(path: Path, *content: bytes | memoryview) -> Path:
     """Write what is to become a file to a temporary path beside it, on the disk when this returns.
 
     Parameters
@@ -44,7 +44,7 @@ def stage(path: Path, content: bytes) -> Path:
     path
         Any name in a folder that exists.
     content
-        Of the file.
+        Of the file, in parts that follow each other.
 
     Returns
     -------
@@ -53,7 +53,8 @@ def stage(path: Path, content: bytes) -> Path:
     """
     part = _part(path)
     try:
-        part.write_bytes(content)
+        with part.open("wb") as stream:
+            stream.writelines(content)
         _flush(part)
     except BaseException:
         part.unlink(missing_ok=True)
@@ -96,7 +97,7 @@ def write_text(path: Path, text: str) -> None:
     write_bytes(path, text.encode())
 
 
-def write_together(contents: Mapping[Path, bytes], stale: Iterable[Path]) -> None:
+def write_together(contents: Mapping[Path, Sequence[bytes | memoryview]], stale: Iterable[Path]) -> None:
     """Write files of one folder that belong together, the first of which the others follow from.
 
     All are on the disk before any takes its name. Then what belongs to the old first file goes, the new first
@@ -106,7 +107,7 @@ def write_together(contents: Mapping[Path, bytes], stale: Iterable[Path]) -> Non
     Parameters
     ----------
     contents
-        Content of each file by its path, the one that all others follow from first.
+        Parts of the content of each file by its path, the one that all others follow from first.
     stale
         Other files that belong to the old first file; they need not exist.
     """
@@ -114,7 +115,7 @@ def write_together(contents: Mapping[Path, bytes], stale: Iterable[Path]) -> Non
     folder = next(iter(contents)).parent
     try:
         for path, content in contents.items():
-            parts[path] = stage(path, content)
+            parts[path] = stage(path, *content)
         for path in (*list(parts)[1:], *stale):
             path.unlink(missing_ok=True)
         _flush_folder(folder)

@@ -29,7 +29,12 @@ MOST_TEXTS: Final = 100_000
 
 
 def netcdf_content(dataset: xr.Dataset) -> bytes:
-    """Return the content of a NetCDF-4 file.
+    """Return the content of a NetCDF-4 file, see :func:`netcdf_parts`."""
+    return b"".join(netcdf_parts(dataset))
+
+
+def netcdf_parts(dataset: xr.Dataset) -> tuple[bytes | memoryview, ...]:
+    """Return the content of a NetCDF-4 file, in parts that are not copied to be joined.
 
     Made in memory, because the HDF5 library crashes the process when a disk is full. Each array of numbers
     has a checksum, so that anything that reads it sees damage. What describes the arrays has none in this
@@ -48,7 +53,7 @@ def netcdf_content(dataset: xr.Dataset) -> bytes:
         finally:
             # Not when it is collected: that may be in another thread.
             content = file.close()
-    return b"".join([content, _MARK, _checksum(content)])
+    return content, _MARK, _checksum(content)
 
 
 def _fill(file: netCDF4.Dataset, dataset: xr.Dataset) -> None:

@@ -16,7 +16,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import LONGEST, brief
 from tribodyn.results.atomic import write_together
-from tribodyn.results.netcdf import attributes_of, dataset_of, netcdf_content
+from tribodyn.results.netcdf import attributes_of, dataset_of, netcdf_parts
 from tribodyn.results.schema import Kinds, check
 from tribodyn.results.summary import Summary
 
@@ -85,10 +85,10 @@ def write_run(
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
-    contents: dict[str, bytes] = {
-        RESULT: netcdf_content(dataset),
-        CASE: case_text(dataset).encode(),
-        SUMMARY: summary_text(summary).encode(),
+    contents = {
+        RESULT: netcdf_parts(dataset),
+        CASE: (case_text(dataset).encode(),),
+        SUMMARY: (summary_text(summary).encode(),),
     }
     write_together({folder / name: content for name, content in contents.items()}, stale)
     return [folder / name for name in contents]

@@ -96,7 +96,7 @@ def test_a_failing_run_leaves_all_three_old_files(make_result, tmp_path, monkeyp
     def fail(*_args, **_kwargs):
         raise OSError("no space left on device")
 
-    monkeypatch.setattr(store, "netcdf_content", fail)
+    monkeypatch.setattr(store, "netcdf_parts", fail)
     with pytest.raises(OSError, match="no space left"):
         write_run(make_result(0.2), tmp_path)
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
