@@ -23,6 +23,7 @@ NAMES: Final = (
     "mechanism",
     "film",
     "growth",
+    "costs",
     "long_run",
     "command",
     "sweep",

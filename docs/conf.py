@@ -30,6 +30,7 @@ extensions = [
     "contact_laws",
     "materials",
     "benchmark_tables",
+    "cost_tables",
     "counted_tables",
     "mathml",
     "numbers_of_runs",

@@ -12,7 +12,7 @@ time.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Self
 
 from tribodyn.mechanisms.workload import Workload
 
@@ -21,49 +21,69 @@ MOST_MEMORY: Final = 2.0e9
 MOST_TIME: Final = 3600.0
 """Processor time above which a warning is given [s]."""
 
-PROGRAM: Final = 3.6e8
-"""Program with its libraries and compiled equations [B]."""
-_NODE: Final = 2.0e3
-"""Node of a contact grid, its share of start, checks and result included [B]."""
-_FIELD_NODE: Final = 12.0
-"""Node of a pressure field: double precision on the way, and single precision of those kept [B]."""
-_NUMBER: Final = 45.0
-"""Number of a sample: on the way, sorted, as a column, and on the way into the file [B]."""
-_BREAK: Final = 300.0
-"""Restart, with what holds until the next [B]."""
-_CELL: Final = 600.0
-_BAND: Final = 32.0
-"""Cell of an oil film, and each entry of the band and the border of its matrix [B]."""
-_ASSEMBLY: Final = 10.0
-_DENSE: Final = 100.0
-"""Square of the number of states: in the assembly, and in integrators with full matrices [B]."""
+class Coefficient(float):
+    """A coefficient of the estimate.
 
-_START: Final = 0.5
-_PART: Final = 0.3
-_START_STATE: Final = 3.0e-3
-"""Reading, laws, start and result; what a joint with clearance and a state add [s]."""
-_STATE: Final = 1.0e-6
-"""Step, for each state [s]."""
-_STEP: Final = 5.0e-6
-_PYTHON_STEP: Final = 5.0e-4
-"""Step in compiled code, and what an integrator in Python adds [s]."""
-_EVALUATION: Final = 3.0e-9
-"""Node in an evaluation of the contact [s]."""
-_EVALUATIONS: Final = 3.5
-"""Evaluations of a step: two of the rates, a sixth of a Jacobian, path integrals."""
-_SAMPLE: Final = 5.0e-6
-_SAMPLE_NUMBER: Final = 2.0e-7
-"""Sample, and each number of it, saved [s]."""
-_SAVED_NODE: Final = 1.0e-8
-"""Node of a pressure field [s]."""
-_FILM_CELL: Final = 2.0e-8
-_FILM_ENTRY: Final = 3.0e-10
-"""Cell of an oil film in an evaluation, and each entry of the square of its band [s]."""
-_FILM_START: Final = 60.0
-"""Evaluations of a film for the equilibrium."""
-_STATES_CUBED: Final = 2.0e-9
-_DENSE_CUBED: Final = 1.0e-10
-"""Cube of the number of states: singular values in the assembly, and a step with full matrices [s]."""
+    Attributes
+    ----------
+    unit
+        Its unit.
+    meaning
+        What it is multiplied by, and what the product is.
+    """
+
+    unit: str
+    meaning: str
+
+    def __new__(cls, value: float, unit: str, meaning: str) -> Self:
+        """Return the number with what is known of it."""
+        found = super().__new__(cls, value)
+        found.unit, found.meaning = unit, meaning
+        return found
+
+
+PROGRAM: Final = Coefficient(3.6e8, "B", "program with its libraries and compiled equations")
+_NODE: Final = Coefficient(
+    2.0e3, "B", "node of a contact grid, its share of start, checks and result included"
+)
+_FIELD_NODE: Final = Coefficient(
+    12.0, "B", "node of a pressure field: double precision at first, single precision once kept"
+)
+_NUMBER: Final = Coefficient(45.0, "B", "number of a sample: as observed, sorted, as a column and in the file")
+_BREAK: Final = Coefficient(300.0, "B", "restart, with what holds until the next")
+_CELL: Final = Coefficient(600.0, "B", "cell of an oil film")
+_BAND: Final = Coefficient(32.0, "B", "entry of the band and the border of a film's matrix")
+_ASSEMBLY: Final = Coefficient(10.0, "B", "square of the number of states: assembly")
+_DENSE: Final = Coefficient(100.0, "B", "the same with integrators that use full matrices")
+
+_START: Final = Coefficient(0.5, "s", "reading, laws, start and result")
+_PART: Final = Coefficient(0.3, "s", "joint with clearance: its tables")
+_START_STATE: Final = Coefficient(3.0e-3, "s", "state: assembly and start")
+_STATES_CUBED: Final = Coefficient(2.0e-9, "s", "cube of the number of states: singular values")
+_STEP: Final = Coefficient(5.0e-6, "s", "step in compiled code")
+_STATE: Final = Coefficient(1.0e-6, "s", "state in a step")
+_EVALUATION: Final = Coefficient(3.0e-9, "s", "node in an evaluation of the contact")
+_EVALUATIONS: Final = Coefficient(
+    3.5, "1", "evaluations of a step: two of the rates, a sixth of a Jacobian, path integrals"
+)
+_PYTHON_STEP: Final = Coefficient(5.0e-4, "s", "step of an integrator in Python, additional")
+_DENSE_CUBED: Final = Coefficient(1.0e-10, "s", "cube of the number of states in a step with full matrices")
+_SAMPLE: Final = Coefficient(5.0e-6, "s", "sample")
+_SAMPLE_NUMBER: Final = Coefficient(2.0e-7, "s", "number of a sample, saved")
+_SAVED_NODE: Final = Coefficient(1.0e-8, "s", "node of a pressure field, saved")
+_FILM_CELL: Final = Coefficient(2.0e-8, "s", "cell of an oil film in an evaluation")
+_FILM_ENTRY: Final = Coefficient(3.0e-10, "s", "the same, times the square of the band")
+_FILM_START: Final = Coefficient(60.0, "1", "evaluations of a film for the equilibrium")
+
+COEFFICIENTS: Final[dict[str, Coefficient]] = {
+    **{"m_p": PROGRAM, "m_n": _NODE, "m_f": _FIELD_NODE, "m_q": _NUMBER, "m_b": _BREAK},
+    **{"m_c": _CELL, "m_w": _BAND, "m_s": _ASSEMBLY, "m_d": _DENSE},
+    **{"t_0": _START, "t_j": _PART, "t_x": _START_STATE, "t_3": _STATES_CUBED},
+    **{"t_1": _STEP, "t_s": _STATE, "t_n": _EVALUATION, "e": _EVALUATIONS},
+    **{"t_p": _PYTHON_STEP, "t_d": _DENSE_CUBED, "t_r": _SAMPLE, "t_q": _SAMPLE_NUMBER},
+    **{"t_f": _SAVED_NODE, "t_c": _FILM_CELL, "t_w": _FILM_ENTRY, "e_0": _FILM_START},
+}
+"""All of them, by their symbols in the manual."""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ def tables() -> Iterator[ModuleType]:
     pytest.importorskip("docutils")
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(EXTENSIONS))
-        for module in ("counted_tables", "solver_tables"):
+        for module in ("cost_tables", "counted_tables", "solver_tables"):
             importlib.import_module(module).setup(None)
         yield importlib.import_module("benchmark_tables")
 

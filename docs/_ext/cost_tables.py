@@ -1,0 +1,38 @@
+"""Tables of the page on what a run costs: coefficients of the estimate, and runs that were measured."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from benchmark_tables import SOURCE, TABLES, Found, Lines, head, row, seconds
+
+from tribodyn.simulation.costs import COEFFICIENTS
+
+MB: Final = 1e6
+
+
+def coefficients(_: Found) -> Lines:
+    """Give the coefficients of the estimate."""
+    yield from head("symbol", "value", "of each")
+    for symbol, one in COEFFICIENTS.items():
+        unit = "" if one.unit == "1" else f" {one.unit}"
+        yield row(f"${symbol}$", f"{one:.3g}{unit}", one.meaning)
+
+
+def costs(found: Found) -> Lines:
+    """Give what runs took and what they were estimated to take."""
+    yield from head(
+        *("case", "cycles", "states", "joints with clearance", "nodes", "steps"),
+        *("memory", "estimated", "processor time", "estimated"),
+    )
+    for name, one in found["costs"]["runs"].items():
+        counts = (f"{one[key]:.0f}" for key in ("states", "joints", "nodes", "steps"))
+        memory = (f"{one[key] / MB:.0f} MB" for key in ("memory", "expected memory"))
+        times = (seconds(one[key]) for key in ("seconds", "expected seconds"))
+        yield row(f"`{name}`", f"{one['cycles']:g}", *counts, *memory, *times)
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register the tables."""
+    TABLES.update({"coefficients": (SOURCE, coefficients), "costs": (SOURCE, costs)})
+    return {"parallel_read_safe": True}
