@@ -18,9 +18,12 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 
 _SOFT: Final = 1.0e-6
 """Stiffness of a direction over the largest one that is none."""
+_N_WAYS: Final = 6
+"""Translations and rotations of a shaft."""
 
 
 def shaft_displacements(
@@ -39,8 +42,9 @@ def shaft_displacements(
     """
     size = float(np.max(np.linalg.norm(position, axis=1), initial=np.finfo(float).tiny))
     lever = np.concatenate([normal, np.cross(position / size, normal)], axis=1)
-    stiffness = np.einsum("ti,ij,ik->tjk", weight, lever, lever)
-    force = np.einsum("ti,ij,i->tj", weight, lever, depth)
+    of_nodes = (lever[:, :, None] * lever[:, None, :]).reshape(-1, _N_WAYS**2)
+    stiffness = dense.product(weight, of_nodes).reshape(-1, _N_WAYS, _N_WAYS)
+    force = dense.product(weight, lever * depth[:, None])
     moved = np.linalg.pinv(stiffness, rcond=_SOFT, hermitian=True) @ force[..., None]
     most = float(depth.max(initial=0.0))
     way = np.linalg.norm(moved[:, :3, 0], axis=1)
