@@ -11,6 +11,7 @@ from typing import Any, Final
 import netCDF4
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from tribodyn.core.quoting import brief
 
@@ -61,20 +62,25 @@ def _fill(file: netCDF4.Dataset, dataset: xr.Dataset) -> None:
     for name, size in dataset.sizes.items():
         file.createDimension(str(name), size)
     beside = sorted(str(name) for name in dataset.coords if name not in dataset.sizes)
-    marked = set()
+    marked, defined = set(), []
     for name, variable in dataset.variables.items():
         attributes = dict(variable.attrs)
         if name not in beside and name not in variable.dims:
             coordinates = [each for each in beside if set(dataset.variables[each].dims) <= set(variable.dims)]
             attributes |= {"coordinates": " ".join(coordinates)} if coordinates else {}
             marked.update(coordinates)
-        _write(file, str(name), variable, attributes)
+        defined.append(_defined(file, str(name), variable, attributes))
     unmarked = {"coordinates": " ".join(sorted(set(beside) - marked))} if set(beside) - marked else {}
     file.setncatts({**dataset.attrs, **unmarked})
+    # Once all are defined: the library writes down anew what it knows of the file when values follow.
+    for written, values in defined:
+        written[...] = values
 
 
-def _write(file: netCDF4.Dataset, name: str, variable: xr.Variable, attributes: dict[str, Any]) -> None:
-    """Write an array of numbers, truth values or texts; what HDF5 can sum up with a checksum."""
+def _defined(
+    file: netCDF4.Dataset, name: str, variable: xr.Variable, attributes: dict[str, Any]
+) -> tuple[netCDF4.Variable[Any], NDArray[Any]]:
+    """Define an array of numbers, truth values or texts, with a checksum where HDF5 has one."""
     values = variable.values
     if values.dtype.kind == "b":
         values, attributes = values.astype("i1"), attributes | {"dtype": "bool"}
@@ -88,7 +94,7 @@ def _write(file: netCDF4.Dataset, name: str, variable: xr.Variable, attributes: 
     )
     written.setncatts(attributes)
     written.set_auto_maskandscale(False)
-    written[...] = values if kind in "fiu" else values.astype(object)
+    return written, values if kind in "fiu" else values.astype(object)
 
 
 def dataset_of(content: bytes) -> xr.Dataset:

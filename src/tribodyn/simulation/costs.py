@@ -21,6 +21,7 @@ MOST_MEMORY: Final = 2.0e9
 MOST_TIME: Final = 3600.0
 """Processor time above which a warning is given [s]."""
 
+
 class Coefficient(float):
     """A coefficient of the estimate.
 
@@ -49,7 +50,9 @@ _NODE: Final = Coefficient(
 _FIELD_NODE: Final = Coefficient(
     12.0, "B", "node of a pressure field: double precision at first, single precision once kept"
 )
-_NUMBER: Final = Coefficient(45.0, "B", "number of a sample: as observed, sorted, as a column and in the file")
+_NUMBER: Final = Coefficient(
+    45.0, "B", "number of a sample: as observed, sorted, as a column and in the file"
+)
 _BREAK: Final = Coefficient(300.0, "B", "restart, with what holds until the next")
 _CELL: Final = Coefficient(600.0, "B", "cell of an oil film")
 _BAND: Final = Coefficient(32.0, "B", "entry of the band and the border of a film's matrix")
