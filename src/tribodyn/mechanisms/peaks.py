@@ -76,6 +76,8 @@ def of_rows(
             for name, column in values.items():
                 sizes = np.abs(column[rows])
                 known = np.flatnonzero(np.isfinite(sizes).any(axis=0))
+                if not known.size:
+                    continue
                 row = np.nanargmax(sizes[:, known], axis=0)
                 found[f"{name}_{part}"][k, known] = sizes[row, known]
                 found[f"{name}_{part}_time"][k, known] = times[rows][row]

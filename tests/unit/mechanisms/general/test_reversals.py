@@ -127,3 +127,10 @@ def test_a_user_defined_vane_has_the_flash_temperature_of_the_reduced_one(
     flash = float(drawn["flash_temperature"].sel(joint="trunnion"))
     assert flash == pytest.approx(reduced.attrs["flash_temperature"], rel=0.05)
     assert np.isnan(drawn["flash_temperature"].sel(joint="pin"))
+
+
+def test_a_window_without_rows_has_no_peak() -> None:
+    t = np.array([0.0, 0.1, 1.5])
+    found = of_rows(t, {"force": np.array([[1.0], [-3.0], [2.0]])}, np.array([0.0, 1.0]), 0.2)
+    np.testing.assert_array_equal(found["force_impact"], [[3.0], [np.nan]])
+    np.testing.assert_array_equal(found["force_outside"], [[np.nan], [2.0]])
