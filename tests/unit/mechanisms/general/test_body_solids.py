@@ -52,7 +52,7 @@ def test_a_body_without_a_shape_has_no_solid() -> None:
     assert body_solid(case.bodies["part"]) is None
 
 
-REACTIONS = ("reaction_force", "reaction_force_global", "reaction_moment_global")
+REACTIONS = ("reaction_force", "reaction_moment")
 
 
 def test_the_scene_moves_solids_with_their_bodies() -> None:
