@@ -24,7 +24,7 @@ class Cubics:
     x
         Nodes, rising, shape (n,).
     values, slopes
-        At the nodes, shape (n,).
+        At the nodes, shape (n, ...).
     """
 
     x: FloatArray
@@ -33,20 +33,22 @@ class Cubics:
 
     def _places(self, x: FloatArray) -> tuple[list[FloatArray], FloatArray]:
         """Return the coefficients of the polynomials at the positions, and the distance from their nodes."""
-        step = np.diff(self.x)
-        chord = np.diff(self.values) / step
+        others = (1,) * (self.values.ndim - 1)
+        step = np.diff(self.x).reshape(-1, *others)
+        chord = np.diff(self.values, axis=0) / step
         bend = (self.slopes[:-1] + self.slopes[1:] - 2.0 * chord) / step
-        at = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, step.size - 1)
+        at = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, self.x.size - 2)
         square = (chord - self.slopes[:-1]) / step - bend
-        return [part[at] for part in (self.values, self.slopes, square, bend / step)], x - self.x[at]
+        coefficients = [part[at] for part in (self.values, self.slopes, square, bend / step)]
+        return coefficients, np.reshape(x - self.x[at], (*x.shape, *others))
 
     def __call__(self, x: FloatArray) -> FloatArray:
-        """Return the values at positions of any shape."""
+        """Return the values at positions of any shape, that shape and then that of a value."""
         (value, slope, square, cube), z = self._places(np.asarray(x, float))
         return np.asarray(value + slope * z + square * (z * z) + cube * (z * z * z))
 
     def derivative(self, x: FloatArray) -> FloatArray:
-        """Return the first derivatives at positions of any shape."""
+        """Return the first derivatives at positions of any shape, in the shape of the values there."""
         (_, slope, square, cube), z = self._places(np.asarray(x, float))
         return np.asarray(slope + square * z * 2.0 + cube * (z * z) * 3.0)
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.views.dense import dense_times, hermite
+from tribodyn.core.splines import Cubics
+from tribodyn.views.dense import dense_times
 
 FALL = np.array([0.0, -9.81])
 TIME = np.array([0.0, 0.01, 0.03, 0.04])
@@ -20,7 +21,7 @@ def test_a_free_flight_is_the_parabola_that_it_is() -> None:
     times = np.linspace(0.0, 0.04, 41)
     rates = START + FALL * TIME[:, None]
     # Rounding.
-    np.testing.assert_allclose(hermite(times, TIME, flight(TIME), rates), flight(times), atol=1e-15)
+    np.testing.assert_allclose(Cubics(TIME, flight(TIME), rates)(times), flight(times), atol=1e-15)
 
 
 def test_lines_between_dense_times_miss_no_more_than_asked_for() -> None:
@@ -42,5 +43,5 @@ def test_a_motion_that_is_straight_gets_no_times() -> None:
 @pytest.mark.parametrize("beyond", [0.0, 0.04])
 def test_ends_are_those_of_the_rows(beyond: float) -> None:
     rates = START + FALL * TIME[:, None]
-    found = hermite(np.array([beyond]), TIME, flight(TIME), rates)
+    found = Cubics(TIME, flight(TIME), rates)(np.array([beyond]))
     np.testing.assert_allclose(found, flight(np.array([beyond])), atol=1e-15)

@@ -313,7 +313,7 @@ class JointLoads:
         return next((contact.coupling for contact in self.contacts if self._overlaps(contact)), None)
 
     def lost(self) -> int | None:
-        """Return the first joint whose shaft has left its socket, or moves along it without end."""
+        """Return the first joint whose pin has left its bore, or moves along it without end."""
         return next((contact.coupling for contact in self.contacts if self._has_left(contact)), None)
 
     def _overlaps(self, contact: JointNodes) -> bool:

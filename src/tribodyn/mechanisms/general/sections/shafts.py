@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.splines import Cubics
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.views.dense import dense_times, hermite
+from tribodyn.views.dense import dense_times
 from tribodyn.views.playback import in_playback
 
 _LINE_ERROR: Final = 0.002
@@ -40,13 +41,13 @@ class Shafts:
             return values
         rates = self._rates(joint)[inside]
         room = _LINE_ERROR * float(self.dataset["clearance"].values[joint])
-        return hermite(dense_times(time, values[:, :2], rates[:, :2], room), time, values, rates)
+        return Cubics(time, values, rates)(dense_times(time, values[:, :2], rates[:, :2], room))
 
     def at(self, joint: int, times: FloatArray) -> FloatArray:
         """Return the places at other times [s] in the axes of the joint [m], shape (n, 3)."""
         time, values = self.dataset["time"].values, self._displacement(joint)
         if self._has_rates:
-            return hermite(times, time, values, self._rates(joint))
+            return Cubics(time, values, self._rates(joint))(times)
         return np.stack([np.interp(times, time, column) for column in values.T], axis=-1)
 
     def _displacement(self, joint: int) -> FloatArray:
