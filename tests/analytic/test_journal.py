@@ -125,17 +125,20 @@ def test_a_turned_load_turns_the_equilibrium(options: dict[str, Any]) -> None:
     assert after == pytest.approx(turn @ before, abs=1e-12)
 
 
-# By a right angle the integrator does the same work: rounding, grown in impacts, remains. By another angle
-# its error weighs X and Y otherwise, steps differ, and with them the instants of entry.
-@pytest.mark.parametrize(("nodes", "apart"), [(24, 1e-10), (7, 2e-7)])
-def test_a_turned_load_turns_the_motion(nodes: int, apart: float) -> None:
+# By a right angle the integrator does the same work: rounding remains, which impacts magnify. Over 40
+# neighbouring tolerances it stays below 4e-15 m in the first half millisecond, and reaches 4e-9 m in all. By
+# another angle its error weighs X and Y otherwise, steps differ, and with them the instants of entry.
+@pytest.mark.parametrize(("nodes", "at_first", "apart"), [(24, 1e-13, 2e-8), (7, 2e-7, 2e-7)])
+def test_a_turned_load_turns_the_motion(nodes: int, at_first: float, apart: float) -> None:
     angle = 2.0 * math.pi * nodes / 96
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     paths = []
     for load in (LOAD, tuple((turn @ LOAD).tolist())):
         columns = run(make(load=load), 2e-3, 101)
         paths.append(np.stack([columns["e_x"], columns["e_y"]]))
-    assert np.abs(paths[1] - turn @ paths[0]).max() < apart
+    missed = np.abs(paths[1] - turn @ paths[0]).max(axis=0)
+    assert missed[:25].max() < at_first
+    assert missed.max() < apart
 
 
 def test_a_spinning_journal_precesses_as_a_free_gyroscope() -> None:
