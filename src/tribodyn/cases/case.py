@@ -57,7 +57,7 @@ class Group(BaseModel):
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Pairs of its keys of which only one may be given."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=False, defer_build=True)
 
     KEYS_BEGIN_HERE: ClassVar[bool] = False
     """Whether the keys in its :func:`demand` are those of the table, and not of the whole case."""
