@@ -27,12 +27,14 @@ import numpy as np
 from llvmlite import binding
 from numba.core import caching, codegen
 
-from mebdf.compiled import claims
+from mebdf.compiled import claims, lean
 from mebdf.compiled.private_folder import NotPrivate, locked, mark_used, private_folder, prune
 
 _config: Final[Any] = nb.config  # made from the environment: its names are in no stub
 _SWITCHES: Final = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT")
 """Settings of numba that change what it compiles."""
+_LAYOUT: Final = 2
+"""Counts how compiled functions have been laid out in files."""
 _DIGITS: Final = 32
 _DIGEST: Final = hashlib.sha256().digest_size
 
@@ -126,7 +128,7 @@ def fingerprint(sources: Sources) -> str:
 
 def _tools() -> tuple[object, ...]:
     versions = (sys.implementation.cache_tag, nb.__version__, llvmlite.__version__, np.__version__)
-    return (*versions, *(getattr(_config, name, None) for name in _SWITCHES))
+    return (_LAYOUT, *versions, *(getattr(_config, name, None) for name in _SWITCHES))
 
 
 @cache
@@ -205,6 +207,12 @@ class _Implementation(caching.CompileResultCacheImpl):
         locators: Any = [_Locators(sources, kind)]  # numba only asks them for ``from_function``
         self._locator_classes = locators
         super().__init__(function)
+
+    def reduce(self, compiled: Any) -> Any:
+        return lean.reduced(compiled)
+
+    def rebuild(self, context: Any, payload: Any) -> Any:
+        return lean.rebuilt(context, payload)
 
 
 def share_work(sources: Sources) -> None:

@@ -1,4 +1,4 @@
-"""Constants and tables of the elementary functions, computed to 1280 bits by whole numbers."""
+"""Constants and tables of the elementary functions, computed by whole numbers to more bits than they keep."""
 
 from __future__ import annotations
 
@@ -10,26 +10,29 @@ import numpy as np
 from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary.doubled import two_parts
 
-_ONE: Final = 1 << 1280
+_BITS: Final = 320
+"""Of what is kept as one or two numbers of 53 bits."""
+_BITS_OF_PI: Final = 1280
+"""Those of 2/π that the largest arguments need, see :data:`DIGITS`."""
 
 
-def _of_series(x: Fraction, sign: int) -> Fraction:
+def _of_series(x: Fraction, sign: int, bits: int = _BITS) -> Fraction:
     """Return Σ signᵏ x^(2k+1)/(2k+1), 0 ≤ x < 1: inverse tangent (−1), or inverse hyperbolic tangent (1)."""
-    power, square = _ONE * x.numerator // x.denominator, x * x
+    power, square = (x.numerator << bits) // x.denominator, x * x
     total, k = 0, 0
     while power:
         total += sign**k * (power // (2 * k + 1))
         power, k = power * square.numerator // square.denominator, k + 1
-    return Fraction(total, _ONE)
+    return Fraction(total, 1 << bits)
 
 
 def _exponential(x: Fraction) -> Fraction:
     """Return e^x, 0 ≤ x < 1."""
-    term, total, k = _ONE, 0, 0
+    term, total, k = 1 << _BITS, 0, 0
     while term:
         total, k = total + term, k + 1
         term = term * x.numerator // (x.denominator * k)
-    return Fraction(total, _ONE)
+    return Fraction(total, 1 << _BITS)
 
 
 def _logarithm(x: Fraction) -> Fraction:
@@ -42,7 +45,9 @@ def _table(values: list[Fraction], bits: int = 0) -> FloatArray:
 
 
 _LN2: Final = _logarithm(Fraction(2))
-_PI: Final = 4 * (4 * _of_series(Fraction(1, 5), -1) - _of_series(Fraction(1, 239), -1))
+_PI: Final = 4 * (
+    4 * _of_series(Fraction(1, 5), -1, _BITS_OF_PI) - _of_series(Fraction(1, 239), -1, _BITS_OF_PI)
+)
 """Machin's formula."""
 
 STEPS: Final = 64

@@ -49,6 +49,22 @@ def test_what_was_compiled_is_found(place: Path) -> None:
     assert len(list(place.glob("*.nbc"))) == 1
 
 
+def test_what_is_found_is_parsed_only_for_a_caller(place: Path) -> None:
+    compiled()(2.0)
+    found = compiled()
+    assert found(2.0) == 4.0
+    (library,) = (each.library for each in found.overloads.values())
+    assert library._shared_module is None
+
+    def fourfold(number: float) -> float:
+        result: float = found(found(number))
+        return result
+
+    assert nb.njit(fourfold)(2.0) == 8.0
+    assert misses(found) == 0
+    assert library._shared_module is not None
+
+
 def test_what_is_found_needs_no_compiler() -> None:
     use = "import sys; from mebdf.kernels.elementary import portable; portable.sin(1.0); print(*sys.modules)"
     for _ in range(2):  # the first one may compile
