@@ -96,18 +96,62 @@ class ContactLaw(ABC):
 
     @abstractmethod
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return the pressure P_k(h*) [Pa] of the surfaces at rest."""
+        """Return the pressure P_k(h*) of the surfaces at rest.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``.
+        """
 
     def real_area_fraction(self, h_star: FloatArray) -> FloatArray:
-        """Return the real contact area over the nominal one [1]; NaN where the theory gives none."""
+        """Return the real contact area over the nominal one.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``; NaN where the theory gives none.
+        """
         return np.full(np.shape(h_star), np.nan)
 
     def contact_count(self, h_star: FloatArray) -> FloatArray:
-        """Return the number of contacts per nominal area [1/m²]; NaN where the theory gives none."""
+        """Return the number of contacts per nominal area.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1/m²], shape of ``h_star``; NaN where the theory gives none.
+        """
         return np.full(np.shape(h_star), np.nan)
 
     def touching_share(self, h_star: FloatArray) -> FloatArray:
-        """Return the share of asperities that touch, on which ``kelvin-voigt`` puts its dashpots [1]."""
+        """Return the share of asperities that touch, on which ``kelvin-voigt`` puts its dashpots.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``; by default that of Gaussian heights above h*.
+        """
         return exceedance(np.asarray(h_star, dtype=np.float64))
 
     @property
@@ -116,13 +160,39 @@ class ContactLaw(ABC):
         return DAMPING_FACTORS[self.damping_factor]
 
     def meant_restitution(self, h_star: FloatArray) -> FloatArray:
-        """Return the restitution e given to the factor at each separation [1]."""
+        """Return the restitution e given to the factor at each separation.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``; 1 without one.
+        """
         return np.full(np.shape(h_star), 1.0 if self.restitution is None else self.restitution)
 
     def damping_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return the coefficient C(h*) [Pa] of the damping pressure P_d = C·δ̇/δ̇₋, zeros for no damping.
+        """Return the coefficient C(h*) of the damping pressure P_d = C·δ̇/δ̇₋.
 
         For ``calibrated`` it is that of a point contact; :func:`tabulate` scales it to the surface.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``; zeros for no damping.
+
+        Raises
+        ------
+        InputError
+            A factor with dashpots needs a design pressure that the law reaches on these surfaces.
         """
         if self.loss_coefficient is not None:
             return np.asarray(1.5 * self.loss_coefficient * MEMORYLESS * self.stiffness_pressure(h_star))
@@ -136,7 +206,18 @@ class ContactLaw(ABC):
         return self.damping_for(ratio, h_star)
 
     def design_separation(self) -> float:
-        """Return the separation h* at which the stiffness pressure is the design pressure [1]."""
+        """Return the separation h* at which the stiffness pressure is the design pressure.
+
+        Returns
+        -------
+        float
+            [1].
+
+        Raises
+        ------
+        InputError
+            The law carries less than that, however close the surfaces are.
+        """
         from scipy.optimize import brentq
 
         def excess(h_star: float) -> float:
@@ -152,9 +233,33 @@ class ContactLaw(ABC):
         return float(brentq(excess, first, last, xtol=1.0e-13))
 
     def damping_for(self, ratio: FloatArray, h_star: FloatArray) -> FloatArray:
-        """Return the coefficient C [Pa] for a ratio of damping to stiffness [1], shape of ``h_star``."""
+        """Return the coefficient C for a ratio of damping to stiffness.
+
+        Parameters
+        ----------
+        ratio
+            Damping pressure over stiffness pressure at δ̇ = δ̇₋ [1], shape of ``h_star``.
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``.
+        """
         return ratio * self.stiffness_pressure(h_star)
 
     def pressure(self, gap: FloatArray) -> FloatArray:
-        """Return the pressure P_k [Pa] of the surfaces at rest, shape of ``gap`` [m]."""
+        """Return the pressure P_k of the surfaces at rest.
+
+        Parameters
+        ----------
+        gap
+            Distance of the mean planes [m], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``gap``.
+        """
         return self.stiffness_pressure(np.asarray(gap, dtype=np.float64) / self.pair.roughness_rms)

@@ -71,6 +71,11 @@ class Liner:
         ----------
         half_width
             Half the width of the contact, a [m].
+
+        Returns
+        -------
+        float
+            Share of the peak pressure [1], above 0 where it is overrated.
         """
         kappa = 3.0 - 4.0 * self.poisson_ratio
         beta = 2.0 * kappa / (3.0 * (kappa - 1.0)) - 4.0 / (kappa + 1.0)

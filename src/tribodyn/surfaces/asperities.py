@@ -51,6 +51,11 @@ class Asperities:
             Composite modulus E of both bodies [Pa].
         hardness
             H of the softer body [Pa].
+
+        Returns
+        -------
+        float
+            ψ [1].
         """
         return modulus / hardness * math.sqrt(self.summit_rms / self.radius)
 

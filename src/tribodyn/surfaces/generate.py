@@ -46,7 +46,20 @@ class SelfAffine:
             raise InputError("needs sigma > 0, 0 < hurst < 1 and 0 < shortest < roll_off")
 
     def density(self, q: FloatArray, dimension: int) -> FloatArray:
-        """Return the two-sided density [m²·m^dimension] at wavenumbers ``q`` = 2π/λ [rad/m], any shape."""
+        """Return the two-sided spectral density of the heights.
+
+        Parameters
+        ----------
+        q
+            Wavenumbers 2π/λ [rad/m], any shape.
+        dimension
+            2 of a map, 1 of a profile.
+
+        Returns
+        -------
+        numpy.ndarray
+            [m²·m^dimension], shape of ``q``.
+        """
         first, last = self._band
         shape = np.maximum(q / first, 1.0) ** (-dimension - 2.0 * self.hurst)
         measure = {1: 1.0 / math.pi, 2: 1.0 / (2.0 * math.pi)}[dimension]
@@ -54,7 +67,18 @@ class SelfAffine:
         return np.asarray(np.where(q <= last, scale * shape, 0.0))
 
     def moments(self, dimension: int) -> Moments:
-        """Return the exact moments of a map (2) or a profile (1) with this spectrum."""
+        """Return the exact spectral moments of a surface with this spectrum.
+
+        Parameters
+        ----------
+        dimension
+            2 of a map, 1 of a profile.
+
+        Returns
+        -------
+        Moments
+            m0 [m²], m2 [1] and m4 [1/m²] of its profiles.
+        """
         whole = self._integral(0, dimension)
         m0, m2, m4 = (
             share * self.sigma**2 * self._integral(order, dimension) / whole

@@ -65,11 +65,33 @@ class Scan:
         return float(np.mean(np.isnan(self.heights))) if self.heights.size else 1.0
 
     def with_heights(self, heights: FloatArray) -> Scan:
-        """Return the same grid with other heights [m], same or smaller shape."""
+        """Return the same grid with other heights.
+
+        Parameters
+        ----------
+        heights
+            [m], of the same shape as those of this scan or a smaller one.
+
+        Returns
+        -------
+        Scan
+            With the spacing of this one.
+
+        Raises
+        ------
+        InputError
+            The heights are no grid that a scan can have.
+        """
         return replace(self, heights=heights)
 
     def transposed(self) -> Scan:
-        """Return the surface with its axes swapped."""
+        """Return the surface with its axes swapped.
+
+        Returns
+        -------
+        Scan
+            Heights of shape (n_y, n_x), spacings in that order.
+        """
         return replace(self, heights=self.heights.T, spacing=self.spacing[::-1])
 
 
