@@ -213,8 +213,6 @@ def pressure_at_rest(
         return 0.0
     if skip():
         return math.nan
-    if skip():
-        return math.nan
     finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
     fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
     row = int(np.argmax(rows["p_max"]))
