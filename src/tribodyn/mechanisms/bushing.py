@@ -192,33 +192,6 @@ def loading(law: ContactLaw, touch: Touch, pressure: float, separation: float) -
     return {"hardness_share": pressure / law.pair.hardness, "real_area_share": float(area[0])}
 
 
-def pressure_at_rest(
-    joint: BushingJoint,
-    rows: Mapping[str, FloatArray],
-    wear: FloatArray | None = None,
-    clearance: FloatArray | None = None,
-) -> float:
-    """Return the peak pressure of surfaces at rest where that of the run was largest [Pa]; 0 without rows.
-
-    NaN where the caller wants to stop.
-
-    Taken on a grid four times finer, which resolves the edge: what the peak of the run has more is damping.
-
-    Parameters
-    ----------
-    joint, rows, wear, clearance
-        As for :func:`grid_force_error`.
-    """
-    if not rows["e_x"].size:
-        return 0.0
-    if skip():
-        return math.nan
-    finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
-    fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
-    row = int(np.argmax(rows["p_max"]))
-    return float(joint_report(_at(fine, clearance, row), _attitude(rows, row))["p_max"])
-
-
 def _at(data: BushingData, clearance: FloatArray | None, row: int) -> BushingData:
     """Return the joint with the clearance of a row."""
     return data if clearance is None else data._replace(clearance=float(clearance[row]))
@@ -241,16 +214,13 @@ def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     }
 
 
-def grid_force_error(
+def on_finer_grid(
     joint: BushingJoint,
     rows: Mapping[str, FloatArray],
     wear: FloatArray | None = None,
     clearance: FloatArray | None = None,
-) -> float:
-    """Return the largest error of the contact force on the run's grid against one four times finer [1].
-
-    Taken at some of the run's own attitudes, without their velocities, relative to the largest force. NaN
-    where the caller wants to stop.
+) -> dict[str, float]:
+    """Return what a grid four times finer makes of a run; NaN where the caller wants to stop.
 
     Parameters
     ----------
@@ -262,20 +232,37 @@ def grid_force_error(
         Wear depth at the nodes during the run [m], shape (n_z + 2, n_theta); none by default.
     clearance
         Of each row [m]; that of the joint by default.
+
+    Returns
+    -------
+    dict of str to float
+        ``grid_force_error``, the largest error of the contact force on the run's grid at some of its
+        attitudes, without their velocities, over the largest force [1]; and ``pressure_at_rest``, the peak
+        pressure of surfaces at rest where that of the run was largest [Pa]. The finer grid resolves the
+        edge: what the peak of the run has more is damping. Both are 0 without rows.
     """
-    n_rows = rows["e_x"].size
-    if not n_rows:
-        return 0.0
+    found = dict.fromkeys(("grid_force_error", "pressure_at_rest"), math.nan)
+    if not rows["e_x"].size:
+        return dict.fromkeys(found, 0.0)
     if skip():
-        return math.nan
+        return found
     finer = replace(joint, grid=Grid(4 * joint.grid.theta, 4 * joint.grid.z))
     fine = finer.data(None if wear is None else resampled(wear, joint.z, finer.z, finer.grid.theta))
-    coarse = joint.data(wear)
+    row = int(np.argmax(rows["p_max"]))
+    at_rest = joint_report(_at(fine, clearance, row), _attitude(rows, row))
+    found["pressure_at_rest"] = float(at_rest["p_max"])
+    found["grid_force_error"] = _force_error(joint.data(wear), fine, rows, clearance)
+    return found
+
+
+def _force_error(
+    coarse: BushingData, fine: BushingData, rows: Mapping[str, FloatArray], clearance: FloatArray | None
+) -> float:
+    """Return the largest error of the force on a coarse grid over the largest force [1]; NaN if stopped."""
     largest = error = 0.0
-    for i in np.unique(np.linspace(0, n_rows - 1, _SAMPLES).astype(int)):
+    for row in np.unique(np.linspace(0, rows["e_x"].size - 1, _SAMPLES).astype(int)).tolist():
         if skip():
             return math.nan
-        row = int(i)
         y = _attitude(rows, row)
         exact = joint_wrench(_at(fine, clearance, row), y)[:2]
         largest = max(largest, float(portable.hypot(*exact)))

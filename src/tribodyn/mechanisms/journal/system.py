@@ -26,10 +26,9 @@ from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
     force_parts,
-    grid_force_error,
     loading,
     of_temperature,
-    pressure_at_rest,
+    on_finer_grid,
 )
 from tribodyn.mechanisms.checks import instant, of_clearance, of_damping_pressure, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
@@ -182,22 +181,20 @@ class JournalSystem:
         balance = None if run.solution.failure == INTERRUPTED else self.balance
         columns = self._columns(rows)
         residual = residual_fraction(columns, self.journal)
-        grid_error = grid_force_error(self.journal.joint, rows)
         at_steps = _at_steps(run)
         largest = peaks_of(run.solution.t, rows, at_steps)
         law = self.case.contact.law_of(self.case.surface_pair)
         joint, pressure = self.journal.joint, largest["pressure_peak"]
         load = loading(law, joint.touch, pressure, at_steps["separation_least"])
-        at_rest, speed = pressure_at_rest(joint, rows), rows["omega"] * joint.geometry.radius
-        damped = of_damping_pressure(pressure, at_rest)
+        finer, speed = on_finer_grid(joint, rows), rows["omega"] * joint.geometry.radius
+        damped = of_damping_pressure(pressure, finer["pressure_at_rest"])
         return ResultPart(
             columns=columns,
             fields=self._numbers(run, rows, balance, largest | at_steps),
             attributes={
                 **self._facts(),
                 "energy_residual": residual,
-                "grid_force_error": grid_error,
-                "pressure_at_rest": at_rest,
+                **finer,
                 **load,
                 **flash_of_bushing(self.case.surfaces, law, joint, rows, speed),
             },
@@ -207,7 +204,7 @@ class JournalSystem:
                     self.journal.joint,
                     load,
                     residual=residual,
-                    grid_error=grid_error,
+                    grid_error=finer["grid_force_error"],
                     t_end=float(run.solution.t_end),
                     statistics=run.cost,
                     when=instant(largest["pressure_peak_time"]),

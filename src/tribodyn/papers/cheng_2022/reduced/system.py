@@ -26,10 +26,9 @@ from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
     force_parts,
-    grid_force_error,
     loading,
     of_temperature,
-    pressure_at_rest,
+    on_finer_grid,
 )
 from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
@@ -226,15 +225,14 @@ class VsvSystem:
         bushing = self.worn_bushing(worn)
         clearance = self._clearance(run)
         moving = {} if clearance is None else {"radial_clearance": clearance}
-        grid_error = grid_force_error(bushing, rows, worn, clearance)
         memory = run.problem.memory
-        found = extremes(memory.joint.extremes, memory.collar) | {"grid_force_error": grid_error}
+        found = extremes(memory.joint.extremes, memory.collar)
+        found |= on_finer_grid(bushing, rows, worn, clearance)
         largest = of_run(memory.peaks, WATCHED)
         pressure = largest["pressure_peak"]
         law = self.case.contact.law_of(self._worn_case(worn).surface_pair)
         found |= loading(law, bushing.touch, pressure, found["separation_least"])
         speed = rows["omega_v"] * bushing.geometry.radius
-        found["pressure_at_rest"] = pressure_at_rest(bushing, rows, worn, clearance)
         outputs = output_columns(self.case.outputs, rows)
         turns, t_end = self._turns(run), float(run.solution.t_end)
         when = instant(largest["pressure_peak_time"], turns, self.vsv.drive.impact_time)
