@@ -5,21 +5,23 @@ python -m benchmarks.shares
 The functions are called from compiled loops, on the state and the memory that a run leaves at its end: from
 Python a call first takes its arguments apart, which costs more than an evaluation. A share is time of a call
 times number of calls over the processor time of the integration; Newton's iterations solve once for each
-evaluation. What is left is the solver itself, rows and everything between. Start and result are those of the
-whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
+evaluation at most. What is left is the solver itself, rows and everything between. Start and result are those
+of the whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
 
 import tribodyn as td
 from benchmarks.engine_loops import PARTS, repeat
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.problem import LinearSolver
 from tribodyn.kernels.jit import kernel
 from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.catalogue import MECHANISMS
@@ -30,6 +32,8 @@ CASES: Final = ("vsv", "vsv-free", "vsv-joints")
 CYCLES: Final = 2.0
 CALLS: Final = 4000
 PASSES: Final = 3
+GAMMA: Final = 1.0e-4
+"""Step times coefficient of the factorised matrix [s]; the time does not depend on it."""
 
 
 @kernel
@@ -71,6 +75,29 @@ def _accepted(
         function(t, y, data, memory)
 
 
+@kernel
+def _factorised(
+    function: Callable[..., int],
+    gamma: float,
+    data: Any,
+    entries: FloatArray,
+    factors: FloatArray,
+    pivots: IntArray,
+    calls: int,
+) -> None:
+    for _ in range(calls):
+        function(gamma, data, entries, factors, pivots)
+
+
+@kernel
+def _solved(
+    function: Callable[..., None], data: Any, factors: FloatArray, pivots: IntArray, x: FloatArray, calls: int
+) -> None:
+    for _ in range(calls):
+        x[:] = 1.0
+        function(data, factors, pivots, x)
+
+
 def _microseconds(loop: Callable[[int], None], calls: int) -> float:
     """Return the least time of a call [µs].
 
@@ -110,7 +137,28 @@ def _functions(run: FinishedRun, calls: int) -> dict[str, tuple[float, float]]:
             float(run.solution.t.size),
         ),
     }
-    return {name: (_microseconds(loop, calls), number) for name, (loop, number) in loops.items()}
+    times = {name: (_microseconds(loop, calls), number) for name, (loop, number) in loops.items()}
+    if problem.algebra is not None:
+        times |= _own_algebra(problem.algebra, data, matrix, f, cost, calls)
+    return times
+
+
+def _own_algebra(
+    algebra: LinearSolver,
+    data: Any,
+    entries: FloatArray,
+    x: FloatArray,
+    cost: Mapping[str, float],
+    calls: int,
+) -> dict[str, tuple[float, float]]:
+    """Return the time of a call [µs] and the number of calls of a problem's own linear algebra."""
+    factors, pivots = np.zeros(algebra.n_factors), np.zeros(algebra.n_pivots, dtype=np.int64)
+    prepare = partial(_factorised, algebra.factorise, GAMMA, data, entries, factors, pivots)
+    solve = partial(_solved, algebra.solve, data, factors, pivots, x)
+    return {
+        "factorise": (_microseconds(prepare, calls), cost["lu_decompositions"]),
+        "solve": (_microseconds(solve, calls), cost["rhs_evaluations"]),
+    }
 
 
 def _parts(run: FinishedRun, calls: int) -> dict[str, float]:

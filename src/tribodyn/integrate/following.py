@@ -49,10 +49,11 @@ class Followed:
         self.windows = np.append(self.following.windows, [[np.inf, np.inf]], axis=0)
         size = CHUNK if following else 1
         self.times, self.rows = np.empty(size), np.empty((size, n_observed))
-        self._kept = np.arange(n_observed) if kept is None else kept
+        places = np.arange(n_observed) if kept is None else kept
+        self._kept, self._n_kept = slice(None) if kept is None else kept, places.size
         most = self.following.most
-        self._full = min(max(ROOM // (8 * max(self._kept.size, 1)), 2 * most), _UNTHINNED * most)
-        self._watched = [np.searchsorted(self._kept, places) for places in self.following.watched]
+        self._full = min(max(ROOM // (8 * max(self._n_kept, 1)), 2 * most), _UNTHINNED * most)
+        self._watched = [np.searchsorted(places, watched) for watched in self.following.watched]
         self._stretches: dict[int, _Stretch] = {}
 
     def collect(self, n: int) -> None:
@@ -60,7 +61,7 @@ class Followed:
         window = np.searchsorted(self.windows[:, 1], self.times[:n])
         for k in np.unique(window).tolist():
             first, last = np.searchsorted(window, [k, k + 1])
-            self._add(self._stretches.setdefault(k, _Stretch(self._kept.size)), int(first), int(last))
+            self._add(self._stretches.setdefault(k, _Stretch(self._n_kept)), int(first), int(last))
 
     def _add(self, stretch: _Stretch, first: int, last: int) -> None:
         """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
