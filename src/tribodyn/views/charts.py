@@ -80,11 +80,11 @@ def straightened(x: FloatArray, y: FloatArray, tolerance: float) -> tuple[FloatA
     kept = gap[:-2] | gap[1:-1] | gap[2:]
     while True:
         knots = np.flatnonzero(kept)
-        miss = np.nan_to_num(np.abs(y - np.interp(x, x[knots], y[knots])))
-        far = miss > tolerance
+        miss = np.abs(y - np.interp(x, x[knots], y[knots]))
+        far = miss > tolerance  # False at gaps
         if not far.any():
             return x[kept], y[kept]
-        kept |= far & (miss == np.maximum.reduceat(miss, knots)[np.cumsum(kept) - 1])
+        kept |= far & (miss == np.fmax.reduceat(miss, knots)[np.cumsum(kept) - 1])
 
 
 def _extremes(y: FloatArray, begin: int, end: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
