@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from pydantic import PrivateAttr
+from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, file, number, quantity, switch, text
 from tribodyn.cases.keys import ASSUMED, Value
+from tribodyn.cases.units import from_si
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair
@@ -148,8 +150,8 @@ class AsperityKeys(Group):
     )
 
 
-class Contact(Group):
-    """The law of rough contact and its damping."""
+class _ContactOfAnyLaw(Group):
+    """Keys of contact that all laws share."""
 
     law: str = choice("rsdc", "contact law", "paper, section 2", family="tribodyn.contact:LAWS")
     damping_factor: str = choice(
@@ -185,9 +187,6 @@ class Contact(Group):
         "paper, section 2",
         family="tribodyn.contact:SEPARATIONS",
     )
-    penalty_stiffness: float = quantity(
-        "50 MPa/um", "pressure per penetration of the law linear", ASSUMED, gt=0
-    )
     onset_separation: float = number(
         4.0,
         "separation over sigma at which contact begins and the entry velocity is taken",
@@ -206,6 +205,34 @@ class Contact(Group):
         "1 mm/s", "least entry velocity, also that of points in contact at the start", ASSUMED, gt=0
     )
     tensile_clip: bool = switch(True, "whether the total pressure is kept from becoming tensile", ASSUMED)
+
+
+def _of_laws() -> Iterator[tuple[str, tuple[type[float], Any]]]:
+    """Yield the keys that are parameters of single laws, by their names."""
+    from tribodyn.contact import LAWS, parameters_of
+
+    for kind in LAWS.values():
+        for entry, said in parameters_of(kind):
+            limits = {"gt": _written(said.above, said.unit), "le": _written(said.most, said.unit)}
+            declare = partial(quantity, unit=said.unit) if said.unit else number
+            default = _written(entry.default, said.unit)
+            yield entry.name, (float, declare(default, said.meaning, said.source, **limits))
+
+
+def _written(value: Any, unit: str) -> str | float | None:
+    return from_si(value, unit) if unit and value else value
+
+
+if TYPE_CHECKING:
+    _ContactKeys = _ContactOfAnyLaw
+else:
+    _ContactKeys = create_model(
+        "_ContactKeys", __base__=_ContactOfAnyLaw, __module__=__name__, **dict(_of_laws())
+    )
+
+
+class Contact(_ContactKeys):
+    """The law of rough contact and its damping."""
 
     _own_law: Any = PrivateAttr(None)
 
@@ -237,14 +264,8 @@ class Contact(Group):
 
         kind = self._own_law or LAWS[self.law]
         damped = self.restitution is not None or kind.knows_restitution
-        options = {
-            "damping_factor": self.damping_factor if damped else "none",
-            "restitution": self.restitution,
-            "loss_coefficient": self.loss_coefficient,
-            "design_pressure": self.design_pressure,
-            "separation_from": self.separation_from,
-            "penalty_stiffness": self.penalty_stiffness,
-        }
+        options = {key: getattr(self, key) for key in type(self).model_fields}
+        options["damping_factor"] = self.damping_factor if damped else "none"
         return made(kind, surfaces, options)
 
     def with_own(self, kind: type[ContactLaw]) -> Contact:

@@ -9,6 +9,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor
+from tribodyn.contact.parameter import check_parameters
 from tribodyn.contact.quadrature import exceedance
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.core.arrays import FloatArray
@@ -66,7 +67,8 @@ class ContactLaw(ABC):
     loss_coefficient: float | None = None
 
     def __post_init__(self) -> None:
-        """Refuse damping that does not exist or lacks its restitution."""
+        """Refuse damping that does not exist or lacks its restitution, and parameters out of their range."""
+        check_parameters(self)
         self._check_loss()
         if self.damping_factor not in DAMPING_FACTORS:
             raise InputError(

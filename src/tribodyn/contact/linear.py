@@ -15,9 +15,9 @@ from typing import ClassVar, Final
 import numpy as np
 
 from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.parameter import parameter
 from tribodyn.contact.quadrature import asperity_integral, exceedance
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
 
 CORNER: Final = 0.1
 """w, in units of σ; the table of the law has 13 nodes on it."""
@@ -41,15 +41,9 @@ class LinearContact(ContactLaw):
     validity: ClassVar[str] = "none: a baseline that knows nothing of the roughness"
 
     _: KW_ONLY
-    penalty_stiffness: float = 5.0e13
-
-    def __post_init__(self) -> None:
-        """Refuse a stiffness that is none."""
-        super().__post_init__()
-        if not 0.0 < self.penalty_stiffness < math.inf:
-            raise InputError(
-                f"must be positive, not {self.penalty_stiffness}", key="contact.penalty_stiffness"
-            )
+    penalty_stiffness: float = parameter(
+        5.0e13, "MPa/um", "pressure per penetration of the law linear", above=0.0
+    )
 
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
         """Return the pressure [Pa], shape of ``h_star`` [1]."""

@@ -1,0 +1,70 @@
+"""Parameters of single laws: a law declares them, and they are keys of ``[contact]`` in case files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import Field, dataclass, field, fields
+from typing import Any
+
+from tribodyn.core.errors import InputError
+
+_KEY = "parameter"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What a law says about a parameter of its own.
+
+    Attributes
+    ----------
+    unit
+        In which case files and tables show it; empty for a number without one.
+    meaning, source
+        One line each; where the default comes from.
+    above, most
+        It is greater than the first and at most the second, in SI units; None for no such limit.
+    """
+
+    unit: str
+    meaning: str
+    source: str = "assumed"
+    above: float | None = None
+    most: float | None = None
+
+
+def parameter(default: float, unit: str, meaning: str, **more: Any) -> Any:
+    """Declare a field of a law that is a key of ``[contact]``, too.
+
+    Parameters
+    ----------
+    default
+        In SI units.
+    unit, meaning, more
+        See :class:`Parameter`.
+
+    Returns
+    -------
+    dataclasses.Field
+        For the body of the class.
+    """
+    return field(default=default, metadata={_KEY: Parameter(unit, meaning, **more)})
+
+
+def parameters_of(law: Any) -> Iterator[tuple[Field[Any], Parameter]]:
+    """Yield the fields of a law that are such parameters, each with what is said about it."""
+    for entry in fields(law):
+        if said := entry.metadata.get(_KEY):
+            yield entry, said
+
+
+def check_parameters(law: Any) -> None:
+    """Refuse a parameter out of its range, or one that is not a finite number."""
+    for entry, said in parameters_of(law):
+        value = getattr(law, entry.name)
+        least = -float("inf") if said.above is None else said.above
+        most = float("inf") if said.most is None else said.most
+        if not (least < value <= most and abs(value) < float("inf")):
+            limits = [] if said.above is None else [f"> {said.above:g}"]
+            limits += [] if said.most is None else [f"<= {said.most:g}"]
+            allowed = " and ".join(limits) or "a finite number"
+            raise InputError(f"given {value:g}; allowed: {allowed} (SI units)", key=f"contact.{entry.name}")
