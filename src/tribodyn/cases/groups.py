@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases.case import Group, demand
-from tribodyn.cases.fields import choice, count, file, number, quantity, switch, text
+from tribodyn.cases.fields import Bounds, choice, count, file, number, quantity, switch, text
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.units import from_si
 
@@ -209,17 +208,21 @@ class _ContactOfAnyLaw(Group):
 
 def _of_laws() -> Iterator[tuple[str, tuple[type[float], Any]]]:
     """Yield the keys that are parameters of single laws, by their names."""
-    from tribodyn.contact import LAWS, parameters_of
+    from tribodyn.contact import LAWS
+    from tribodyn.contact.parameter import parameters_of
 
     for kind in LAWS.values():
-        for entry, said in parameters_of(kind):
-            limits = {"gt": _written(said.above, said.unit), "le": _written(said.most, said.unit)}
-            declare = partial(quantity, unit=said.unit) if said.unit else number
-            default = _written(entry.default, said.unit)
-            yield entry.name, (float, declare(default, said.meaning, said.source, **limits))
+        for name, said in parameters_of(kind):
+            limits = Bounds(gt=_written(said.above, said.unit), le=_written(said.most, said.unit))
+            if said.unit:
+                default = from_si(said.default, said.unit)
+                key = quantity(default, said.meaning, said.source, unit=said.unit, **limits)
+            else:
+                key = number(said.default, said.meaning, said.source, **limits)
+            yield name, (float, key)
 
 
-def _written(value: Any, unit: str) -> str | float | None:
+def _written(value: float | None, unit: str) -> str | float | None:
     return from_si(value, unit) if unit and value else value
 
 

@@ -15,7 +15,6 @@ from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.own import OwnLaw, check_law, law_of_user
-from tribodyn.contact.parameter import parameters_of
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.contact.table import tabulate
@@ -149,6 +148,5 @@ __all__ = [
     "law_of_user",
     "lined",
     "made",
-    "parameters_of",
     "tabulate",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import Field, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from tribodyn.core.errors import InputError
@@ -17,6 +17,8 @@ class Parameter:
 
     Attributes
     ----------
+    default
+        In SI units.
     unit
         In which case files and tables show it; empty for a number without one.
     meaning, source
@@ -25,6 +27,7 @@ class Parameter:
         It is greater than the first and at most the second, in SI units; None for no such limit.
     """
 
+    default: float
     unit: str
     meaning: str
     source: str = "assumed"
@@ -37,9 +40,7 @@ def parameter(default: float, unit: str, meaning: str, **more: Any) -> Any:
 
     Parameters
     ----------
-    default
-        In SI units.
-    unit, meaning, more
+    default, unit, meaning, more
         See :class:`Parameter`.
 
     Returns
@@ -47,24 +48,24 @@ def parameter(default: float, unit: str, meaning: str, **more: Any) -> Any:
     dataclasses.Field
         For the body of the class.
     """
-    return field(default=default, metadata={_KEY: Parameter(unit, meaning, **more)})
+    return field(default=default, metadata={_KEY: Parameter(default, unit, meaning, **more)})
 
 
-def parameters_of(law: Any) -> Iterator[tuple[Field[Any], Parameter]]:
-    """Yield the fields of a law that are such parameters, each with what is said about it."""
+def parameters_of(law: Any) -> Iterator[tuple[str, Parameter]]:
+    """Yield the names of the fields of a law that are such parameters, each with what is said about it."""
     for entry in fields(law):
         if said := entry.metadata.get(_KEY):
-            yield entry, said
+            yield entry.name, said
 
 
 def check_parameters(law: Any) -> None:
     """Refuse a parameter out of its range, or one that is not a finite number."""
-    for entry, said in parameters_of(law):
-        value = getattr(law, entry.name)
+    for name, said in parameters_of(law):
+        value = getattr(law, name)
         least = -float("inf") if said.above is None else said.above
         most = float("inf") if said.most is None else said.most
         if not (least < value <= most and abs(value) < float("inf")):
             limits = [] if said.above is None else [f"> {said.above:g}"]
             limits += [] if said.most is None else [f"<= {said.most:g}"]
             allowed = " and ".join(limits) or "a finite number"
-            raise InputError(f"given {value:g}; allowed: {allowed} (SI units)", key=f"contact.{entry.name}")
+            raise InputError(f"given {value:g}; allowed: {allowed} (SI units)", key=f"contact.{name}")

@@ -1,4 +1,4 @@
-"""An element or a joint is one file and one line: those of the manual are added to a copy, and run."""
+"""A part is one file, with one line in a list: those of the manual are added to a copy, and run."""
 
 from __future__ import annotations
 
@@ -65,24 +65,85 @@ assert -25.5e-6 < result["displacement"].sel(axis="x").values[0, 0] < -18e-6
 """
 
 
-def run_with(tmp_path: Path, folder: str, title: str, first: str, script: str) -> None:
-    """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
-    copy, module = tmp_path / "tribodyn", title.lower().replace(" ", "_")
-    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    package = copy / "mechanisms" / "general" / folder
-    found = re.search(rf'^```python\n("""{title}.*?)^```', PAGE.read_text(encoding="utf-8"), re.M | re.S)
+LAW = """
+import numpy as np, pytest, tribodyn as td
+from tribodyn.core.errors import InputError
+given = {"contact.law": "exponential", "contact.reference_pressure": "3 MPa"}
+case = td.load_case("journal-dry").replace(given)
+law = case.contact.law_of(case.surface_pair)
+assert np.allclose(law.stiffness_pressure(np.array([0.0, 1.0])), [3e6, 3e6 * np.exp(-2.0)], rtol=1e-12)
+assert td.load_case("journal-dry").contact.reference_pressure == 2e6
+for key, value, said in (("reference_pressure", "0 MPa", "> 0"), ("decay", 11.0, "<= 10")):
+    with pytest.raises(InputError, match=said) as caught:
+        case.replace({f"contact.{key}": value})
+    assert caught.value.key == f"contact.{key}"
+    with pytest.raises(InputError, match=said):
+        type(law)(case.surface_pair, **{key: float(str(value).split()[0])})
+shorter = case.replace({"run.duration": "2 ms"})
+assert 'reference_pressure = "3 MPa"' in shorter.to_toml()
+result = td.simulate(shorter)
+assert float(result["p_max"].max()) > 0.0
+"""
+
+CHART = """
+import pathlib, tribodyn as td
+from tribodyn.report import draw_all, write
+found = td.Mechanism("Stone", gravity="0, 0, -9.81 m/s^2", run={"duration": "10 ms"})
+found.body("stone", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+result = td.simulate(found.spherical("end", "ground", "stone", point="50, 0, 0 mm"))
+folder = pathlib.Path("run")
+draw_all(result, folder / "figures")
+assert (folder / "figures" / "heights.png").stat().st_size > 10_000
+write(result, folder / "report.html")
+assert "How high the mass centres of the bodies are." in (folder / "report.html").read_text("utf-8")
+"""
+
+MODEL = """
+import numpy as np, tribodyn as td
+result = td.simulate("swinging-rod")
+angle = result["joint_angle"].values[:, 0]
+swing = np.sqrt(9.81 * 0.15 / (7.5e-3 + 0.15**2))
+assert np.allclose(angle, 0.1 / swing * np.sin(swing * result["time"].values), atol=1e-4)
+"""
+
+
+def of_manual(first: str, language: str = "python") -> str:
+    """Return the block of code in the manual that begins with these words."""
+    page = PAGE.read_text(encoding="utf-8")
+    found = re.search(rf"^```{language}\n({re.escape(first)}.*?)^```", page, re.M | re.S)
     assert found is not None
-    (package / f"{module}.py").write_text(found[1], encoding="utf-8")
-    names = package / "__init__.py"
-    text = names.read_text(encoding="utf-8")
-    assert first in text
-    names.write_text(text.replace(first, f'{first}    "{module}",\n'), encoding="utf-8")
-    # Machine code is that of the same kernels.
-    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    return found[1]
+
+
+def copy_of_package(place: Path) -> Path:
+    copy = place / "tribodyn"
+    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    return copy
+
+
+def insert(path: Path, before: str, added: str) -> None:
+    """Add text before the one place where some other text stands."""
+    text = path.read_text(encoding="utf-8")
+    assert text.count(before) == 1
+    path.write_text(text.replace(before, added + before), encoding="utf-8")
+
+
+def run(place: Path, script: str) -> None:
+    """Run a script with the copy of the package in a folder; machine code is that of the same kernels."""
+    environment = os.environ | {"PYTHONPATH": str(place)}
     done = subprocess.run(
-        [sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True
+        [sys.executable, "-c", script], cwd=place, env=environment, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
+
+
+def run_with(place: Path, folder: str, title: str, first: str, script: str) -> None:
+    """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
+    package = copy_of_package(place) / "mechanisms" / "general" / folder
+    module = title.lower().replace(" ", "_")
+    (package / f"{module}.py").write_text(of_manual(f'"""{title}'), encoding="utf-8")
+    insert(package / "__init__.py", first, f'    "{module}",\n')
+    run(place, script)
 
 
 @pytest.mark.parametrize(("title", "check"), [("Belt", BELT), ("Stokes", STOKES)])
@@ -97,3 +158,24 @@ def test_a_joint_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> No
 
 def test_a_shape_of_a_clearance_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
     run_with(tmp_path, "shapes", "Oval bore", '    "mesh",\n', SHAPE)
+
+
+def test_a_contact_law_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
+    package = copy_of_package(tmp_path) / "contact"
+    (package / "exponential.py").write_text(of_manual('"""Exponential'), encoding="utf-8")
+    insert(package / "__init__.py", '    "linear:LinearContact",\n', '    "exponential:Exponential",\n')
+    run(tmp_path, LAW)
+
+
+def test_a_chart_of_the_manual_takes_one_file(tmp_path: Path) -> None:
+    charts = copy_of_package(tmp_path) / "mechanisms" / "general" / "sections" / "charts.py"
+    insert(charts, "CHARTS: Final = (", of_manual("def heights"))
+    insert(charts, "MOTION)\n", "HEIGHTS, ")
+    run(tmp_path, CHART)
+
+
+def test_a_model_of_the_manual_takes_one_file(tmp_path: Path) -> None:
+    folder = copy_of_package(tmp_path) / "mechanisms" / "general" / "built_in"
+    model = of_manual("# A uniform rod", "toml")
+    (folder / "swinging-rod.toml").write_text(model, encoding="utf-8")
+    run(tmp_path, MODEL)

@@ -8,28 +8,14 @@ from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Animation, Family
 from tribodyn.mechanisms.general.energy_balance import BALANCES
 from tribodyn.mechanisms.general.figures import film, joints, mechanism, solids
-from tribodyn.mechanisms.general.sections.charts import (
-    CLEARANCES,
-    ERROR_ESTIMATES,
-    FILMS,
-    JOINT_FORCES,
-    MODES,
-    MOTION,
-    OUTPUT_ERRORS,
-)
+from tribodyn.mechanisms.general.sections.charts import CHARTS
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         mechanism.FAMILY,
-        chart.family(MODES),
-        chart.family(OUTPUT_ERRORS),
-        chart.family(ERROR_ESTIMATES),
-        chart.family(JOINT_FORCES),
-        chart.family(MOTION),
+        *map(chart.family, CHARTS),
         joints.ORBITS,
-        chart.family(CLEARANCES),
-        chart.family(FILMS),
         joints.PRESSURE,
         joints.FILM_PRESSURE,
         joints.WEAR,

@@ -8,20 +8,13 @@ import numpy as np
 
 from tribodyn.mechanisms.general.readings import offset, sizes
 from tribodyn.mechanisms.general.sections import mechanism
-from tribodyn.mechanisms.general.sections.charts import (
-    CLEARANCES,
-    ENERGY,
-    ERROR_ESTIMATES,
-    FILMS,
-    JOINT_FORCES,
-    MODES,
-    MOTION,
-    OUTPUT_ERRORS,
-)
+from tribodyn.mechanisms.general.sections.charts import CHARTS, ENERGY
 from tribodyn.mechanisms.general.sections.joints import FILM_PRESSURE, ORBITS, PRESSURE, REACTIONS, WEAR
 from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY
+
+_OVER_TIME: Final = (*(chart.section for chart in CHARTS), REACTIONS, ENERGY.section)
 
 CHAPTERS: Final = (
     Chapter(
@@ -32,20 +25,7 @@ CHAPTERS: Final = (
         playback=True,
     ),
     Chapter(
-        "time",
-        "Over time",
-        OVER_TIME,
-        (
-            MODES.section,
-            OUTPUT_ERRORS.section,
-            ERROR_ESTIMATES.section,
-            REACTIONS,
-            JOINT_FORCES.section,
-            CLEARANCES.section,
-            FILMS.section,
-            MOTION.section,
-            ENERGY.section,
-        ),
+        "time", "Over time", OVER_TIME, (*(chart.section for chart in CHARTS), REACTIONS, ENERGY.section)
     ),
     Chapter("worn", "Wear", "What is worn off the joints.", (WEAR, WEAR_HISTORY)),
 )

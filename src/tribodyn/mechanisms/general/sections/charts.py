@@ -176,6 +176,8 @@ FILMS: Final = Chart(
     needs=("film_force", "film_pressure_max", "film_thickness_min", "film_pressure_peak", "joint"),
     panels=films,
 )
+CHARTS: Final = (MODES, OUTPUT_ERRORS, ERROR_ESTIMATES, JOINT_FORCES, CLEARANCES, FILMS, MOTION)
+"""In reading order, of the report and of ``figures/``; the energy balance follows."""
 ENERGY: Final = balance_chart(
     WHOLE,
     name="energy",
