@@ -11,10 +11,18 @@ import numpy as np
 import pytest
 from tests.unit.mechanisms.general.made_up import N, result
 
+from tribodyn.cases.case import with_entries
+from tribodyn.mechanisms.general.skeleton import case_of
 from tribodyn.report import write
 
+MAIN = {f"joints.main.clearance.{key}": value for key, value in {"radial": "20 um", "length": "5 mm"}.items()}
 SEEN = """PLACES.map(place =>
   plot.plotted.project(plot.plotted.camera.matrix(plot.plotted.wide()), place).slice(0, 2))"""
+
+
+def hide_arrows(reader: Any) -> None:
+    for kind in ("Joint forces", "Load forces"):
+        reader.page.locator("#mechanism").get_by_role("button", name=kind).click()
 
 
 def test_bodies_and_joints_move_with_the_slider(opened: Callable[..., Any], tmp_path: Path) -> None:
@@ -22,7 +30,7 @@ def test_bodies_and_joints_move_with_the_slider(opened: Callable[..., Any], tmp_
     reader.draw_everything()
     reader.keep_picture("linkage")
     # Arrows of forces cover the joints that they act on.
-    reader.page.locator("#mechanism").get_by_role("button", name="Forces").click()
+    hide_arrows(reader)
     for frame in (N // 8, N // 3):
         reader.look_at("mechanism")
         reader.go_to_frame(frame)
@@ -58,9 +66,26 @@ def test_clearance_is_magnified_and_arrows_are_shown_by_controls(
     assert figure.locator(".magnifier output").inner_text() == "1×"
     assert after[-1] == before[-1]
     assert after[:-1] != before[:-1]
-    figure.get_by_role("button", name="Forces").click()
+    hide_arrows(reader)
     assert reader.plot("mechanism", corners)[2] == 0
     assert reader.overflow() == 0
+
+
+def test_a_bore_far_wider_than_long_is_a_ring_that_hides_nothing(
+    opened: Callable[..., Any], tmp_path: Path
+) -> None:
+    wide = with_entries(case_of(result()), {"joints.main.clearance.radius": "60 mm", **MAIN}, "test")
+    clearance = np.array([20e-6, np.nan, 20e-6, np.nan])
+    whole = result().assign(clearance=("joint", clearance)).assign_attrs(case=wide.to_toml())
+    reader = opened(write(whole, tmp_path))
+    reader.look_at("mechanism")
+    hide_arrows(reader)
+    reader.go_to_frame(0)
+    # Inside the ring of the main bearing: the crank, which begins along x, and nothing aside of it.
+    shown = SEEN.replace("PLACES", json.dumps([[25.0, 0.0, 0.0], [25.0, 30.0, 0.0]]))
+    crank, nothing = reader.colours("mechanism", shown)
+    assert crank[2] > crank[1] > crank[0] + 20
+    assert min(nothing) > 240
 
 
 def test_names_of_joints_do_not_overlap(opened: Callable[..., Any], tmp_path: Path) -> None:

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from axe_playwright_python.sync_playwright import Axe
+from scipy.interpolate import CubicHermiteSpline
 
 import tribodyn as td
-from tribodyn.figures.trajectory import centre
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.studies import Sampling, make_plan
@@ -53,6 +53,12 @@ def test_every_figure_is_drawn_without_a_word_to_the_network(opened: Opened, rep
     reader.keep_picture("report-light")
 
 
+def between(result: xr.Dataset, name: str, time: float) -> float:
+    """Return a variable between rows from values and rates, as a flight across the clearance goes on."""
+    rows = (result[one].values for one in ("time", name, f"{name}_dot"))
+    return float(CubicHermiteSpline(*rows)(time))
+
+
 def test_the_slider_moves_scene_circle_and_pressure_together(
     opened: Opened, report: Path, result: xr.Dataset
 ) -> None:
@@ -63,8 +69,11 @@ def test_the_slider_moves_scene_circle_and_pressure_together(
     half = 0.5 * result.attrs["joint_length"]
     for frame in (0, times.size // 3, times.size - 20):
         reader.go_to_frame(frame)
-        now = result["time"], times[frame]
-        place = [[np.interp(now[1], now[0], x) for x in centre(result, z)] for z in (half, 0.0, -half)]
+        x, y, tilt_x, tilt_y = (
+            between(result, name, times[frame]) for name in ("e_x", "e_y", "phi_x", "phi_y")
+        )
+        heights = (half, 0.0, -half)
+        place = [[1e6 * (x - z * np.tan(tilt_y)), 1e6 * (y - z * np.tan(tilt_x))] for z in heights]
         shown = reader.plot("orbit", "plot.plotted.now")
         # Positions travel in single precision, 7 digits.
         np.testing.assert_allclose(shown, place, rtol=1e-5, atol=1e-5)

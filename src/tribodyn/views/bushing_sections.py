@@ -8,10 +8,12 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.splines import Cubics
 from tribodyn.views.bushing import unrolled
 from tribodyn.views.charts import Chart, ChartCurve, Panel
+from tribodyn.views.dense import LINE_ERROR, dense_times
 from tribodyn.views.encode import packed
-from tribodyn.views.playback import in_playback, playback_times
+from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak, series, signed
 from tribodyn.views.unrolled import best_cut, shares, unloaded_middle, wall_angles
@@ -120,6 +122,32 @@ def centre(dataset: xr.Dataset, z: float) -> tuple[FloatArray, FloatArray]:
     return x * 1e6, y * 1e6
 
 
+def _motion(dataset: xr.Dataset, z: float) -> Cubics:
+    """Return the same over time: cubics through rows and rates, as flights across the clearance need it."""
+    rates = [
+        series(dataset, f"e_{axis}_dot")
+        - z * series(dataset, f"{tilt}_dot") / np.cos(series(dataset, tilt)) ** 2
+        for axis, tilt in (("x", "phi_y"), ("y", "phi_x"))
+    ]
+    places, slopes = np.stack(centre(dataset, z), axis=-1), 1e6 * np.stack(rates, axis=-1)
+    good = np.isfinite(places).all(axis=1) & np.isfinite(slopes).all(axis=1)
+    return Cubics(series(dataset, "time")[good], places[good], slopes[good])
+
+
+def _path(motion: Cubics, times: FloatArray, clearance: float) -> FloatArray:
+    """Return places of a motion between the first and last of times that lines may join, shape (n, 2)."""
+    inside = (motion.x >= times[0]) & (motion.x <= times[-1])
+    rows = motion.x[inside], motion.values[inside], motion.slopes[inside]
+    return motion(dense_times(*rows, LINE_ERROR * clearance)) if rows[0].size > 1 else rows[1]
+
+
+def _at(motion: Cubics, times: FloatArray) -> FloatArray:
+    """Return where a centre is at the frames, shape (n_frames, 2); NaN where a run hardly began."""
+    if motion.x.size < 2:
+        return np.full((times.size, 2), np.nan)
+    return motion(np.clip(times, motion.x[0], motion.x[-1]))
+
+
 def _orbit(dataset: xr.Dataset) -> Payload | None:
     """Return paths and positions at the frames [µm] of the top, middle and bottom centres."""
     times = playback_times(dataset)
@@ -127,25 +155,23 @@ def _orbit(dataset: xr.Dataset) -> Payload | None:
         return None
     half = 0.5 * float(dataset.attrs.get("joint_length", 0.0))
     clearance = float(dataset.attrs.get("clearance", 0.0)) * 1e6
-    time = dataset["time"].values
-    inside = in_playback(dataset)
-    centres = [centre(dataset, z) for z in (half, 0.0, -half)]
-    reach = max(clearance, *(peak(values[inside]) for path in centres for values in path), 1e-3)
+    motions = [_motion(dataset, z) for z in (half, 0.0, -half)]
+    paths = [_path(motion, times, clearance) for motion in motions]
+    reach = max(clearance, *(peak(path) for path in paths), 1e-3)
     return {
         "clearance": clearance,
         "reach": 1.25 * reach,
         "joined": True,
         "looks": LOOKS,
         "places": [f"top, z = {signed(half * 1e3)} mm", "middle", f"bottom, z = {signed(-half * 1e3)} mm"],
-        "paths": [{"x": packed(x[inside]), "y": packed(y[inside])} for x, y in centres],
-        "at": [_at(times, time, path) for path in centres],
+        "paths": [_places(path) for path in paths],
+        "at": [_places(_at(motion, times)) for motion in motions],
     }
 
 
-def _at(times: FloatArray, time: FloatArray, path: tuple[FloatArray, FloatArray]) -> dict[str, object]:
-    """Return where a centre is at the frames."""
-    x, y = (np.interp(times, time, values) for values in path)
-    return {"x": packed(x), "y": packed(y)}
+def _places(points: FloatArray) -> dict[str, object]:
+    """Return points as the script reads them."""
+    return {"x": packed(points[:, 0]), "y": packed(points[:, 1])}
 
 
 ORBIT: Final = Section(
@@ -156,7 +182,7 @@ ORBIT: Final = Section(
         "trunnion axis now, the lines their paths. Beyond the circle the mean planes of the surfaces "
         "overlap. Angles at the wall are those of the pressure map."
     ),
-    needs=("e_x", "e_y", "phi_x", "phi_y"),
+    needs=("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot"),
     widget="orbit",
     data=_orbit,
     still="trajectory",

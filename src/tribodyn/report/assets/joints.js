@@ -4,9 +4,12 @@
 const COIL = { turns: 7, parts: 10, radius: 0.018 };
 /** Length of an arrow of usual force over the size of the mechanism, and how many times that it may be long. */
 const ARROW = { length: 0.2, most: 1.6, least: 0.02, thick: 0.005, head: 0.03 };
-const ARROW_COLOURS = { force: "ink", moment: "purple" };
+const ARROW_COLOURS = { force: "ink", moment: "purple", load_force: "fail-rule", load_moment: "fail-rule" };
 /** How much of what is behind it a bore hides, of 255. */
 const BORE = 70;
+/** Radius of a bore over its length above which it is drawn as a ring, and the straight parts of that. */
+const SHORT = 4;
+const RING_PARTS = 96;
 
 /** Return one of packed points, `n` a frame, at a frame of the clock; another run may have fewer. */
 function pointNow(points, n, frame, number) {
@@ -21,6 +24,7 @@ function jointAt(data, { points, clearance }, frame, magnification) {
   const [axis, least] = [unit(direction), THICK.joint * data.size];
   if (!clearance) return { at, pin: at, axis, along: axis, ball, radius: ball ? 1.2 * least : least, half: 0.5 * THICK.pin * data.size };
   const radius = Math.max(clearance.radius, 0.6 * least);
+  const ring = isRing(clearance);
   // All joints are magnified alike, but a wide clearance stays within what is drawn of its bore.
   const factor = Math.min(magnification, radius / clearance.radial);
   return {
@@ -31,14 +35,22 @@ function jointAt(data, { points, clearance }, frame, magnification) {
     ball: ball || !clearance.length,
     radius,
     gap: factor * clearance.radial,
-    half: 0.6 * Math.max(clearance.length, 2 * radius),
+    half: 0.6 * Math.max(clearance.length, ring ? 0 : 2 * radius),
+    ring,
+    wall: ring ? 0.5 * least : 0.35 * radius,
   };
+}
+
+/** Tell whether a bore is so short for its radius that pin and bore are drawn as rings: a disc would hide what is behind. */
+function isRing({ radius, length }) {
+  return length > 0 && radius > SHORT * length;
 }
 
 /** Add the pin or ball of a joint. */
 function addJoint(solid, data, joint, frame, magnification, colour) {
-  const { pin, along, ball, radius, half } = jointAt(data, joint, frame, magnification);
+  const { pin, along, ball, radius, half, ring, wall } = jointAt(data, joint, frame, magnification);
   if (ball) solid.ball(pin, radius, colour);
+  else if (ring) solid.sleeve(pin, along, half, radius - wall, radius, colour, RING_PARTS);
   else solid.rod(plus(pin, along, -half), plus(pin, along, half), radius, colour, 20);
 }
 
@@ -46,9 +58,11 @@ function addJoint(solid, data, joint, frame, magnification, colour) {
 function addBores(solid, data, frame, magnification) {
   const colour = [...theme.rgb("part-bushing"), BORE];
   for (const joint of data.joints.filter(({ clearance }) => clearance)) {
-    const { at, axis, ball, radius, gap, half } = jointAt(data, joint, frame, magnification);
-    if (ball) solid.ball(at, radius + gap, colour, 20);
-    else solid.sleeve(at, axis, 0.8 * half, radius + gap, Math.max(1.8 * radius, 1.35 * radius + gap), colour);
+    const { at, axis, ball, radius, gap, half, ring, wall } = jointAt(data, joint, frame, magnification);
+    const bore = radius + gap;
+    if (ball) solid.ball(at, bore, colour, 20);
+    else if (ring) solid.sleeve(at, axis, 0.8 * half, bore, bore + wall, colour, RING_PARTS);
+    else solid.sleeve(at, axis, 0.8 * half, bore, Math.max(1.8 * radius, bore + wall), colour);
   }
 }
 
@@ -81,9 +95,9 @@ function addCoil(solid, data, points, frame, colour) {
   for (let k = 1; k < line.length; k++) solid.rod(line[k - 1], line[k], THICK.line * data.size, colour, 5);
 }
 
-/** Return the button that shows forces or moments; its words say what an arrow of full length stands for. */
-function arrowButton({ arrows }, kind, { unit: of, scale }, changed) {
-  const label = `${kind === "force" ? "Forces" : "Moments"}: full arrow ${number(scale, 2)} ${of}`;
+/** Return the button that shows arrows of a kind; its words say what an arrow of full length represents. */
+function arrowButton({ arrows }, kind, { label: what, unit: of, scale }, changed) {
+  const label = `${what} ${number(scale, 2)} ${of}`;
   const made = button(
     label,
     () => {
@@ -96,17 +110,19 @@ function arrowButton({ arrows }, kind, { unit: of, scale }, changed) {
   return made;
 }
 
-/** Add the forces or moments of joints as arrows that begin in the joints; those of moments have two heads. */
+/** Add forces or moments of joints, or of loads where they act, as arrows; those of moments have two heads. */
 function addArrows(solid, data, kind, frame) {
   const about = data.forces[kind];
   const colour = theme.rgb(ARROW_COLOURS[kind]);
   for (const [name, vectors] of Object.entries(about ? about.at : {})) {
-    const { points } = data.joints.find((joint) => joint.name === name);
+    const from = about.points[name]
+      ? pointNow(about.points[name], 1, frame, 0)
+      : pointNow(data.joints.find((joint) => joint.name === name).points, 2, frame, 0);
     const vector = pointNow(vectors, 1, frame, 0);
     const share = Math.hypot(...vector) / about.scale;
     if (share < ARROW.least) continue;
     const length = ARROW.length * data.size * Math.min(share, ARROW.most);
-    addArrow(solid, data.size, pointNow(points, 2, frame, 0), unit(vector), length, kind === "moment" ? 2 : 1, colour);
+    addArrow(solid, data.size, from, unit(vector), length, kind.endsWith("moment") ? 2 : 1, colour);
   }
 }
 

@@ -5,7 +5,7 @@ const THICK = { rod: 0.011, joint: 0.019, pin: 0.08, block: 0.03, line: 0.003 };
 
 widgets.linkage = (box) => {
   const stage = turnableStage(box);
-  const state = { data: null, ghosts: [], magnification: 0, arrows: new Set(["force"]) };
+  const state = { data: null, ghosts: [], magnification: 0, arrows: new Set(["force", "load_force"]) };
   const again = () => show(clock.frame);
   const magnifier = sceneMagnifier(state, again);
   const arrows = element("span", { class: "buttons" });
@@ -16,7 +16,7 @@ widgets.linkage = (box) => {
     Object.assign(state, { data, ghosts });
     magnifier.label.hidden = !data.magnification;
     if (data.magnification) magnifier.take(data.magnification);
-    arrows.replaceChildren(...Object.entries(data.forces).map(([kind, about]) => arrowButton(state, kind, about, again)));
+    arrows.replaceChildren("Arrows of full length: ", ...Object.entries(data.forces).map(([kind, about]) => arrowButton(state, kind, about, again)));
     key.replaceChildren(
       ...data.bodies.map(({ name, colour }) => element("span", { class: "key" }, bar(colour), name)),
     );
@@ -29,7 +29,7 @@ widgets.linkage = (box) => {
     addLinkage(solid, data, frame, 1, magnification);
     addBores(clear, data, frame, magnification);
     for (const kind of state.arrows) addArrows(above, data, kind, frame);
-    stage.set([solid, clear, above], jointNames(data, frame));
+    stage.set([solid, clear, above], jointNames(data, frame, magnification));
   };
   return { take, paint: () => clock.frames || show(0), show };
 };
@@ -50,8 +50,9 @@ function shownPlaces({ bodies, joints, outlines }) {
   });
 }
 
-/** Return points at a distance around a joint on all sides, so that the camera leaves room for its bore. */
+/** Return points at a distance around a joint on all sides, so that the camera leaves room for its bore; not for a ring. */
 function aroundBore({ points, clearance }) {
+  if (isRing(clearance)) return [];
   const far = 2 * clearance.radius;
   const ways = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
   return ways.map((way) => ({ points: points.map((value, k) => value + far * way[k % 3]), n: 2, shown: 1 }));
@@ -98,16 +99,23 @@ function addLinkage(solid, data, frame, strength, magnification) {
   }
 }
 
-/** Add a body in its sizes: a round one between the middles of its ends, a box from its centre and three faces. */
-function addSolid(solid, { n, points, radius }, frame, colour) {
+/** Add a body in its sizes: a round one between the middles of its ends, a box or mesh from its centre and three faces. */
+function addSolid(solid, { n, points, radius, inner, triangles }, frame, colour) {
   const at = Math.min(frame, points.length / (3 * n) - 1);
   const places = Array.from({ length: n }, (_, k) => pointAt(points, n, at, k));
   if (radius) {
-    solid.rod(...places, radius, colour, 40);
+    const [from, to] = places;
+    const length = Math.hypot(...minus(to, from));
+    if (inner) solid.sleeve(plus(from, minus(to, from), 0.5), unit(minus(to, from)), 0.5 * length, inner, radius, colour, 40);
+    else solid.rod(from, to, radius, colour, 40);
     return;
   }
   const [centre, ...faces] = places;
   const [along, up, aside] = faces.map((face) => minus(face, centre));
+  if (triangles) {
+    solid.mesh(centre, [along, up, aside], triangles, colour);
+    return;
+  }
   const [width, thickness] = [aside, up].map((half) => 2 * Math.hypot(...half));
   solid.bar(minus(centre, along), plus(centre, along), unit(up), width, thickness, colour);
 }
@@ -118,14 +126,17 @@ function addBlock(solid, at, half, colour) {
   solid.bar(from, to, [0, 0, 1], 2 * half, 2 * half, colour);
 }
 
-/** Return the joints' names where the joints are; those of one place stand side by side. */
-function jointNames(data, frame) {
+/** Return the joints' names where the joints are, above what is drawn of them; those of one place stand side by side. */
+function jointNames(data, frame, magnification) {
   const names = [];
-  for (const { name, points } of data.joints) {
-    const at = pointAt(points, 2, frame, 0);
+  for (const joint of data.joints) {
+    const { at, radius } = jointAt(data, joint, frame, magnification);
     const here = names.find((other) => Math.hypot(...minus(other.at, at)) < THICK.joint * data.size);
-    if (here) here.text += `, ${name}`;
-    else names.push({ text: name, at, aside: [8, -12] });
+    const above = joint.clearance && isRing(joint.clearance) ? 0 : 1.5 * radius;
+    if (here) {
+      here.text += `, ${joint.name}`;
+      here.above = Math.max(here.above, above);
+    } else names.push({ text: joint.name, at, aside: [8, -8], above });
   }
   return names;
 }

@@ -75,8 +75,8 @@ function tools(box, ...parts) {
 
 /** A figure of the page: draws itself when it is near, and follows time, size and theme while it is. */
 class Figure {
-  constructor(box, data) {
-    Object.assign(this, { box, data, ghosts: [], near: false, stale: true, given: false, widget: null });
+  constructor(box) {
+    Object.assign(this, { box, data: null, ghosts: [], near: false, stale: true, given: false, widget: null });
   }
 
   /** Take what is to be drawn, and what of other runs shows through. */
@@ -110,7 +110,9 @@ class Figure {
 
   repaint() {
     this.stale = !this.near;
-    if (!this.near || !this.widget || !this.data) return;
+    if (!this.near || !this.widget) return;
+    this.data ??= page.figures[this.box.dataset.name];
+    if (!this.data) return;
     if (!this.given) this.widget.take(this.data, this.ghosts);
     this.given = true;
     this.widget.paint();
@@ -138,7 +140,7 @@ function watchFigures() {
     { rootMargin: "300px 0px" },
   );
   for (const box of document.querySelectorAll("[data-widget]")) {
-    const figure = new Figure(box, page.figures[box.dataset.name]);
+    const figure = new Figure(box);
     figures.push(figure);
     watcher.observe(box);
     // The keyboard goes faster than the page scrolls: it must not jump over what is not yet made.

@@ -54,6 +54,17 @@ class Solid {
     this.loft(skin, colour, false);
   }
 
+  /** Add triangles whose corners are given along three vectors from a centre. */
+  mesh(centre, axes, corners, colour) {
+    for (let n = 0; n < corners.length; n += 9) {
+      const three = [0, 3, 6].map((k) => {
+        const [a, b, c] = corners.subarray(n + k, n + k + 3);
+        return this.corner(plus(plus(plus(centre, axes[0], a), axes[1], b), axes[2], c), colour);
+      });
+      this.face(...three);
+    }
+  }
+
   /** Add a ball. */
   ball(centre, radius, colour, sides = 16) {
     const rings = Array.from({ length: sides / 2 + 1 }, (_, n) => {

@@ -52,7 +52,10 @@ class Stage {
     return this.area.clientWidth / this.area.clientHeight || 1;
   }
 
-  /** Draw solids: one, one that is seen through, and one that shines through all; names beside points: [{text, at, aside}]. */
+  /**
+   * Draw solids: one, one that is seen through, and one that shines through all; names beside points: [{text, at, aside}].
+   * What is named may reach `above` its point, in the unit of the points.
+   */
   set(solids, names) {
     this.solids = solids.map((solid) => solid.packed());
     this.names = names;
@@ -84,10 +87,11 @@ class Stage {
   }
 
   /** Write a name beside what it names, with a line to it, where no other is written; one without room is left out. */
-  write(pen, matrix, { text, at, aside }, written) {
+  write(pen, matrix, { text, at, aside: [right, down], above = 0 }, written) {
     pen.font = theme.font();
     const [x, y] = this.project(matrix, at);
-    const box = this.room(x, y, pen.measureText(text).width, aside, written);
+    const reach = above && y - this.project(matrix, plus(at, this.camera.axes()[1], above))[1];
+    const box = this.room(x, y, pen.measureText(text).width, [right, down < 0 ? down - reach : down + reach], written);
     if (!box) return;
     written.push(box);
     const middle = 0.5 * (box.top + box.bottom);

@@ -52,6 +52,31 @@ def test_a_body_without_a_shape_has_no_solid() -> None:
     assert body_solid(case.bodies["part"]) is None
 
 
+def tetrahedron(edge: float) -> np.ndarray:
+    """Return the corners of its triangles [m], shape (12, 3)."""
+    o, x, y, z = np.zeros(3), *(edge * np.eye(3))
+    return np.array([o, y, x, o, x, z, o, z, y, x, y, z])
+
+
+def test_a_mesh_has_its_triangles_where_they_are_and_as_large_as_its_scale() -> None:
+    corners = tetrahedron(0.03)
+    numbers = ", ".join(f"{number:.9g}" for number in corners.ravel().tolist()) + " m"
+    keys = {"facets": numbers, "density": f"{STEEL} kg/m^3", "scale": 2.0, "scaled_about": "0, 0, 0 mm"}
+    solid = body_solid(drawn("mesh", **keys).case().bodies["part"])
+    assert solid is not None
+    assert solid.triangles is not None
+    centre, *faces = solid.points
+    found = centre + solid.triangles @ (np.array(faces) - centre)
+    np.testing.assert_allclose(found, 2.0 * corners, atol=1e-15)
+
+
+def test_a_hollow_cylinder_is_hollow() -> None:
+    case = drawn("cylinder", density=f"{STEEL} kg/m^3", inner_radius="5 mm", **SHAPES["cylinder"]).case()
+    solid = body_solid(case.bodies["part"])
+    assert solid is not None
+    assert (solid.radius, solid.inner) == (pytest.approx(0.008), pytest.approx(0.005))
+
+
 REACTIONS = ("reaction_force", "reaction_moment")
 
 

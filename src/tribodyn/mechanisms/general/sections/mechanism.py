@@ -81,7 +81,7 @@ def data(dataset: xr.Dataset) -> Payload | None:
             for mark, points in zip(drawn.marks, marks, strict=True)
         ],
         "magnification": magnified(real.values()),
-        "forces": forces(dataset, case, drawn, orientation),
+        "forces": forces(dataset, case, drawn, position, orientation),
         "springs": [packed(outline_at(drawn, line, position, orientation)) for line in drawn.springs],
         "outlines": [
             {"colour": _colour(outline[0][0]), "n": points.shape[1], "points": packed(points)}
@@ -110,7 +110,9 @@ def _solid(
     if found is None:
         return None
     points = drawn.moved(found.points, number, position[:, number], orientation[:, number])
-    return {"n": points.shape[1], "radius": MM * found.radius, "points": packed(points)}
+    triangles = None if found.triangles is None else packed(found.triangles)
+    sizes = {"radius": MM * found.radius, "inner": MM * found.inner, "triangles": triangles}
+    return {"n": points.shape[1], "points": packed(points)} | sizes
 
 
 def _colour(body: int) -> str:
@@ -131,7 +133,7 @@ SECTION: Final = Section(
     caption=(
         "Bodies with a shape in their sizes, others as rods between their joints. Pins and balls in bores "
         "move magnified. Springs show as coils, other elements as thin lines. "
-        "Arrows are forces and moments of joints on their second bodies. "
+        "Arrows are forces and moments of joints on their second bodies, and of loads where they act. "
         "Drag to turn it, or use the arrow keys."
     ),
     needs=("position", "orientation", "body", "joint"),

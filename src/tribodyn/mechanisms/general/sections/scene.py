@@ -1,8 +1,9 @@
-"""What a scene shows of joints: the motion in their clearances, to be magnified; forces and moments."""
+"""What a scene shows beside bodies: motion in clearances, to be magnified; forces and moments as arrows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -14,6 +15,7 @@ from tribodyn.mechanisms.general.frames import frame
 from tribodyn.mechanisms.general.parts import JointKeys
 from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.general.sections.joints import loaded_joints
+from tribodyn.mechanisms.general.sections.load_arrows import load_arrows
 from tribodyn.mechanisms.general.sections.shafts import Shafts
 from tribodyn.mechanisms.general.skeleton import MM, Skeleton, rotated
 from tribodyn.views.encode import packed
@@ -88,15 +90,18 @@ def _tilt(dataset: xr.Dataset, joint: int, times: FloatArray) -> FloatArray:
 
 
 def forces(
-    dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, orientation: FloatArray
+    dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, position: FloatArray, orientation: FloatArray
 ) -> dict[str, Any]:
-    """Return forces [N] and moments [N m] of the joints that carry most, on their second bodies.
+    """Return arrows: forces and moments of the joints that carry most, on their second bodies, and of loads.
 
-    In global axes, from those of the joints, which results of large models hold, too. Each with the size that
-    an arrow of full length stands for, which impacts exceed. Parameters are those of :func:`clearances`.
+    In global axes. Those of joints are from the axes of the joints, which results of large models hold, too.
+    Each kind has the size that an arrow of full length represents, which impacts exceed. Parameters are those
+    of :func:`clearances` and the positions of the bodies at the frames, shape (n_frames, n_bodies, 3).
     """
     times, time = playback_times(dataset), dataset["time"].values
     joints = list(case.joints.items())
+    loads = load_arrows(dataset, case, drawn, position, orientation)
+    points = {name: load.point for name, load in loads.items()}
     found: dict[str, Any] = {}
     for kind, unit in (("force", "N"), ("moment", "N m")):
         arrows = {}
@@ -105,9 +110,29 @@ def forces(
             own = np.stack([np.interp(times, time, column) for column in columns], axis=-1)
             name, joint = joints[j]
             arrows[name] = np.einsum("nij,nj->ni", _axes(case, joint, drawn, orientation), own)
-        sizes = [np.percentile(np.linalg.norm(one, axis=-1), _SUSTAINED) for one in arrows.values()]
-        scale = float(max(sizes, default=0.0))
-        if scale > 0.0:
-            at = {name: packed(one) for name, one in arrows.items()}
-            found[kind] = {"unit": unit, "scale": scale, "at": at}
+        found |= _arrows(kind, f"Joint {kind}s", unit, arrows)
+        of_loads = {name: getattr(load, kind) for name, load in loads.items()}
+        found |= _arrows(f"load_{kind}", f"Load {kind}s", unit, of_loads, points)
     return found
+
+
+def _arrows(
+    kind: str,
+    label: str,
+    unit: str,
+    vectors: Mapping[str, FloatArray],
+    points: Mapping[str, FloatArray] = MappingProxyType({}),
+) -> dict[str, Any]:
+    """Return arrows of one kind as the script reads them; nothing where all are zero."""
+    sizes = {
+        name: float(np.percentile(np.linalg.norm(one, axis=-1), _SUSTAINED)) for name, one in vectors.items()
+    }
+    scale = max(sizes.values(), default=0.0)
+    if not 0.0 < scale < np.inf:
+        return {}
+    shown = [name for name, size in sizes.items() if size > 0.0]
+    about = {"label": label, "unit": unit, "scale": scale}
+    at = {name: packed(vectors[name]) for name in shown}
+    return {
+        kind: about | {"at": at, "points": {name: packed(points[name]) for name in shown if name in points}}
+    }

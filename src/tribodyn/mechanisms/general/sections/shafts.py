@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -11,11 +10,8 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.views.dense import dense_times
+from tribodyn.views.dense import LINE_ERROR, dense_times
 from tribodyn.views.playback import in_playback
-
-_LINE_ERROR: Final = 0.002
-"""What a straight line may miss of the motion in a clearance, over the clearance."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +36,7 @@ class Shafts:
         if time.size < 2 or not self._has_rates:
             return values
         rates = self._rates(joint)[inside]
-        room = _LINE_ERROR * float(self.dataset["clearance"].values[joint])
+        room = LINE_ERROR * float(self.dataset["clearance"].values[joint])
         return Cubics(time, values, rates)(dense_times(time, values[:, :2], rates[:, :2], room))
 
     def at(self, joint: int, times: FloatArray) -> FloatArray:
