@@ -248,7 +248,49 @@ def test_a_force_against_the_velocity_of_a_journal_limits_it() -> None:
     np.testing.assert_allclose(result.energy_loads, energy, atol=1e-3 * energy.max())
 
 
+PULSE = '{ pulse = "4 N", begin = "5 ms", length = "10 ms" }'
+PASSING = '{ value = "1 N", amplitude = "2 N", order = 3, shaft_speed = "12000 rpm", phase = "90 deg" }'
+
+
+def pulse(t: np.ndarray) -> np.ndarray:
+    """Return the force of the pulse above [N]."""
+    return np.where((t > 0.005) & (t < 0.015), 4.0 * np.sin(np.pi * (t - 0.005) / 0.010) ** 2, 0.0)
+
+
+def passing(t: np.ndarray) -> np.ndarray:
+    """Return the force of the passing blades above [N]: 3 waves a turn, 200 turns a second."""
+    return 1.0 + 2.0 * np.cos(2.0 * np.pi * 600.0 * t)
+
+
+@pytest.mark.parametrize(("force", "wanted"), [(PULSE, pulse), (PASSING, passing)])
+def test_pulses_and_passing_blades_have_the_same_keys_in_all_models(force: str, wanted: Any) -> None:
+    vane = td.simulate(parse_case(f"{VANE}force_x = {force}\n", "x"))
+    np.testing.assert_allclose(vane.F_airx, wanted(vane.time.values), atol=4e-6)
+    journal = td.simulate(parse_case(f"{JOURNAL}force_x = {force}\n", "x"))
+    np.testing.assert_allclose(journal.W_x, 0.01 + wanted(journal.time.values), atol=4e-6)
+    free = disc(f'[loads.gust]\nbody = "block"\nforce_x = {force}\n').replace({"run.output_interval": "1 ms"})
+    times, velocity, rate = slid(td.simulate(free))
+    np.testing.assert_allclose(MASS * rate, wanted(times), atol=4e-6)
+    assert velocity[-1] == pytest.approx(0.8 + _impulse(wanted) / MASS, rel=1e-8)
+
+
+def _impulse(force: Any) -> float:
+    """Return what a force gives in half a second [N s]: whole waves, and half the height of a pulse."""
+    return 0.5 * 4.0 * 0.010 if force is pulse else 0.5
+
+
+def test_a_short_pulse_is_not_leapt_over() -> None:
+    load = '[loads.knock]\nbody = "block"\nforce_x = { pulse = "8 kN", begin = "0.3 s", length = "0.1 ms" }\n'
+    for rtol in (1e-3, 1e-6):
+        _, velocity, _ = slid(td.simulate(disc(load).replace({"solver.rtol": rtol})))
+        assert velocity[-1] == pytest.approx(0.8 + 0.5 * 8e3 * 1e-4 / MASS, rel=5.0 * rtol)
+
+
 REFUSED = {
+    'force_x = { pulse = "1 N" }\n': "a pulse needs its length",
+    'force_x = { value = "1 N", begin = "1 s" }\n': "only a pulse has a begin",
+    'force_x = { amplitude = "1 N", order = 3 }\n': "order and shaft_speed go together",
+    'force_x = { pulse = "1 N", length = "1 s", swing = "1 N" }\n': "give either",
     'force = "1 N"\n': "a load needs its direction",
     'frame = "body"\n': "a load needs a force or a moment",
     'force = { angles = "0, 90 deg", values = "0, 1 N" }\ndirection = [1, 0, 0]\n': "needs the joint",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 from tribodyn.cases.beyond import whole_turns
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.columns import KNOTS, MAP, TABLE, TIMES, VALUES, TableProblem, check, check_map
-from tribodyn.cases.fields import Numbers, choice, file, name, quantity, series, switch
+from tribodyn.cases.fields import Numbers, choice, file, name, number, quantity, series, switch
 from tribodyn.cases.units import unit_of
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tribodyn.core.signals import Signal
 
 _FORMULA: Final = ("value", "amplitude", "swing")
+_PULSE: Final = "pulse"
 _FEWEST_SMOOTH: Final = 5
 _ROUNDING: Final = 1.0e-14
 _TINY: Final = 1.0e-300
@@ -33,6 +34,10 @@ def _amplitude(example: str) -> Any:
 
 def _swing(example: str) -> Any:
     return quantity(None, "from value there and back", "", example=example)
+
+
+def _pulse(example: str) -> Any:
+    return quantity(None, "largest value of one squared sine above value", "", example=example)
 
 
 def _values(example: str) -> Any:
@@ -255,15 +260,20 @@ class _Course(_Timed):
         timed = self.over == TIMES and not self.knots[0]
         demand(timed or not self.cyclic, "cyclic", "a cyclic table is one over times that begin at 0 s")
         key = "swing" if self.swing is not None else "amplitude"
-        demand(not moving or self.angular_frequency is not None, key, "this needs an angular_frequency")
+        demand(not moving or self.frequency is not None, key, "this needs an angular_frequency")
         self._check_over()
+
+    @property
+    def frequency(self) -> float | None:
+        """Angular frequency of a sinusoid [rad/s]; None where none is given."""
+        return self.angular_frequency
 
     @property
     def period(self) -> float | None:
         """Time after which a sinusoid or a cyclic table comes again [s]; None for what has none."""
         if self.cyclic:
             return self.knots[-1]
-        return None if self.angular_frequency is None else 2.0 * math.pi / self.angular_frequency
+        return None if self.frequency is None else 2.0 * math.pi / self.frequency
 
     @property
     def turns(self) -> int:
@@ -274,7 +284,7 @@ class _Course(_Timed):
         """Return what kernels are given."""
         from tribodyn.core.signals import constant, sinusoid, turning
 
-        mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.angular_frequency or 0.0
+        mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.frequency or 0.0
         if self.values:
             return turning(self.curve(closed=self.turns > 0 or bool(self.cyclic)), self.turns)
         if self.swing is not None:
@@ -304,18 +314,56 @@ _MAPPED: Final = (
 
 
 class _Mapped(_Course):
-    """A signal that may follow time and another quantity at once, or a coordinate and its rate."""
+    """A signal of a load: also a pulse, or a map over two quantities."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
-        *itertools.product((*_FORMULA, TABLE), (MAP,)),
+        *itertools.product((*_FORMULA, _PULSE, TABLE), (MAP,)),
         *itertools.product((MAP,), (VALUES, *KNOTS)),
-        *itertools.product(_FORMULA, (TABLE, VALUES, *KNOTS)),
+        *itertools.product((*_FORMULA, _PULSE), (TABLE, VALUES, *KNOTS)),
+        *itertools.product((_PULSE,), ("amplitude", "swing")),
+        *itertools.product(("angular_frequency",), ("order", "shaft_speed")),
         *itertools.product((TABLE,), (VALUES, *KNOTS)),
         *(pair for pair in itertools.combinations(KNOTS, 2) if pair not in _MAPPED),
         ("amplitude", "swing"),
     )
 
     map: str | None = file("CSV file: time down, an angle across; or the other way round", "map.csv")
+    order: float | None = number(
+        None,
+        "waves in a turn of a shaft, such as its number of blades: frequency of amplitude or swing",
+        "",
+        gt=0,
+        example="36",
+    )
+    shaft_speed: float | None = quantity(None, "of that shaft", "", gt=0, example="12000 rpm")
+    begin: float | None = quantity(None, "of a pulse; 0 s without", "", ge=0, example="20 ms")
+    length: float | None = quantity(None, "of a pulse", "", gt=0, example="50 ms")
+
+    if TYPE_CHECKING:  # What the groups of quantities declare.
+        pulse: float | None
+
+    def _check_given(self) -> None:
+        both = (self.order is None) == (self.shaft_speed is None)
+        demand(both, "order", "order and shaft_speed go together")
+        demand((self.pulse is None) == (self.length is None), _PULSE, "a pulse needs its length")
+        demand(self.begin is None or self.pulse is not None, "begin", "only a pulse has a begin")
+        if self.pulse is None:
+            super()._check_given()
+
+    @property
+    def frequency(self) -> float | None:
+        """Angular frequency of a sinusoid [rad/s]; None where none is given."""
+        if self.order is not None and self.shaft_speed is not None:
+            return self.order * self.shaft_speed
+        return super().frequency
+
+    def signal(self) -> Signal:
+        """Return what kernels are given."""
+        from tribodyn.core.signals import pulse
+
+        if self.pulse is None or self.length is None:
+            return super().signal()
+        return pulse(self.begin or 0.0, self.length, self.pulse, self.value or 0.0)
 
     @property
     def is_map(self) -> bool:
@@ -378,8 +426,12 @@ class ForceSignal(_Course, _Force):
 
 
 class TorqueMap(_Mapped, _Torque):
-    """A torque: constant, sinusoidal, from a table, or from a map."""
+    """A torque: constant, sinusoidal, a pulse, from a table, or from a map."""
+
+    pulse: float | None = _pulse("1 N m")
 
 
 class ForceMap(_Mapped, _Force):
-    """A force: constant, sinusoidal, from a table, or from a map."""
+    """A force: constant, sinusoidal, a pulse, from a table, or from a map."""
+
+    pulse: float | None = _pulse("20 N")

@@ -182,12 +182,18 @@ def polyline(knots: ArrayLike, values: ArrayLike, corner: float) -> Signal:
     return Signal("table", inner[:, wide], places, places)
 
 
-def pulse(begin: float, length: float, height: float) -> Signal:
-    """Return height sin²(π (x − begin)/length) over one pulse, and zero elsewhere, as a table."""
+def pulse(begin: float, length: float, height: float, base: float = 0.0) -> Signal:
+    """Return base + height sin²(π (x − begin)/length) over one pulse, and the base elsewhere, as a table.
+
+    Its middle counts as a kink, too: a step over all of it would see the base alone.
+    """
     from mebdf.kernels.elementary import portable
 
     phase = np.linspace(0.0, 1.0, 65)
-    return spline(begin + length * phase, height * portable.sin(np.pi * phase) ** 2, closed=True)
+    shape = portable.sin(np.pi * phase) ** 2
+    shape[-1] = 0.0
+    curve = spline(begin + length * phase, base + height * shape, closed=True)
+    return replace(curve, kinks=begin + length * np.array([0.0, 0.5, 1.0]))
 
 
 def repeated(signal: Signal, n: int, rise: float = 0.0) -> Signal:

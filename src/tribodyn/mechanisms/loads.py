@@ -36,7 +36,7 @@ def parts_of(
         Of the run [s].
     """
     for key, signal in load.given.items():
-        cycle = signal.period if signal.cyclic else period
+        cycle = signal.period if signal.cyclic else period if signal.pulse is None else None
         for product in signal.products():
             yield (
                 np.array(load.shares(key)),

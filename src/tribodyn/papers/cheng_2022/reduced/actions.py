@@ -13,6 +13,7 @@ from tribodyn.cases.signals import AngleTable, PositionTable, SpeedTable
 
 DRIVE: Final = "paper, section 5.1"
 DRIVE_TABLES: Final = ("angle", "speed", "stroke")
+_SIZES: Final = (*FORCES, "moment")
 
 
 def _keys_of_tables(*names: str) -> list[str]:
@@ -130,6 +131,9 @@ class VaneLoad(ShaftLoad):
 class _Shaken(NamedGroup):
     """Forces and a moment by their size."""
 
+    SIZE: ClassVar[str]
+    """Which key of a signal the sizes are."""
+
     force_x: float | None = quantity(None, "along X", "", example="0.5 N")
     force_y: float | None = quantity(None, "along Y", "", example="0.5 N")
     force_z: float | None = quantity(None, "along Z", "", example="0.5 N")
@@ -137,17 +141,22 @@ class _Shaken(NamedGroup):
 
     def model_post_init(self, context: object, /) -> None:
         """Check that there is a load."""
-        demand(bool(self.given), "moment", 'a load needs a force or a moment, such as moment = "0.02 N m"')
+        words = 'a load needs a force or a moment, such as moment = "0.02 N m"'
+        demand(any(getattr(self, key) is not None for key in _SIZES), "moment", words)
 
     @property
-    def given(self) -> dict[str, float]:
-        """What is given of it [N, N m]."""
-        found = {key: getattr(self, key) for key in (*FORCES, "moment")}
-        return {key: size for key, size in found.items() if size is not None}
+    def load(self) -> VaneLoad:
+        """The same with the keys that loads of all models share."""
+        given = {key: getattr(self, key) for key in type(self).model_fields}
+        course = {key: value for key, value in given.items() if key not in _SIZES}
+        sizes = {key: given[key] for key in _SIZES if given[key] is not None}
+        return VaneLoad.model_validate({key: {self.SIZE: size, **course} for key, size in sizes.items()})
 
 
 class VanePassing(_Shaken):
     """Excitation by the blades beside the vane: amplitudes of a sinusoid."""
+
+    SIZE: ClassVar[str] = "amplitude"
 
     order: float = number(1.0, "waves in a turn of the shaft, such as the number of blades", ASSUMED, gt=0)
     shaft_speed: float = quantity("12000 rpm", "speed of the shaft", ASSUMED, gt=0)
@@ -156,6 +165,8 @@ class VanePassing(_Shaken):
 
 class Surge(_Shaken):
     """A pulse of the flow: largest values of a squared sine."""
+
+    SIZE: ClassVar[str] = "pulse"
 
     begin: float = quantity("0 s", "when it begins", ASSUMED, ge=0)
     length: float = quantity("50 ms", "how long it lasts", ASSUMED, gt=0)

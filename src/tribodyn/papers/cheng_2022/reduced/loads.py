@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from tribodyn.core.signals import pulse, sinusoid
 from tribodyn.kernels.vsv.data import (
     AIR_M,
     AIR_X,
@@ -36,7 +35,6 @@ _TARGETS: Final = {
     4: (BEND_Y, -1.0),
     5: (AIR_M, 1.0),
 }
-_SHAKEN: Final = {"force_x": AIR_X, "force_y": AIR_Y, "force_z": AIR_Z, "moment": AIR_M}
 _FOLLOWED: Final = {
     "vane": {"times": TIME, "angles": VANE, "speeds": VANE_SPEED},
     "crank": {"times": TIME, "angles": CRANK_ANGLE, "speeds": CRANK_SPEED},
@@ -53,15 +51,12 @@ def terms_of(case: VsvCase, vane_arm: float) -> Iterator[Term]:
     vane_arm
         From the trunnion centre down to the vane's centre [m].
     """
-    for load in case.loads.more.values():
+    loads = case.loads
+    for load in (
+        *loads.more.values(),
+        *(gust.load for gust in (*loads.passing.values(), *loads.pulses.values())),
+    ):
         yield from _of_table(case, load, vane_arm)
-    for passing in case.loads.passing.values():
-        for key, amplitude in passing.given.items():
-            wave = sinusoid(0.0, amplitude, passing.order * passing.shaft_speed, passing.phase)
-            yield Term(_SHAKEN[key], ((wave, TIME),))
-    for surge in case.loads.pulses.values():
-        for key, height in surge.given.items():
-            yield Term(_SHAKEN[key], ((pulse(surge.begin, surge.length, height), TIME),))
 
 
 def _of_table(case: VsvCase, load: VaneLoad, vane_arm: float) -> Iterator[Term]:
