@@ -12,6 +12,7 @@ import json
 import traceback
 from collections.abc import Callable, Coroutine, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from typing import Any, Final
 
@@ -55,6 +56,12 @@ def _read(origin: Origin, values: Values) -> Variant:
     variant = origin.varied(values)
     refuse_rows(variant.case)
     return variant.filled()
+
+
+def _opened(request: RunRequest, variant: Variant) -> RunRequest:
+    """Return the request for the case that the workbench opens as agreed: the page begins with its run."""
+    opens = not request.values and request.edit == Edit() and not variant.case.campaign_cycles
+    return replace(request, agreed=True) if opens else request
 
 
 def _same(one: RunRequest, other: RunRequest) -> bool:
@@ -183,6 +190,7 @@ class PageSession:
             try:
                 await self._edit(request.edit)
                 variant = await self.visitor.read(partial(_read, self.origin, request.values))
+                request = self.served = _opened(request, variant)
                 answered = await self._answer(request, variant)
             except GivenUp:
                 continue
@@ -252,14 +260,15 @@ class PageSession:
                 f"simulates, and jumps over most of its {variant.case.campaign_cycles}"
             )
         if expected > self.state.rules.unasked:
-            return f"by the cost of the last run this takes about {in_words(expected)}"
+            return f"This run takes about {in_words(expected)}, as the last runs suggest."
         return ""
 
     def _ask(self, request: RunRequest, reason: str, expected: float) -> None:
         """Ask the user before a long run, or refuse one that is too long for this server."""
         longest = self.state.rules.longest
         if expected > longest:
-            words = f"{reason}; the most that a run may take here is {in_words(longest)}: use `tribodyn run`"
+            most = in_words(longest)
+            words = f"{reason.rstrip('.')}; the most that a run may take here is {most}: use `tribodyn run`"
             self.report(refusal(request.number, TribodynError(words)))
             return
         self.report({"type": "ask", "number": request.number, "seconds": expected, "message": reason})

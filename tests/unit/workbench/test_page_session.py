@@ -181,6 +181,17 @@ async def test_what_would_take_long_is_asked_before_and_too_long_is_refused() ->
 
 
 @in_loop
+async def test_the_case_that_the_workbench_opens_is_run_without_a_question() -> None:
+    pool = Pretending(seconds=0.05)
+    async with hosting(pool, rules=Rules(dragged=1e-6, unasked=1e-6, longest=60.0)) as host:
+        page = await host.greeted()
+        await page.run(1, {}, rest=True)
+        assert (await page.picture()).number == 1
+        await page.run(2, wide(30), rest=True)
+        assert (await page.until("ask"))["number"] == 2
+
+
+@in_loop
 async def test_a_wear_campaign_and_equations_to_compile_are_asked_about() -> None:
     pool = Pretending()
     async with hosting(pool) as host:
