@@ -104,3 +104,15 @@ def test_names_of_joints_do_not_overlap(opened: Callable[..., Any], tmp_path: Pa
         for other in boxes[:k]:
             beside = one["right"] < other["left"] or other["right"] < one["left"]
             assert beside or one["bottom"] <= other["top"] or other["bottom"] <= one["top"]
+
+
+def test_the_mechanism_fits_the_picture_after_the_window_has_become_narrow(
+    opened: Callable[..., Any], tmp_path: Path
+) -> None:
+    reader = opened(write(result(), tmp_path))
+    reader.look_at("mechanism")
+    reader.page.set_viewport_size({"width": 390, "height": 800})
+    reader.settle()
+    slider = SEEN.replace("PLACES", json.dumps([[170.0, 0.0, 0.0]]))
+    ((across, _),) = reader.plot("mechanism", slider)
+    assert 0 < across < reader.plot("mechanism", "plot.clientWidth")

@@ -163,7 +163,8 @@ class Key:
     def _read_list(self, value: object) -> tuple[float, ...] | tuple[str, ...]:
         found = elements(value, self.unit)
         if found is None or (self.length and len(found) != self.length):
-            raise ValueProblem("" if found is None else f"these are {len(found)}")
+            count = "" if found is None else f"{len(found)} value{'' if len(found) == 1 else 's'}"
+            raise ValueProblem(count)
         if self.kind == "names":
             if not all(isinstance(name, str) for name in found):
                 raise ValueProblem("")
@@ -181,7 +182,7 @@ class Key:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             raise ValueProblem(_without_unit(self, value) if _finite(value) else "the number must be finite")
         if not isinstance(value, str):
-            raise ValueProblem("")
+            raise ValueProblem("this is one quantity" if isinstance(value, list | tuple) else "")
         try:
             return _not_tiny(rms_roughness(value) if self.profile else to_si(value, self.unit))
         except MissingUnit:

@@ -15,7 +15,7 @@ from tribodyn.cases.keys import ANY_NAME, Key, shown
 from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name
 from tribodyn.core.errors import MOST_HINTS, InputError
 from tribodyn.core.quoting import closest
-from tribodyn.core.synonyms import meanings
+from tribodyn.core.synonyms import OF_DIAMETERS, meanings
 
 _ALL_KEYS: Final = "`tribodyn show` lists all keys"
 _LONGEST: Final = 200
@@ -96,7 +96,11 @@ def _nearest(path: str, keys: Mapping[str, Key]) -> str:
     near = [word for word in meanings(name) if word in siblings or word in beside]
     near = near or difflib.get_close_matches(name[:80], list(siblings), n=1, cutoff=0.6)
     if near:
-        return _nearest_valid((siblings | beside)[near[0]])
+        half = ", half of this value" if name.casefold() in OF_DIAMETERS else ""
+        return _nearest_valid((siblings | beside)[near[0]]) + half
+    renamed = _renamed(path, keys)
+    if renamed:
+        return _nearest_valid(renamed)
     words = [name] if as_declared(table, keys) in tables else [name, table.rpartition(".")[2]]
     named = (word for given in words for word in meanings(given) if f"{word}.{ANY_NAME}" in tables)
     if (first := next(named, None)) is not None:
@@ -105,6 +109,17 @@ def _nearest(path: str, keys: Mapping[str, Key]) -> str:
     elsewhere = next((paths for paths in named_so if paths), [])
     meant = closest(path, elsewhere or keys) or next(iter(elsewhere), None)
     return _nearest_valid(meant) if meant else ""
+
+
+def _renamed(path: str, keys: Mapping[str, Key]) -> str:
+    """Return the key with one of the tables of its path by our word for it; empty where there is none."""
+    parts = path.split(".")
+    others = (
+        ".".join([*parts[:k], word, *parts[k + 1 :]])
+        for k, part in enumerate(parts[:-1])
+        for word in meanings(part)
+    )
+    return next((other for other in others if other in keys), "")
 
 
 def _nearest_valid(path: str) -> str:

@@ -164,7 +164,7 @@ class _TableRows(NamedGroup):
 class _Timed(_TableRows):
     """A table over time."""
 
-    times: Numbers | None = series("of values", "", unit="s", example='"0, 0.5, 1 s"')
+    times: Numbers | None = series("times of the values", "", unit="s", example='"0, 0.5, 1 s"')
 
 
 class AngleTable(_Timed):
@@ -194,7 +194,7 @@ class TemperatureTable(_Timed):
 class ProfileTable(_TableRows):
     """A deviation of a radius over a position."""
 
-    positions: Numbers | None = series("of values", "", unit="mm", example='"-10, 0, 10 mm"')
+    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"-10, 0, 10 mm"')
     values: Numbers | None = _values("0, 3, 0 um")
 
 
@@ -206,8 +206,8 @@ class BoreMap(NamedGroup):
     )
 
     map: str | None = file("CSV file: an angle down, positions across; or the other way round", "bore.csv")
-    angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 180, 270 deg"')
-    positions: Numbers | None = series("of values", "", unit="mm", example='"-10, 10 mm"')
+    angles: Numbers | None = series("angles of the values", "", unit="deg", example='"0, 90, 180, 270 deg"')
+    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"-10, 10 mm"')
     values: Numbers | None = _values("0, 3, 0 um")
 
     def model_post_init(self, context: object, /) -> None:
@@ -225,7 +225,7 @@ class BoreMap(NamedGroup):
 class LineLoadTable(_TableRows):
     """A load per length over a position."""
 
-    positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
+    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"0, 10, 20 mm"')
     values: Numbers | None = _values("100, 200, 150 N/m")
 
 
@@ -244,10 +244,10 @@ class _Course(_Timed):
     )
     phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
     cyclic: bool | None = switch(None, "whether a table over time repeats after its length", "")
-    angles: Numbers | None = series("of values", "", unit="deg", example='"0, 90, 360 deg"')
-    positions: Numbers | None = series("of values", "", unit="mm", example='"0, 10, 20 mm"')
-    speeds: Numbers | None = series("of values", "", unit="rad/s", example='"0, 10, 20 rad/s"')
-    velocities: Numbers | None = series("of values", "", unit="m/s", example='"0, 1, 2 m/s"')
+    angles: Numbers | None = series("angles of the values", "", unit="deg", example='"0, 90, 360 deg"')
+    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"0, 10, 20 mm"')
+    speeds: Numbers | None = series("speeds of the values", "", unit="rad/s", example='"0, 10, 20 rad/s"')
+    velocities: Numbers | None = series("velocities of the values", "", unit="m/s", example='"0, 1, 2 m/s"')
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
         value: float | None

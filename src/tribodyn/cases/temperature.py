@@ -40,7 +40,9 @@ class PropertiesKeys(Group):
     young_modulus: Numbers | None = series(
         "Young's modulus of the bushing", "", unit="GPa", example='"3.2, 2.4, 1.6 GPa"'
     )
-    hardness: Numbers | None = series("its hardness", "", unit="MPa", example='"300, 220, 140 MPa"')
+    hardness: Numbers | None = series(
+        "hardness at these temperatures", "", unit="MPa", example='"300, 220, 140 MPa"'
+    )
     friction_coefficient: Numbers | None = series("of the joint", "", example="[0.3, 0.2, 0.15]")
     specific_wear_rate: Numbers | None = series(
         "of the bushing", "", unit="m^2/N", example='"1e-15, 2e-15, 5e-15 m^2/N"'

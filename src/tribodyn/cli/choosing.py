@@ -39,8 +39,9 @@ def add_changes(parser: ArgumentParser) -> None:
         help='change a key, with its unit: --set joint.clearance="25 um"; may be repeated',
     )
     parser.add_argument("--solver", metavar="NAME", help="short for --set solver.name=NAME")
+    one = parser.add_mutually_exclusive_group()
     for name in ANALYSES:
-        parser.add_argument(
+        one.add_argument(
             f"--{name}",
             dest="analysis",
             action="store_const",

@@ -111,6 +111,10 @@ exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, 
 """
 
 
+_NEAR: Final = 0.7
+"""Likeness of an option to one that was probably meant, at least."""
+
+
 class _Parser(argparse.ArgumentParser):
     """A parser whose complaints are errors like all others."""
 
@@ -121,7 +125,7 @@ class _Parser(argparse.ArgumentParser):
         """Return what the arguments say, or raise what is wrong with them, with what was probably meant."""
         name = next((argument for argument in arguments if not argument.startswith("-")), None)
         if name is not None and name not in COMMANDS:
-            near = closest(name, COMMANDS)
+            near = "--help" if name == "help" else closest(name, COMMANDS)
             hint = f"; did you mean `tribodyn {near}`?" if near else ""
             raise InputError(f"{as_given(name)}; allowed: {', '.join(COMMANDS)}{hint}", key="COMMAND")
         args, unknown = self.parse_known_args(arguments)
@@ -131,8 +135,12 @@ class _Parser(argparse.ArgumentParser):
 
     def _refuse(self, unknown: Sequence[str], below: argparse.ArgumentParser) -> NoReturn:
         """Complain about arguments that a command does not have."""
-        near = closest(unknown[0].partition("=")[0], re.findall(r"--[a-z][a-z-]*", below.format_help()))
-        hint = f"; did you mean {near}?" if near and unknown[0].startswith("-") else ""
+        options = re.findall(r"--[a-z][a-z-]*", below.format_help())
+        near = closest(unknown[0].partition("=")[0], options, cutoff=_NEAR)
+        hint = f"; did you mean {near}?" if near else ""
+        if not near and "--set" in options:
+            hint = "; values of the case are changed by --set PATH=VALUE"
+        hint = hint if unknown[0].startswith("-") else ""
         below.error(f"unrecognized arguments: {brief(' '.join(unknown))}{hint}")
 
 

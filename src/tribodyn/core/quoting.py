@@ -50,11 +50,19 @@ def meant(word: str, words: Collection[str]) -> str:
     return f'; did you mean "{near}"?' if near else ""
 
 
-def closest(word: str, words: Collection[str]) -> str | None:
-    """Return the one of `words` that means the same as `word`, or is spelled most like it, if any is."""
+def closest(word: str, words: Collection[str], *, cutoff: float = 0.5) -> str | None:
+    """Return the one of `words` that means the same as `word`, or is spelled most like it, if any is.
+
+    Parameters
+    ----------
+    word, words
+        What was given, and what is allowed.
+    cutoff
+        Likeness of the spelling from which a word counts, 0 to 1.
+    """
     synonym = next((other for other in meanings(word) if other in words), None)
     if synonym is not None:
         return synonym
     by_letters = {other.casefold(): other for other in words}
-    found = difflib.get_close_matches(word[:80].casefold(), by_letters, n=1, cutoff=0.5)
+    found = difflib.get_close_matches(word[:80].casefold(), by_letters, n=1, cutoff=cutoff)
     return by_letters[found[0]] if found else None

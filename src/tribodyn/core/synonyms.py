@@ -7,7 +7,7 @@ from typing import Final
 SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     # Kinds of joints.
     "hinge": ("revolute",),
-    "pin": ("revolute", "pin-slot"),
+    "pin": ("revolute", "pin-slot", "trunnion"),
     "pivot": ("revolute",),
     "rotational": ("revolute",),
     "slider": ("prismatic",),
@@ -63,6 +63,12 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "position": ("point",),
     "origin": ("point",),
     "direction": ("axis",),
+    "rate": ("specific_wear_rate",),
+    "wear_rate": ("specific_wear_rate",),
+    "oil": ("viscosity",),
+    "shaft": ("trunnion",),
+    "bore": ("bushing",),
+    "housing": ("bushing",),
     "play": ("radial", "clearance"),
     "gap": ("radial", "clearance"),
     "rpm": ("speed",),
@@ -80,6 +86,8 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "gui": ("workbench",),
 }
 """What was probably meant, the likeliest first; a word that is also one of ours is never looked up."""
+OF_DIAMETERS: Final = frozenset({"diameter", "diametral", "diametral_clearance"})
+"""Words whose values are twice those of the words of this program for them."""
 
 
 def meanings(word: str) -> tuple[str, ...]:

@@ -191,6 +191,8 @@ def _refused(key: Key, asked: Asked, why: str) -> InputError:
     laws = " | ".join(f"{name}{law.usage}" for name, law in DISTRIBUTIONS.items())
     forms = "V1,V2,..." if key.kind not in (*_SCALABLE, "count") else "V1,V2,... | A:B:STEP"
     forms = f"{forms} | {laws}" if key.kind in _SCALABLE else forms
+    bracket = isinstance(asked, str) and ".." in asked
+    why = "a bracket with .. is for `tribodyn find`; a range has a step, A:B:STEP" if bracket else why
     return InputError(
         f"given {given}: {why}; allowed: {forms}, each value {key.allowed}", key=key.path, source=SOURCE
     )

@@ -66,6 +66,7 @@ class Camera {
 function turnableStage(box) {
   const moved = (change) => {
     change(stage.camera);
+    stage.turned = true;
     stage.draw();
   };
   const hint = "Keys: arrows turn it, plus and minus move nearer and away. Follows the time slider.";

@@ -23,7 +23,7 @@ widgets.linkage = (box) => {
   };
   const show = (frame) => {
     const { data, ghosts, magnification } = state;
-    stage.camera ??= new Camera(shownPlaces(data), data.eye, data.up, stage.wide());
+    stage.look((wide) => new Camera(shownPlaces(data), data.eye, data.up, wide));
     const [solid, clear, above] = [new Solid(), new Solid(), new Solid()];
     for (const { data: other, strength } of ghosts) addLinkage(clear, other, frame, strength, magnification);
     addLinkage(solid, data, frame, 1, magnification);

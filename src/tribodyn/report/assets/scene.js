@@ -13,6 +13,7 @@ widgets.scene = (box) => {
       () => {
         state.view = name;
         views.forEach((one, k) => one.setAttribute("aria-pressed", String(Object.keys(VIEWS)[k] === name)));
+        stage.turned = false;
         stage.camera = null;
         show(clock.frame);
       },
@@ -29,7 +30,7 @@ widgets.scene = (box) => {
   const show = (frame) => {
     const { data } = state;
     const view = VIEWS[state.view];
-    stage.camera ??= new Camera(view.points(data), view.from, [0, 0, 1], stage.wide());
+    stage.look((wide) => new Camera(view.points(data), view.from, [0, 0, 1], wide));
     const load = loadOn(data, page.figures.pressure, frame, state.magnification);
     stage.set([movingParts(data, frame, state.magnification), clearParts(state, frame), load], names(data, state));
   };

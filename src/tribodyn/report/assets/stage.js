@@ -37,6 +37,8 @@ class Stage {
     this.sheet = new Sheet(area);
     this.words = new Sheet(area);
     this.solids = [];
+    /** Whether a reader has turned it. */
+    this.turned = false;
     this.gl = this.sheet.canvas.getContext("webgl2", { antialias: true, premultipliedAlpha: true });
     if (!this.gl) return;
     this.program = linked(this.gl);
@@ -45,6 +47,14 @@ class Stage {
       this.program = linked(this.gl);
       this.draw();
     });
+  }
+
+  /** Look from where `make` puts a camera for a width over a height; anew for another size, unless a reader turned it. */
+  look(make) {
+    const wide = this.wide();
+    if (this.camera && (this.turned || this.lookedAt === wide)) return;
+    this.camera = make(wide);
+    this.lookedAt = wide;
   }
 
   /** Return width over height. */

@@ -18,24 +18,28 @@ class SpringDamperKeys(NamedGroup):
 
     stiffness: Vector | None = vector(
         None,
-        "of a spring-damper along axis, second axis and across both",
+        "stiffness of a spring-damper along axis, second axis and across both",
         "",
         unit="N/um",
         example='["10 N/um", "10 N/um", "10 N/um"]',
     )
     damping: Vector | None = vector(
-        None, "likewise", "", unit="N s/m", example='["10 N s/m", "10 N s/m", "10 N s/m"]'
+        None,
+        "damping of a spring-damper along these directions",
+        "",
+        unit="N s/m",
+        example='["10 N s/m", "10 N s/m", "10 N s/m"]',
     )
     angular_stiffness: Vector | None = vector(
         None,
-        "of a spring-damper about these directions",
+        "angular stiffness of a spring-damper about these directions",
         "",
         unit="N m/rad",
         example='["0 N m/rad", "10 N m/rad", "10 N m/rad"]',
     )
     angular_damping: Vector | None = vector(
         None,
-        "likewise",
+        "angular damping of a spring-damper about these directions",
         "",
         unit="N m s/rad",
         example='["0 N m s/rad", "1 N m s/rad", "1 N m s/rad"]',

@@ -46,22 +46,26 @@ class MechanismKeys(Group):
     formulation: Literal["exact", "paper"] = choice(
         "exact", "one consistent set of equations, or the paper's own", "manual, the mechanism"
     )
-    crank_length: float = quantity("47.7 mm", "crank l_1", TABLE_2, gt=0)
-    drag_link_length: float = quantity("142.4 mm", "drag link l_2", TABLE_2, gt=0)
-    ring_radius: float = quantity("400 mm", "unison ring l_3", TABLE_2, gt=0)
-    lever_length: float = quantity("50 mm", "lever arm l_4", TABLE_2, gt=0)
-    vane_length: float = quantity("160 mm", "vane with trunnion l_v", TABLE_2, gt=0)
-    pivot_distance: float = quantity("500 mm", "crank pivot from the casing axis l_m", TABLE_2, gt=0)
+    crank_length: float = quantity("47.7 mm", "length of the crank l_1", TABLE_2, gt=0)
+    drag_link_length: float = quantity("142.4 mm", "length of the drag link l_2", TABLE_2, gt=0)
+    ring_radius: float = quantity("400 mm", "radius of the unison ring l_3", TABLE_2, gt=0)
+    lever_length: float = quantity("50 mm", "length of the lever arm l_4", TABLE_2, gt=0)
+    vane_length: float = quantity("160 mm", "length of the vane with trunnion l_v", TABLE_2, gt=0)
+    pivot_distance: float = quantity(
+        "500 mm", "distance of the crank pivot from the casing axis l_m", TABLE_2, gt=0
+    )
     pivot_angle: float = quantity(
         "20 deg", "direction of the crank pivot gamma", TABLE_2, ge="-180 deg", le="180 deg"
     )
     ring_angle: float = quantity(
         "55 deg", "drag link's joint on the ring phi", TABLE_2, ge="-180 deg", le="180 deg"
     )
-    crank_mass: float = quantity("0.82 kg", "crank m_1", TABLE_2, gt=0)
-    drag_link_mass: float = quantity("0.1232 kg", "drag link m_2", TABLE_2, gt=0)
-    ring_mass: float = quantity("0.6744 kg", "unison ring m_3", TABLE_2, gt=0)
-    vane_mass: float = quantity("0.253 kg", "vane with lever and trunnion m_v", "paper, section 4", gt=0)
+    crank_mass: float = quantity("0.82 kg", "mass of the crank m_1", TABLE_2, gt=0)
+    drag_link_mass: float = quantity("0.1232 kg", "mass of the drag link m_2", TABLE_2, gt=0)
+    ring_mass: float = quantity("0.6744 kg", "mass of the unison ring m_3", TABLE_2, gt=0)
+    vane_mass: float = quantity(
+        "0.253 kg", "mass of the vane with lever and trunnion m_v", "paper, section 4", gt=0
+    )
     crank_inertia: float = quantity(
         "6.22e-4 kg m^2", "crank, about its end J_1; m l^2/3 where mass or length is given", TABLE_2, gt=0
     )
@@ -99,9 +103,13 @@ def _rod_inertias(given: Mapping[str, Value]) -> dict[str, Value]:
 class VsvLoadKeys(Group):
     """Aerodynamic loads on the vane."""
 
-    air_force_x: float = quantity("0.4 N", "size of F_airx, whose sign follows the vane angle", TABLE_3)
-    air_force_y: float = quantity("1.2 N", "F_airy", TABLE_3)
-    air_moment: float = quantity("0.84 N m", "size of M_air, which opposes the motion of the vane", TABLE_3)
+    air_force_x: float = quantity(
+        "0.4 N", "aerodynamic force along X, F_airx; its sign follows the vane angle", TABLE_3
+    )
+    air_force_y: float = quantity("1.2 N", "aerodynamic force along Y, F_airy", TABLE_3)
+    air_moment: float = quantity(
+        "0.84 N m", "aerodynamic moment M_air; it opposes the motion of the vane", TABLE_3
+    )
     switch_angle: float = quantity("90 deg", "vane angle at which F_airx changes sign", TABLE_3)
     switch_width: float = quantity("0.01 rad", "width of that change", ASSUMED, gt=0)
     more: Mapping[str, VaneLoad] = tables("loads from tables, beside these")
