@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -19,6 +20,8 @@ OUT_OF_REACH: Final = 1.0e3
 """What a repeated node of a ring is lifted by [m]."""
 CLOSE: Final = 1.0e-12
 """Distance by which a node may miss its ring [m], and errors of its normal and its relative area [1]."""
+_KEPT: Final = 8
+"""Numbers of nodes whose rings are kept."""
 
 Rows = NDArray[np.void]
 """Records :data:`~tribodyn.kernels.joints.surface.data.Row`."""
@@ -49,7 +52,7 @@ def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
 
 def _check_ring(row: Record, nodes: FloatArray) -> None:
     """Refuse a row of nodes (``N_NODE``, n) that kernels would take for a ring."""
-    cos, sin, _ = _around(np.arange(row["count"]), int(row["count"]))
+    cos, sin, _ = _ring(int(row["count"]))
     radius, _, height = nodes[POSITION : POSITION + 3, 0]
     radial, _, axial = row["normal"]
     expected = np.stack(
@@ -59,6 +62,11 @@ def _check_ring(row: Record, nodes: FloatArray) -> None:
         raise InputError("nodes of a row must lie at equal angles around the axis", key="shape")
     if np.ptp(nodes[AREA]) > CLOSE * nodes[AREA, 0]:
         raise InputError("nodes of a row around the axis must have equal areas", key="shape")
+
+
+@lru_cache(_KEPT)
+def _ring(count: int) -> FloatArray:
+    return _around(np.arange(count), count)
 
 
 def _around(node: NDArray[np.int64], count: int) -> FloatArray:

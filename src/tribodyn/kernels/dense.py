@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.linalg import solve_in_place
 
@@ -86,14 +86,102 @@ def lstsq(matrix: FloatArray, right: FloatArray, rcond: float | None = None) -> 
     return np.asarray(product(shares, vectors[: values.size][kept]))
 
 
+def triangle(
+    matrix: FloatArray, n_pivots: int, least: float
+) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Return a matrix (m, n) whose first columns are made a triangle, their order, and the reflections.
+
+    By Householder's reflections with pivoting among the first ``n_pivots`` columns (Businger and Golub (1965),
+    Numer. Math. 7, 269), until what is left of each is not longer than ``least``. The order has shape
+    (n_pivots,), the normals of the reflections (rank, m).
+    """
+    out, order = np.array(matrix, np.float64), np.arange(n_pivots)
+    normals = np.zeros((min(n_pivots, len(out)), len(out)))
+    rank = _reduce(out, order, least, normals, np.empty(out.shape[1]))
+    return out, order, normals[:rank]
+
+
+def cholesky(matrix: FloatArray) -> FloatArray:
+    """Return the lower triangle L (n, n) of a symmetric positive definite matrix L Lᵀ."""
+    out = np.tril(matrix)
+    _factorise(out)
+    return out
+
+
+def reflect(normals: FloatArray, columns: FloatArray) -> None:
+    """Apply reflections (k, m) to columns (m, n) in place, the first of them first."""
+    _reflect(normals, columns, np.empty(columns.shape[1]))
+
+
 @kernel
 def _multiply(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     for i in range(a.shape[0]):
         for j in range(b.shape[1]):
             out[i, j] = 0.0
         for k in range(a.shape[1]):
-            for j in range(b.shape[1]):
-                out[i, j] += a[i, k] * b[k, j]
+            factor = a[i, k]
+            if factor != 0.0:
+                for j in range(b.shape[1]):
+                    out[i, j] += factor * b[k, j]
+
+
+@kernel
+def _factorise(a: FloatArray) -> None:
+    """Cholesky's factorisation in place of the lower triangle; zeros that stay zero cost nothing."""
+    for k in range(a.shape[0]):
+        a[k, k] = math.sqrt(a[k, k])
+        for i in range(k + 1, a.shape[0]):
+            a[i, k] /= a[k, k]
+        for i in range(k + 1, a.shape[0]):
+            if a[i, k] != 0.0:
+                for j in range(k + 1, i + 1):
+                    a[i, j] -= a[i, k] * a[j, k]
+
+
+@kernel
+def _reflect_once(normal: FloatArray, columns: FloatArray, first: int, across: FloatArray) -> None:
+    """Reflect columns, from the row ``first`` on, before which the normal is zero."""
+    for j in range(columns.shape[1]):
+        across[j] = 0.0
+    for i in range(first, columns.shape[0]):
+        for j in range(columns.shape[1]):
+            across[j] += normal[i] * columns[i, j]
+    for i in range(first, columns.shape[0]):
+        for j in range(columns.shape[1]):
+            columns[i, j] -= 2.0 * normal[i] * across[j]
+
+
+@kernel
+def _reflect(normals: FloatArray, columns: FloatArray, across: FloatArray) -> None:
+    for k in range(normals.shape[0]):
+        _reflect_once(normals[k], columns, 0, across)
+
+
+@kernel
+def _reduce(a: FloatArray, order: IntArray, least: float, normals: FloatArray, across: FloatArray) -> int:
+    """Make a triangle of the first columns in place; return their rank."""
+    for k in range(normals.shape[0]):
+        best, largest = k, -1.0
+        for j in range(k, order.size):
+            square = 0.0
+            for i in range(k, a.shape[0]):
+                square += a[i, j] * a[i, j]
+            if square > largest:
+                best, largest = j, square
+        length = math.sqrt(largest)
+        if length <= least:
+            return k
+        order[k], order[best] = order[best], order[k]
+        for i in range(a.shape[0]):
+            a[i, k], a[i, best] = a[i, best], a[i, k]
+        scale = 1.0 / math.sqrt(2.0 * length * (length + abs(a[k, k])))
+        for i in range(k, a.shape[0]):
+            normals[k, i] = a[i, k] * scale
+        normals[k, k] += math.copysign(length, a[k, k]) * scale
+        _reflect_once(normals[k], a, k, across)
+        for i in range(k + 1, a.shape[0]):
+            a[i, k] = 0.0
+    return normals.shape[0]
 
 
 @kernel

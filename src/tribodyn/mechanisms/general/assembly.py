@@ -12,7 +12,8 @@ from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
-from tribodyn.mechanisms.general.closing import CLOSED, DEPENDENT, System
+from tribodyn.mechanisms.general.closing import CLOSED, System
+from tribodyn.mechanisms.general.decompositions import DEPENDENT
 from tribodyn.mechanisms.general.equations import new_memory
 from tribodyn.mechanisms.general.misfit import Misfit
 from tribodyn.mechanisms.general.model import Model, ModelError

@@ -29,7 +29,7 @@ from tribodyn.kernels.mechanism.solution import (
     set_offsets,
 )
 from tribodyn.mechanisms.general.actions import GIVEN
-from tribodyn.mechanisms.general.decompositions import complement, has_full_rank, pseudo_inverse, svd
+from tribodyn.mechanisms.general.decompositions import DEPENDENT, factors, null_space, svd, with_unit_rows
 from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.joints import JOINTS
@@ -39,8 +39,6 @@ CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
 CLOSES: Final = 1.0e-9
 """The same, of joints of a mechanism on its way."""
-DEPENDENT: Final = 1.0e-6
-"""Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
 _MOST_STEPS: Final = 60
 _LONGEST: Final = 0.2
 """Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
@@ -176,24 +174,28 @@ class System:
 
         Whether rows depend on each other is told by these: it is a matter of places, not of masses.
         """
-        g = rows * np.tile(np.repeat([self.size, 1.0], 3), self.n)
-        length = np.linalg.norm(g, axis=1, keepdims=True)
-        return np.asarray(g / np.where(length == 0.0, 1.0, length))
+        return with_unit_rows(rows * np.tile(np.repeat([self.size, 1.0], 3), self.n))
 
     def rank(self, rows: FloatArray | None = None) -> int:
         """Return how many of these rows, or of the constraints, are independent."""
         if rows is None and self.known_rank is not None:
             return self.known_rank
         given = self.over_sizes(self.matrix() if rows is None else rows)
-        return min(given.shape) if has_full_rank(given, DEPENDENT) else rank_of(svd(given)[1])
+        found = factors(given)
+        return rank_of(svd(given)[1]) if found is None else found.rank
 
     def inverse(self, scaled: FloatArray, rows: FloatArray | None = None) -> FloatArray:
         """Return the pseudo-inverse of rows that were scaled by mass, of the rank of ``rows`` or of all."""
         rank = self.rank(rows)
-        if rank == min(scaled.shape) and (found := pseudo_inverse(scaled)) is not None:
-            return found
         u, values, v = svd(scaled)
         return np.asarray(dense.product(v[:rank].T / values[:rank], u[:, :rank].T))
+
+    def solve(self, scaled: FloatArray, right: FloatArray, rows: FloatArray | None = None) -> FloatArray:
+        """Return the pseudo-inverse of such rows times a right-hand side (m,)."""
+        found = factors(scaled)
+        if found is not None and found.rank == self.rank(rows):
+            return found.solve(right)
+        return np.asarray(dense.product(self.inverse(scaled, rows), right))
 
     def step(self, change: FloatArray) -> None:
         """Move the bodies by a change (6 n,), not too far at once."""
@@ -245,7 +247,7 @@ class System:
         """Return displacements that leave the joints closed, ways over the size, shape (n, 6 n_bodies)."""
         if not self.rows:
             return np.eye(6 * self.n)
-        return svd(self.over_sizes(self.matrix()))[2][rank:]
+        return null_space(self.over_sizes(self.matrix()), rank).T
 
     def time_to_move(self, change: float) -> float:
         """Return the time in which no drive moves more than that, ways in units of the size [s]."""
@@ -259,8 +261,8 @@ class System:
     def wander(self, chance: np.random.Generator) -> bool:
         """Move the bodies some way along the freedoms that are left; tell whether there are any."""
         g, root, _ = self.scaled()
-        free = np.eye(6 * self.n) - dense.product(self.inverse(g), g)
-        way = dense.product(dense.product(root, free), chance.normal(size=6 * self.n))
+        anywhere = chance.normal(size=6 * self.n)
+        way = dense.product(root, anywhere - self.solve(g, dense.product(g, anywhere)))
         ways = np.abs(way.reshape(-1, 6)) / np.repeat([self.size, 1.0], 3)
         if np.max(ways) <= CLOSED:
             return False
@@ -276,7 +278,7 @@ class System:
             if least < CLOSED:
                 break
             g, root, length = self.scaled()
-            change = dense.product(self.inverse(g), -self.entries("residual") / length)
+            change = self.solve(g, -self.entries("residual") / length)
             self.step(dense.product(root, change))
             if (gap := self.gap()) < least:
                 least, nearest = gap, self.position()
@@ -393,9 +395,8 @@ class System:
     def _rank(self) -> tuple[int, FloatArray]:
         """Return rank and vanishing combinations of the rows, each of length one, here."""
         given = self.over_sizes(self.matrix())
-        if has_full_rank(given, DEPENDENT):
-            m, n = given.shape
-            return min(m, n), complement(given) if m > n else np.zeros((0, m))
+        if (found := factors(given)) is not None:
+            return found.rank, found.dependent
         _, values, left = svd(given.T)
         rank = rank_of(values)
         return rank, left[rank:]
@@ -408,13 +409,19 @@ class System:
         """
         if rank == 0:
             return [], []
-        places = svd(self.over_sizes(self.matrix()))[1]
+        rows_by_mass, rows_by_size = self.scaled()[0], self.over_sizes(self.matrix())
+        by_mass, by_size = factors(rows_by_mass), factors(rows_by_size)
+        if by_mass is not None and by_size is not None and by_mass.rank == by_size.rank == rank:
+            # Bounds decide where they can. Of rows of length one the largest singular value is at least 1.
+            if _is_exact(by_mass.bounds[0] ** 2, by_size.softest() ** 2):
+                return [], []
+        places = svd(rows_by_size)[1]
         # Of the transposed matrix also the rows that belong to the value zero are known.
-        _, values, left = svd(self.scaled()[0].T)
+        _, values, left = svd(rows_by_mass.T)
         share, of_places = float(values[rank - 1]) ** 2, float(places[rank - 1] / places[0]) ** 2
-        lost = (HARD / (HARD + share)) ** ROUNDS
-        if lost < _INEXACT or share > _BY_MASS * of_places:
+        if _is_exact(share, of_places):
             return [], []
+        lost = _lost(share)
         rows = np.flatnonzero(np.abs(left[rank - 1]) > _TAKES_PART)
         bodies = self.model.case.bodies
         named = {b for i in rows for b in self.model.constraint(self.rows[i][0])[1] if b != GROUND}
@@ -431,6 +438,16 @@ class System:
         if lost >= _WRONG:
             return [ModelError(f"bodies.{light}.mass", f"{body} is too {pair}: {change}")], []
         return [], [f"{body} is {pair}, whose reactions may be wrong by up to {100.0 * lost:.1g} %: {change}"]
+
+
+def _lost(share: float) -> float:
+    """Return the relative error of reactions where rows scaled by mass have this least singular value squared."""
+    return float((HARD / (HARD + share)) ** ROUNDS)
+
+
+def _is_exact(share: float, of_places: float) -> bool:
+    """Return whether masses leave reactions exact; ``of_places`` is the same of rows scaled by size."""
+    return _lost(share) < _INEXACT or share > _BY_MASS * of_places
 
 
 def rank_of(values: FloatArray) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 from typing import Final
 
@@ -10,13 +9,14 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
+from tribodyn.mechanisms.general.multifrontal import MultifrontalQR
 
 LARGE: Final = 60
-"""Number of unknowns from which on elimination takes the place of singular values where it is accurate."""
+"""Number of rows or unknowns from which on factors take the place of singular values where they are accurate."""
 _REGULAR: Final = 1.0e8
 """Largest |A| |x| / |b| of a solution of A x = b that elimination finds accurately."""
-_ACCURATE: Final = 1.0e-5
-"""Least singular value over the largest of a matrix whose pseudo-inverse elimination finds accurately."""
+DEPENDENT: Final = 1.0e-6
+"""Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
 _KEPT: Final = 4
 """Decompositions that are kept: those of two matrices at this place and at the last one."""
 
@@ -48,57 +48,104 @@ def shortest(matrix: FloatArray, right: FloatArray) -> FloatArray:
     return dense.lstsq(matrix, right)
 
 
-def has_full_rank(matrix: FloatArray, least: float) -> bool:
-    """Return whether all singular values of a large matrix are known to exceed ``least`` times the largest.
+def factors(matrix: FloatArray) -> MultifrontalQR | None:
+    """Return the factors of a large matrix with rows of length one; None of a small one.
 
-    False, too, where only singular values themselves would show it.
+    None, too, where its rank is doubtful: singular values decide it then.
     """
-    return max(matrix.shape, default=0) >= LARGE and _of_gram(matrix)[1] > max(least, _ACCURATE)
-
-
-def pseudo_inverse(matrix: FloatArray) -> FloatArray | None:
-    """Return that of a large matrix (m, n) whose rank is full and not doubtful, (n, m); None of any other."""
-    if not has_full_rank(matrix, _ACCURATE):
+    if max(matrix.shape, default=0) < LARGE or 0 in matrix.shape:
         return None
-    inverse, _ = _of_gram(matrix)
-    wide = matrix.shape[0] <= matrix.shape[1]
-    return np.asarray(dense.product(matrix.T, inverse) if wide else dense.product(inverse, matrix.T))
-
-
-def complement(matrix: FloatArray) -> FloatArray:
-    """Return orthonormal rows (m − n, m) at right angles to the independent columns of a matrix (m, n).
-
-    By reflections: Householder (1958), J. ACM 5, 339.
-    """
-    left, (m, n) = np.array(matrix, np.float64), matrix.shape
-    normals = []
-    for k in range(n):
-        normal = left[k:, k].copy()
-        normal[0] += math.copysign(dense.norm(normal), normal[0])
-        normal /= dense.norm(normal)
-        left[k:, k:] -= 2.0 * np.multiply.outer(normal, dense.product(normal, left[k:, k:]))
-        normals.append(normal)
-    rows = np.eye(m)[n:]
-    for k in range(n - 1, -1, -1):
-        rows[:, k:] -= 2.0 * np.multiply.outer(dense.product(rows[:, k:], normals[k]), normals[k])
-    return rows
-
-
-def _of_gram(matrix: FloatArray) -> tuple[FloatArray, float]:
-    """Return the inverse of A Aᵀ, or of Aᵀ A where A is taller than wide, and what follows of A.
-
-    That is a lower bound of its least singular value over the largest: by the norms of Frobenius, which are
-    not below those of singular values.
-    """
-    return _of_gram_kept(np.ascontiguousarray(matrix).tobytes(), matrix.shape)
+    return _factors(np.ascontiguousarray(matrix).tobytes(), matrix.shape)
 
 
 @lru_cache(_KEPT)
-def _of_gram_kept(content: bytes, shape: tuple[int, int]) -> tuple[FloatArray, float]:
-    matrix = np.frombuffer(content).reshape(shape)
-    short = matrix if shape[0] <= shape[1] else np.ascontiguousarray(matrix.T)
-    with np.errstate(all="ignore"):
-        inverse = dense.inverse(dense.product(short, short.T))
-        bound = 1.0 / (math.sqrt(dense.norm(inverse)) * dense.norm(matrix))
-    inverse.flags.writeable = False
-    return inverse, bound
+def _factors(content: bytes, shape: tuple[int, int]) -> MultifrontalQR | None:
+    found = MultifrontalQR(np.frombuffer(content).reshape(shape))
+    return found if found.is_certain(DEPENDENT) else None
+
+
+def null_space(matrix: FloatArray, rank: int) -> FloatArray:
+    """Return orthonormal columns that a matrix (m, n) of known rank takes to zero, shape (n, n − rank)."""
+    found = factors(with_unit_rows(matrix))
+    if found is not None and found.rank == rank:
+        return found.null
+    return svd(matrix)[2][rank:].T
+
+
+def least_squares(matrix: FloatArray, right: FloatArray, rank: int) -> FloatArray:
+    """Return the shortest x (n,) with the least |matrix x − right|, for a matrix (m, n) of known rank."""
+    size = float(np.max(np.abs(matrix), initial=0.0)) or 1.0
+    found = factors(matrix / size)
+    if found is not None and found.rank == rank:
+        return found.solve(right / size)
+    u, values, v = svd(matrix)
+    return np.asarray(dense.product(v[:rank].T, dense.product(u[:, :rank].T, right) / values[:rank]))
+
+
+def with_unit_rows(matrix: FloatArray) -> FloatArray:
+    """Return a matrix with its rows divided by their lengths, those of length zero as they are."""
+    length = np.linalg.norm(matrix, axis=1, keepdims=True)
+    return np.asarray(matrix / np.where(length == 0.0, 1.0, length))
+
+
+def row_space(matrix: FloatArray, rank: int) -> RowSpace | SparseRowSpace:
+    """Return what rows of length one (m, n), of known rank, hold and leave free."""
+    found = factors(matrix)
+    return RowSpace(matrix, rank) if found is None or found.rank != rank else SparseRowSpace(found)
+
+
+class RowSpace:
+    """The motions that rows hold, by singular values.
+
+    Parameters
+    ----------
+    matrix
+        The rows, shape (m, n).
+    rank
+        How many are independent.
+
+    Attributes
+    ----------
+    free
+        Orthonormal columns of the motions that they leave, shape (n, n − rank).
+    """
+
+    def __init__(self, matrix: FloatArray, rank: int) -> None:
+        u, values, rows = svd(matrix)
+        self._u, self._values, self._held = u[:, :rank], values[:rank], rows[:rank].T
+        self.free = rows[rank:].T
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        """Return the shortest motion (n,) with the least |matrix x − right|."""
+        return np.asarray(dense.product(self._held, dense.product(self._u.T, right) / self._values))
+
+    def part_of(self, motion: FloatArray) -> FloatArray:
+        """Return the part of a motion (n,) that the rows hold."""
+        return np.asarray(dense.product(self._held, dense.product(self._held.T, motion)))
+
+    def left_by(self, rows: FloatArray, rank: int) -> FloatArray:
+        """Return orthonormal columns of the held motions that other rows, of known rank, leave free."""
+        return np.asarray(dense.product(self._held, dense.svd(dense.product(rows, self._held))[2][rank:].T))
+
+
+class SparseRowSpace:
+    """The same of many bodies, by factors; ``free`` and :meth:`left_by` are zero of bodies at rest."""
+
+    def __init__(self, factorised: MultifrontalQR) -> None:
+        self._factors, self.free = factorised, factorised.null
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        """See :meth:`RowSpace.solve`."""
+        return self._factors.solve(right)
+
+    def part_of(self, motion: FloatArray) -> FloatArray:
+        """See :meth:`RowSpace.part_of`."""
+        return np.asarray(motion - dense.product(self.free, dense.product(self.free.T, motion)))
+
+    def left_by(self, rows: FloatArray, rank: int) -> FloatArray:
+        """See :meth:`RowSpace.left_by`."""
+        given = np.vstack([rows, self.free.T])
+        found, rank_of_both = factors(given), rank + self.free.shape[1]
+        if found is not None and found.rank == rank_of_both:
+            return found.null
+        return RowSpace(self._factors.matrix, self._factors.rank).left_by(rows, rank)

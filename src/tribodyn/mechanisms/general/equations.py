@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.cases.directions import unit
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
@@ -40,6 +41,8 @@ from tribodyn.wear import resampled
 
 _MEASURES: Final = {"coordinate": kinds.COORDINATE, "distance": kinds.DISTANCE, "path": kinds.PATH}
 _COORDINATES: Final = ("angle", "position")
+_KEPT: Final = 8
+"""Structures of mechanisms whose patterns are kept."""
 
 
 def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismData:
@@ -309,21 +312,42 @@ def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList) -> 
 
 def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Pattern]:
     """Return the patterns of the equations of motion and of the iteration matrix; number the blocks."""
-    n_nodes = max(n_bodies, 1 + int(np.max(couplings.node, initial=NONE)))
+    numbers = [couplings[name] for name in ("node", "socket", "shaft")]
+    structure = np.ascontiguousarray(np.stack([*numbers, couplings.law != 0], axis=1), np.int64)
+    mass, newton, rows_block, bodies_block = _patterns_of(n_bodies, structure.tobytes())
+    couplings.rows_block[:], couplings.bodies_block[:] = rows_block, bodies_block
+    return _copy(mass), _copy(newton)
+
+
+def _copy(pattern: kinds.Pattern) -> kinds.Pattern:
+    return kinds.Pattern(*(array.copy() for array in pattern))
+
+
+@lru_cache(_KEPT)
+def _patterns_of(
+    n_bodies: int, structure: bytes
+) -> tuple[kinds.Pattern, kinds.Pattern, IntArray, IntArray]:
+    """Return both patterns and the numbers of the blocks of rows and of pairs of bodies, (n, 2, 2) and (n, 2).
+
+    ``structure`` holds node, socket and shaft of each coupling, and whether it has a law.
+    """
+    couplings: list[list[int]] = np.frombuffer(structure, np.int64).reshape(-1, 4).tolist()
+    n_nodes = max([n_bodies, *(1 + node for node, *_ in couplings)])
     block_of = {(k, k): k for k in range(n_nodes)}
     of_node: dict[int, list[int]] = {}
-    laws = set(couplings.node[couplings.law != 0].tolist())
+    rows_block, bodies_block = np.full((len(couplings), 2, 2), NONE), np.full((len(couplings), 2), NONE)
+    laws = {node for node, *_, law in couplings if law}
 
     def block(row: int, column: int) -> int:
         return block_of.setdefault((row, column), len(block_of))
 
-    for record in couplings:
-        bodies = [int(b) if b < n_bodies else NONE for b in (record.socket, record.shaft)]
-        if record.node != NONE:
-            of_node.setdefault(int(record.node), []).extend(bodies)
+    for k, (node, *ends, _) in enumerate(couplings):
+        bodies = [b if b < n_bodies else NONE for b in ends]
+        if node != NONE:
+            of_node.setdefault(node, []).extend(bodies)
             for side, body in enumerate(bodies):
                 if body != NONE:
-                    record.rows_block[side] = block(record.node, body), block(body, record.node)
+                    rows_block[k, side] = block(node, body), block(body, node)
     rows = [
         Rows(node, tuple(b for b in dict.fromkeys(bodies) if b != NONE), NONE in bodies)
         for node, bodies in of_node.items()
@@ -331,9 +355,8 @@ def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Patte
     ]
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
     mass = make_pattern(order, dict(block_of))
-    for record in couplings:
-        if record.socket < n_bodies and record.shaft < n_bodies:
-            pair = int(record.socket), int(record.shaft)
-            record.bodies_block[:] = block(*pair), block(*pair[::-1])
+    for k, (_, socket, shaft, _) in enumerate(couplings):
+        if socket < n_bodies and shaft < n_bodies:
+            bodies_block[k] = block(socket, shaft), block(shaft, socket)
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
-    return mass, make_pattern(order, dict(block_of))
+    return mass, make_pattern(order, dict(block_of)), rows_block, bodies_block

@@ -35,7 +35,7 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.decompositions import shortest, svd
+from tribodyn.mechanisms.general.decompositions import row_space, shortest
 from tribodyn.mechanisms.general.nodes import JointNodes, nodes_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.general.speeds import Speeds, start
@@ -130,20 +130,17 @@ class JointLoads:
         self.begin_to_move()
         collect(self.ideal.now.bodies, self.state)
         g, self.root, length = self.ideal.scaled()
-        u, values, rows = svd(g)
-        rank = self.ideal.rank()
-        self.held, free = rows[:rank].T, rows[rank:].T
-        asked = dense.product(u[:, :rank].T, self.ideal.entries("gamma") / length)
-        self.wanted = dense.product(self.held, asked / values[:rank])
+        self.held = row_space(g, self.ideal.rank())
+        self.wanted = self.held.solve(self.ideal.entries("gamma") / length)
         # Where real joints hold something, so do the ideal ones.
-        _, allowed = _spaces(dense.product(self.real.scaled()[0], self.held), self.real.rank())
+        allowed = self.held.left_by(self.real.scaled()[0], self.real.rank())
         self.velocity = self.slipping = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
-        carried, self.adrift = self._divided(free)
-        motions = np.hstack([dense.product(self.held, allowed), carried])
-        self.motions, self.asked = (
-            dense.product(self.root, motions),
-            dense.product(motions.T, dense.product(self.held, dense.product(self.held.T, self.wanted))),
-        )
+        carried, self.adrift = self._divided(self.held.free)
+        motions = np.hstack([allowed, carried])
+        self.motions = dense.product(self.root, motions)
+        self.asked = dense.product(motions.T, self.held.part_of(self.wanted))
+        moves = np.any(self.motions.reshape(self.n, 6, -1) != 0.0, axis=1)
+        self.moves = np.vstack([moves, np.zeros_like(moves[:1])])
         if np.any(self._slips() > _MOVING):
             self.ahead = self.velocity
         else:
@@ -189,7 +186,7 @@ class JointLoads:
     def _ahead(self) -> FloatArray:
         """Return velocities along the accelerations that motion begins with, shape (n, 6), or none."""
         free = dense.product(self.root, self._evaluated())
-        begins = self.wanted + free - dense.product(self.held, dense.product(self.held.T, free))
+        begins = self.wanted + free - self.held.part_of(free)
         if dense.norm(begins) <= _ROUNDING * dense.norm(free):
             return self.velocity
         self.slipping = dense.product(self.root, begins).reshape(-1, 6)
@@ -250,8 +247,9 @@ class JointLoads:
         m = self.motions.shape[1]
         even = np.zeros((m, m))
         for contact in self.contacts:
-            way = dense.product(contact.root, self._way(contact.coupling, self.motions))
-            even += dense.product(way.T, way)
+            moving = np.flatnonzero(self.moves[list(self.ends[contact.coupling])].any(axis=0))
+            way = dense.product(contact.root, self._way(contact.coupling, self.motions[:, moving]))
+            even[np.ix_(moving, moving)] += dense.product(way.T, way)
         acting = np.flatnonzero(self.data.parts.couplings.force != NOTHING)
         return self._held_by(self.motions, acting), even
 
@@ -260,7 +258,10 @@ class JointLoads:
         total = np.zeros((motions.shape[1], motions.shape[1]))
         for k in couplings.tolist():
             way = self._way(k, motions)
-            total -= dense.product(dense.product(way.T, self.couplings["slope"][k, :, :6]), way)
+            moving = np.flatnonzero(way.any(axis=0))
+            way = way[:, moving]
+            slope = dense.product(dense.product(way.T, self.couplings["slope"][k, :, :6]), way)
+            total[np.ix_(moving, moving)] -= slope
         for first in self.laws[self.data.parts.couplings.first_leg[self.laws] == NONE].tolist():
             row = self._row(first, motions)
             total -= self.couplings[first].law.in_position * np.outer(row, row)
@@ -324,12 +325,6 @@ class JointLoads:
         gaps = contact.gaps(self._place(contact))
         touches = bool(np.any(gaps < _TOUCHING * contact.roughness))
         return not np.max(np.abs(gaps)) <= (_TILTED if touches else _LOST) * np.max(contact.drawn)
-
-
-def _spaces(matrix: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:
-    """Return orthonormal columns that span the rows of a matrix, and what is at right angles to them."""
-    _, _, rows = dense.svd(matrix)
-    return rows[:rank].T, rows[rank:].T
 
 
 def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:

@@ -24,6 +24,7 @@ from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.cycle import closes, placed
+from tribodyn.mechanisms.general.decompositions import null_space
 from tribodyn.mechanisms.general.positions import held
 from tribodyn.mechanisms.general.problem import length_scale, mechanism_problem
 
@@ -96,7 +97,7 @@ class Linearised:
         place(y, system.now.bodies)
         system.at(t)
         g, root, _ = system.scaled()
-        allowed = dense.svd(g)[2][self._rank :].T if system.rows else np.eye(6 * system.n)
+        allowed = null_space(g, self._rank) if system.rows else np.eye(6 * system.n)
         self._functions.enter(t, y, self._data, memory)
         memory.contact.entry_velocity[:] = _ELASTIC
         memory.now.couplings["law"]["entry_rate"] = _ELASTIC

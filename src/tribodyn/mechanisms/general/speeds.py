@@ -15,7 +15,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.mechanisms.general.closing import DEPENDENT, System
+from tribodyn.mechanisms.general.closing import System
+from tribodyn.mechanisms.general.decompositions import DEPENDENT, least_squares, null_space
 from tribodyn.mechanisms.general.misfit import Misfit
 from tribodyn.mechanisms.general.model import Model, ModelError
 
@@ -74,12 +75,8 @@ def start(
     exact, root = _rows(system, speeds), system.metric
     scaled = dense.product(exact.matrix, root)
     length = np.maximum(np.linalg.norm(scaled, axis=1, keepdims=True), _TINY)
-    velocity = dense.product(
-        root,
-        dense.product(
-            system.inverse(scaled / length, exact.matrix if speeds else None), exact.target / length[:, 0]
-        ),
-    )
+    found = system.solve(scaled / length, exact.target / length[:, 0], exact.matrix if speeds else None)
+    velocity = dense.product(root, found)
     missed = exact.missed_by(velocity)
     if ideal is not None:
         held = _rows(ideal.system, ())
@@ -114,14 +111,11 @@ def _guided(exact: _Rows, held: _Rows, velocity: FloatArray, root: FloatArray, i
     system = ideal.system
     n_exact = system.rank(exact.matrix)
     n_held = system.rank(np.vstack([exact.matrix, held.matrix])) - n_exact
-    _, _, directions = dense.svd(dense.product(exact.matrix, root))
-    free = dense.product(root, directions[n_exact:].T)
+    free = dense.product(root, null_space(dense.product(exact.matrix, root), n_exact))
     weights = ideal.weights / system.row_units
-    u, values, v = dense.svd(weights[:, None] * dense.product(held.matrix, free))
     missing = weights * (held.target - dense.product(held.matrix, velocity))
-    shares = dense.product(u[:, :n_held].T, missing) / values[:n_held]
-    change: FloatArray = dense.product(free, dense.product(v[:n_held].T, shares))
-    return change
+    shares = least_squares(weights[:, None] * dense.product(held.matrix, free), missing, n_held)
+    return np.asarray(dense.product(free, shares))
 
 
 def _contrary(system: System, speeds: Speeds) -> ModelError:
