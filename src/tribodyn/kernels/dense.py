@@ -86,14 +86,12 @@ def lstsq(matrix: FloatArray, right: FloatArray, rcond: float | None = None) -> 
     return np.asarray(product(shares, vectors[: values.size][kept]))
 
 
-def triangle(
-    matrix: FloatArray, n_pivots: int, least: float
-) -> tuple[FloatArray, IntArray, FloatArray]:
+def triangle(matrix: FloatArray, n_pivots: int, least: float) -> tuple[FloatArray, IntArray, FloatArray]:
     """Return a matrix (m, n) whose first columns are made a triangle, their order, and the reflections.
 
-    By Householder's reflections with pivoting among the first ``n_pivots`` columns (Businger and Golub (1965),
-    Numer. Math. 7, 269), until what is left of each is not longer than ``least``. The order has shape
-    (n_pivots,), the normals of the reflections (rank, m).
+    By Householder's reflections with pivoting among the first ``n_pivots`` columns (Businger and Golub
+    (1965), Numer. Math. 7, 269), until what is left of each is not longer than ``least``. The order has
+    shape (n_pivots,), the normals of the reflections (rank, m).
     """
     out, order = np.array(matrix, np.float64), np.arange(n_pivots)
     normals = np.zeros((min(n_pivots, len(out)), len(out)))

@@ -411,10 +411,13 @@ class System:
             return [], []
         rows_by_mass, rows_by_size = self.scaled()[0], self.over_sizes(self.matrix())
         by_mass, by_size = factors(rows_by_mass), factors(rows_by_size)
-        if by_mass is not None and by_size is not None and by_mass.rank == by_size.rank == rank:
-            # Bounds decide where they can. Of rows of length one the largest singular value is at least 1.
-            if _is_exact(by_mass.bounds[0] ** 2, by_size.softest() ** 2):
-                return [], []
+        # Bounds decide where they can. Of rows of length one the largest singular value is at least 1.
+        if (
+            (by_mass is not None and by_size is not None)
+            and by_mass.rank == by_size.rank == rank
+            and _is_exact(by_mass.bounds[0] ** 2, by_size.softest() ** 2)
+        ):
+            return [], []
         places = svd(rows_by_size)[1]
         # Of the transposed matrix also the rows that belong to the value zero are known.
         _, values, left = svd(rows_by_mass.T)
@@ -441,12 +444,12 @@ class System:
 
 
 def _lost(share: float) -> float:
-    """Return the relative error of reactions where rows scaled by mass have this least singular value squared."""
+    """Return the relative error of reactions; ``share`` is the least singular value, by mass, squared."""
     return float((HARD / (HARD + share)) ** ROUNDS)
 
 
 def _is_exact(share: float, of_places: float) -> bool:
-    """Return whether masses leave reactions exact; ``of_places`` is the same of rows scaled by size."""
+    """Return whether masses leave reactions exact; ``of_places`` is that of rows scaled by size."""
     return _lost(share) < _INEXACT or share > _BY_MASS * of_places
 
 

@@ -12,7 +12,7 @@ from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.multifrontal import MultifrontalQR
 
 LARGE: Final = 60
-"""Number of rows or unknowns from which on factors take the place of singular values where they are accurate."""
+"""Number of rows or unknowns from which on factors replace singular values where they are accurate."""
 _REGULAR: Final = 1.0e8
 """Largest |A| |x| / |b| of a solution of A x = b that elimination finds accurately."""
 DEPENDENT: Final = 1.0e-6

@@ -324,10 +324,8 @@ def _copy(pattern: kinds.Pattern) -> kinds.Pattern:
 
 
 @lru_cache(_KEPT)
-def _patterns_of(
-    n_bodies: int, structure: bytes
-) -> tuple[kinds.Pattern, kinds.Pattern, IntArray, IntArray]:
-    """Return both patterns and the numbers of the blocks of rows and of pairs of bodies, (n, 2, 2) and (n, 2).
+def _patterns_of(n_bodies: int, structure: bytes) -> tuple[kinds.Pattern, kinds.Pattern, IntArray, IntArray]:
+    """Return both patterns, and the blocks of rows, (n, 2, 2), and of pairs of bodies, (n, 2).
 
     ``structure`` holds node, socket and shaft of each coupling, and whether it has a law.
     """

@@ -18,8 +18,8 @@ from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.decompositions import DEPENDENT
 from tribodyn.mechanisms.general.cycle import closes, lead, placed
+from tribodyn.mechanisms.general.decompositions import DEPENDENT
 from tribodyn.mechanisms.general.outputs import Motion, Output, rotations
 from tribodyn.mechanisms.general.positions import DrivePath
 

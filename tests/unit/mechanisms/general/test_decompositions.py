@@ -125,4 +125,6 @@ def test_motions_that_some_rows_hold_and_others_leave(held: int) -> None:
     np.testing.assert_allclose(others @ found, 0.0, atol=1e-11)
     np.testing.assert_allclose(space.free.T @ found, 0.0, atol=1e-11)
     motion = np.random.default_rng(4).normal(size=given.shape[1])
-    np.testing.assert_allclose(space.part_of(motion) + space.free @ (space.free.T @ motion), motion, atol=1e-11)
+    np.testing.assert_allclose(
+        space.part_of(motion) + space.free @ (space.free.T @ motion), motion, atol=1e-11
+    )
