@@ -100,6 +100,12 @@ class Key:
     profile: bool = False
     bounds: tuple[tuple[str, float], ...] = ()
 
+    def at(self, path: str) -> Key:
+        """Return the same key at another dotted path; large cases have some ten thousand keys."""
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__, path=path)
+        return made
+
     @property
     def table(self) -> str:
         """Dotted path of the table that the key stands in; empty at the top."""

@@ -60,7 +60,7 @@ def expanded(declared: Mapping[str, Key], paths: Iterable[str]) -> dict[str, Key
         below = [path for path in paths if path.startswith(before)]
         for name in dict.fromkeys(path[len(before) :].partition(".")[0] for path in below):
             if _NAME.fullmatch(name):
-                named = (replace(key, path=_with_name(key.path, name)) for key in keys.values())
+                named = (key.at(_with_name(key.path, name)) for key in keys.values())
                 found |= expanded({key.path: key for key in named}, below)
     return found
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -27,9 +28,15 @@ _FLAT: Final = 0.2
 
 def case_of(dataset: xr.Dataset) -> MechanismCase | None:
     """Return the case of a result; nothing where its text is not (or no longer) one of a mechanism."""
+    return _case_of(str(dataset.attrs.get("case", "")))
+
+
+@lru_cache(maxsize=1)
+def _case_of(text: str) -> MechanismCase | None:
+    """Return the case of a text, which several figures and sections of one result ask for."""
     kinds = {MechanismCase.kind(): MechanismCase}
     try:
-        case = parse(str(dataset.attrs.get("case", "")), "case of the result", kinds)
+        case = parse(text, "case of the result", kinds)
     except InputError:
         return None
     return case if isinstance(case, MechanismCase) else None
