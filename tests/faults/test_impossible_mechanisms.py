@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import time
 from collections.abc import Sequence
 from typing import Any
@@ -16,6 +17,9 @@ from tests.faults.test_random_mechanisms import BEYOND
 from tests.faults.test_random_physics import chunks
 
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.general import decompositions
+from tribodyn.mechanisms.general.assembly import assemble
+from tribodyn.mechanisms.general.model import model_of
 from tribodyn.mechanisms.general.surfaces import clearances_of
 from tribodyn.simulation import simulate
 
@@ -112,3 +116,21 @@ def complaints(seed: int) -> dict[str, str]:
 def test_what_cannot_be_is_refused_and_what_is_right_is_not(seeds: Sequence[int]) -> None:
     found = {seed: complaints(seed) for seed in seeds}
     assert not {seed: text for seed, text in found.items() if text}
+
+
+def put_together(drawing: Drawing, large: int) -> tuple[object, ...]:
+    """Return what assembly finds where mechanisms with ``large`` rows or unknowns are factorised."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(decompositions, "LARGE", large)
+        try:
+            found = assemble(model_of(drawing.case()))
+        except InputError as error:
+            return (str(error),)
+    refused = [error.text for error in (*found.findings, *found.findings_if_ideal)]
+    return found.freedoms, found.ideal_rank, found.redundancy, found.inexact, *refused
+
+
+@pytest.mark.parametrize("seeds", [pytest.param(range(24), id="few"), *chunks(2000)])
+def test_factors_find_what_singular_values_do(seeds: Sequence[int]) -> None:
+    for drawing in (drawing for seed in seeds for drawing in twins(seed, DURATION)[1:]):
+        assert put_together(drawing, 1) == put_together(drawing, sys.maxsize), drawing
