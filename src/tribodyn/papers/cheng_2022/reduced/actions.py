@@ -131,20 +131,13 @@ class VaneLoad(ShaftLoad):
 class _Shaken(NamedGroup):
     """Forces and a moment by their size."""
 
-<<<<<<< HEAD
     SIZE: ClassVar[str]
     """Which key of a signal the sizes are."""
 
-    force_x: float | None = quantity(None, "along X", "", example="0.5 N")
-    force_y: float | None = quantity(None, "along Y", "", example="0.5 N")
-    force_z: float | None = quantity(None, "along Z", "", example="0.5 N")
-    moment: float | None = quantity(None, "about Z", "", example="0.02 N m")
-=======
     force_x: float | None = quantity(None, "force along X", "", example="0.5 N")
     force_y: float | None = quantity(None, "force along Y", "", example="0.5 N")
     force_z: float | None = quantity(None, "force along Z", "", example="0.5 N")
     moment: float | None = quantity(None, "moment about Z", "", example="0.02 N m")
->>>>>>> d328c9f0 (Manual: short sentences, held by a test; first run, report and mechanisms pages follow the program; messages for words of other programs; descriptions of keys are complete)
 
     def model_post_init(self, context: object, /) -> None:
         """Check that there is a load."""
