@@ -17,8 +17,8 @@ from tribodyn.kernels.vsv.observe import observe
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.actions import Term
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.papers.cheng_2022.reduced.course import course, ideal_motion
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_segments
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 SAME = 1e-12
@@ -111,7 +111,7 @@ def test_no_step_crosses_a_kink() -> None:
     kinked = 'moment = {angles = "0, 75, 75, 90, 90, 200 deg", values = "0, 0, 0, 1, 1, 1 N m"}'
     case = parse_case(f"{OFF}\n[loads.more.a]\n{kinked}\n", "test")
     vsv = vsv_of(case)  # type: ignore[arg-type]
-    found = course(vsv, 2.0 * math.pi)
+    found = run_segments(vsv, 2.0 * math.pi)
     angles = np.degrees(ideal_motion(vsv.lengths, vsv.drive, 2.0 * math.pi).vane_angle(found.breaks))
     np.testing.assert_allclose(angles, [75.0, 90.0, 120.277, 90.0, 75.0], atol=1e-3)
     np.testing.assert_allclose(np.diff(found.breaks[[0, 2, 4]]), [math.pi - found.breaks[0]] * 2)

@@ -31,7 +31,7 @@ class Doors:
         Table that a drive fills, such as ``drive.angle``, and its unit; None where there is not just one.
     loads
         Tables that loads fill, by the names of loads, and their units.
-    silenced
+    overridden
         Keys that a load of that name takes the place of, with their value then.
     arguments
         Names that arguments may have, with the key of what they stand for and its range in a case [s, rad].
@@ -43,7 +43,7 @@ class Doors:
 
     drive: tuple[str, str] | None
     loads: Mapping[str, tuple[str, str]]
-    silenced: Mapping[str, tuple[str, str]]
+    overridden: Mapping[str, tuple[str, str]]
     arguments: Mapping[str, tuple[str, tuple[float, float]]]
     beside: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     around: tuple[str, ...] = ()
@@ -97,7 +97,7 @@ def with_functions(case: _Any, drive: OwnFunction | None, loads: Mapping[str, Ow
         key = f"loads.{name}"
         arguments = _arguments(function, doors, key)
         values |= _table(doors.loads[name], function, arguments, doors, key)
-        values |= dict([doors.silenced[name]]) if name in doors.silenced else {}
+        values |= dict([doors.overridden[name]]) if name in doors.overridden else {}
         table = doors.loads[name][0].rpartition(".")[0]
         values |= {f"{table}.{key}": text for a in arguments for key, text in doors.beside.get(a, {}).items()}
     return with_entries(case, values, "function")

@@ -229,7 +229,7 @@ class LineLoadTable(_TableRows):
     values: Numbers | None = _values("100, 200, 150 N/m")
 
 
-class _Course(_Timed):
+class _Signal(_Timed):
     """What all signals have beside their value."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
@@ -313,7 +313,7 @@ _MAPPED: Final = (
 """Over what a map may stand: time and another quantity, or a coordinate and its rate."""
 
 
-class _Mapped(_Course):
+class _Mapped(_Signal):
     """A signal of a load: also a pulse, or a map over two quantities."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
@@ -401,27 +401,27 @@ class _Mapped(_Course):
         return turning(spline(self.axes[over], values, closed=turns > 0), turns)
 
 
-class AngleSignal(_Course, _Angle):
+class AngleSignal(_Signal, _Angle):
     """An angle: constant, sinusoidal, or from a table."""
 
 
-class SpeedSignal(_Course, _Speed):
+class SpeedSignal(_Signal, _Speed):
     """An angular speed: constant, sinusoidal, or from a table."""
 
 
-class PositionSignal(_Course, _Position):
+class PositionSignal(_Signal, _Position):
     """A position: constant, sinusoidal, or from a table."""
 
 
-class VelocitySignal(_Course, _Velocity):
+class VelocitySignal(_Signal, _Velocity):
     """A velocity: constant, sinusoidal, or from a table."""
 
 
-class TorqueSignal(_Course, _Torque):
+class TorqueSignal(_Signal, _Torque):
     """A torque: constant, sinusoidal, or from a table."""
 
 
-class ForceSignal(_Course, _Force):
+class ForceSignal(_Signal, _Force):
     """A force: constant, sinusoidal, or from a table."""
 
 

@@ -1,7 +1,5 @@
 """A figure on disk: PNG to look at, PDF for a paper."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg

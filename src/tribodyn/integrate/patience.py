@@ -1,7 +1,5 @@
 """When a run has stopped making progress, although it goes on stepping."""
 
-from __future__ import annotations
-
 import time
 from typing import Final
 

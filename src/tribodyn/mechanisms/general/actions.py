@@ -1,7 +1,5 @@
 """Drives and loads of a mechanism: their keys and their cross-checks."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final, TypeAlias
@@ -167,7 +165,7 @@ def doors_of(drives: Mapping[str, DriveKeys], loads: Mapping[str, LoadKeys], dur
     return Doors(
         drive=of_drives[0] if len(of_drives) == 1 else None,
         loads={name: paths[f"{name}.{key}"] for name, key in single.items()} | paths,
-        silenced={},
+        overridden={},
         arguments={"t": ("times", (0.0, duration)), "angle": ("angles", (0.0, 2.0 * math.pi))},
         around=("angle",),
     )

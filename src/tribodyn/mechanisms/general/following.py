@@ -1,7 +1,5 @@
 """Rows of a mechanism that follow the steps of the integration."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Key results of a mechanism as a whole."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Key results of the modes of a vibration analysis."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

@@ -1,7 +1,5 @@
 """How much a run of a user-defined mechanism computes and keeps."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Final

@@ -185,12 +185,12 @@ class JournalCase(BushingCase):
 
     def doors(self) -> Doors:
         """Return where functions for speed and loads go."""
-        silenced = {name: f"0 {unit}" for name, unit in _COMPONENTS.items()}
+        overridden = {name: f"0 {unit}" for name, unit in _COMPONENTS.items()}
         turned = self._turned()
         return Doors(
             drive=("drive.speed", "rad/s"),
             loads={name: (f"loads.more.function-{name}.{name}", unit) for name, unit in _COMPONENTS.items()},
-            silenced={name: (f"loads.{name}", zero) for name, zero in silenced.items()},
+            overridden={name: (f"loads.{name}", zero) for name, zero in overridden.items()},
             arguments={"t": ("times", (0.0, self.duration)), "angle": ("angles", turned)},
         )
 

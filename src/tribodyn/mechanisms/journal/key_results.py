@@ -1,7 +1,5 @@
 """Key results of the journal."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

@@ -1,7 +1,5 @@
 """What results of a journal hold over time, and whose peaks are kept."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity
@@ -22,13 +20,6 @@ LOADS: Final = (
 )
 ROTATION: Final = (Quantity("omega", "rad s-1", "speed of rotation about Z"),)
 ENERGIES: Final = (Quantity("energy_kinetic", "J", "kinetic energy of the motion in the clearance"),)
-WORKS: Final = (
-    Quantity("work_loads", "J", "work of the loads"),
-    Quantity("work_friction", "J", "work of the bushing friction"),
-    Quantity("heat_damping", "J", "damping heat of the contact"),
-    Quantity("work_drive", "J", "work of the drive that keeps the speed"),
-    Quantity("work_film", "J", "work of the oil film"),
-)
 WATCHED: Final = (*OF_JOINT, Quantity("film_force", "N", "film force"))
 """Sizes whose peaks are kept."""
 COUNTS: Final = (Quantity("rebounds", "1", "how often the journal left contact again", ()),)

@@ -1,7 +1,5 @@
 """How much a run of the journal computes and keeps."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Final

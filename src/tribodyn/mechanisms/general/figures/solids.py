@@ -1,7 +1,5 @@
 """The mechanism as solids: each body as round rods between its joints."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the report shows of a mechanism: its chapters, and what a comparison lays over each other."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np
@@ -13,8 +11,6 @@ from tribodyn.mechanisms.general.sections.joints import FILM_PRESSURE, ORBITS, P
 from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY
-
-_OVER_TIME: Final = (*(chart.section for chart in CHARTS), REACTIONS, ENERGY.section)
 
 CHAPTERS: Final = (
     Chapter(

@@ -270,14 +270,14 @@ class VsvCase(BushingCase):
 
     def doors(self) -> Doors:
         """Return where functions for drive and loads go."""
-        from tribodyn.papers.cheng_2022.reduced.course import ideal_range
+        from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_range
 
         crank = self.crank.crank_range(self.duration)
         span = self.period if self.run.cycles is not None else self.duration
         return Doors(
             drive=("drive.angle", "rad"),
             loads={name: (f"loads.more.function-{name}.{name}", unit) for name, unit in COMPONENTS.items()},
-            silenced={
+            overridden={
                 "force_x": ("loads.air_force_x", "0 N"),
                 "force_y": ("loads.air_force_y", "0 N"),
                 "moment": ("loads.air_moment", "0 N m"),

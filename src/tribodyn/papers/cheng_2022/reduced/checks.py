@@ -1,7 +1,5 @@
 """What a run of the vane mechanism says about its own trustworthiness, in plain words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final
@@ -20,8 +18,8 @@ from tribodyn.mechanisms.checks import (
     of_reversals,
     of_steps,
 )
-from tribodyn.papers.cheng_2022.reduced.course import course
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
+from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
 GAINS_ENERGY: Final = (
     "the equations of formulation 'paper' can gain energy in an impact, with damping and at small loads too; "
@@ -111,7 +109,7 @@ def lift_off_share(found: Mapping[str, float], t_end: float) -> float:
 def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> str:
     """Say which reversals of a drive cycle the run does not hold with what follows them."""
     period = vsv.drive.period
-    cycle = course(vsv, period)
+    cycle = run_segments(vsv, period)
     ends = cycle.segments.direction[[0, -1]]
     every = cycle.turns if ends[0] == ends[1] else np.concatenate([[0.0], cycle.turns])
     return of_reversals(every, turns, period=period, t_end=t_end, carried=carried)

@@ -29,10 +29,10 @@ from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
 from tribodyn.mechanisms.actions import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.signals import SignalList, pieces_of
 from tribodyn.mechanisms.wear_state import Carried
-from tribodyn.papers.cheng_2022.reduced.course import course
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_table
+from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
 STARTS: Final = ("equilibrium", "centred")
 
@@ -105,7 +105,7 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         signals.add(pieces_of(drive.signal))
     if vsv.opening is not None:
         mechanism.opening = signals.add(pieces_of(vsv.opening))
-    actions = actions_of(signals, vsv.terms, course(vsv, duration).segments)
+    actions = actions_of(signals, vsv.terms, run_segments(vsv, duration).segments)
     return VsvData(mechanism, vsv.joint.data(wear), collar, actions)
 
 
@@ -212,7 +212,7 @@ def vsv_problem(
         Where to go on from, at the beginning of a drive cycle, instead of ``start``.
     """
     data = vsv_data(vsv, wear, duration)
-    events = course(vsv, duration)
+    events = run_segments(vsv, duration)
     memory = vsv_memory(data, reversals=events.turns.size, impact_time=vsv.drive.impact_time)
     if carried is None:
         y0 = initial_state(data, memory, start)

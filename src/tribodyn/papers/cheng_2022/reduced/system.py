@@ -1,7 +1,5 @@
 """A case of the variable stator vane mechanism as a system to integrate, and what its runs tell."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -39,13 +37,13 @@ from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warnings
-from tribodyn.papers.cheng_2022.reduced.course import course
 from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE, balance_columns
 from tribodyn.papers.cheng_2022.reduced.loads import terms_of
 from tribodyn.papers.cheng_2022.reduced.outputs import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.papers.cheng_2022.reduced.times import following, output_times, snapshots
 from tribodyn.results.attributes import CARRIED
 from tribodyn.wear import loaded_depth
@@ -161,7 +159,7 @@ class VsvSystem:
 
     def picture_times(self, duration: float) -> FloatArray:
         """Return the times of snapshots and of the frames of the playback [s]."""
-        turns = course(self.vsv, duration).turns
+        turns = run_segments(self.vsv, duration).turns
         frames = frame_times(duration, self.period, turns, self.case.run.impact_window)
         return merged(snapshots(self.vsv, duration), frames, duration)
 
@@ -306,7 +304,7 @@ class VsvSystem:
     def _turns(self, run: FinishedRun) -> FloatArray:
         """Return the times of the start and of the reversals that were reached [s]."""
         reached = int(run.problem.memory.peaks.course.stretch) + 1
-        return np.concatenate([[0.0], course(self.vsv, run.duration).turns])[:reached]
+        return np.concatenate([[0.0], run_segments(self.vsv, run.duration).turns])[:reached]
 
     def _is_snapshot(self, run: FinishedRun) -> NDArray[np.bool_]:
         """Tell of each picture whether it is a snapshot, shape (n_pictures,)."""

@@ -1,7 +1,5 @@
 """When a run keeps rows and pictures."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import Final
@@ -15,9 +13,9 @@ from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.actions import crossings
 from tribodyn.mechanisms.playback import distinct
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
-from tribodyn.papers.cheng_2022.reduced.course import course, ideal_motion
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Lengths, TableDrive, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_segments
 
 _WATCHED: Final = tuple(
     (OBSERVED.index(name),) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
@@ -34,7 +32,7 @@ def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:
     ``duration`` is the time simulated in one go [s].
     """
     uniform = np.append(np.arange(0.0, duration, case.run.output_interval), duration)
-    return distinct(np.concatenate([uniform, course(vsv, duration).breaks]), duration)
+    return distinct(np.concatenate([uniform, run_segments(vsv, duration).breaks]), duration)
 
 
 def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> Following | None:
@@ -46,7 +44,7 @@ def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> F
     run = case.run
     if run.impact_window == 0.0:
         return None
-    begin = np.concatenate([[0.0], course(vsv, duration).turns])
+    begin = np.concatenate([[0.0], run_segments(vsv, duration).turns])
     end = np.minimum(begin + run.impact_window, np.append(begin[1:], duration))
     return Following(np.column_stack([begin, end]), run.impact_rows, _WATCHED, _STRIDE, wanted)
 

@@ -13,7 +13,7 @@ import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
-from tribodyn.papers.cheng_2022.reduced.course import course
+from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 TIMES = np.linspace(0.0, 2.0 * math.pi, 65)
@@ -57,7 +57,7 @@ def test_a_sampled_sinusoid_is_that_sinusoid(sampled: VsvCase) -> None:
     np.testing.assert_allclose(crank.angle(times), paper.angle(times), rtol=0.0, atol=bound)
     assert again.period == pytest.approx(2.0 * math.pi)
     np.testing.assert_allclose(
-        course(vsv_of(again), again.duration).turns, math.pi * np.arange(1, 4), atol=1e-4
+        run_segments(vsv_of(again), again.duration).turns, math.pi * np.arange(1, 4), atol=1e-4
     )
 
 
@@ -92,7 +92,7 @@ def test_ramps_and_holds_turn_where_they_stop_and_start(tmp_path: Path) -> None:
     )
     case = td.load_case(tmp_path / "case.toml")
     assert isinstance(case, VsvCase)
-    found = course(vsv_of(case), case.duration)
+    found = run_segments(vsv_of(case), case.duration)
     np.testing.assert_allclose(found.turns, [0.48, 1.52, 2.48, 3.52], atol=1e-12)
     assert list(dict.fromkeys(found.segments.direction.tolist())) == [0.0, 1.0, -1.0]
     assert case.crank.angle(np.array([2.0])) == pytest.approx(math.radians(4.0), abs=1e-15)
@@ -106,7 +106,7 @@ def test_a_noisy_stroke_is_smoothed(tmp_path: Path) -> None:
     given = {"drive.angle.times": series(TIMES, "s"), "drive.angle.values": series(SINUSOID + noise, "rad")}
     rough = case_with(given, tmp_path)
     smooth = case_with({**given, "drive.angle.interpolation": "smooth"}, tmp_path)
-    turns = [course(vsv_of(case), case.duration).turns.size for case in (rough, smooth)]
+    turns = [run_segments(vsv_of(case), case.duration).turns.size for case in (rough, smooth)]
     assert turns[0] > turns[1] >= 1
     error = [np.abs(case.crank.angle(TIMES) - SINUSOID).max() for case in (rough, smooth)]
     assert error[1] < error[0]

@@ -1,7 +1,5 @@
 """When the vane turns and where tables kink: the instants at which an integration restarts."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -22,7 +20,7 @@ CLEARANCE_ROOM: Final = 0.01
 
 
 @dataclass(frozen=True)
-class Course:
+class RunSegments:
     """What happens in a run.
 
     Attributes
@@ -80,17 +78,17 @@ def ideal_range(lengths: Lengths, drive: AnyDrive, duration: float) -> tuple[flo
     return float(angles.min()) - CLEARANCE_ROOM, float(angles.max()) + CLEARANCE_ROOM
 
 
-def course(vsv: Vsv, duration: float) -> Course:
+def run_segments(vsv: Vsv, duration: float) -> RunSegments:
     """Return what happens in a run of ``duration`` [s]; of one without end, in its first drive cycle."""
     duration = duration if math.isfinite(duration) else vsv.drive.period
-    return _course(vsv.lengths, vsv.drive, vsv.terms, vsv.opening, duration)
+    return _run_segments(vsv.lengths, vsv.drive, vsv.terms, vsv.opening, duration)
 
 
 # Asked eight times by a run.
 @lru_cache(maxsize=4)
-def _course(
+def _run_segments(
     lengths: Lengths, drive: AnyDrive, terms: tuple[Term, ...], opening: Signal | None, duration: float
-) -> Course:
+) -> RunSegments:
     centres = np.array(dead_centres(lengths, *drive.crank_range(duration)))
     reversals = inside(np.concatenate([drive.turns(duration), drive.passes(centres, duration)]), duration)
     motion = ideal_motion(lengths, drive, duration)
@@ -109,4 +107,4 @@ def _course(
         of_time = np.union1d(of_time, drive.signal.kinks)
     others = [(motion.vane_angle(middles), of_vane), (drive.angle(middles), of_crank)]
     segments = segments_of(breaks, directions, of_time, others)
-    return Course(breaks[np.diff(directions) != 0.0], breaks, segments)
+    return RunSegments(breaks[np.diff(directions) != 0.0], breaks, segments)
