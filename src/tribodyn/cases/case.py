@@ -300,6 +300,8 @@ def build(
     scope = scope_of(entries, faults)
     keys = scope.keys(keys)
     values, linked = read_all(entries, keys, scope, faults)
+    if scope.refused:
+        faults.raise_any()
     empty = {path: entry for path, entry in given.items() if is_empty_table(path, entry, keys)}
     there = [path for path in given if path not in declared and (path in keys or path in empty)]
     named = [path.rpartition(".")[0] if path in keys else path for path in there]

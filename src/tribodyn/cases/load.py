@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from pathlib import Path
@@ -174,7 +174,7 @@ def _changed(model: type[Case], entries: dict[str, Entry], changes: Mapping[str,
 def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[type[Case], dict[str, Entry]]:
     """Return the kind of case that the key ``case`` names, and what a built-in case or a file gives."""
     if "case" not in entries:
-        first = next(iter(known.kinds))
+        first = _likeliest(entries, known.kinds)
         words = f'this key is missing; write case = "{first}" at the top; known: {", ".join(known.names)}'
         raise InputError(words, key="case", source=source)
     name = entries["case"].value
@@ -187,6 +187,12 @@ def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[typ
     files = ", or another case file" if known.files else ""
     allowed = f"{', '.join(known.names)}{files}{meant(str(name), known.names)}"
     raise InputError(f"given {shown(name)}; allowed: {allowed}", key="case", source=source)
+
+
+def _likeliest(paths: Iterable[str], kinds: Kinds) -> str:
+    """Return the kind of case that has most of the tables and keys at the top of a file."""
+    given = {path.partition(".")[0] for path in paths}
+    return max(kinds, key=lambda kind: len(given & kinds[kind].model_fields.keys()))
 
 
 def _base(name: str, entry: Entry, known: Known) -> tuple[type[Case], dict[str, Entry]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -11,8 +11,8 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from tribodyn.cases.entry import Entry, refused
-from tribodyn.cases.keys import ANY_NAME, Key, shown
-from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name
+from tribodyn.cases.keys import ANY_NAME, VALUE, Key, shown
+from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name, plain_path
 from tribodyn.core.errors import MOST_HINTS, InputError
 from tribodyn.core.quoting import closest
 from tribodyn.core.synonyms import OF_DIAMETERS, meanings
@@ -20,6 +20,7 @@ from tribodyn.core.synonyms import OF_DIAMETERS, meanings
 _ALL_KEYS: Final = "`tribodyn show` lists all keys"
 _LONGEST: Final = 200
 """Characters of a path that may be one that is misspelled."""
+_MOST_NEAR: Final = 3
 CROSS_CHECK: Final = "cross_check"
 """Type of what pydantic is told by a table whose own path nobody knew."""
 
@@ -53,7 +54,7 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
         return f"given {shown(name)}; allowed: {ALLOWED_NAME}"
     table = as_declared(path, declared)
     inside = [key.name for key in declared.values() if key.table == table]
-    if inside:
+    if inside and VALUE not in inside:
         return f"this is a table, not a value; its keys: {', '.join(inside)}"
     below = sorted({_shown(key.table) for key in declared.values() if key.table.startswith(f"{table}.")})
     if below:
@@ -62,21 +63,25 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
     if value is not None:
         example = value.example if value.example.startswith("[") else f'"{value.example}"'
         return f"unknown key; {value.name} is a value, not a table; write {value.name} = {example}"
-    absent = _absent(path, keys, declared)
-    if absent:
-        return f"the case has no {absent}; write a table [{absent}] into its file"
-    return f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
+    return _absent(path, keys, declared) or f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
 
 
 def _absent(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> str:
-    """Return the named table that a key needs, where the case has none of its kind; else empty."""
-    known = as_declared(path, declared)
+    """Return that the case has no such named table, and which one may be meant; empty where it has it."""
+    known = plain_path(as_declared(path, declared), declared)
     if known not in declared:
         return ""
     parts, places = path.split("."), known.split(".")
     for k in (k for k, place in enumerate(places) if place == ANY_NAME):
-        if not any(key.startswith(f"{'.'.join(parts[:k])}.") for key in keys):
-            return ".".join(parts[: k + 1])
+        absent, others = ".".join(parts[: k + 1]), _inside(".".join(parts[:k]), keys)
+        if parts[k] in others:
+            continue
+        near = difflib.get_close_matches(parts[k], others, n=1, cutoff=0.6)
+        if near:
+            return f"unknown key; {_nearest_valid('.'.join([others[near[0]], *parts[k + 1 :]]))}"
+        there = f"it has: {', '.join(others)}; " if others else ""
+        table = f"{absent} =" if len(parts) == k + 1 else f"a table [{absent}]"
+        return f"the case has no {absent}; {there}write {table} into its file"
     return ""
 
 
@@ -87,26 +92,27 @@ def _shown(path: str) -> str:
 def _nearest(path: str, keys: Mapping[str, Key]) -> str:
     """Return what was probably meant: a key of the same table, a table by another word, the same name.
 
-    Words of other programs come before words that look alike.
+    Words of other programs come before names with words in common, and these before names that look alike.
     """
     table, _, name = path.rpartition(".")
-    siblings = {key.name: key.path for key in keys.values() if key.table == table}
-    tables = {key.table for key in keys.values()}
-    beside = {word: f"{table}.{word}" for word in meanings(name) if f"{table}.{word}" in tables}
-    near = [word for word in meanings(name) if word in siblings or word in beside]
-    near = near or difflib.get_close_matches(name[:80], list(siblings), n=1, cutoff=0.6)
+    inside = _inside(table, keys)
+    near = _by_words(name, inside, of=table.partition(".")[0])
+    near = near or difflib.get_close_matches(name[:80], list(inside), n=1, cutoff=0.6)
     if near:
         half = ", half of this value" if name.casefold() in OF_DIAMETERS else ""
-        return _nearest_valid((siblings | beside)[near[0]]) + half
+        return _nearest_valid(*(inside[word] for word in near)) + half
     renamed = _renamed(path, keys)
     if renamed:
         return _nearest_valid(renamed)
-    words = [name] if as_declared(table, keys) in tables else [name, table.rpartition(".")[2]]
-    named = (word for given in words for word in meanings(given) if f"{word}.{ANY_NAME}" in tables)
+    words = [name] if inside else [name, table.rpartition(".")[2]]
+    named = (word for given in words for word in meanings(given) if f"{word}.{ANY_NAME}" in _tables_of(keys))
     if (first := next(named, None)) is not None:
         return f"write a table [{first}.NAME]"
     named_so = ([key.path for key in keys.values() if key.name == word] for word in (name, *meanings(name)))
     elsewhere = next((paths for paths in named_so if paths), [])
+    elsewhere = [other for other in elsewhere if ANY_NAME not in other] or elsewhere
+    if "." in table and inside and len(elsewhere) != 1:
+        return f"keys of {table}: {', '.join(inside)}"
     meant = closest(path, elsewhere or keys) or next(iter(elsewhere), None)
     return _nearest_valid(meant) if meant else ""
 
@@ -122,8 +128,43 @@ def _renamed(path: str, keys: Mapping[str, Key]) -> str:
     return next((other for other in others if other in keys), "")
 
 
-def _nearest_valid(path: str) -> str:
-    return f"the nearest valid one is {_shown(path)}"
+def _tables_of(keys: Mapping[str, Key]) -> set[str]:
+    return {key.table for key in keys.values()}
+
+
+def _inside(table: str, keys: Mapping[str, Key]) -> dict[str, str]:
+    """Return the paths of the keys of a table and of the tables in it, by their names."""
+    prefix = f"{table}." if table else ""
+    below = [key.path for key in keys.values() if key.path.startswith(prefix)]
+    names = dict.fromkeys(path[len(prefix) :].partition(".")[0] for path in below)
+    return {name: prefix + name for name in names if name != ANY_NAME}
+
+
+def _by_words(name: str, names: Iterable[str], of: str) -> list[str]:
+    """Return names that mean the same, or else that have all words of this one, or only words of it.
+
+    Parameters
+    ----------
+    name
+        What was given.
+    names
+        What is possible.
+    of
+        Kind of the table: among several the names with its word come first.
+    """
+    same = [word for word in (name.casefold(), *meanings(name)) if word in names]
+    if same:
+        return same[:1]
+    given = set(name.casefold().split("_"))
+    longer = [word for word in names if given < set(word.split("_"))]
+    found = longer or [word for word in names if set(word.split("_")) < given]
+    own = [word for word in found if any(of.startswith(part) for part in word.split("_"))]
+    return (own or found)[:_MOST_NEAR]
+
+
+def _nearest_valid(*paths: str) -> str:
+    shortest = [_shown(path.removesuffix(f".{VALUE}")) for path in paths]
+    return f"the nearest valid one is {' or '.join(shortest)}"
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ TABLE: Final = "parameters"
 MOST: Final = 1000
 """Parameters of a case, at most."""
 _NUMBERS: Final = frozenset({"quantity", "number", "count"})
+_NOT_FINITE: Final = {"nan", "inf", "infinity"}
 _RESERVED: Final = frozenset({"at", *AMPLITUDES, *FUNCTIONS, *CONSTANTS, *EVERYDAY})
 
 
@@ -43,10 +44,13 @@ class Scope:
         Their values, by their names.
     units
         In which they are shown.
+    refused
+        Names of those that have no value.
     """
 
     quantities: Mapping[str, Dimensioned] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
+    refused: Collection[str] = ()
 
     def keys(self, declared: Mapping[str, Key]) -> dict[str, Key]:
         """Return the keys of the parameters, each with the unit of its value."""
@@ -84,6 +88,7 @@ def scope_of(entries: Mapping[str, Entry], faults: Faults) -> Scope:
 
     def value_of(name: str) -> Dimensioned:
         if name in waiting:
+            refused.update(waiting)
             circle = " -> ".join([*waiting[waiting.index(name) :], name])
             raise ExpressionProblem(f"parameters are defined by each other: {circle}")
         if name not in quantities:
@@ -96,11 +101,16 @@ def scope_of(entries: Mapping[str, Entry], faults: Faults) -> Scope:
 
     if len(given) > MOST:
         raise InputError(f"there are {len(given)}; at most {MOST} are possible", key=TABLE)
+    refused: set[str] = set()
     sound: dict[str, Dimensioned] = {}
     units: dict[str, str] = {}
     for name, entry in given.items():
+        if name in refused or _mentions(entry.value, refused):
+            refused.add(name)
+            continue
         with faults.noted():
             _check_name(name, entry)
+            refused.add(name)
             try:
                 found = value_of(name)
                 units[name] = _unit(entry.value, found)
@@ -110,7 +120,8 @@ def scope_of(entries: Mapping[str, Entry], faults: Faults) -> Scope:
                     f"given {shown(entry.value)}: {why}", key=f"{TABLE}.{name}", source=entry.source
                 ) from None
             sound[name] = found
-    return Scope(sound, units)
+            refused.remove(name)
+    return Scope(sound, units, refused)
 
 
 def _check_name(name: str, entry: Entry) -> None:
@@ -167,10 +178,15 @@ def _unit(value: object, found: Dimensioned) -> str:
 def read_all(
     entries: Mapping[str, Entry], keys: Mapping[str, Key], scope: Scope, faults: Faults
 ) -> tuple[dict[str, Value], dict[str, object]]:
-    """Return the values that can be read, and note the others; and the expressions that some come from."""
+    """Return the values that can be read, and note the others; and the expressions that some come from.
+
+    Values that follow from a parameter without one are left out: that parameter is noted already.
+    """
     values: dict[str, Value] = {}
     linked: dict[str, object] = {}
     for path, entry in entries.items():
+        if _mentions(entry.value, scope.refused):
+            continue
         with faults.noted():
             values[path], is_expression = read(keys[path], entry, scope)
             if is_expression:
@@ -189,7 +205,7 @@ def read(key: Key, entry: Entry, scope: Scope) -> tuple[Value, bool]:
     if key.path.startswith(f"{TABLE}."):
         name = key.path.split(".")[1]
         return scope.quantities[name].value if name in scope.quantities else 0.0, isinstance(entry.value, str)
-    if _mentions(entry.value, scope):
+    if _mentions(entry.value, scope.quantities):
         return read_entry(key, _evaluated(key, entry, scope)), True
     try:
         return read_entry(key, entry), False
@@ -204,16 +220,16 @@ def _is_text(key: Key, value: object) -> bool:
     """Return whether a value may be meant as an expression: it has names that are no units."""
     texts = value if isinstance(value, list | tuple) else (value,)
     names = {name for text in texts if isinstance(text, str) for name in names_in(text)}
-    return key.kind in {*_NUMBERS, *LISTS} and any(not is_unit(name) for name in names)
+    return key.kind in {*_NUMBERS, *LISTS} and any(not is_unit(name) for name in names - _NOT_FINITE)
 
 
-def _mentions(value: object, scope: Scope) -> bool:
-    """Return whether a value names a parameter."""
-    if not scope.quantities:
+def _mentions(value: object, names: Collection[str]) -> bool:
+    """Return whether a value is an expression with one of these names."""
+    if not names:
         return False
     if isinstance(value, list | tuple):
-        return any(_mentions(part, scope) for part in value)
-    return isinstance(value, str) and not names_in(value).isdisjoint(scope.quantities)
+        return any(_mentions(part, names) for part in value)
+    return isinstance(value, str) and not names_in(value).isdisjoint(names)
 
 
 def _evaluated(key: Key, entry: Entry, scope: Scope) -> Entry:

@@ -59,7 +59,7 @@ WEAR_NUMBERS: Final[dict[str, KeyResult]] = {
         lambda d: float(d.attrs["wear_life_cycles"]),
     ),
     "wear_life_factor": KeyResult(
-        "Factor of the life",
+        "Life, longest over shortest",
         "",
         "Wear",
         "Lives at both ends of the range of wear rates, over each other: of the named material, or of the "

@@ -111,7 +111,7 @@ def _worn(
             **({} if wear.depth_limit is None else {"wear_depth_limit": wear.depth_limit}),
             **attributes,
         },
-        notes=[*partner.notes, *_deepest(system, depth, wear.depth_limit)],
+        notes=[*partner.notes, *_deepest(system, depth, wear.depth_limit), *_uncertain(attributes)],
     )
 
 
@@ -122,6 +122,16 @@ def _deepest(system: WearingSystem, depth: FloatArray, limit: float | None) -> l
     node = int(np.argmax(depth))
     share = 100.0 * float(depth.ravel()[node]) / limit
     return [f"Worn deepest is {system.part_of(node)}: {share:.3g} % of wear.depth_limit."]
+
+
+def _uncertain(attributes: Mapping[str, object]) -> list[str]:
+    """Return how uncertain a life is, in words; nothing where its wear rate is known."""
+    if "wear_life_factor" not in attributes:
+        return []
+    return [
+        f"Published wear rates of such surfaces differ by a factor of {attributes['wear_life_factor']:g}, and "
+        "so does the life. Give a measured wear.specific_wear_rate."
+    ]
 
 
 def _linear_life(

@@ -57,3 +57,10 @@ def test_misplaced_keys_are_found(text: str, key: str) -> None:
         parse_case(text, "case.toml")
     assert caught.value.key == key
     assert caught.value.source == "case.toml"
+
+
+def test_a_file_without_a_kind_is_taken_for_the_one_whose_tables_it_has(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text('title = "Arm"\n[bodies.arm]\nmass = "1 kg"\n[joints.pivot]\ntype = "revolute"\n')
+    with pytest.raises(InputError, match='write case = "mechanism" at the top'):
+        load_case(file)

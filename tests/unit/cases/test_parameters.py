@@ -210,6 +210,17 @@ def test_a_wrong_parameter_is_refused_with_its_place(old: str, new: str, words: 
         model(MODEL.replace(old, new, 1))
 
 
+def test_what_follows_from_a_wrong_parameter_is_not_reported_again() -> None:
+    with pytest.raises(InputError) as caught:
+        model(MODEL.replace('crank = "50 mm"', 'crank = "rod / 3"', 1))
+    assert len(caught.value.faults) == 1
+
+
+def test_a_number_that_is_not_finite_is_no_expression() -> None:
+    with pytest.raises(InputError, match="the number must be finite"):
+        model(MODEL.replace('mass = "1 kg"', 'mass = "nan kg"', 1))
+
+
 def test_mass_properties_of_solids_are_those_of_textbooks() -> None:
     rho, r, inner, length = 7850.0, 0.1, 0.05, 0.02
     solids = """

@@ -138,6 +138,11 @@ def test_empty_tables_outlive_a_change() -> None:
 
 
 REFUSED = {
+    "joints.crankpin.CLEARANCE": "nearest valid one is joints.crankpin.clearance",
+    "joints.crankpin.radial_clearance": "nearest valid one is joints.crankpin.clearance",
+    "joints.hub.clearance": r"the case has no joints.hub; it has: wrist, crankpin, main-1; write a table",
+    "joints.crankpin.qqqq": "unknown key; keys of joints.crankpin: type, law, clearance, radius, faces",
+    "joints.crankpin.gravity": "nearest valid one is gravity",
     "joints.crankpn.clearance": "nearest valid one is joints.crankpin.clearance",
     "joints.crankpin.clerance": "nearest valid one is joints.crankpin.clearance",
     "joint.wrist.clearance": "nearest valid one is joints.wrist.clearance",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
@@ -217,10 +219,22 @@ def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:
     if not drives:
         return []
     if len(drives) == 1:
-        text = f"drive {drives[0]} has nothing to drive: the joints leave its coordinate no degree of freedom"
+        text = (
+            f"drive {drives[0]} has nothing to drive: {_locking(system, dependent, names)} leave its "
+            "coordinate no degree of freedom; remove one of them, or the drive"
+        )
     else:
         text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
     return [ModelError(f"drives.{drives[-1]}", text)]
+
+
+def _locking(system: System, dependent: FloatArray, drives: Mapping[tuple[int, int], str]) -> str:
+    """Return the joints and elements that hold the coordinate of a drive, in words."""
+    of_drive = [row in drives for row in system.rows]
+    combined = dense.product(dependent[:, of_drive].T, dependent)
+    held = _taking_part(system, combined)
+    names = dict.fromkeys(system.model.constraint(k)[0] for k, m in held if (k, m) not in drives)
+    return ", ".join(names) or "the joints"
 
 
 def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:

@@ -165,7 +165,7 @@ def test_a_drive_against_a_locked_joint_has_nothing_to_drive() -> None:
         "lock": joint("fixed", ("ground", "arm"), (1.0, 0.0, 0.0)),
     }
     findings = assemble(mechanism(bodies, joints, drives={"motor": speed_drive("pivot", 1.0)})).findings
-    assert "drive motor has nothing to drive" in findings[0].text
+    assert "drive motor has nothing to drive: joint pivot, joint lock leave" in findings[0].text
 
 
 def test_a_loop_that_does_not_close_over_the_drive_is_found() -> None:
