@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -141,7 +142,9 @@ def test_a_torsion_spring_swings_about_the_angle_of_its_preload() -> None:
 def test_a_stop_without_damping_reverses_in_half_a_period(side: str) -> None:
     sign = 1.0 if side == "above" else -1.0
     found = slider("40 ms", speed=sign * 0.5, interval="0.05 ms")
-    found.stop("end", joint="guide", position=f"{sign * 5.0} mm", side=side, stiffness="100 N/mm")
+    found.stop(
+        "end", joint="guide", position=f"{sign * 5.0} mm", side=side, stiffness="100 N/mm", restitution=1.0
+    )
     result = td.simulate(found.case())
     assert sign * speed(result)[-1] == pytest.approx(-0.5, rel=1e-7)
     deepest = 0.5 / math.sqrt(1e5)
@@ -302,11 +305,40 @@ def test_gears_without_play_tend_to_the_exact_ratio_as_their_teeth_get_stiff() -
     tooth = 5e-3 * 0.5 * rate / 0.06
     misses = []
     for stiffness in (1e5, 1e6, 1e7):
-        result = gears("10 ms", 0.3, False, backlash="0 mm", mesh_stiffness=f"{stiffness} N/m")
+        teeth = {"backlash": "0 mm", "mesh_stiffness": f"{stiffness} N/m", "restitution": 1.0}
+        result = gears("10 ms", 0.3, False, **teeth)
         turned = 0.03 * result["joint_angle"].values[:, 0] + 0.06 * result["joint_angle"].values[:, 1]
         misses.append(float(np.max(np.abs(turned))))
         assert misses[-1] == pytest.approx(2.0 * tooth / stiffness, rel=0.02)
     assert misses[0] > 50.0 * misses[2]
+
+
+@pytest.mark.parametrize("brake", [1.0, -1.0])
+def test_backlash_is_an_error_against_the_gears_without_it(brake: float, tmp_path: Path) -> None:
+    # The teeth come to rest on the flank that the brake presses: half of the play, and T / K r², over r.
+    drawn = Mechanism("Gears", run={"duration": "0.4 s"})
+    for name, x in (("a", 0), ("b", 90)):
+        drawn.body(name, mass="1 kg", centre=f"{x}, 0, 0 mm", inertia="2e-3, 2e-3, 2e-3 kg m^2")
+        drawn.revolute(name, "ground", name, point=f"{x}, 0, 0 mm", axis=[0, 0, 1])
+    drawn.gear("mesh", joints=["a", "b"], ratio=-0.5, backlash="0.1 mm", mesh_stiffness="100 N/um")
+    drawn.drive("motor", "a", speed="60 rpm").load("brake", "b", direction=[0, 0, 1], moment=f"{brake} N m")
+    drawn.output("angle", "b", quantity="angle", along=[0, 0, 1])
+    result = td.simulate(drawn)
+    expected = (0.05e-3 + 1.0 / 0.06 / 1e8) / 0.06 * brake
+    assert result["output_error"].values[-1, 0] == pytest.approx(expected, rel=2e-3)
+    exact = td.simulate(drawn.case().replace({"gears.mesh.ideal": True}))
+    assert float(np.abs(exact["output_error"]).max()) < 1e-9
+    ideal = td.simulate(drawn.case().replace({"run.analysis": "kinematic"}))
+    assert ideal["output_value"].values[-1] == pytest.approx(-0.5 * 2.0 * math.pi * 0.4, rel=1e-9)
+    [shares] = td.studies.contributions(drawn.case(), directory=tmp_path, workers=0)
+    assert shares.joints == ("mesh",)
+    assert shares.interaction == pytest.approx(0.0, abs=1e-12)
+
+
+def test_teeth_and_stops_come_to_rest_unless_a_case_says_otherwise() -> None:
+    result = gears("0.2 s", 0.3, True, backlash="0.6 mm", mesh_stiffness="1 N/um")
+    late = force(result)[-200:]
+    assert late == pytest.approx(0.3 / 0.03, rel=0.01)
 
 
 def test_a_run_with_clearance_begins_where_a_spring_presses_the_shaft_into_its_bore() -> None:

@@ -63,7 +63,8 @@ def _unknown(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) ->
     if value is not None:
         example = value.example if value.example.startswith("[") else f'"{value.example}"'
         return f"unknown key; {value.name} is a value, not a table; write {value.name} = {example}"
-    return _absent(path, keys, declared) or f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
+    absent = _absent(path, keys, declared)
+    return absent or f"unknown key; {_nearest(path, {**declared, **keys}) or _ALL_KEYS}"
 
 
 def _absent(path: str, keys: Mapping[str, Key], declared: Mapping[str, Key]) -> str:

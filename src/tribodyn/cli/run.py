@@ -35,7 +35,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_drawing_arguments(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: results-CASE)")
     parser.add_argument("--verify", metavar="HASH", help="fail unless this is the SHA-256 of the rows")
-    parser.add_argument("--force", action="store_true", help="overwrite the finished result of another case")
+    parser.add_argument(
+        "--force",
+        action="store_true",
+        help="compute a finished campaign again, and overwrite the finished result of another case",
+    )
 
 
 def execute(args: Namespace) -> int:
@@ -48,14 +52,10 @@ def execute(args: Namespace) -> int:
         _spare(folder, case)
     directory = OutputDirectory(folder)
     with directory.reserved():
-        with Interruption() as stop:
-            with stage("simulating, compiling included"):
-                dataset = _simulate(case, directory, console, stop)
-            last_words(f"aborted while saving; what stands in {os.fspath(directory.path)} is whole")
-            with stage("saving"):
-                summary = _save(dataset, directory)
-            if case.campaign_cycles and not dataset.attrs.get("failure"):
-                directory.checkpoint.unlink(missing_ok=True)
+        if not args.force and _is_finished_campaign(case, directory.path):
+            dataset, summary = _kept(directory, console)
+        else:
+            dataset, summary = _computed(case, directory, console)
         _tell(summary, console)
         with stage("drawing"):
             drawn = _draw(dataset, directory, console, args)
@@ -81,6 +81,35 @@ def _is_verified(summary: dict[str, Any], wanted: str | None, console: Console) 
         "lists what changes it"
     )
     return False
+
+
+def _is_finished_campaign(case: Case, path: Path) -> bool:
+    from tribodyn.results.store import holds_run
+
+    return bool(case.campaign_cycles) and holds_run(path, case.to_toml())
+
+
+def _kept(directory: OutputDirectory, console: Console) -> tuple[xr.Dataset, dict[str, Any]]:
+    """Return the finished campaign of a directory, and its summary."""
+    from tribodyn.mechanisms.results import read, summarise
+
+    path = os.fspath(directory.path)
+    console.note(f"this wear campaign is finished and kept in {path}; --force computes it again")
+    dataset = read(directory.path)
+    return dataset, summarise(dataset)
+
+
+def _computed(case: Case, directory: OutputDirectory, console: Console) -> tuple[xr.Dataset, dict[str, Any]]:
+    """Simulate and save; return the result and its summary."""
+    with Interruption() as stop:
+        with stage("simulating, compiling included"):
+            dataset = _simulate(case, directory, console, stop)
+        last_words(f"aborted while saving; what stands in {os.fspath(directory.path)} is whole")
+        with stage("saving"):
+            summary = _save(dataset, directory)
+        if case.campaign_cycles and not dataset.attrs.get("failure"):
+            directory.checkpoint.unlink(missing_ok=True)
+    return dataset, summary
 
 
 def _name(args: Namespace) -> str:

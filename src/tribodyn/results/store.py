@@ -7,7 +7,7 @@ import os
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -15,6 +15,7 @@ import xarray as xr
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import LONGEST, brief
+from tribodyn.core.versions import provenance
 from tribodyn.results.atomic import write_together
 from tribodyn.results.netcdf import attributes_of, dataset_of, netcdf_parts
 from tribodyn.results.schema import Kinds, check
@@ -112,6 +113,26 @@ def summary_text(summary: Summary) -> str:
 
 def finished_case(directory: str | Path) -> str | None:
     """Return the text of the case whose finished run a folder holds, None where there is none."""
+    attributes = _finished(directory)
+    return None if attributes is None else str(attributes.get("case", ""))
+
+
+def holds_run(directory: str | Path, case: str) -> bool:
+    """Return whether a folder holds the finished run of a case, made by the installed versions.
+
+    Parameters
+    ----------
+    directory
+        A folder, which may be missing.
+    case
+        Text of the case.
+    """
+    attributes = _finished(directory) or {}
+    return attributes.get("case") == case and attributes.items() >= provenance().items()
+
+
+def _finished(directory: str | Path) -> dict[str, Any] | None:
+    """Return the attributes of the finished run that a folder holds, None where there is none."""
     file = Path(directory) / RESULT
     if not os.path.isfile(file):
         return None
@@ -119,7 +140,7 @@ def finished_case(directory: str | Path) -> str | None:
         attributes = attributes_of(file)
     except Exception:  # a damaged file makes its readers raise what they like, and is no result
         return None
-    return None if attributes.get("failure") else str(attributes.get("case", ""))
+    return None if attributes.get("failure") else attributes
 
 
 def read(path: str | Path, kinds: Kinds) -> xr.Dataset:

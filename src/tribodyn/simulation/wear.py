@@ -129,8 +129,8 @@ def _uncertain(attributes: Mapping[str, object]) -> list[str]:
     if "wear_life_factor" not in attributes:
         return []
     return [
-        f"Published wear rates of such surfaces differ by a factor of {attributes['wear_life_factor']:g}, and "
-        "so does the life. Give a measured wear.specific_wear_rate."
+        f"Published wear rates of such surfaces differ by a factor of {attributes['wear_life_factor']:g}, "
+        "and so does the life. Give a measured wear.specific_wear_rate."
     ]
 
 

@@ -124,8 +124,8 @@ def contributions(
     array([1.])
     """
     chosen = case if isinstance(case, Case) else load_case(case)
-    joints = real_joints(chosen)
-    plan = _plan(chosen, joints)
+    switches = real_joints(chosen)
+    plan, joints = _plan(chosen, switches), tuple(switches)
     folder = Path(directory)
     found = run(plan, folder, Means(workers=workers), watcher)
     for text in found["failure"].values.ravel().tolist():
@@ -140,8 +140,10 @@ def contributions(
     return known
 
 
-def real_joints(case: Case) -> tuple[str, ...]:
-    """Return the names of the joints with clearance of a case with outputs.
+def real_joints(case: Case) -> dict[str, str]:
+    """Return the joints with clearance, and the gears with backlash, of a case with outputs.
+
+    Each name has the path of the key that makes it ideal.
 
     Raises
     ------
@@ -154,19 +156,20 @@ def real_joints(case: Case) -> tuple[str, ...]:
     joints: Mapping[str, Any] = getattr(case, "joints", {})
     if not joints:
         raise InputError("the case has one joint with clearance, which causes all of the error", key="case")
-    found = tuple(name for name, joint in joints.items() if joint.real is not None)
+    found = {name: _SWITCH.format(name) for name, joint in joints.items() if joint.real is not None}
+    elements = getattr(case, "elements", tuple)
+    found |= {name: f"{table}.{name}.ideal" for table, name, keys in elements() if keys.has_play}
     if not found:
         raise InputError("no joint has clearance; write joints.NAME.clearance", key="joints")
     return found
 
 
-def _plan(case: Case, joints: Sequence[str]) -> SweepPlan:
+def _plan(case: Case, joints: Mapping[str, str]) -> SweepPlan:
     """Return the plan of the runs: all joints real, then each alone."""
     keys = keys_in(case)
     ideal = ~np.vstack([np.ones(len(joints), bool), np.eye(len(joints), dtype=bool)])
     columns = {
-        keys[_SWITCH.format(joint)]: tuple(of_joint)
-        for joint, of_joint in zip(joints, ideal.T.tolist(), strict=True)
+        keys[path]: tuple(of_joint) for path, of_joint in zip(joints.values(), ideal.T.tolist(), strict=True)
     }
     return plan_of(case, (Axis("run", columns),))
 
@@ -181,7 +184,7 @@ def _kinematic(case: Case) -> xr.Dataset | None:
 
 def _estimated(output: str, joints: tuple[str, ...], ideal: xr.Dataset | None) -> tuple[float, FloatArray]:
     """Return the root mean square error by superposition [SI], and its shares, (n_joints, n_causes)."""
-    if ideal is None or ideal.attrs["failure"]:
+    if ideal is None or ideal.attrs["failure"] or not set(joints) <= set(ideal["joint"].values.tolist()):
         return math.nan, np.zeros((len(joints), 0))
     parts = ideal["error_estimate"].sel(output=output, joint=list(joints)).values
     time, total = column(ideal, "time"), parts.sum(axis=(1, 2))

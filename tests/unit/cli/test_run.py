@@ -17,6 +17,7 @@ import tribodyn.report
 import tribodyn.simulation
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, IntegrationFailure
+from tribodyn.core.versions import provenance
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 
 ResultFactory = Callable[..., xr.Dataset]
@@ -269,7 +270,8 @@ def campaign(monkeypatch: pytest.MonkeyPatch, make_campaign: ResultFactory) -> C
             assert case.campaign_cycles == 400
             progress(400.0)
             checkpoint.write_text("kept", encoding="utf-8")
-            return make_campaign(3, failure=failure, case=case.to_toml(), title=case.title)
+            made = {"case": case.to_toml(), "title": case.title, **provenance()}
+            return make_campaign(3, failure=failure, **made)
 
         monkeypatch.setattr(tribodyn.simulation, "simulate", simulate)
 
@@ -303,6 +305,23 @@ def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(
     assert main(CAMPAIGN) == 0
     assert "going on with the wear campaign kept in" in capsys.readouterr().err
     assert not Path("out/checkpoint.npz").exists()
+
+
+def test_a_finished_campaign_is_not_computed_again(
+    in_empty_directory: Path, campaign: Callable[[str], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    campaign("")
+    assert main(CAMPAIGN) == 0
+    first = capsys.readouterr().out
+    campaign("it was computed again")
+    assert main(CAMPAIGN) == 0
+    captured = capsys.readouterr()
+    assert captured.out == first
+    assert "kept in out; --force computes it again" in captured.err
+    assert main([*CAMPAIGN, "--set", "wear.depth_limit=1 um", "--force"]) == 1
+    campaign("")
+    assert main([*CAMPAIGN, "--force"]) == 0
+    assert "cycles of wear" in capsys.readouterr().err
 
 
 def test_a_finished_result_of_another_case_is_spared(

@@ -378,6 +378,15 @@ class MechanismCase(_WithElements):
             words = "its tables follow both the angle and the position of this joint: write two loads"
             demand(len({COORDINATE_OF[over] for over in load.joint_axes}) < 2, key, words)
 
+    def without_play(self) -> Self:
+        """Return the case with elements as the ideal counterpart has them: without play."""
+        if not any(keys.has_play for _, _, keys in self.elements()):
+            return self
+        tables: dict[str, dict[str, ElementKeys]] = {}
+        for table, name, keys in self.elements():
+            tables.setdefault(table, {})[name] = keys.without_play
+        return self.model_copy(update=tables)
+
     def elements(self) -> Iterator[tuple[str, str, ElementKeys]]:
         """Yield table, name and keys of all elements."""
         for kind in ELEMENTS:

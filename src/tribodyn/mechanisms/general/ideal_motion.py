@@ -1,4 +1,4 @@
-"""Motion of the ideal counterpart of a mechanism: every joint ideal, the same drives.
+"""Motion of the ideal counterpart of a mechanism: every joint ideal, no backlash, the same drives.
 
 Drives and joints determine it without forces, position by position. Where they leave freedoms, an output
 may depend on these; then there is no ideal value that it could be compared with.
@@ -124,7 +124,7 @@ class IdealMechanism:
     """
 
     def __init__(self, assembly: Assembly) -> None:
-        self.system = placed(System(assembly.model.counterpart), assembly)
+        self.system = placed(System(assembly.model.counterpart.without_play), assembly)
         self.rank = self.system.independence()[0]
         self.system.set_rank(self.rank)
 

@@ -143,6 +143,11 @@ class Model:
         return self._with_ideal(self.joints)
 
     @property
+    def without_play(self) -> Model:
+        """The mechanism whose gears have no backlash."""
+        return replace(self, case=self.case.without_play())
+
+    @property
     def without_films(self) -> Model:
         """The mechanism in which joints with an oil film are the ideal ones that hold the same."""
         return self._with_ideal([self.joints[number] for number in self.oiled])

@@ -125,7 +125,9 @@ class Equilibria:
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
-        self._loads = LedLoads(assembly, mechanism.rank)
+        self._loads = LedLoads(
+            assembly, placed(System(assembly.model.counterpart), assembly).independence()[0]
+        )
 
     def __call__(self, number: int) -> FloatArray:
         """Return the equilibrium at a position, see :class:`~.positions.States`."""

@@ -77,6 +77,8 @@ class MechanismSystem:
 
     @cached_property
     def _modelled(self) -> MechanismCase:
+        if self._analysis == "kinematic":
+            return self.case.without_play()
         return without_friction(self.case) if self._analysis == "vibrations" else self.case
 
     @property

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final, Literal
+from typing import Any, ClassVar, Final, Literal, Self
 
 import numpy as np
 
@@ -203,6 +203,16 @@ class ElementKeys(NamedGroup):
             (value.curve() for _, value in self if isinstance(value, ForceSignal | TorqueSignal)), None
         )
         return ForceLaw(law, {key: value for key, value in self if isinstance(value, float)}, table)
+
+    @property
+    def has_play(self) -> bool:
+        """Whether it has play that the ideal counterpart of the mechanism has not; by default it has none."""
+        return False
+
+    @property
+    def without_play(self) -> Self:
+        """The element in the ideal counterpart of the mechanism; by default itself."""
+        return self
 
     def check_run(self, duration: float, *, dynamic: bool, campaign: bool) -> None:
         """Refuse a run over some time [s] that does not suit the element; by default none is refused."""

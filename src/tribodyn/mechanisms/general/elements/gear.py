@@ -19,17 +19,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import choice, names, number, quantity
+from tribodyn.cases.fields import choice, names, number, quantity, switch
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.elements import base
-from tribodyn.mechanisms.general.elements.stop import LEAST_RATE, damping_of, one_sided
+from tribodyn.mechanisms.general.elements.stop import LEAST_RATE, RESTITUTION, damping_of, one_sided
 
 PRESSURE_ANGLE = math.radians(20.0)
 """Of teeth with backlash, where a case does not say it [rad]."""
@@ -88,8 +88,10 @@ torque = "0.2 N m"
         "assumed",
         family="tribodyn.contact:DAMPING_FACTORS",
     )
-    restitution: float = number(1.0, "restitution meant, of teeth with backlash", "assumed", gt=0, le=1)
-
+    restitution: float = number(
+        RESTITUTION, "coefficient of restitution of teeth with backlash", "manual, elements", gt=0, le=1
+    )
+    ideal: bool = switch(False, "treat the teeth as without backlash", "")
     pressure_angle: float | None = quantity(
         None,
         "pressure angle, by which teeth push the wheels apart; without it 20 deg with backlash, else none",
@@ -99,8 +101,23 @@ torque = "0.2 N m"
         example="20 deg",
     )
 
+    @property
+    def has_play(self) -> bool:
+        """Whether its teeth have backlash."""
+        return self.backlash is not None and not self.ideal
+
+    @property
+    def without_play(self) -> Self:
+        """The gear without backlash, which pushes its wheels apart by the same angle."""
+        if self.backlash is None:
+            return self
+        angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
+        return self.model_copy(update={"backlash": None, "pressure_angle": angle})
+
     def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
         """Return the constraint, or one contact for each flank of teeth with backlash."""
+        if self.ideal and self.backlash is not None:
+            return self.without_play.equations(joints)
         if self.backlash is None:
             return (base.Equation(self._pushing(joints), None),)
         demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")

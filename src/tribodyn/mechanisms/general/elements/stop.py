@@ -21,6 +21,8 @@ from tribodyn.cases.case import demand
 from tribodyn.cases.fields import choice, number, quantity
 from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
+RESTITUTION: Final = 0.7
+"""Coefficient of restitution of hardened steel on steel in slow impacts, where a case does not say it [1]."""
 LEAST_RATE: Final = 1.0e-3
 """Least speed at which contact begins, where a case does not say it [m/s] or [rad/s]."""
 
@@ -107,7 +109,7 @@ restitution = 0.6
         "assumed",
         family="tribodyn.contact:DAMPING_FACTORS",
     )
-    restitution: float = number(1.0, "coefficient of restitution", "assumed", gt=0, le=1)
+    restitution: float = number(RESTITUTION, "coefficient of restitution", "manual, elements", gt=0, le=1)
     least_rate: float = number(
         LEAST_RATE, "least speed at which contact begins, in m/s or rad/s", "assumed", gt=0
     )
