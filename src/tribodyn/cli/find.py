@@ -1,4 +1,4 @@
-"""``tribodyn find``: the value of a parameter at which a number reaches its limit."""
+"""``tribodyn find``: the last value of a parameter at which a number keeps its limit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tribodyn.studies.search import Question, Search
     from tribodyn.studies.sweep import Arrival
 
-HELP = "find the value of a parameter at which a key result reaches a limit"
+HELP = "find the last value of a parameter at which a key result keeps a limit"
 _STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 
@@ -35,7 +35,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--until",
         metavar="NAME=LIMIT",
         required=True,
-        help="a number of summary.json, in its unit: vane_angle_error_max_deg=0.03",
+        help="the most that a number of summary.json may be, in its unit: vane_angle_error_max_deg=0.03; "
+        "with >= the least",
     )
     parser.add_argument(
         "--within",
@@ -87,17 +88,22 @@ def _told(console: Console) -> Callable[[Arrival], None]:
 
 def _tell(search: Search, root: float, console: Console) -> None:
     """Print what was tried and what was found."""
+    from tribodyn.cases.keys import VALUE
+
     asked, limit = search.question, search.question.until
     unit = asked.key_result.unit
     for value in sorted(search.tried):
         console.say(f"  {_shown(asked, value):<16}{search.tried[value]:>12.4g} {unit}")
     low, high = (_shown(asked, end) for end in search.bracket())
-    label = asked.key_result.label
+    label, path = asked.key_result.label, asked.key.path.removesuffix(f".{VALUE}")
+    reached = f"{search.tried[root]:.4g} {unit}".rstrip()
     console.say(
-        f"\n{label} reaches {limit.value:g} {unit} at {asked.key.path} = {_shown(asked, root)}".rstrip()
+        f"\n{label}: {limit.sign} {limit.value:g} {unit}".rstrip()
+        + f" at {path} = {_shown(asked, root)}, where it is {reached}"
     )
     console.say(
-        f"(between {low} and {high}; {len(search.tried)} runs, kept in {os.fspath(search.directory)}{os.sep})"
+        f"(the limit lies between {low} and {high}; {len(search.tried)} runs, kept in "
+        f"{os.fspath(search.directory)}{os.sep})"
     )
     if console.json:
         show_json(
@@ -107,6 +113,7 @@ def _tell(search: Search, root: float, console: Console) -> None:
                 "between": [low, high],
                 "number": limit.name,
                 "limit": limit.value,
+                "reached": search.tried[root],
                 "tried": {_shown(asked, value): number for value, number in sorted(search.tried.items())},
             }
         )

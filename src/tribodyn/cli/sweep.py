@@ -106,7 +106,7 @@ def execute(args: Namespace) -> int:
     console = Console.of(args)
     case = chosen_case(args)
     shown = _shown(args.show, case)
-    limits = [limit(text, case, "--limit") for text in args.limits]
+    limits = [limit(text, case, "--limit", least=False) for text in args.limits]
     plan = make_plan(case, _variations(args.vary), Sampling(args.samples, args.method, args.seed))
     means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
     directory = OutputDirectory(folder)

@@ -1,4 +1,4 @@
-"""The value of a parameter at which a key result reaches a limit: a root found with few runs."""
+"""The last value of a parameter at which a key result keeps a limit: a root found with few runs."""
 
 from __future__ import annotations
 
@@ -41,10 +41,22 @@ class Limit:
         Name in ``summary.json``.
     value
         In the unit of the number.
+    at_least
+        Whether the number must not be below it; else it must not be above it.
     """
 
     name: str
     value: float
+    at_least: bool = False
+
+    @property
+    def sign(self) -> str:
+        """How the number is compared with the limit."""
+        return "at least" if self.at_least else "at most"
+
+    def is_kept(self, number: float) -> bool:
+        """Return whether a number keeps the limit."""
+        return number >= self.value if self.at_least else number <= self.value
 
 
 @dataclass(frozen=True)
@@ -96,12 +108,12 @@ class Search:
     tried: dict[float, float] = field(default_factory=dict)
 
     def root(self, within: float = WITHIN) -> float:
-        """Return the value at which the number reaches the limit, SI.
+        """Return a value at which the number keeps the limit, at most so far from where it reaches it, SI.
 
         Parameters
         ----------
         within
-            How near, as a share of the range.
+            How far, as a share of the range.
 
         Raises
         ------
@@ -116,7 +128,19 @@ class Search:
             raise TribodynError(self._not_between(at_ends))
         xtol = within * abs(asked.high - asked.low)
         found = float(brentq(self._excess, asked.low, asked.high, xtol=xtol, rtol=4 * math.ulp(1.0)))
-        return _readable(found)
+        return self._kept(found, xtol)
+
+    def _kept(self, root: float, within: float) -> float:
+        """Return the value nearest to a root, or so far from it, at which the limit is kept."""
+        asked = self.question
+        upwards = asked.until.is_kept(self.tried[asked.high])
+        for step in (0.0, 0.5 * within, within):
+            value = _readable(root + step if upwards else root - step)
+            value = min(max(value, asked.low), asked.high)
+            if asked.until.is_kept(self._numbers([value])[0]):
+                return value
+        low, high = self.bracket()
+        return high if upwards else low
 
     def dataset(self) -> xr.Dataset:
         """Return all that was tried as a sweep, which then stands in the folder."""
@@ -175,7 +199,7 @@ def find(
     directory: str | Path | None = None,
     workers: int = 0,
 ) -> float:
-    """Return the value of a parameter at which a key result reaches a limit.
+    """Return the last value of a parameter at which a key result keeps a limit.
 
     Parameters
     ----------
@@ -186,9 +210,10 @@ def find(
     between
         The range that is searched, such as ``"10..60 um"``; the number must pass the limit in it.
     until
-        Key result and limit in its unit, such as ``"vane_angle_error_max_deg=0.03"``.
+        Key result and the most that it may be, in its unit, such as ``"vane_angle_error_max_deg=0.03"``; with
+        ``>=`` the least.
     within
-        How near the value is found, as a share of the range.
+        How near to the limit the value is found, as a share of the range.
     directory
         Where runs are kept; what is there already is not computed again. By default nowhere.
     workers
@@ -197,8 +222,8 @@ def find(
     Returns
     -------
     float
-        The value in SI units, by Brent's method (Brent, *Algorithms for Minimization without Derivatives*,
-        1973).
+        A value that keeps the limit, in SI units, by Brent's method (Brent, *Algorithms for Minimization
+        without Derivatives*, 1973).
 
     Raises
     ------
@@ -264,8 +289,10 @@ def _read(key: Key, text: str) -> float:
     return value
 
 
-def limit(text: str, case: Case, option: str) -> Limit:
-    """Return a limit on a number of a case, written ``NAME=NUMBER``, in the unit of the key result.
+def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
+    """Return a limit on a number of a case, ``NAME=NUMBER`` or ``NAME>=NUMBER``, in the unit of the number.
+
+    With ``>=`` it is the least that the number may be, where a question can be asked that way.
 
     A part of the name will do: ``contact_max_N`` is ``contact_force_max_N``, the first with all its words.
 
@@ -275,6 +302,7 @@ def limit(text: str, case: Case, option: str) -> Limit:
         There is no such key result, or what follows is no number.
     """
     name, equals, number = (part.strip() for part in text.partition("="))
+    at_least, name = name.endswith(">"), name.rstrip("<> ")
     known = key_results_of_case(case)
     words = name.split("_")
     full = name if name in known else next((n for n in known if set(words) <= set(n.split("_"))), None)
@@ -284,9 +312,11 @@ def limit(text: str, case: Case, option: str) -> Limit:
         value = math.nan
     if not equals or not math.isfinite(value):
         raise InputError(f"{as_given(text)}; allowed: NAME=NUMBER, such as tilt_max_mrad=2", key=option)
+    if at_least and not least:
+        raise InputError(f"{as_given(text)}; points that do not exceed a limit are counted", key=option)
     if full is None:
         raise InputError(f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}", key=option)
-    return Limit(full, value)
+    return Limit(full, value, at_least)
 
 
 def _readable(value: float) -> float:

@@ -18,9 +18,13 @@ FIND = ["find", "vsv", "--vary", "joint.clearance=10..29 um", "--until"]
 
 def test_the_limit_is_found_where_it_is(simulated: list[Any]) -> None:
     # The largest force of the made-up simulation is 100 N for each micrometre, rounded to whole ones.
-    found = td.studies.find("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=2250", within=0.001)
+    asked = ("vsv", "joint.clearance", "10..29 um")
+    found = td.studies.find(*asked, "contact_force_max_N=2250", within=0.001)
     assert found == pytest.approx(22.5e-6, abs=0.1e-6)
-    assert len(simulated) < 15
+    assert found <= 22.5e-6
+    least = td.studies.find(*asked, "contact_force_max_N>=2250", within=0.001)
+    assert 22.5e-6 <= least == pytest.approx(22.5e-6, abs=0.1e-6)
+    assert len(simulated) < 30
 
 
 def test_a_second_search_goes_on_with_what_is_there(simulated: list[Any], tmp_path: Path) -> None:
@@ -79,7 +83,8 @@ def test_the_command_prints_the_answer(
     monkeypatch.chdir(tmp_path)
     assert main([*FIND, "contact_max_N=2250"]) == 0  # a part of the name will do
     out = capsys.readouterr().out
-    assert "Contact force, peak reaches 2250 N at joint.clearance = 22." in out
+    assert "Contact force, peak: at most 2250 N at joint.clearance = 22." in out
+    assert float(out.split("where it is ")[1].split(" N")[0]) <= 2250.0
     low, high = (
         float(word) for word in out.split("between ")[1].replace(" um", "").split(";")[0].split(" and ")
     )
