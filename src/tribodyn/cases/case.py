@@ -29,7 +29,7 @@ from tribodyn.cases.html import to_html
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.meshes import with_meshes_read
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, Remarks, located, problems, unknown
-from tribodyn.cases.parameters import read_all, scope_of
+from tribodyn.cases.parameters import read_all, scope_of, unused_parameters
 from tribodyn.cases.tables import (
     FROZEN,
     Tables,
@@ -176,8 +176,10 @@ class Case(Group):
         return 0
 
     def remarks(self) -> Remarks:
-        """Return what a user should know of values that do not contradict each other; by default nothing."""
-        return Remarks()
+        """Return what a user should know of values that do not contradict each other."""
+        unused = unused_parameters(self._given, self.parameters)
+        words = "parameters.{} is used by no value of the case: use it in an expression, or remove it."
+        return Remarks(tuple(words.format(name) for name in unused))
 
     def idle(self) -> tuple[str, ...]:
         """Return the paths of keys that others put out of force; by default there are none."""

@@ -175,6 +175,15 @@ def _unit(value: object, found: Dimensioned) -> str:
     return unit_for(found.dimensions)
 
 
+def unused_parameters(entries: Mapping[str, Entry], names: Collection[str]) -> list[str]:
+    """Return the parameters that no other entry of a case is an expression of."""
+    return [
+        name
+        for name in names
+        if not any(_mentions(entry.value, {name}) for path, entry in entries.items() if path != path_of(name))
+    ]
+
+
 def read_all(
     entries: Mapping[str, Entry], keys: Mapping[str, Key], scope: Scope, faults: Faults
 ) -> tuple[dict[str, Value], dict[str, object]]:

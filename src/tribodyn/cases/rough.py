@@ -37,7 +37,7 @@ class RoughCase(Case):
 
     def remarks(self) -> Remarks:
         """Return what is to be said of the two surfaces and of tables."""
-        return of_surfaces(self) + of_tables(self.followed())
+        return super().remarks() + of_surfaces(self) + of_tables(self.followed())
 
     def rough_clearances(self) -> dict[str, float]:
         """Return the combined rms roughness σ of bushing and trunnion [m] by the path of their clearance."""

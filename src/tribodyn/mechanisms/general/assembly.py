@@ -100,10 +100,14 @@ class Assembly:
         """What is worth knowing of it, in words."""
         n = self.freedoms
         free = "no degree of freedom is left" if n == 0 else f"{n} degree{'s' * (n > 1)} of freedom"
-        remarks = [free, *self.warnings]
-        if self.moved > CLOSED * float(self.data.parts.constants.size):
-            remarks.append(f"assembly moved a body by {self.moved * 1e3:.4g} mm to close the joints")
-        return tuple(remarks)
+        return free, *self.warnings, *self.notes
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Return that bodies do not start where the model has them."""
+        if self.moved <= CLOSED * float(self.data.parts.constants.size):
+            return ()
+        return (f"assembly moved a body by {self.moved * 1e3:.4g} mm to close the joints",)
 
     def require_sound(self) -> None:
         """Raise ``InputError`` of the first finding, if there is one."""

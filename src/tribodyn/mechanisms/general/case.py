@@ -14,7 +14,7 @@ from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import demand
+from tribodyn.cases.case import Case, demand
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
 from tribodyn.cases.functions import Doors, OwnFunction
 from tribodyn.cases.groups import Contact, Wear, check_output_interval
@@ -36,6 +36,7 @@ from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.output_keys import JointInstants, OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
+from tribodyn.mechanisms.general.plausible import of_mechanism
 from tribodyn.mechanisms.general.run_keys import ROWS, Integration, NodeKeys, ResultKeys, RunKeys
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 
@@ -152,7 +153,7 @@ class MechanismCase(_WithElements):
         """Return what is to be said of the surfaces of all joints and of tables."""
         of_pairs = (of_surfaces(self, f"{_PAIRS}.{name}.", self._beside(name)) for name in self.pairs)
         own = of_surfaces(self, "", self._beside(None)) + of_tables(self.followed())
-        return sum(of_pairs, own)
+        return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self))
 
     def _beside(self, pair: str | None) -> dict[str, list[str]]:
         """Return the friction of joints of a pair, or of none, that differs from that of the pair."""
@@ -371,6 +372,8 @@ class MechanismCase(_WithElements):
                 continue
             key = f"loads.{name}.along"
             demand_known(load.along, self.joints, key, "joint")
+            words = "no table of this load follows a joint: leave this out, or give a table over its angles"
+            demand(bool(load.joint_axes), key, words)
             free = self.joints[load.along].kind.COORDINATES
             for over in load.joint_axes:
                 coordinate = COORDINATE_OF[over]

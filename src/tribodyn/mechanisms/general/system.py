@@ -304,6 +304,7 @@ class MechanismSystem:
             ),
             notes=[
                 *NOTES[self._analysis],
+                *self.assembly.notes,
                 *vibrations.notes,
                 *note(self.case),
                 *of_temperatures(self.model),
