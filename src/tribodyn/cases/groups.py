@@ -328,7 +328,11 @@ class Wear(Group):
         le=1,
     )
     depth_limit: float | None = quantity(
-        None, "depth at which the bushing is worn out: a campaign ends there", ASSUMED, gt=0, example="5 um"
+        None,
+        "wear depth, of both partners together, at which a joint is worn out: a campaign ends there",
+        ASSUMED,
+        gt=0,
+        example="5 um",
     )
 
     running_in: bool = switch(False, "whether the bushing's roughness changes in a campaign", "manual, wear")

@@ -9,6 +9,7 @@ import xarray as xr
 
 from tribodyn.results.reading import column, cycles, peak
 from tribodyn.results.summary import KeyResult
+from tribodyn.results.wear_life import wear_life
 
 
 def _wear_rate(dataset: xr.Dataset) -> float:
@@ -54,9 +55,23 @@ WEAR_NUMBERS: Final[dict[str, KeyResult]] = {
         "Life",
         "cycles",
         "Wear",
-        "Drive cycles until some point is worn to the depth limit, or an error has grown to its own; "
-        "without a campaign a linear estimate.",
+        "Drive cycles until some point is worn to the depth limit, both partners together, or an error has "
+        "grown to its own; without a campaign a linear estimate.",
         lambda d: float(d.attrs["wear_life_cycles"]),
+    ),
+    "bore_life_cycles": KeyResult(
+        "Life of the bore",
+        "cycles",
+        "Wear",
+        "Drive cycles until a bore alone is worn to the depth limit, where both partners wear.",
+        lambda d: wear_life(d, part="bore"),
+    ),
+    "shaft_life_cycles": KeyResult(
+        "Life of the shaft",
+        "cycles",
+        "Wear",
+        "Drive cycles until a shaft alone is worn to the depth limit, where both partners wear.",
+        lambda d: wear_life(d, part="shaft"),
     ),
     "wear_life_factor": KeyResult(
         "Life, longest over shortest",

@@ -17,13 +17,11 @@ from tribodyn.mechanisms.general.readings import (
     of_joint,
     of_surfaces,
     offset,
-    partner_share,
     sizes,
-    wear_life,
-    wear_rate,
 )
 from tribodyn.results.reading import column, lasting, peak, settled, time_mean
 from tribodyn.results.summary import KeyResult
+from tribodyn.results.wear_life import wear_life, wear_rate
 
 
 def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:
@@ -207,29 +205,29 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "nm per 1000 cycles",
         "Joints",
         "Growth of the largest wear depth of this joint, at the last stop of a campaign or in this run.",
-        lambda d, j: 1e12 * wear_rate(d, j),
+        lambda d, j: 1e12 * wear_rate(d, of_surfaces(d, j)),
     ),
     "wear_life_cycles": _named(
         "Life by depth",
         "cycles",
         "Joints",
-        "Drive cycles until this joint is worn to the depth limit, at its last rate; all of them, those of "
-        "the campaign included.",
-        wear_life,
+        "Drive cycles until this joint is worn to the depth limit, both partners together, at its last "
+        "rate; all of them, those of the campaign included.",
+        lambda d, j: wear_life(d, of_surfaces(d, j)),
     ),
     "bore_life_cycles": _named(
         "Life of the bore",
         "cycles",
         "Joints",
         "Drive cycles until the bore alone is worn to the depth limit, where both partners wear.",
-        lambda d, j: wear_life(d, j, 1.0 - partner_share(d, j)),
+        lambda d, j: wear_life(d, of_surfaces(d, j), "bore"),
     ),
     "shaft_life_cycles": _named(
         "Life of the shaft",
         "cycles",
         "Joints",
         "Drive cycles until the shaft alone is worn to the depth limit, where both partners wear.",
-        lambda d, j: wear_life(d, j, partner_share(d, j)),
+        lambda d, j: wear_life(d, of_surfaces(d, j), "shaft"),
     ),
     "partner_wear_depth_nm": _named(
         "Wear depth of the partner",
