@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import os
 from argparse import ArgumentParser, Namespace
+from collections.abc import Iterable
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.directory import FIGURES, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.progress import announced_compilation
 
@@ -28,6 +29,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="where runs are kept (default: contributions-CASE)"
     )
+    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw no figures")
     parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 
@@ -46,11 +48,27 @@ def execute(args: Namespace) -> int:
         stack.enter_context(announced_compilation(console.note))
         watcher = Watcher(stop=stop, note=console.note)
         found = contributions(case, directory=directory.path, workers=args.workers, watcher=watcher)
+        if args.figures:
+            _draw(found, case.title, directory.path / FIGURES)
     for one in found:
         _tell(one, console)
+    if args.figures:
+        console.say(f"\nfigures are in {os.fspath(directory.path / FIGURES)}{os.sep}")
     if console.json:
         show_json({one.output: _as_json(one) for one in found})
     return 0
+
+
+def _draw(found: Iterable[OutputShares], title: str, folder: Path) -> None:
+    """Draw the shares in the error of each output."""
+    from tribodyn.figures.contributions import Shares, draw
+    from tribodyn.figures.save import save
+
+    folder.mkdir(exist_ok=True)
+    for one in found:
+        words = f"Shares in the error of {one.output}, {one.together:.4g} {one.unit} root mean square"
+        shares = Shares(words, title, one.joints, one.shares, one.interaction, one.estimate, one.causes)
+        save(draw(shares), folder, f"contributions_{one.output}")
 
 
 def _tell(one: OutputShares, console: Console) -> None:

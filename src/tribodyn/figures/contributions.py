@@ -1,0 +1,80 @@
+"""Shares of joints in the error of an output: bars of the simulation above those of the superposition."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
+
+TOGETHER: Final = "only together"
+"""What joints cause only together, in the place of a joint."""
+_COLOURS: Final = (style.ORANGE, style.GREEN, style.PURPLE)
+_ROOM: Final = 1.25
+"""Height of title, axis and legend [in]."""
+_ROW: Final = 0.34
+_THICK: Final = 0.36
+
+
+@dataclass(frozen=True)
+class Shares:
+    """What is drawn of the error of one output.
+
+    Attributes
+    ----------
+    title, case
+        Of the figure, and the title of the case.
+    joints
+        Names, n of them.
+    simulated
+        Share of each joint [1], shape (n,).
+    interaction
+        Share that joints cause only together [1].
+    estimate
+        Share of each joint and cause by superposition [1], shape (n, m); (n, 0) without one.
+    causes
+        Names of the causes, m of them.
+    """
+
+    title: str
+    case: str
+    joints: tuple[str, ...]
+    simulated: FloatArray
+    interaction: float
+    estimate: FloatArray
+    causes: tuple[str, ...]
+
+
+def draw(shares: Shares) -> Figure:
+    """Draw the joints with the largest share on top, and what they cause only together below."""
+    order = np.argsort(-shares.simulated, kind="stable")
+    names = [*(shares.joints[k] for k in order), TOGETHER]
+    figure = style.sheet(
+        xr.Dataset(attrs={"title": shares.case}), shares.title, _ROOM + _ROW * len(names) * 1.6
+    )
+    axes = figure.add_subplot()
+    rows = np.arange(len(names), dtype=np.float64)
+    values = 100.0 * np.append(shares.simulated[order], shares.interaction)
+    known = shares.estimate.shape[1] > 0
+    offset = 0.5 * _THICK if known else 0.0
+    bars = axes.barh(rows - offset, values, height=_THICK, color=style.BLUE, label="simulation")
+    axes.bar_label(bars, fmt="%.1f %%", padding=3, size=style.SMALL)
+    left = np.zeros((2, len(order)))
+    for cause, part, colour in zip(shares.causes, 100.0 * shares.estimate[order].T, _COLOURS, strict=False):
+        side = left[(part < 0.0).astype(int), np.arange(part.size)]
+        label = f"superposition: {cause}"
+        axes.barh(rows[:-1] + offset, part, _THICK, left=side, color=colour, label=label)
+        left += np.stack([np.maximum(part, 0.0), np.minimum(part, 0.0)])
+    axes.axvline(0.0, color=style.INK, lw=0.8)
+    axes.set_yticks(rows, [style.plain(name) for name in names])
+    axes.invert_yaxis()
+    axes.use_sticky_edges = False
+    axes.margins(x=0.12, y=0.03)
+    style.finish(axes, "share of the mean square error [%]")
+    style.legend(axes, 1 + len(shares.causes))
+    return figure
