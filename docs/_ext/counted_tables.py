@@ -52,6 +52,29 @@ def machines(found: Found) -> Lines:
         )
 
 
+def statics(found: Found) -> Lines:
+    """Give how static analyses of random machines ended, and how far they are from dynamic runs."""
+    measured = found["static_machines"]
+    ended = measured["static"]
+    ratio = measured["static over dynamic"]
+    yield from head("", "mechanisms")
+    yield row("drawn", str(measured["machines"]))
+    yield row("of these with no clearance", str(ended["no clearance"]))
+    for title, name in (
+        ("complete static analysis", "complete"),
+        ("refused: a freedom that nothing holds", "along a freedom that no joint, drive or spring holds"),
+        ("refused: overloaded for the contact law", "come closer than the contact law reaches"),
+        ("refused: a shaft outside its bore", "out of its bore"),
+        ("stopped by the benchmark after 2 s of processor time", "interrupted"),
+    ):
+        yield row(title, str(ended.get(name, 0)))
+    yield row("compared with a dynamic run", str(measured["compared"]))
+    for part in (1, 5, 20, 50):
+        yield row(f"rms errors within {part} % of each other", str(measured[f"within {part} %"]))
+    yield row("static over dynamic rms error: median", f"{ratio['median']:.3f}")
+    yield row("static over dynamic rms error: largest", f"{ratio['largest']:.1f}")
+
+
 def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
     if values is None:
         return "–"
@@ -60,5 +83,5 @@ def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
 
 def setup(app: Any) -> dict[str, bool]:
     """Register the tables."""
-    TABLES.update({"kinks": (SOURCE, kinks), "random": (SOURCE, machines)})
+    TABLES.update({"kinks": (SOURCE, kinks), "random": (SOURCE, machines), "statics": (SOURCE, statics)})
     return {"parallel_read_safe": True}

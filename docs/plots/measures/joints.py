@@ -64,7 +64,17 @@ def over_trunnion(runs: Runs, joint: str) -> str:
     return f"{errors[joint] / errors[ONE]:.1f}"
 
 
+def without_guide(runs: Runs, clearance: float) -> str:
+    """Return how many times as much all joints but the guide err as the trunnion."""
+    others = tuple(joint for joint in JOINTS if joint != GUIDE_JOINT)
+    return f"{means(Trial(runs, 'exact'), clearance, others)[0] / alone(runs, clearance)[ONE]:.1f}"
+
+
 NUMBERS: Final[Numbers] = {
+    **{
+        f"factor of all joints but the guide, {at} µm": partial(without_guide, clearance=at * 1e-6)
+        for at in CLEARANCES
+    },
     **{f"factor of all joints, {at} µm": partial(factor, clearance=at * 1e-6) for at in CLEARANCES},
     **{
         f"factor of all joints, {at} µm, guide of {length}": partial(

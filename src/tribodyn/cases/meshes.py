@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from tribodyn.cases.entry import Entry, read_entry
+from tribodyn.cases.expressions import is_unit
 from tribodyn.cases.keys import Key, shown
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
@@ -37,7 +38,7 @@ def with_meshes_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> d
         if path == table or f"{table}{FACETS}" not in keys:
             continue
         key = keys[f"{table}{UNIT}"]
-        given = read.pop(f"{table}{UNIT}", None)
+        given = _of_one(read.pop(f"{table}{UNIT}", None))
         unit = key.default if given is None else read_entry(key, given)
         assert isinstance(unit, float)
         name = str(read_entry(keys[path], read.pop(path)))
@@ -47,6 +48,13 @@ def with_meshes_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> d
             raise InputError(f"given {shown(name)}: {error.reason}", key=path, source=entry.source) from None
         read[f"{table}{FACETS}"] = replace(entry, value=corners)
     return read
+
+
+def _of_one(unit: Entry | None) -> Entry | None:
+    """Return a unit as a quantity: ``mm`` is ``1 mm``."""
+    if unit is None or not isinstance(unit.value, str) or not is_unit(unit.value.strip()):
+        return unit
+    return replace(unit, value=f"1 {unit.value}")
 
 
 def _corners(file: Path, unit: float) -> str:

@@ -267,7 +267,8 @@ def of_steps(statistics: Mapping[str, float]) -> list[str]:
     Parameters
     ----------
     statistics
-        Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`.
+        Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`; restarts at times
+        that are known before are expected and do not count.
     """
     steps, rejected, restarts = (statistics[name] for name in ("steps", "rejected", "restarts"))
     return [

@@ -180,7 +180,7 @@ def _by_error(
     small = "the contact hardly changes"
     words = small if share < 1.0 else "a wear campaign follows how the contact changes"
     note = (
-        f"Life by the error of output {first} is a linear estimate of {cycles:.3g} cycles: by then the "
+        f"Life by the error of output {first} is a linear estimate from this run: by then the "
         f"largest depth is {1e6 * reached:.3g} um, {share:.2g} times the roughness; {words}."
     )
     return {"output_life": np.array(list(found.values()))}, [note]

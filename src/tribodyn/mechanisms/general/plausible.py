@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.cases.messages import Remarks
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys
+from tribodyn.mechanisms.general.elements.stop import Stop
 
 if TYPE_CHECKING:
     from tribodyn.mechanisms.general.case import MechanismCase
@@ -51,7 +52,8 @@ def _of_period(case: MechanismCase) -> tuple[list[str], list[str]]:
 
 def _of_stops(case: MechanismCase) -> Iterator[str]:
     """Yield the stops that the start or a drive is beyond."""
-    for name, stop in case.stops.items():
+    stops = ((name, keys) for _, name, keys in case.elements() if isinstance(keys, Stop))
+    for name, stop in stops:
         turns = stop.angle is not None
         at = stop.angle if stop.angle is not None else stop.position or 0.0
         side = 1.0 if stop.side == "above" else -1.0

@@ -300,7 +300,7 @@ class MechanismSystem:
                 of_tables(
                     self.case.followed(), run.solution.t, partial(followed, self.case, found.couplings)
                 ),
-                cost=run.cost,
+                cost={**run.cost, "restarts": run.cost["restarts"] - len(run.problem.breakpoints)},
             ),
             notes=[
                 *NOTES[self._analysis],
