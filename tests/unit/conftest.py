@@ -215,6 +215,7 @@ def make_result() -> ResultFactory:
             "flash_temperature": 0.003,  # as if with the conductors of heat
             "wear_life_cycles": 3e6,
             "wear_life_factor": 80.0,
+            "wear_depth_limit": 5e-6,
             "friction_coefficient": 0.1,
             "contact_law": "rsdc",
             "formulation": "exact",

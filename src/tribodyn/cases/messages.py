@@ -112,7 +112,8 @@ def _nearest(path: str, keys: Mapping[str, Key]) -> str:
     named_so = ([key.path for key in keys.values() if key.name == word] for word in (name, *meanings(name)))
     elsewhere = next((paths for paths in named_so if paths), [])
     elsewhere = [other for other in elsewhere if ANY_NAME not in other] or elsewhere
-    if "." in table and inside and len(elsewhere) != 1:
+    of_a_part = ANY_NAME in as_declared(table, keys)
+    if "." in table and inside and (not elsewhere or (of_a_part and len(elsewhere) > 1)):
         return f"keys of {table}: {', '.join(inside)}"
     meant = closest(path, elsewhere or keys) or next(iter(elsewhere), None)
     return _nearest_valid(meant) if meant else ""

@@ -276,8 +276,6 @@ class SpringKeys(NamedGroup):
         """Check what involves two keys."""
         demand(self.between[0] != self.between[1], "between", "a spring connects two different bodies")
         demand(self.drawn_length > 0.0, "second_point", "the two ends of a spring must stand apart")
-        words = 'a spring without stiffness and damping does nothing; give one of them, such as "2 N/mm"'
-        demand(self.stiffness > 0.0 or self.damping > 0.0, "stiffness", words)
 
     @property
     def points(self) -> tuple[Vector, Vector]:

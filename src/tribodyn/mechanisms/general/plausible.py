@@ -25,9 +25,10 @@ _DEEP: Final = 1.0e-9
 
 
 def of_mechanism(case: MechanismCase) -> Remarks:
-    """Return what is to be said of period, stops and masses of a case."""
+    """Return what is to be said of period, stops, masses and springs of a case."""
     warnings, notes = _of_period(case)
-    return Remarks((*warnings, *_of_stops(case), *_of_masses(case)), tuple(notes))
+    warnings += [*_of_stops(case), *_of_masses(case), *_of_springs(case)]
+    return Remarks(tuple(warnings), tuple(notes))
 
 
 def _of_period(case: MechanismCase) -> tuple[list[str], list[str]]:
@@ -97,6 +98,16 @@ def _first(driven: list[DriveKeys]) -> float:
 
 def _in(value: float, unit: str) -> str:
     return f"{math.degrees(value):.4g} deg" if unit == "deg" else f"{1e3 * value:.4g} mm"
+
+
+def _of_springs(case: MechanismCase) -> Iterator[str]:
+    """Yield the springs that do nothing."""
+    for name, spring in case.springs.items():
+        if spring.stiffness == spring.damping == 0.0:
+            yield (
+                f"Spring {name} has neither stiffness nor damping and does nothing: give "
+                f"springs.{name}.stiffness or springs.{name}.damping."
+            )
 
 
 def _of_masses(case: MechanismCase) -> Iterator[str]:

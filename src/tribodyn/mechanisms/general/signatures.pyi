@@ -345,6 +345,7 @@ class Signatures:
         mesh_stiffness: str | None = ...,
         damping_factor: str | None = ...,
         restitution: float | str | None = ...,
+        ideal: bool | None = ...,
         pressure_angle: str | None = ...,
     ) -> Self: ...
     def rack(

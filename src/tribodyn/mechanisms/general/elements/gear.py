@@ -91,7 +91,7 @@ torque = "0.2 N m"
     restitution: float = number(
         RESTITUTION, "coefficient of restitution of teeth with backlash", "manual, elements", gt=0, le=1
     )
-    ideal: bool = switch(False, "treat the teeth as without backlash", "")
+    ideal: bool = switch(False, "treat the teeth as without backlash", "assumed")
     pressure_angle: float | None = quantity(
         None,
         "pressure angle, by which teeth push the wheels apart; without it 20 deg with backlash, else none",
