@@ -197,7 +197,7 @@ def test_a_vector_is_a_list_or_one_text(given: str) -> None:
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ('["1 mm", "0 mm"]', "these are 2"),
+        ('["1 mm", "0 mm"]', "2 values"),
         ("[1, 0, 0]", "the unit is missing"),
         ("3", "three numbers with units of length"),
         ('["1 mm", "0 mm", ["2 mm"]]', "three numbers"),

@@ -61,7 +61,7 @@ def test_numpy_arrays_are_numbers_in_si_units() -> None:
     assert case.joints["hinge"].axis == (0.0, 0.0, 2.0)
     assert case.drives["motor"].signal.values == tuple(np.deg2rad(10.0) * times**2)
     flat = td.Mechanism(run={"duration": "1 s"}).body("arm", centre=np.zeros(2), **ARM)
-    with pytest.raises(InputError, match=r"bodies\.arm\.centre: .*these are 2"):
+    with pytest.raises(InputError, match=r"bodies\.arm\.centre: .*2 values"):
         flat.case()
 
 
