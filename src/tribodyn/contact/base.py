@@ -1,5 +1,7 @@
 """What a contact law is."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar, Final

@@ -9,6 +9,8 @@ So e depends on the law and on E₀ alone: speed and mass enter only together, a
 told by the pressure that the same impact would reach without damping.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Threads of the linear algebra that NumPy and SciPy call."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from contextlib import contextmanager
 

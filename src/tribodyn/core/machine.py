@@ -1,5 +1,7 @@
 """What this machine lets a process have: processors and handles."""
 
+from __future__ import annotations
+
 import math
 import os
 import sys

@@ -1,5 +1,7 @@
 """What messages repeat of what a user gave."""
 
+from __future__ import annotations
+
 import difflib
 from collections.abc import Collection
 from typing import Final

@@ -5,6 +5,8 @@ finds how deep both go, strings and comments left out; the first string that doe
 will stop, too, so nothing behind it counts.
 """
 
+from __future__ import annotations
+
 import re
 import tomllib
 from typing import Any, Final

@@ -1,5 +1,7 @@
 """Versions of packages and of Python."""
 
+from __future__ import annotations
+
 import platform
 from functools import cache
 from importlib import metadata

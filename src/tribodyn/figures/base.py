@@ -1,5 +1,7 @@
 """What a family of figures is, and what moving pictures show."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol

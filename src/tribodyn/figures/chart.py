@@ -1,5 +1,7 @@
 """A chart over time as a figure."""
 
+from __future__ import annotations
+
 from functools import partial
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Reversals in figures: marked, and kept from flattening what lies between them."""
 
+from __future__ import annotations
+
 from matplotlib.axes import Axes
 
 from tribodyn.core.arrays import FloatArray

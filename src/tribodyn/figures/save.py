@@ -1,5 +1,7 @@
 """A figure on disk: PNG to look at, PDF for a paper."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -1,5 +1,7 @@
 """Where the trunnion goes inside the clearance circle."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

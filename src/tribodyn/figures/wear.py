@@ -1,5 +1,7 @@
 """Wear of the bushing: the worn depth, and its history over a campaign."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

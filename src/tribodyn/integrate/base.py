@@ -20,6 +20,8 @@ The rules of a method
    only what it alone knows, the rejected steps and the LU decompositions.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple, Protocol, TypeAlias

@@ -4,6 +4,8 @@ Source: A. C. Hindmarsh et al., SUNDIALS: Suite of nonlinear and differential/al
 equation solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
 """
 
+from __future__ import annotations
+
 import importlib
 from collections.abc import Iterator
 from typing import Any

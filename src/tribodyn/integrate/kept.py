@@ -1,5 +1,7 @@
 """Rows and pictures of an integration, as its solution keeps them."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray

@@ -1,5 +1,7 @@
 """When a run has stopped making progress, although it goes on stepping."""
 
+from __future__ import annotations
+
 import time
 from typing import Final
 

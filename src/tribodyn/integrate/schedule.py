@@ -6,6 +6,8 @@ them are put on common marks here, once, so that no driver meets two marks a rou
 error apart or takes a step of that length.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

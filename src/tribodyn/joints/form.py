@@ -1,5 +1,7 @@
 """What the surfaces of a bushing joint stand back from cylinders: crown, chamfers, measured forms."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -5,6 +5,8 @@ calls stands in ``kernels.film``. :func:`film_state` evaluates a film at one sta
 finds where it carries a load.
 """
 
+from __future__ import annotations
+
 from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
 from tribodyn.lubrication.factors import Roughness
 from tribodyn.lubrication.film import BOUNDARIES, CAVITATION, Film, FilmGrid

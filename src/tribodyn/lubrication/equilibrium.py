@@ -1,5 +1,7 @@
 """Where a film carries a load alone: from load and speed to the place of the shaft, without contact."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Final

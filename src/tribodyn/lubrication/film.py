@@ -1,5 +1,7 @@
 """An oil film between shaft and bushing, made into what the kernels read."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, field
 from typing import Final

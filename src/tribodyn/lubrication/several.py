@@ -1,5 +1,7 @@
 """Films of several joints as the arrays that ``kernels/film/several.py`` takes them from."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any, Final
 

@@ -1,5 +1,7 @@
 """What loads a mechanism over a run, and the segments between the kinks of tables."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """Where the loads on a shaft balance: Newton's method for rough contact."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Final, TypeAlias
 

@@ -1,5 +1,7 @@
 """What a run with a bushing says about its own trustworthiness, in plain words."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import Final

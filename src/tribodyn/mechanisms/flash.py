@@ -1,5 +1,7 @@
 """Flash temperature of a joint with clearance: an estimate where the conductors of heat are known."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 

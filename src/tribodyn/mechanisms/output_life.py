@@ -11,6 +11,8 @@ contact is narrow, as in an impact, it hardly holds the shaft across the force. 
 more than the largest depth, because it stays where the bore is worn most.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What kernels have kept of peaks, as results hold it: of the whole run, and of each reversal."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

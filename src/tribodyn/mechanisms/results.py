@@ -1,5 +1,7 @@
 """Results of any mechanism: read and checked, and their key results."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager

@@ -1,5 +1,7 @@
 """Signals as the pieces that kernels evaluate, and their integrals over time."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final

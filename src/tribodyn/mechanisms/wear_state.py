@@ -1,5 +1,7 @@
 """What runs of a wear campaign hand on to each other, and what wears."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from tribodyn.core.arrays import FloatArray

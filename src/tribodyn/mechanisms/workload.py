@@ -1,5 +1,7 @@
 """How much a run of a case computes and keeps: counts from its keys alone, before anything is built."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 
 from tribodyn.cases.groups import Wear

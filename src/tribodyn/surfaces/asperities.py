@@ -6,6 +6,8 @@ Williamson's kind need them, follow as in McCool, J. I. (1986), Comparison of mo
 rough surfaces, Wear 107, 37-60. Valid for isotropic Gaussian surfaces, whose α is at least 1.5.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Final

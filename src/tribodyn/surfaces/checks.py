@@ -1,5 +1,7 @@
 """Whether a scan can be measured: what is refused, and what is said about it."""
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

@@ -1,5 +1,7 @@
 """What a validation set returns: numbers with uncertainties and verdicts, and curves for its plot."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """The plot of a validation set: measured values with their intervals, computed values, null model."""
 
+from __future__ import annotations
+
 from itertools import count
 from pathlib import Path
 from typing import Any, Final

@@ -5,6 +5,8 @@ it was computed from, value and interval. This module computes them anew, so tha
 was changed. An entry is never changed or removed; a better model adds entries with a later date.
 """
 
+from __future__ import annotations
+
 import hashlib
 import math
 import tomllib

@@ -1,5 +1,7 @@
 """Files of a new set of a user's own measurements, to be filled in."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Final
 

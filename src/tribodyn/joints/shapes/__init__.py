@@ -1,5 +1,7 @@
 """Shapes of clearance joints: how nodes come onto their surfaces, one file each, listed once."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Final
 

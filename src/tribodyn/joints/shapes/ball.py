@@ -4,6 +4,8 @@ Ball and bore touch around the equator of the ball; beside it the gap opens by R
 with the ball.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """What a shape is: it puts nodes on the surfaces of a joint."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Protocol
 

@@ -5,6 +5,8 @@ into it is against theirs. Turning is held on all three axes; it must stay small
 first order.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

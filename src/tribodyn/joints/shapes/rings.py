@@ -1,5 +1,7 @@
 """Nodes on surfaces of revolution: rings of equal angles at Gauss-Legendre points, and on the edges."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

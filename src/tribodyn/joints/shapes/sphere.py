@@ -1,5 +1,7 @@
 """A ball in a race: ball joints and rod ends. Its pressure has no moment about the centre."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

@@ -6,6 +6,8 @@ Systems, 1988). Normals are not read: corners run anticlockwise seen from outsid
 knows no unit.
 """
 
+from __future__ import annotations
+
 import re
 from typing import Final
 

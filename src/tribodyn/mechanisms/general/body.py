@@ -1,5 +1,7 @@
 """Bodies of a mechanism: their keys and their cross-checks."""
 
+from __future__ import annotations
+
 from typing import ClassVar, Final, Literal
 
 from tribodyn.cases.case import NamedGroup, demand

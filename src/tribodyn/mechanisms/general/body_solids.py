@@ -1,5 +1,7 @@
 """Bodies as the solids that their keys describe, as modelled: round ones, boxes and meshes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What a run has made of the contacts of its joints, and what the same attitudes give on a finer grid."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Final

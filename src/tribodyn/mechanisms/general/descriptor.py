@@ -1,5 +1,7 @@
 """A mechanism that a user describes, as the rest of the program sees it."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Docstrings of the builder's methods: keys, units, defaults, errors, and an example that runs."""
 
+from __future__ import annotations
+
 import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Any, Final

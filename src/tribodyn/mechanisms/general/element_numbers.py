@@ -1,5 +1,7 @@
 """What elements transmit, from what is observed of their legs."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The energy balance of a mechanism: all bodies, joints, springs, drives and loads."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

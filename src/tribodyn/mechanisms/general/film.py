@@ -1,5 +1,7 @@
 """What a joint with an oil film must be."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from tribodyn.cases.case import demand

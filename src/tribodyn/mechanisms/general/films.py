@@ -1,5 +1,7 @@
 """What results hold of oil films: nothing without any, and nothing of joints without one."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Any
 

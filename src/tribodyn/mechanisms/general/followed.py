@@ -1,5 +1,7 @@
 """What tables of loads follow in a run, as results hold it."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Rows of a mechanism that follow the steps of the integration."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray

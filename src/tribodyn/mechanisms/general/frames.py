@@ -1,5 +1,7 @@
 """The frame at rest, and frames of joints."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What results of a mechanism hold of its bodies and joints over time, and what else a run reads of it."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,5 +1,7 @@
 """Key results of a mechanism as a whole."""
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

@@ -4,6 +4,8 @@ Comments before the first key say what the mechanism is. Files of the gallery al
 and the key ``Results`` that answer it.
 """
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -8,6 +8,8 @@ the origin is outside the triangle, with the integrals over its volume
 (Tonon 2005, Explicit exact formulas for the 3-D tetrahedron inertia tensor).
 """
 
+from __future__ import annotations
+
 import math
 from collections import Counter
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """Key results of the modes of a vibration analysis."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Nodes of the joints with clearance: the gaps at any displacement and tilt of their shafts."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final

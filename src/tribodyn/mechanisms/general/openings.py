@@ -1,5 +1,7 @@
 """What temperatures do to the clearances of joints, as results hold it."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What results hold of the outputs of a mechanism."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,5 +1,7 @@
 """When wear makes the errors of the outputs of a mechanism too large, from the wear of one cycle."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Final
 

@@ -1,5 +1,7 @@
 """A mechanism as an initial value problem."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 from typing import Final

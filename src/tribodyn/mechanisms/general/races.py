@@ -1,5 +1,7 @@
 """Axes of a joint; that of the race of a ball joint follows from the mechanism and turns with it."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from typing import Final
 

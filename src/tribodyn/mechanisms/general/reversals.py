@@ -1,5 +1,7 @@
 """When the drives of a mechanism reverse, and what is largest in the impacts that follow."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -5,6 +5,8 @@ principal axis of the body; a box has its sides along the principal axes; a mesh
 triangles.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Any, Final

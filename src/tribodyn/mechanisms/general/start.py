@@ -5,6 +5,8 @@ clearances until contact gives what that motion asks of the joints, by
 :mod:`tribodyn.mechanisms.general.equilibrium`. Freedoms of the mechanism as a whole are left to themselves.
 """
 
+from __future__ import annotations
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System

@@ -1,5 +1,7 @@
 """The surfaces of joints with clearance, from the keys of a case."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final, TypeAlias

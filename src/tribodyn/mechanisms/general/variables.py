@@ -1,5 +1,7 @@
 """What results of a mechanism hold beside what every result has: of the whole, each body, each joint."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final

@@ -1,5 +1,7 @@
 """How much a run of a user-defined mechanism computes and keeps."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from typing import Final

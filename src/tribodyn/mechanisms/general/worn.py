@@ -1,5 +1,7 @@
 """Joints with clearance after wear: how deep they are worn, and the roughness that is left of them."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,5 +1,7 @@
 """What the run of a journal says about its own trustworthiness, in plain words."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 from tribodyn.joints import BushingJoint

@@ -1,5 +1,7 @@
 """Stribeck curves of a case, as a dataset."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from typing import Final
 

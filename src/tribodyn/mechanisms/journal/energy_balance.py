@@ -5,6 +5,8 @@ drive and the heat of friction, contact damping and film. The work of the drive,
 once, is no measure of the residual: it could hide any error.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

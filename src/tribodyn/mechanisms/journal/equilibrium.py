@@ -4,6 +4,8 @@ The axis of the journal is at rest, so the film has its wedge and no squeeze, th
 friction slides at ω r_j.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from typing import Final
 

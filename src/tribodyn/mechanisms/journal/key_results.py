@@ -1,5 +1,7 @@
 """Key results of the journal."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Parameters of a journal in a bushing at rest but for its rotation, SI units."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """What results of a journal hold over time, and whose peaks are kept."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.core.quantities import Quantity

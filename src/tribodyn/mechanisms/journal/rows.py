@@ -1,5 +1,7 @@
 """What a run of the mechanism that a journal is says in the coordinates and signs of the source paper."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

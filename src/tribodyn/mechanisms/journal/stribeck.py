@@ -4,6 +4,8 @@ At low speed asperities carry the load and friction is theirs; at high speed the
 with speed as its shear does. In between, in mixed lubrication, friction is least.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """A case of the journal as a system to integrate, and what its runs tell."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial

@@ -1,5 +1,7 @@
 """What results of the journal hold beside what every result has: one line a variable."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.kernels.joints.quantities import EXTREMES

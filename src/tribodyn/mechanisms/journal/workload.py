@@ -1,5 +1,7 @@
 """How much a run of the journal computes and keeps."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 from typing import Final

@@ -1,5 +1,7 @@
 """Figures 16, 17 and 18: what the size of the clearance changes."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What happens in the impacts after the reversals."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What the reproduced figures have in common: panels, insets, colours of the clearances."""
 
+from __future__ import annotations
+
 from typing import Final, TypeAlias
 
 import numpy as np

@@ -7,6 +7,8 @@ With displacement and angle of the nut against the screw along and about the axi
 whichever way the axis is drawn. The multiplier is the axial force on the nut. There is no friction.
 """
 
+from __future__ import annotations
+
 import math
 from typing import ClassVar
 

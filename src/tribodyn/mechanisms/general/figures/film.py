@@ -1,5 +1,7 @@
 """The mechanism as a film: its bodies as lines between their joints, one moment after the other."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

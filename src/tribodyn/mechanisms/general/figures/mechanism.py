@@ -1,5 +1,7 @@
 """The mechanism at some moments of its cycle, seen from where it is best seen."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

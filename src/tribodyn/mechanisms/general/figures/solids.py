@@ -1,5 +1,7 @@
 """The mechanism as solids: each body as round rods between its joints."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -5,6 +5,8 @@ constraint equations share one. Allowed types in case files, methods of the buil
 drives, drawings and the tables of the manual follow from the list.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.mechanisms.general.joints.base import JointType

@@ -1,5 +1,7 @@
 """Joints that are only their constraint equations: lower pairs, a ball on a pin, a rigid connection."""
 
+from __future__ import annotations
+
 from typing import ClassVar
 
 from tribodyn.mechanisms.general.joints.base import ALIGNED, AT_POINT, NO_TURN, ON_AXIS, JointType, Row

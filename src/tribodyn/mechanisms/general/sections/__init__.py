@@ -1,5 +1,7 @@
 """What the report shows of a mechanism: its chapters, and what a comparison lays over each other."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

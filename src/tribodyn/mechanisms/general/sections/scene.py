@@ -1,5 +1,7 @@
 """What a scene shows beside bodies: motion in clearances, to be magnified; forces and moments as arrows."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, Final

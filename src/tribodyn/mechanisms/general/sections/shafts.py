@@ -1,5 +1,7 @@
 """How shafts move in their bores between the rows of a result."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

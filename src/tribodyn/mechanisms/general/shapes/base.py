@@ -1,5 +1,7 @@
 """What the shapes of a clearance have in common."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeAlias
 

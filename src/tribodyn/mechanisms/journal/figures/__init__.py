@@ -1,5 +1,7 @@
 """Figures of the journal, in the order in which one reads them."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.figures import chart, energy

@@ -1,5 +1,7 @@
 """What the report shows of the journal: its chapters, and what a comparison lays over each other."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.mechanisms.journal.sections import path

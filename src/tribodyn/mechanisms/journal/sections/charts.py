@@ -1,5 +1,7 @@
 """Deviation of the journal, the forces that hold it, and its energy balance."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Claims on the vane and on the motion of the trunnion at 20 µm: sections 5.1 and 5.2, Figs. 11, 13, 14."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 from typing import Final

@@ -1,5 +1,7 @@
 """What a claim is, its sentences in the paper, and what it is measured on."""
 
+from __future__ import annotations
+
 import inspect
 import tomllib
 from collections.abc import Callable, Mapping

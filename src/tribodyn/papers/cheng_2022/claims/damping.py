@@ -1,5 +1,7 @@
 """Claims on what damping does for the mechanism: abstract, sections 2.1 and 5.3, conclusion (2)."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

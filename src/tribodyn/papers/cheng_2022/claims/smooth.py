@@ -1,5 +1,7 @@
 """What is left of an error in smooth motion."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

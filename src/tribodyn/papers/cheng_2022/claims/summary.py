@@ -1,5 +1,7 @@
 """How many claims and sentences have which verdict, and how much of that rests on our bounds."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import Any, Final

@@ -1,5 +1,7 @@
 """What drives and loads the vane mechanism, but for the loads of the paper: keys and cross-checks."""
 
+from __future__ import annotations
+
 import itertools
 from typing import ClassVar, Final, Literal
 

@@ -1,5 +1,7 @@
 """What a run of the vane mechanism says about its own trustworthiness, in plain words."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from typing import Final

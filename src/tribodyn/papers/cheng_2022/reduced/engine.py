@@ -4,6 +4,8 @@ Lengths, masses, surfaces at room temperature and drive are the paper's. What an
 number with where it comes from.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn

@@ -1,5 +1,7 @@
 """Where the bodies of the mechanism are, in the millimetres of pictures."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -1,5 +1,7 @@
 """When the vane turns and where tables kink: the instants at which an integration restarts."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,5 +1,7 @@
 """When a run keeps rows and pictures."""
 
+from __future__ import annotations
+
 import math
 from functools import lru_cache
 from typing import Final

@@ -1,5 +1,7 @@
 """How much a run of the variable stator vane mechanism computes and keeps."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.kernels.joints.quantities import STATES

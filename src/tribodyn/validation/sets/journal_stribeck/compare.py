@@ -1,5 +1,7 @@
 """Shape of a Stribeck curve in mixed friction."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from typing import Final, cast

@@ -1,5 +1,7 @@
 """Largest difference of fitted friction laws from the measured torque of screw drives."""
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

@@ -1,5 +1,7 @@
 """What the report shows of the vane mechanism: its chapters, and what a comparison lays over each other."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE
