@@ -8,7 +8,6 @@ is found was made from these very sources, wherever a copy of them lies.
 from __future__ import annotations
 
 import hashlib
-import inspect
 import os
 import platform
 import sys
@@ -17,7 +16,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -86,7 +85,7 @@ def cached(dispatcher: Any, sources: Sources, kind: str = "") -> Any:
     ``kind`` tells apart what is compiled of the same function with other options.
     """
     function = getattr(dispatcher, "py_func", None)  # None where NUMBA_DISABLE_JIT is set
-    if function is not None and os.path.isfile(inspect.getfile(function)) and folder(sources) is not None:
+    if function is not None and _is_file(function.__code__.co_filename) and folder(sources) is not None:
         dispatcher._cache = _KernelCache(function, sources, kind)
     return dispatcher
 
@@ -160,6 +159,11 @@ def _opened(place: Path) -> Path:
     if new:
         prune(place.parent, "[0-9a-f]" * _DIGITS)
     return place
+
+
+@cache
+def _is_file(path: str) -> bool:
+    return os.path.isfile(path)
 
 
 @cache
@@ -255,14 +259,27 @@ class _KernelCache(caching.FunctionCache):
     """Numba's cache of a function that other processes may fill and remove at the same time."""
 
     def __init__(self, function: Any, sources: Sources, kind: str) -> None:
-        implementation: Any = partial(_Implementation, sources=sources, kind=kind)
-        self._sources, self._impl_class = sources, implementation
-        super().__init__(function)
-        locator, base = self._impl.locator, self._impl.filename_base
-        self._cache_file = _Files(self._cache_path, base, locator.get_source_stamp())
+        # Numba's own would find out at once where its files are; of most functions nobody asks.
+        self._py_func, self._name, self._sources, self._kind = function, repr(function), sources, kind
+        _hash(function.__code__.co_filename)
+        self.enable()
+
+    @cached_property
+    def _impl(self) -> Any:
+        return _Implementation(self._py_func, self._sources, self._kind)
+
+    @cached_property
+    def _cache_path(self) -> str:
+        return str(self._impl.locator.get_cache_path())
+
+    @cached_property
+    def _cache_file(self) -> _Files:
+        stamp = self._impl.locator.get_source_stamp()
+        return _Files(self._cache_path, self._impl.filename_base, stamp)
 
     def load_overload(self, signature: Any, target: Any) -> Any:
         """Return the compiled function; None where it is not there or damaged, as after a loss of power."""
+        lean.use(target)
         found = self._load(signature, target)
         if found is None and (shared := claims.shared.get(self.cache_path)) is not None:
             shared.take(self._claim(signature))

@@ -13,6 +13,8 @@ off by the private option ``_nrt``; a kernel that creates an array does not comp
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache, partial
 from typing import Any, Final, NamedTuple
 
 import numba as nb
@@ -57,7 +59,7 @@ def decorators(sources: Sources) -> Decorators:
         bare = njit(no_cfunc_wrapper=True, no_cpython_wrapper=True)(function)
         if bare is function:  # NUMBA_DISABLE_JIT is set
             return function
-        return _for_kernels(bare, njit("called", no_cfunc_wrapper=True)(function))
+        return _for_kernels(bare, cache(partial(njit("called", no_cfunc_wrapper=True), function)))
 
     return Decorators(
         entry=njit(),
@@ -67,8 +69,8 @@ def decorators(sources: Sources) -> Decorators:
     )
 
 
-def _for_kernels(bare: Any, called: Any) -> Any:
-    """Return a compiled function without a wrapper for Python; Python calls another one, compiled then.
+def _for_kernels(bare: Any, for_python: Callable[[], Any]) -> Any:
+    """Return a compiled function without a wrapper for Python; Python calls another one, made then.
 
     The wrapper takes the arguments apart. For those of a mechanism it takes a second to compile, and every
     kernel above would contain it once more.
@@ -78,11 +80,12 @@ def _for_kernels(bare: Any, called: Any) -> Any:
         bare.overloads[tuple(compiled.signature.args)] = compiled  # numba's own lets Python find it, too
 
     def compile_for_python(*arguments: Any, **named: Any) -> Any:
+        called = for_python()
         entry = called._compile_for_args(*arguments, **named)
         for compiled in called.overloads.values():
             if compiled.entry_point is entry:
                 bare._insert([kind._code for kind in compiled.signature.args], entry, False)
         return entry
 
-    bare.add_overload, bare._compile_for_args, bare.for_python = add_overload, compile_for_python, called
+    bare.add_overload, bare._compile_for_args, bare.for_python = add_overload, compile_for_python, for_python
     return bare

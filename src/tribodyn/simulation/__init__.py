@@ -222,12 +222,15 @@ def compile_for_parent(*, ahead: bool) -> None:
     ahead
         Whether to compile what another process, which takes these steps, needs last.
     """
+    import gc
+
     from mebdf.compiled.cache import share_work
     from tribodyn.integrate.mebdf import compile_ahead
     from tribodyn.kernels.jit import SOURCES
     from tribodyn.mechanisms.catalogue import parse_case
 
     session = _session(parse_case(from_parent(), "case"))
+    gc.disable()  # looking for cycles takes a fifth of the time, and what it would free is little
     share_work(SOURCES)
     if ahead:
         template = getattr(session.system, "template", None)

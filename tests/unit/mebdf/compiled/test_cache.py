@@ -54,7 +54,7 @@ def test_what_is_found_is_parsed_only_for_a_caller(place: Path) -> None:
     found = compiled()
     assert found(2.0) == 4.0
     (library,) = (each.library for each in found.overloads.values())
-    assert library._shared_module is None
+    assert library._own is None
 
     def fourfold(number: float) -> float:
         result: float = found(found(number))
@@ -62,7 +62,7 @@ def test_what_is_found_is_parsed_only_for_a_caller(place: Path) -> None:
 
     assert nb.njit(fourfold)(2.0) == 8.0
     assert misses(found) == 0
-    assert library._shared_module is not None
+    assert library._own is not None
 
 
 def test_what_is_found_needs_no_compiler() -> None:
