@@ -14,6 +14,7 @@ import secrets
 from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
+import numba as nb
 from llvmlite import binding
 from numba.core import codegen
 from numba.core.compiler import CompileResult
@@ -25,6 +26,8 @@ _KIND: Final = "lean"
 _IN_THIS_PROCESS: Final = "numba.dynamic.globals"
 _LONGEST: Final = 256
 _BEGINNING: Final = 160
+_TESTED: Final = nb.version_info.short == (0, 68)
+"""Whether this is the version of numba whose private names are used here; others compile in their own way."""
 _TOKEN: Final = secrets.token_hex(4)
 
 
@@ -158,15 +161,16 @@ class LeanCode(codegen.JITCPUCodegen):
 
 
 def use(context: Any) -> None:
-    """Have a target of numba use such libraries from now on."""
+    """Have a target of numba use such libraries from now on, if this version was tested."""
     code = context.codegen()
-    if not isinstance(code, LeanCode):
+    if _TESTED and not isinstance(code, LeanCode):
         code.__class__, context.mangler = LeanCode, _mangled
 
 
 def reduced(compiled: Any) -> tuple[Any, ...]:
     """Return what is kept of a compiled function."""
-    compiled.library.serialize_using_object_code = compiled.library.kept
+    if isinstance(compiled.library, LeanLibrary):
+        compiled.library.serialize_using_object_code = compiled.library.kept
     kept: tuple[Any, ...] = compiled._reduce()
     return kept
 

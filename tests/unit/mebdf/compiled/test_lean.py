@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -85,3 +89,20 @@ def test_names_differ_from_those_of_another_process(monkeypatch: pytest.MonkeyPa
     assert ours == lean._mangled("package.name", (nb.float64,), uid=1)
     monkeypatch.setattr(lean, "_TOKEN", "another")
     assert ours != lean._mangled("package.name", (nb.float64,), uid=1)
+
+
+def test_another_version_of_numba_compiles_in_its_own_way(place: Path) -> None:
+    use = """
+from mebdf.compiled import lean
+lean._TESTED = False
+from mebdf.kernels.elementary import portable
+print(portable.sin(0.5))
+from numba.core.registry import cpu_target
+assert not isinstance(cpu_target.target_context.codegen(), lean.LeanCode)
+"""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(place)}
+    for _ in range(2):  # compiled, and then loaded
+        done = subprocess.run(
+            [sys.executable, "-c", use], capture_output=True, text=True, check=True, env=environment
+        )
+        assert float(done.stdout.split()[0]) == math.sin(0.5)
