@@ -16,7 +16,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -259,23 +259,18 @@ class _KernelCache(caching.FunctionCache):
     """Numba's cache of a function that other processes may fill and remove at the same time."""
 
     def __init__(self, function: Any, sources: Sources, kind: str) -> None:
-        # Numba's own would find out at once where its files are; of most functions nobody asks.
-        self._py_func, self._name, self._sources, self._kind = function, repr(function), sources, kind
+        implementation: Any = partial(_Implementation, sources=sources, kind=kind)
+        self._function, self._sources, self._impl_class = function, sources, implementation
         _hash(function.__code__.co_filename)
-        self.enable()
 
-    @cached_property
-    def _impl(self) -> Any:
-        return _Implementation(self._py_func, self._sources, self._kind)
-
-    @cached_property
-    def _cache_path(self) -> str:
-        return str(self._impl.locator.get_cache_path())
-
-    @cached_property
-    def _cache_file(self) -> _Files:
-        stamp = self._impl.locator.get_source_stamp()
-        return _Files(self._cache_path, self._impl.filename_base, stamp)
+    def __getattr__(self, name: str) -> Any:
+        """Find out where its files are, as numba's own would at once: of most functions nobody asks."""
+        if "_impl" in vars(self):
+            raise AttributeError(name)
+        super().__init__(self._function)
+        locator, base = self._impl.locator, self._impl.filename_base
+        self._cache_file = _Files(self._cache_path, base, locator.get_source_stamp())
+        return getattr(self, name)
 
     def load_overload(self, signature: Any, target: Any) -> Any:
         """Return the compiled function; None where it is not there or damaged, as after a loss of power."""

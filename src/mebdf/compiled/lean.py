@@ -86,9 +86,10 @@ class LeanLibrary(codegen.JITCodeLibrary):
         self._optimize_final_module()
         self._final_module.verify()
         self._finalize_final_module()
+        code: Any = self._codegen
         for each in self._final_module.global_variables:
             if (environment := lookup_environment(each.name)) is not None:
-                self._codegen.set_env(each.name, environment)
+                code.set_env(each.name, environment)
 
     def kept(self) -> tuple[str, str, Any]:
         """Return what is kept of the library: machine code, if any was made, and intermediate code."""
@@ -169,8 +170,9 @@ def use(context: Any) -> None:
 
 def reduced(compiled: Any) -> tuple[Any, ...]:
     """Return what is kept of a compiled function."""
-    if isinstance(compiled.library, LeanLibrary):
-        compiled.library.serialize_using_object_code = compiled.library.kept
+    library: Any = compiled.library
+    if isinstance(library, LeanLibrary):
+        compiled.library.serialize_using_object_code = library.kept
     kept: tuple[Any, ...] = compiled._reduce()
     return kept
 

@@ -62,15 +62,17 @@ def test_only_what_python_calls_becomes_machine_code(place: Path) -> None:
 def test_functions_that_call_each_other_find_each_other() -> None:
     lean.use(cpu_target.target_context)
 
-    @nb.njit
+    njit: Any = nb.njit
+
+    @njit
     def is_even(number: int) -> bool:
         return True if number == 0 else is_odd(number - 1)
 
-    @nb.njit
+    @njit
     def is_odd(number: int) -> bool:
         return False if number == 0 else is_even(number - 1)
 
-    @nb.njit
+    @njit
     def both(number: int) -> tuple[bool, bool]:
         return is_even(number), is_odd(number)
 
