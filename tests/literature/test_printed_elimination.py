@@ -14,7 +14,7 @@ import pytest
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.vsv import functions, layout
-from tribodyn.kernels.vsv.equations import ring_centre
+from tribodyn.kernels.vsv.motion import ring_centre
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 TIMES = np.linspace(0.05, 6.2, 60)
@@ -49,7 +49,7 @@ def instant(vsv, data, memory, t):
     s2 = value[layout.S2_X : layout.S2_Z + 1]
     s1 = np.array([value[layout.S1_X], vsv.lengths.l_4, value[layout.S1_Z]])
     n, bend = (column[layout.N_X : layout.N_Z + 1] for column in (value, acceleration))
-    x, z = ring_centre(vsv.lengths.l_3, vsv.lengths.phi, float(value[layout.THETA_B]))
+    x, z = ring_centre(data.mechanism, s2[0], s2[2])
     o3 = np.array([x, s2[1], z])
     return Instant(
         s1=0.5 * (s1 - s2),

@@ -79,12 +79,28 @@ def closure_residual(
 
 
 @kernel
+def ideal_vane(mechanism: Record, theta_a: float, s1_x: float, s1_z: float) -> tuple[float, float]:
+    """Return θ_v [rad] without clearance, and dθ_v/dθ_a."""
+    theta_v = vane_angle(mechanism, theta_a, s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
+    _, slope = closure_residual(mechanism, s1_x, s1_z, 0.0, 0.0, 0.0, 0.0, theta_v)
+    s2_x, s2_z = ring_end(mechanism, mechanism.l_4 * cos(theta_v), mechanism.l_3)
+    moved = (s2_z - s1_z) * (s1_x - mechanism.pivot_x) - (s2_x - s1_x) * (s1_z - mechanism.pivot_z)
+    return theta_v, moved / slope
+
+
+@kernel
 def vane_angle(
-    mechanism: Record, theta_a: float, e_x: float, e_y: float, tan_x: float, tan_y: float
+    mechanism: Record,
+    theta_a: float,
+    s1_x: float,
+    s1_z: float,
+    e_x: float,
+    e_y: float,
+    tan_x: float,
+    tan_y: float,
 ) -> float:
-    """Return θ_v [rad] in the assembly of the table, to machine precision; NaN out of reach."""
+    """Return θ_v [rad] in the assembly of the table, S1 at (s1_x, s1_z); NaN out of reach."""
     theta_v = ideal_guess(mechanism, theta_a)
-    s1_x, s1_z = crank_end(mechanism, theta_a)
     for _ in range(MAX_NEWTON):
         residual, slope = closure_residual(mechanism, s1_x, s1_z, e_x, e_y, tan_x, tan_y, theta_v)
         if slope == 0.0:

@@ -11,7 +11,7 @@ from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.peaks import Peaks
-from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS, N_UNKNOWNS
+from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS
 
 CONSTANTS: Final = tuple(
     Quantity(name, unit, meaning, ())
@@ -114,6 +114,7 @@ class VsvData(NamedTuple):
 
 Scratch: Final = record_type(
     ("motion", "f8", (N_ROWS, N_COLUMNS)),
+    ("secants", "f8", (2,)),
     ("test", "f8", (N_BODY, 5)),
     ("force", "f8", (N_BODY,)),
     ("collar", "f8", (N_BODY,)),
@@ -124,9 +125,7 @@ Scratch: Final = record_type(
     ("wrench", "f8", (5,)),
     ("wrench_jacobian", "f8", (5, 9)),
     ("small", "f8", (4, 4)),
-    ("system", "f8", (N_UNKNOWNS, N_UNKNOWNS)),
-    ("reactions", "f8", (N_UNKNOWNS, 1)),
-    ("ideal", "f8", (N_ROWS, N_COLUMNS)),
+    ("closed", "f8", (N_ROWS, N_COLUMNS)),
     ("places", "f8", (N_OVER, 2)),
     ("air", "f8", (N_AIR,)),
     ("air_over_time", "f8", (2, N_AIR)),
@@ -135,6 +134,7 @@ Scratch: Final = record_type(
 )
 """Work of one evaluation; nothing is carried from one evaluation to the next.
 
+``secants`` are sec² φ_x and sec² φ_y; ``closed`` is the motion table of ``paper`` with the offsets alone.
 ``marked`` is 1 while the others hold what the ledger evaluated at its mark.
 """
 

@@ -9,7 +9,7 @@ of the lever force.
 
 from __future__ import annotations
 
-from mebdf.kernels.elementary import cos, sin, tan, tanh
+from mebdf.kernels.elementary import cos, sin, tanh
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_terms, follow
@@ -59,7 +59,7 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
-from tribodyn.kernels.vsv.motion import fill_motion
+from tribodyn.kernels.vsv.motion import fill_motion, ring_centre
 from tribodyn.kernels.vsv.place import place
 
 
@@ -79,7 +79,7 @@ def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -
     d_y = motion[S2_X + 1, VALUE] - mechanism.l_4
     d_z = s2_z - motion[S1_Z, VALUE]
     kappa = -d_y / (d_z * s2_x - d_x * s2_z)
-    o3_x, o3_z = ring_centre(mechanism.l_3, mechanism.ring_angle, motion[THETA_B, VALUE])
+    o3_x, o3_z = ring_centre(mechanism, s2_x, s2_z)
     test[THETA_B, 1] = kappa
     d_s2 = (-s2_z * kappa, 1.0, s2_x * kappa)
     d_o3 = (-o3_z * kappa, 1.0, o3_x * kappa)
@@ -101,14 +101,6 @@ def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -
     test[OV_Y, 3] = motion[OV_Y, 3]
     test[PHI_Y, 4] = 1.0
     test[OV_X, 4] = motion[OV_X, 4]
-
-
-@kernel
-def ring_centre(l_3: float, ring_angle: float, theta_b: float) -> tuple[float, float]:
-    """Return x and z of the ring's mass centre relative to its axis [m]."""
-    radius = 0.5 * l_3 * cos(0.5 * ring_angle)
-    angle = theta_b - 0.5 * ring_angle
-    return -radius * sin(angle), radius * cos(angle)
 
 
 @kernel
@@ -147,12 +139,10 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     direction, air = memory.regime[0], scratch.air
     for row in range(N_BODY):
         force[row] = mechanism.weight[row]
-    tan_x = tan(y[2])
-    tan_y = tan(y[3])
     force[E_X] = scratch.wrench[0]
     force[E_Y] = scratch.wrench[1]
-    force[PHI_X] = (1.0 + tan_x * tan_x) * (scratch.wrench[2] + air[BEND_X])
-    force[PHI_Y] = (1.0 + tan_y * tan_y) * (scratch.wrench[3] + air[BEND_Y])
+    force[PHI_X] = scratch.secants[0] * (scratch.wrench[2] + air[BEND_X])
+    force[PHI_Y] = scratch.secants[1] * (scratch.wrench[3] + air[BEND_Y])
     force[THETA_V] = air[AIR_M] + scratch.wrench[4]
     force[OV_X] = air[AIR_X]
     force[OV_Y] = air[AIR_Y]
@@ -188,16 +178,16 @@ def collar_share(test: FloatArray, collar: FloatArray, i: int) -> float:
     )
 
 
-@kernel
-def lever_lift(exact: float, theta_b: float) -> float:
+@inlined
+def lever_lift(exact: float, motion: FloatArray) -> float:
     """Return tan θ_b, the vertical per horizontal force of the frictionless pin; 0 in ``paper``."""
-    return tan(theta_b) if exact > 0.0 else 0.0
+    return float(-motion[S3_X, VALUE] / motion[S3_Z, VALUE]) if exact > 0.0 else 0.0
 
 
 @kernel
 def add_collar(mechanism: Record, scratch: Record, factor: float) -> None:
     """Add ``factor`` times the terms of the thrust collar, whose force depends on ẍ of the vane centre."""
-    lift = lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE])
+    lift = lever_lift(mechanism.exact, scratch.motion)
     at_rest = (
         mechanism.vane_weight
         - scratch.air[AIR_Z]
@@ -217,7 +207,7 @@ def collar_force(mechanism: Record, scratch: Record, acceleration: FloatArray) -
     for j in range(4):
         x_ov += scratch.motion[OV_X, 1 + j] * acceleration[j]
     f_43x = scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * x_ov
-    lift = lever_lift(mechanism.exact, scratch.motion[THETA_B, VALUE])
+    lift = lever_lift(mechanism.exact, scratch.motion)
     return mechanism.vane_weight - scratch.air[AIR_Z] + lift * f_43x
 
 
@@ -226,7 +216,8 @@ def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     """Fill motion table, test motions and loads; return the vane speed that traction sees [rad/s]."""
     mechanism, scratch = data.mechanism, memory.scratch
     scratch.marked = 0.0
-    fill_motion(mechanism, drive(data, memory.segment, t), y, scratch.motion)
+    secants = fill_motion(mechanism, drive(data, memory.segment, t), y, scratch.motion)
+    scratch.secants[0], scratch.secants[1] = secants
     fill_air(data, t, memory)
     fill_test_motions(mechanism, scratch.motion, scratch.test)
     return slip_speed(memory.regime, scratch.motion)
@@ -295,9 +286,8 @@ def fill_load_gradient(
     """Fill columns 1 to 8 with ∂(generalised joint and collar forces)/∂y, the motion table held fixed."""
     mechanism, scratch = data.mechanism, memory.scratch
     motion, test, dw = scratch.motion, scratch.test, scratch.wrench_jacobian
-    sec2_x = 1.0 + tan(y[2]) ** 2
-    sec2_y = 1.0 + tan(y[3]) ** 2
-    lift = lever_lift(mechanism.exact, motion[THETA_B, VALUE]) if f_cz > 0.0 else 0.0
+    sec2_x, sec2_y = scratch.secants[0], scratch.secants[1]
+    lift = lever_lift(mechanism.exact, motion) if f_cz > 0.0 else 0.0
     free_slip = 1.0 if memory.regime[1] == 0.0 else 0.0
     collar_xx, collar_yy, collar_xy = thrust.stiffness(data.collar, y[2], y[3], f_cz)
     for i in range(4):

@@ -52,8 +52,5 @@ N_COLUMNS: Final = 8
 N_IDEAL: Final = 512
 """Intervals of the table of the ideal mechanism."""
 
-N_UNKNOWNS: Final = 24
-"""Of the full Newton-Euler system: four accelerations and twenty reactions."""
-
 N_COORDINATES: Final = 4
 """Clearance coordinates e_x, e_y, φ_x, φ_y."""

@@ -7,7 +7,6 @@ N q̇.
 
 from __future__ import annotations
 
-from mebdf.kernels.elementary import tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import TIME, add_following
@@ -37,6 +36,8 @@ from tribodyn.kernels.vsv.layout import (
     OV_Y,
     PHI_X,
     PHI_Y,
+    S1_X,
+    S1_Z,
     THETA_A,
     THETA_V,
     VALUE,
@@ -76,7 +77,7 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     motion, collar = scratch.motion, scratch.collar
     omega_v, f_cz = motion[THETA_V, VELOCITY], scratch.f_cz
     air = scratch.air
-    sec2_x, sec2_y = 1.0 + tan(y[2]) ** 2, 1.0 + tan(y[3]) ** 2
+    sec2_x, sec2_y = scratch.secants[0], scratch.secants[1]
     powers.work_drive = drive_moment(scratch) * motion[THETA_A, VELOCITY]
     powers.work_loads = (
         air[AIR_X] * motion[OV_X, VELOCITY] + air[AIR_Y] * motion[OV_Y, VELOCITY] + air[AIR_M] * omega_v
@@ -89,9 +90,9 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
 
 
 @kernel
-def fill_joint_forces(y: FloatArray, out: Record, forces: FloatArray) -> None:
+def fill_joint_forces(secants: FloatArray, out: Record, forces: FloatArray) -> None:
     """Fill the forces of damping and friction on the clearance coordinates, one coordinate a row."""
-    sec2_x, sec2_y = 1.0 + tan(y[2]) ** 2, 1.0 + tan(y[3]) ** 2
+    sec2_x, sec2_y = secants[0], secants[1]
     on_x, on_y = forces[0].view(Forces)[0], forces[1].view(Forces)[0]
     about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
     on_x.heat_damping, on_x.work_clearance_friction = out.F_kx - out.F_cx, out.F_fx
@@ -106,7 +107,7 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     """Fill forces on the clearance coordinates, their motion and their momenta at this instant."""
     scratch, forces, here = memory.scratch, memory.books.forces[NOW], memory.books.motion[NOW]
     motion, collar, out = scratch.motion, scratch.collar, memory.joint.scratch.report
-    fill_joint_forces(y, out, forces)
+    fill_joint_forces(scratch.secants, out, forces)
     for j in range(4):
         turning = motion[THETA_V, 1 + j]
         loads = -scratch.wrench[4] * turning
@@ -122,8 +123,8 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
         for j in range(4):
             here[MOMENTUM, j] += momentum * motion[row, 1 + j]
     about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
-    about_x.work_clearance_loads += (1.0 + tan(y[2]) ** 2) * scratch.air[BEND_X]
-    about_y.work_clearance_loads += (1.0 + tan(y[3]) ** 2) * scratch.air[BEND_Y]
+    about_x.work_clearance_loads += scratch.secants[0] * scratch.air[BEND_X]
+    about_y.work_clearance_loads += scratch.secants[1] * scratch.air[BEND_Y]
     about_x.work_clearance_collar += scratch.f_cz * collar[PHI_X]
     about_y.work_clearance_collar += scratch.f_cz * collar[PHI_Y]
 
@@ -136,7 +137,7 @@ def _fill_swing(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     clear(air)
     n = actions.terms.size
     add_following(actions.signals, actions.terms, 0, n, memory.regime[0], TIME, scratch.places, air)
-    sec2 = (0.0, 0.0, 1.0 + tan(y[2]) ** 2, 1.0 + tan(y[3]) ** 2)
+    sec2 = (0.0, 0.0, scratch.secants[0], scratch.secants[1])
     for j in range(4):
         for k in (SWING, RATE):
             swing[k, j] = (
@@ -154,7 +155,8 @@ def vane_angle_with_clearance(mechanism: Record, y: FloatArray, motion: FloatArr
     """Return θ_v [rad]; in ``paper`` it is read from the closure with the offsets e_x, e_y alone."""
     if mechanism.exact > 0.0:
         return motion[THETA_V, VALUE]
-    return vane_angle(mechanism, motion[THETA_A, VALUE], y[0], y[1], 0.0, 0.0)
+    s1_x, s1_z = motion[S1_X, VALUE], motion[S1_Z, VALUE]
+    return vane_angle(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, y[0], y[1], 0.0, 0.0)
 
 
 @kernel
@@ -162,7 +164,8 @@ def _fill_watched(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     """Fill the sizes of this instant whose peaks are kept."""
     motion, watched = memory.scratch.motion, memory.peaks.values[NOW].view(Watched)[0]
     fill_watched(memory.joint.scratch.report, y, watched.joint)
-    ideal = vane_angle(mechanism, motion[THETA_A, VALUE], 0.0, 0.0, 0.0, 0.0)
+    s1_x, s1_z = motion[S1_X, VALUE], motion[S1_Z, VALUE]
+    ideal = vane_angle(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
     watched.mechanism.drive_moment = abs(drive_moment(memory.scratch))
     watched.mechanism.vane_angle_error = abs(vane_angle_with_clearance(mechanism, y, motion) - ideal)
 

@@ -46,7 +46,10 @@ from tribodyn.kernels.vsv.layout import (
 
 Crank: TypeAlias = tuple[float, float, float]
 """Angle of the crank [rad], its speed [rad/s] and acceleration [rad/s²]."""
+Four: TypeAlias = tuple[float, float, float, float]
 
+CENTRED: Final = (0.0, 0.0, 0.0, 0.0)
+"""Place, and rates, of a trunnion in the middle of its bushing."""
 SHIFTED: Final = np.array([O2_X, O2_Y, O3_X, O3_Y])
 SHIFTS: Final = np.array([0, 1, 0, 1])
 SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
@@ -54,38 +57,44 @@ SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
 
 
 @kernel
-def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArray) -> None:
-    """Fill the motion table (N_ROWS, N_COLUMNS) at a motion of the crank and the state ``y`` (8,)."""
+def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArray) -> tuple[float, float]:
+    """Fill the motion table (N_ROWS, N_COLUMNS) at a motion of the crank and the state ``y`` (8,).
+
+    Returns
+    -------
+    tuple
+        sec² φ_x and sec² φ_y.
+    """
     clear(motion)
+    tan_x, tan_y = tan(y[2]), tan(y[3])
     if mechanism.exact > 0.0:
-        _fill_trunnion(mechanism, y, motion)
-        fill_rods(mechanism, crank, y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], motion)
+        _fill_trunnion(mechanism, y, tan_x, tan_y, motion)
+        fill_rods(mechanism, crank, (y[0], y[1], tan_x, tan_y), (y[4], y[5], y[6], y[7]), motion)
     else:
-        fill_rods(mechanism, crank, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, motion)
+        fill_rods(mechanism, crank, CENTRED, CENTRED, motion)
         for row in range(E_X):
             for column in range(1, 5):
                 motion[row, column] = 0.0
         for row in range(S1_X, S3_Z + 1):
             for column in range(1, 5):
                 motion[row, column] = 0.0
-        _fill_trunnion(mechanism, y, motion)
+        _fill_trunnion(mechanism, y, tan_x, tan_y, motion)
         for k in range(SHIFTED.size):
             row, coordinate, share = SHIFTED[k], SHIFTS[k], SHARES[k]
             motion[row, 1 + coordinate] = share
             motion[row, VALUE] += share * y[coordinate]
             motion[row, VELOCITY] += share * y[4 + coordinate]
+    return 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
 
 
 @kernel
-def _fill_trunnion(mechanism: Record, y: FloatArray, motion: FloatArray) -> None:
+def _fill_trunnion(mechanism: Record, y: FloatArray, tan_x: float, tan_y: float, motion: FloatArray) -> None:
     """Fill the rows of the trunnion and of the vane centre O_v."""
     for k in range(4):
         motion[E_X + k, 1 + k] = 1.0
         motion[E_X + k, VELOCITY] = y[4 + k]
         motion[E_X + k, VALUE] = y[k]
     arm = mechanism.vane_arm
-    tan_x = tan(y[2])
-    tan_y = tan(y[3])
     sec2_x = 1.0 + tan_x * tan_x
     sec2_y = 1.0 + tan_y * tan_y
     motion[OV_X, 1] = 1.0
@@ -101,37 +110,38 @@ def _fill_trunnion(mechanism: Record, y: FloatArray, motion: FloatArray) -> None
 
 
 @kernel
-def fill_rods(
-    mechanism: Record,
-    crank: Crank,
-    e_x: float,
-    e_y: float,
-    phi_x: float,
-    phi_y: float,
-    e_x_dot: float,
-    e_y_dot: float,
-    phi_x_dot: float,
-    phi_y_dot: float,
-    motion: FloatArray,
-) -> None:
-    """Fill the rows of crank, drag link, ring and vane rotation from the closure."""
+def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion: FloatArray) -> None:
+    """Fill the rows of crank, drag link, ring and vane rotation from the closure.
+
+    Parameters
+    ----------
+    mechanism
+        Constants.
+    crank
+        Its motion.
+    place
+        e_x and e_y [m], tan φ_x and tan φ_y.
+    rates
+        Rates of the clearance coordinates e_x, e_y, φ_x and φ_y.
+    motion
+        The motion table, shape (N_ROWS, N_COLUMNS).
+    """
     theta_a, omega_a, alpha_a = crank
-    tan_x = tan(phi_x)
-    tan_y = tan(phi_y)
+    e_x, e_y, tan_x, tan_y = place
+    phi_x_dot, phi_y_dot = rates[2], rates[3]
     sec2_x = 1.0 + tan_x * tan_x
     sec2_y = 1.0 + tan_y * tan_y
-    theta_v = vane_angle(mechanism, theta_a, e_x, e_y, tan_x, tan_y)
-    sin_v = sin(theta_v)
-    cos_v = cos(theta_v)
     l_4 = mechanism.l_4
     half = mechanism.half_length
-
     sin_a = sin(theta_a)
     cos_a = cos(theta_a)
     s1_x = mechanism.pivot_x - mechanism.l_1 * sin_a
     s1_z = mechanism.pivot_z + mechanism.l_1 * cos_a
     s1_x_a = -mechanism.l_1 * cos_a
     s1_z_a = -mechanism.l_1 * sin_a
+    theta_v = vane_angle(mechanism, theta_a, s1_x, s1_z, e_x, e_y, tan_x, tan_y)
+    sin_v = sin(theta_v)
+    cos_v = cos(theta_v)
 
     x3 = e_x + l_4 * cos_v - half * tan_y
     y3 = e_y + l_4 * sin_v - half * tan_x
@@ -150,7 +160,7 @@ def fill_rods(
     b_v = (-z3 * x3_v + x3 * z3_v) / r2
     g_v = (d_z * s2_x - d_x * s2_z) * b_v + d_y * y3_v
 
-    rates = (omega_a, e_x_dot, e_y_dot, phi_x_dot, phi_y_dot)
+    speeds = (omega_a, rates[0], rates[1], rates[2], rates[3])
     for k in range(5):
         x3_k = 1.0 if k == 1 else (-half * sec2_y if k == 4 else 0.0)
         y3_k = 1.0 if k == 2 else (-half * sec2_x if k == 3 else 0.0)
@@ -170,7 +180,7 @@ def fill_rods(
     motion[S1_Z, 0] = s1_z_a
     for row in (THETA_A, THETA_V, THETA_B, S1_X, S1_Z, S3_X, S3_Y, S3_Z):
         for k in range(5):
-            motion[row, VELOCITY] += motion[row, k] * rates[k]
+            motion[row, VELOCITY] += motion[row, k] * speeds[k]
 
     motion[THETA_A, VALUE] = theta_a
     motion[THETA_A, BIAS] = alpha_a
@@ -214,17 +224,13 @@ def fill_rods(
     motion[S3_X, BIAS] = x3_2 + x3_v * v_2
     motion[S3_Y, BIAS] = y3_2 + y3_v * v_2
     motion[S3_Z, BIAS] = z3_2 + z3_v * v_2
-    _fill_bodies(mechanism, motion, s2_x, s2_z, omega_b, theta_b)
+    _fill_bodies(mechanism, motion, s2_x, s2_z, omega_b)
 
 
 @kernel
-def _fill_bodies(
-    mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float, theta_b: float
-) -> None:
+def _fill_bodies(mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float, omega_b: float) -> None:
     """Fill S2, the mass centres O1, O2, O3 and the direction n of the drag link."""
-    radius = 0.5 * mechanism.l_3 * cos(0.5 * mechanism.ring_angle)
-    o3_x = -radius * sin(theta_b - 0.5 * mechanism.ring_angle)
-    o3_z = radius * cos(theta_b - 0.5 * mechanism.ring_angle)
+    o3_x, o3_z = ring_centre(mechanism, s2_x, s2_z)
     for k in range(7):
         b_k = motion[THETA_B, k]
         motion[S2_X, k] = -s2_z * b_k
@@ -253,3 +259,13 @@ def _fill_bodies(
         for axis in range(3):
             motion[O2_X + axis, k] = 0.5 * (s1[axis] + motion[S2_X + axis, k])
             motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) / mechanism.l_2
+
+
+@kernel
+def ring_centre(mechanism: Record, s2_x: float, s2_z: float) -> tuple[float, float]:
+    """Return x and z of the ring's mass centre relative to its axis [m]: the mean of those of both arms.
+
+    One of them ends at S2, the other lies by the angle of the ring before it.
+    """
+    along, across = 0.25 * (1.0 + mechanism.ring_cos), 0.25 * mechanism.ring_sin
+    return along * s2_x - across * s2_z, along * s2_z + across * s2_x

@@ -8,13 +8,14 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.ledger import is_at_mark
 from tribodyn.kernels.vsv import ledger
-from tribodyn.kernels.vsv import newton_euler as ne
+from tribodyn.kernels.vsv.closure import ideal_vane
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.drive import drive
 from tribodyn.kernels.vsv.layout import (
-    N_UNKNOWNS,
     PHI_X,
     PHI_Y,
+    S1_X,
+    S1_Z,
     S3_Y,
     THETA_A,
     THETA_B,
@@ -23,24 +24,25 @@ from tribodyn.kernels.vsv.layout import (
     VELOCITY,
 )
 from tribodyn.kernels.vsv.motion import fill_rods
-from tribodyn.kernels.vsv.quantities import Air, Reactions, Row, States, Works
+from tribodyn.kernels.vsv.quantities import Air, Row, States, Works
+from tribodyn.kernels.vsv.reactions import fill_reactions
 
 
 @kernel
 def _fill_motion(data: VsvData, t: float, y: FloatArray, memory: VsvMemory, out: Record) -> None:
     """Fill angles and speeds; in ``paper`` θ_v is read from the closure with the offsets e_x, e_y alone."""
-    mechanism, crank = data.mechanism, drive(data, memory.segment, t)
-    motion, table = memory.scratch.motion, memory.scratch.ideal
-    clear(table)
-    fill_rods(mechanism, crank, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, table)
-    out.theta_v_ideal, out.omega_v_ideal = table[THETA_V, VALUE], table[THETA_V, VELOCITY]
+    mechanism, motion = data.mechanism, memory.scratch.motion
+    theta_a, omega_a = motion[THETA_A, VALUE], motion[THETA_A, VELOCITY]
+    ideal, slope = ideal_vane(mechanism, theta_a, motion[S1_X, VALUE], motion[S1_Z, VALUE])
+    out.theta_v_ideal, out.omega_v_ideal = ideal, slope * omega_a
     if mechanism.exact > 0.0:
         out.theta_v, out.omega_v = motion[THETA_V, VALUE], motion[THETA_V, VELOCITY]
     else:
+        table, crank = memory.scratch.closed, drive(data, memory.segment, t)
         clear(table)
-        fill_rods(mechanism, crank, y[0], y[1], 0.0, 0.0, y[4], y[5], 0.0, 0.0, table)
+        fill_rods(mechanism, crank, (y[0], y[1], 0.0, 0.0), (y[4], y[5], 0.0, 0.0), table)
         out.theta_v, out.omega_v = table[THETA_V, VALUE], table[THETA_V, VELOCITY]
-    out.theta_a, out.omega_a = motion[THETA_A, VALUE], motion[THETA_A, VELOCITY]
+    out.theta_a, out.omega_a = theta_a, omega_a
     out.theta_b = motion[THETA_B, VALUE]
     out.h_1 = motion[S3_Y, VALUE] - mechanism.l_4
 
@@ -59,6 +61,5 @@ def observe(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, row: Floa
     out.collar.M_tf = f_cz * collar[THETA_V]
     out.air = scratch.air.view(Air)[0]
     ledger.fill_energies(data.mechanism, scratch, out.energies)
-    ne.newton_euler(data.mechanism, y, memory, 1.0 if f_cz == 0.0 else 0.0)
-    out.reactions = scratch.reactions.reshape(N_UNKNOWNS)[ne.F_AX :].view(Reactions)[0]
+    fill_reactions(data.mechanism, scratch, out.reactions)
     out.works = memory.books.works.view(Works)[0]

@@ -45,7 +45,6 @@ REACTIONS: Final = (
     Quantity("M_bz", "N m", "moment of the casing on the unison ring about Z"),
     Quantity("F_cz", "N", "force of the thrust collar on the trunnion along Z"),
 )
-"""In the order of the unknowns of the full Newton-Euler system."""
 AIR: Final = (
     Quantity("F_airx", "N", "aerodynamic force on the vane along X"),
     Quantity("F_airy", "N", "aerodynamic force on the vane along Y"),
@@ -108,6 +107,5 @@ Watched: Final = of_tables(WATCHED_TABLES)
 Powers: Final = of_table(POWERS)
 Forces: Final = of_table(FORCES)
 States: Final = of_table(STATES)
-Reactions: Final = of_table(REACTIONS)
 Air: Final = of_table(AIR)
 Works: Final = of_table(TABLES["works"])
