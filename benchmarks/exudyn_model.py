@@ -136,9 +136,9 @@ class ExudynModel:
 
     def _joints(self) -> None:
         d, half = self.data, 0.5 * self.data.l_2
-        arm, middle = 0.5 * d.l_3 * math.cos(0.5 * d.ring_angle), 0.5 * d.ring_angle
+        arm, middle = 0.5 * d.l_3 * math.cos(0.5 * self.vsv.lengths.phi), 0.5 * self.vsv.lengths.phi
         x, z = arm * math.sin(middle), arm * math.cos(middle)  # mass centre of the ring from its axis
-        s_2 = (d.l_3 * math.sin(d.ring_angle) - x, 0.0, d.l_3 * math.cos(d.ring_angle) - z)
+        s_2 = (d.l_3 * math.sin(self.vsv.lengths.phi) - x, 0.0, d.l_3 * math.cos(self.vsv.lengths.phi) - z)
         ring_axis = self._marker(self.ring, -x, 0.0, -z)
         lever = self._marker(self.vane, d.l_4, 0.0, d.vane_arm + d.half_length)
         self.bushing = self._marker(self.ground, z=self.height)

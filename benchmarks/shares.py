@@ -2,17 +2,19 @@
 
 python -m benchmarks.shares
 
-The functions are called from compiled loops, on the state and the memory that a run leaves at its end: from
-Python a call first takes its arguments apart, which costs more than an evaluation. A share is time of a call
-times number of calls over the processor time of the integration; Newton's iterations solve once for each
-evaluation at most. What is left is the solver itself, rows and everything between. Start and result are those
-of the whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
+The functions are called from compiled loops, on states and memories that runs leave at their ends, spread
+over the time of the whole one: at rest few nodes touch, and a call costs less. From Python a call first takes
+its arguments apart, which costs more than an evaluation. A share is mean time of a call times number of calls
+over the processor time of the integration; Newton's iterations solve once for each evaluation at most. What
+is left is the solver itself, rows, everything between, and what a call costs more in a run than when it is
+repeated on one state, with its data at hand and its branches foreseen. Start and result are those of the
+whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, Final
 
@@ -30,7 +32,9 @@ from tribodyn.simulation.session import Session
 
 CASES: Final = ("vsv", "vsv-free", "vsv-joints")
 CYCLES: Final = 2.0
-CALLS: Final = 4000
+ENDS: Final = (0.07, 0.19, 0.31, 0.43, 0.57, 0.69, 0.81, 0.93)
+"""Parts of the whole time after which the states are taken."""
+CALLS: Final = 1000
 PASSES: Final = 3
 GAMMA: Final = 1.0e-4
 """Step times coefficient of the factorised matrix [s]; the time does not depend on it."""
@@ -113,52 +117,54 @@ def _microseconds(loop: Callable[[int], None], calls: int) -> float:
     return 1e6 * (least[calls] - least[0]) / calls
 
 
-def _functions(run: FinishedRun, calls: int) -> dict[str, tuple[float, float]]:
-    """Return the time of a call [µs] and the number of calls of the functions of a problem."""
-    problem, cost = run.problem, run.cost
+def _numbers(run: FinishedRun) -> dict[str, float]:
+    """Return how often a run calls the functions of its problem."""
+    cost, n_rows = run.cost, float(run.solution.t.size)
+    return {
+        "rhs": cost["rhs_evaluations"],
+        "jac": cost["jacobian_evaluations"],
+        "advance": cost["steps"] + n_rows,
+        "accept": cost["steps"],
+        "observe": n_rows,
+        "factorise": cost["lu_decompositions"],
+        "solve": cost["rhs_evaluations"],
+    }
+
+
+def _means(times: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Return the mean of each entry."""
+    return {name: sum(each[name] for each in times) / len(times) for name in times[0]}
+
+
+def _functions(run: FinishedRun, calls: int) -> dict[str, float]:
+    """Return the time of a call [µs] of the functions of a problem, at the end of a run."""
+    problem = run.problem
     functions, data, memory = problem.functions, problem.data, problem.memory
     t, y, f = run.solution.t_end, run.solution.y_end.copy(), np.empty(problem.y0.size)
     n_entries = 0 if problem.algebra is None else problem.algebra.n_entries
     matrix = np.zeros(n_entries) if n_entries else np.zeros((y.size, y.size))
-    row, steps = np.empty(problem.n_observed), cost["steps"]
-    loops: dict[str, tuple[Callable[[int], None], float]] = {
-        "rhs": (lambda n: _evaluated(functions.rhs, t, y, data, memory, f, n), cost["rhs_evaluations"]),
-        "jac": (
-            lambda n: _differentiated(functions.jac, t, y, data, memory, f, matrix, n),
-            cost["jacobian_evaluations"],
-        ),
-        "advance": (
-            lambda n: _advanced(functions.advance, t, y, data, memory, n),
-            steps + run.solution.t.size,
-        ),
-        "accept": (lambda n: _accepted(functions.accept, t, y, data, memory, n), steps),
-        "observe": (
-            lambda n: _evaluated(functions.observe, t, y, data, memory, row, n),
-            float(run.solution.t.size),
-        ),
+    row = np.empty(problem.n_observed)
+    loops: dict[str, Callable[[int], None]] = {
+        "rhs": lambda n: _evaluated(functions.rhs, t, y, data, memory, f, n),
+        "jac": lambda n: _differentiated(functions.jac, t, y, data, memory, f, matrix, n),
+        "advance": lambda n: _advanced(functions.advance, t, y, data, memory, n),
+        "accept": lambda n: _accepted(functions.accept, t, y, data, memory, n),
+        "observe": lambda n: _evaluated(functions.observe, t, y, data, memory, row, n),
     }
-    times = {name: (_microseconds(loop, calls), number) for name, (loop, number) in loops.items()}
+    times = {name: _microseconds(loop, calls) for name, loop in loops.items()}
     if problem.algebra is not None:
-        times |= _own_algebra(problem.algebra, data, matrix, f, cost, calls)
+        times |= _own_algebra(problem.algebra, data, matrix, f, calls)
     return times
 
 
 def _own_algebra(
-    algebra: LinearSolver,
-    data: Any,
-    entries: FloatArray,
-    x: FloatArray,
-    cost: Mapping[str, float],
-    calls: int,
-) -> dict[str, tuple[float, float]]:
-    """Return the time of a call [µs] and the number of calls of a problem's own linear algebra."""
+    algebra: LinearSolver, data: Any, entries: FloatArray, x: FloatArray, calls: int
+) -> dict[str, float]:
+    """Return the time of a call [µs] of a problem's own linear algebra."""
     factors, pivots = np.zeros(algebra.n_factors), np.zeros(algebra.n_pivots, dtype=np.int64)
     prepare = partial(_factorised, algebra.factorise, GAMMA, data, entries, factors, pivots)
     solve = partial(_solved, algebra.solve, data, factors, pivots, x)
-    return {
-        "factorise": (_microseconds(prepare, calls), cost["lu_decompositions"]),
-        "solve": (_microseconds(solve, calls), cost["rhs_evaluations"]),
-    }
+    return {"factorise": _microseconds(prepare, calls), "solve": _microseconds(solve, calls)}
 
 
 def _parts(run: FinishedRun, calls: int) -> dict[str, float]:
@@ -186,23 +192,23 @@ def measure(name: str, cycles: float, calls: int) -> dict[str, Any]:
     dataset = session.dataset(run, ResultPart())
     summarise(dataset)
     result = time.process_time() - after
-    functions = _functions(run, calls)
-    shares = {key: 1e-6 * each * number / whole for key, (each, number) in functions.items()}
+    ends = [session.integrated(part * case.duration) for part in ENDS]
+    functions, numbers = _means([_functions(end, calls) for end in ends]), _numbers(run)
+    shares = {key: 1e-6 * each * numbers[key] / whole for key, each in functions.items()}
     shares["solver and all else"] = 1.0 - sum(shares.values())
     print(f"{name}: {case.duration / whole:.1f} times as fast as it moves; start {started:.2f} s, ", end="")
     print(f"integration {whole:.3f} s, result {result:.2f} s, {problem_found.y0.size} states")
     for key, share in shares.items():
-        each, number = functions.get(key, (0.0, 0.0))
-        called = f"{each:8.2f} us {number:8.0f} calls" if number else " " * 26
+        called = f"{functions[key]:8.2f} us {numbers[key]:8.0f} calls" if key in functions else " " * 26
         print(f"  {key:32s} {called} {100.0 * share:5.1f} %")
-    parts = _parts(run, calls) if case.kind() == "mechanism" else {}
+    parts = _means([_parts(end, calls) for end in ends]) if case.kind() == "mechanism" else {}
     for key, each in parts.items():
-        print(f"    {key:30s} {each:8.2f} us {100.0 * each / functions['rhs'][0]:5.0f} % of an evaluation")
+        print(f"    {key:30s} {each:8.2f} us {100.0 * each / functions['rhs']:5.0f} % of an evaluation")
     return {
         "start": started,
         "integration": whole,
         "result": result,
-        "functions": {key: {"microseconds": each, "calls": n} for key, (each, n) in functions.items()},
+        "functions": {key: {"microseconds": each, "calls": numbers[key]} for key, each in functions.items()},
         "shares": shares,
         "parts": parts,
     }

@@ -116,17 +116,19 @@ def _set_constant(state: Numbers, rows: FloatArray) -> None:
             rows[at.CONSTANT, i] = rows[at.CONSTANT_3, i] + slopes
         return
     first = at.STAGE_HISTORY if stage == 2 else at.HISTORY
+    of_stage_3 = at.CONSTANT_3 if stage == 1 else at.SCRATCH
     for i in range(rows.shape[1]):
-        constant = extended = predicted = rows[first, i]
-        for m in range(1, k):
+        rows[at.CONSTANT, i] = rows[of_stage_3, i] = rows[at.PREDICTED, i] = rows[first, i]
+    # Difference by difference: the compiler then takes several entries at once.
+    for m in range(1, k):
+        share, share_3 = BDF_HISTORY[k, m], EXTENDED_HISTORY[k, m]
+        for i in range(rows.shape[1]):
             difference = rows[first + m, i]
-            constant += BDF_HISTORY[k, m] * difference
-            extended += EXTENDED_HISTORY[k, m] * difference
-            predicted += difference
-        rows[at.CONSTANT, i] = constant
-        rows[at.PREDICTED, i] = predicted + rows[first + k, i]
-        if stage == 1:
-            rows[at.CONSTANT_3, i] = extended
+            rows[at.CONSTANT, i] += share * difference
+            rows[of_stage_3, i] += share_3 * difference
+            rows[at.PREDICTED, i] += difference
+    for i in range(rows.shape[1]):
+        rows[at.PREDICTED, i] += rows[first + k, i]
 
 
 @inlined

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import isfinite
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -18,17 +18,36 @@ def is_compiled(function: Callable[..., None]) -> bool:
     return hasattr(function, "compile")
 
 
+_types: Final[dict[tuple[object, ...], Any]] = {}
+"""Numba's types of arrays and records, by all that they depend on."""
+
+
 def kernel_types(problem: Problem) -> tuple[Any, Any]:
-    """Return numba's types of data and memory, which take a millisecond to find out.
+    """Return numba's types of data and memory.
 
     ``None`` and ``None`` where no function of the problem is compiled.
     """
     if not any(map(is_compiled, vars(problem.functions).values())):
         return None, None
+    return _type_of(problem.data), _type_of(problem.memory)
+
+
+def _type_of(value: Any) -> Any:
+    """Return numba's type of nested tuples; numba takes milliseconds, most of them for types of records."""
     import numba
+    from numba.core.types import BaseTuple
 
     typeof: Callable[[Any], Any] = numba.typeof
-    return typeof(problem.data), typeof(problem.memory)
+    if isinstance(value, tuple):
+        return BaseTuple.from_types([_type_of(member) for member in value], type(value))
+    if not isinstance(value, np.ndarray | np.void):
+        return typeof(value)
+    flags = value.flags
+    order = flags.c_contiguous, flags.f_contiguous, flags.aligned, flags.writeable
+    key = (type(value), value.dtype, value.ndim, *order)
+    if key not in _types:
+        _types[key] = typeof(value)
+    return _types[key]
 
 
 def argument_types(problem: Problem, types: tuple[Any, Any]) -> dict[str, tuple[Any, ...]]:

@@ -111,3 +111,18 @@ def test_compiled_functions_are_called_directly_and_see_the_memory_change():
     np.testing.assert_array_equal(binding.rhs(0.0, problem.y0), [2.0, -3.0])
     memory.factor[0] = 2.0
     np.testing.assert_array_equal(binding.rhs(0.0, problem.y0), [2.0, -6.0])
+
+
+class Nested(NamedTuple):
+    record: np.void
+    pair: tuple[np.ndarray, np.ndarray]
+    number: float
+
+
+def test_types_of_data_are_those_that_numba_finds():
+    record, matrix, fixed = np.zeros(1, dtype=[("a", "f8"), ("b", "i8", (2,))]), np.zeros((2, 3)), np.zeros(2)
+    fixed.flags.writeable = False
+    for pair in ((matrix, matrix.T), (fixed, np.zeros(2)), (matrix[:, ::2], record), (matrix, np.zeros(4))):
+        data, memory = Nested(record[0], pair, 1.0), (record, pair)
+        found = kernel_types(make_problem(rhs=compiled_rhs, data=data, memory=memory))
+        assert numba.config.DISABLE_JIT or found == (numba.typeof(data), numba.typeof(memory))

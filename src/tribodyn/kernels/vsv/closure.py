@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Final
 
 from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.quantities import Record
@@ -11,6 +12,8 @@ from tribodyn.kernels.jit import inlined, kernel
 MAX_NEWTON = 30
 CONVERGED = 1.0e-10
 """Newton step after which another one would be below rounding: each is about the square of the last [rad]."""
+SMALL_STEP: Final = 1.0e-2
+"""Newton step up to which few terms of the series of its sine and cosine are exact to rounding [rad]."""
 
 
 @kernel
@@ -60,11 +63,10 @@ def closure_residual(
     e_y: float,
     tan_x: float,
     tan_y: float,
-    theta_v: float,
+    sin_v: float,
+    cos_v: float,
 ) -> tuple[float, float]:
     """Return (|S1S2|² − l_2²)/2 [m²], S1 at (s1_x, s1_z), and its derivative in θ_v [m²/rad]."""
-    sin_v = sin(theta_v)
-    cos_v = cos(theta_v)
     x3 = e_x + mechanism.l_4 * cos_v - mechanism.half_length * tan_y
     y3 = e_y + mechanism.l_4 * sin_v - mechanism.half_length * tan_x
     z3 = mechanism.l_3 + mechanism.l_4 * (sin_v * tan_x + cos_v * tan_y)
@@ -81,15 +83,24 @@ def closure_residual(
 @kernel
 def ideal_vane(mechanism: Record, theta_a: float, s1_x: float, s1_z: float) -> tuple[float, float]:
     """Return θ_v [rad] without clearance, and dθ_v/dθ_a."""
-    theta_v = vane_angle(mechanism, theta_a, s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
-    _, slope = closure_residual(mechanism, s1_x, s1_z, 0.0, 0.0, 0.0, 0.0, theta_v)
-    s2_x, s2_z = ring_end(mechanism, mechanism.l_4 * cos(theta_v), mechanism.l_3)
+    theta_v, sin_v, cos_v = vane_attitude(mechanism, theta_a, s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
+    _, slope = closure_residual(mechanism, s1_x, s1_z, 0.0, 0.0, 0.0, 0.0, sin_v, cos_v)
+    s2_x, s2_z = ring_end(mechanism, mechanism.l_4 * cos_v, mechanism.l_3)
     moved = (s2_z - s1_z) * (s1_x - mechanism.pivot_x) - (s2_x - s1_x) * (s1_z - mechanism.pivot_z)
     return theta_v, moved / slope
 
 
+@inlined
+def _turned_back(sine: float, cosine: float, step: float) -> tuple[float, float]:
+    """Return sine and cosine of an angle less a step below :data:`SMALL_STEP` [rad]."""
+    square = step * step
+    sine_of_step = step * (1.0 - square * (1.0 / 6.0 - square / 120.0))
+    less = square * (0.5 - square * (1.0 / 24.0 - square / 720.0))
+    return sine - (sine * less + cosine * sine_of_step), cosine - (cosine * less - sine * sine_of_step)
+
+
 @kernel
-def vane_angle(
+def vane_attitude(
     mechanism: Record,
     theta_a: float,
     s1_x: float,
@@ -98,15 +109,23 @@ def vane_angle(
     e_y: float,
     tan_x: float,
     tan_y: float,
-) -> float:
-    """Return θ_v [rad] in the assembly of the table, S1 at (s1_x, s1_z); NaN out of reach."""
+) -> tuple[float, float, float]:
+    """Return θ_v [rad] in the assembly of the table, sin θ_v and cos θ_v; NaN out of reach.
+
+    S1 is at (s1_x, s1_z).
+    """
     theta_v = ideal_guess(mechanism, theta_a)
+    sin_v, cos_v = sin(theta_v), cos(theta_v)
     for _ in range(MAX_NEWTON):
-        residual, slope = closure_residual(mechanism, s1_x, s1_z, e_x, e_y, tan_x, tan_y, theta_v)
+        residual, slope = closure_residual(mechanism, s1_x, s1_z, e_x, e_y, tan_x, tan_y, sin_v, cos_v)
         if slope == 0.0:
-            return math.nan
+            break
         step = residual / slope
         theta_v -= step
+        if abs(step) < SMALL_STEP:
+            sin_v, cos_v = _turned_back(sin_v, cos_v, step)
+        else:
+            sin_v, cos_v = sin(theta_v), cos(theta_v)
         if abs(step) < CONVERGED:
-            return theta_v
-    return math.nan
+            return theta_v, sin_v, cos_v
+    return math.nan, math.nan, math.nan

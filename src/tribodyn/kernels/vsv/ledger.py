@@ -22,7 +22,7 @@ from tribodyn.kernels.ledger import begin as begin_works
 from tribodyn.kernels.peaks import begin as begin_peaks
 from tribodyn.kernels.peaks import note as note_peaks
 from tribodyn.kernels.peaks import resume as resume_peaks
-from tribodyn.kernels.vsv.closure import vane_angle
+from tribodyn.kernels.vsv.closure import vane_attitude
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, BEND_X, BEND_Y, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
@@ -156,7 +156,7 @@ def vane_angle_with_clearance(mechanism: Record, y: FloatArray, motion: FloatArr
     if mechanism.exact > 0.0:
         return motion[THETA_V, VALUE]
     s1_x, s1_z = motion[S1_X, VALUE], motion[S1_Z, VALUE]
-    return vane_angle(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, y[0], y[1], 0.0, 0.0)
+    return vane_attitude(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, y[0], y[1], 0.0, 0.0)[0]
 
 
 @kernel
@@ -165,7 +165,7 @@ def _fill_watched(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     motion, watched = memory.scratch.motion, memory.peaks.values[NOW].view(Watched)[0]
     fill_watched(memory.joint.scratch.report, y, watched.joint)
     s1_x, s1_z = motion[S1_X, VALUE], motion[S1_Z, VALUE]
-    ideal = vane_angle(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
+    ideal, _, _ = vane_attitude(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
     watched.mechanism.drive_moment = abs(drive_moment(memory.scratch))
     watched.mechanism.vane_angle_error = abs(vane_angle_with_clearance(mechanism, y, motion) - ideal)
 

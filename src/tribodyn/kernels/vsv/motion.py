@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv.closure import ring_end, vane_angle
+from tribodyn.kernels.vsv.closure import ring_end, vane_attitude
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -139,14 +139,12 @@ def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion:
     s1_z = mechanism.pivot_z + mechanism.l_1 * cos_a
     s1_x_a = -mechanism.l_1 * cos_a
     s1_z_a = -mechanism.l_1 * sin_a
-    theta_v = vane_angle(mechanism, theta_a, s1_x, s1_z, e_x, e_y, tan_x, tan_y)
-    sin_v = sin(theta_v)
-    cos_v = cos(theta_v)
+    theta_v, sin_v, cos_v = vane_attitude(mechanism, theta_a, s1_x, s1_z, e_x, e_y, tan_x, tan_y)
 
     x3 = e_x + l_4 * cos_v - half * tan_y
     y3 = e_y + l_4 * sin_v - half * tan_x
     z3 = mechanism.l_3 + l_4 * (sin_v * tan_x + cos_v * tan_y)
-    r2 = x3 * x3 + z3 * z3
+    inverse = 1.0 / (x3 * x3 + z3 * z3)
     theta_b = atan2(-x3, z3)
     s2_x, s2_z = ring_end(mechanism, x3, z3)
     d_x = s2_x - s1_x
@@ -157,19 +155,20 @@ def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion:
     x3_v = -l_4 * sin_v
     y3_v = l_4 * cos_v
     z3_v = l_4 * (cos_v * tan_x - sin_v * tan_y)
-    b_v = (-z3 * x3_v + x3 * z3_v) / r2
+    b_v = (-z3 * x3_v + x3 * z3_v) * inverse
     g_v = (d_z * s2_x - d_x * s2_z) * b_v + d_y * y3_v
 
+    over = 1.0 / g_v
     speeds = (omega_a, rates[0], rates[1], rates[2], rates[3])
     for k in range(5):
         x3_k = 1.0 if k == 1 else (-half * sec2_y if k == 4 else 0.0)
         y3_k = 1.0 if k == 2 else (-half * sec2_x if k == 3 else 0.0)
         z3_k = l_4 * sin_v * sec2_x if k == 3 else (l_4 * cos_v * sec2_y if k == 4 else 0.0)
-        b_k = (-z3 * x3_k + x3 * z3_k) / r2
+        b_k = (-z3 * x3_k + x3 * z3_k) * inverse
         g_k = (d_z * s2_x - d_x * s2_z) * b_k + d_y * y3_k
         if k == 0:
             g_k -= d_x * s1_x_a + d_z * s1_z_a
-        v_k = -g_k / g_v
+        v_k = -g_k * over
         motion[THETA_V, k] = v_k
         motion[THETA_B, k] = b_k + b_v * v_k
         motion[S3_X, k] = x3_k + x3_v * v_k
@@ -212,13 +211,13 @@ def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion:
     x3_1 = motion[S3_X, VELOCITY]
     y3_1 = motion[S3_Y, VELOCITY]
     z3_1 = motion[S3_Z, VELOCITY]
-    b_2 = (-z3 * x3_2 + x3 * z3_2 - 2.0 * omega_b * (x3 * x3_1 + z3 * z3_1)) / r2
+    b_2 = (-z3 * x3_2 + x3 * z3_2 - 2.0 * omega_b * (x3 * x3_1 + z3 * z3_1)) * inverse
     dot_x = -s2_z * omega_b - motion[S1_X, VELOCITY]
     dot_z = s2_x * omega_b - motion[S1_Z, VELOCITY]
     speed2 = dot_x * dot_x + y3_1 * y3_1 + dot_z * dot_z
     ddot_x = -s2_z * b_2 - s2_x * omega_b * omega_b - motion[S1_X, BIAS]
     ddot_z = s2_x * b_2 - s2_z * omega_b * omega_b - motion[S1_Z, BIAS]
-    v_2 = -(d_x * ddot_x + d_y * y3_2 + d_z * ddot_z + speed2) / g_v
+    v_2 = -(d_x * ddot_x + d_y * y3_2 + d_z * ddot_z + speed2) * over
     motion[THETA_V, BIAS] = v_2
     motion[THETA_B, BIAS] = b_2 + b_v * v_2
     motion[S3_X, BIAS] = x3_2 + x3_v * v_2
@@ -250,6 +249,7 @@ def _fill_bodies(mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float
     motion[O3_X, VALUE] = o3_x
     motion[O3_Y, VALUE] = motion[S3_Y, VALUE]
     motion[O3_Z, VALUE] = o3_z
+    over = 1.0 / mechanism.l_2
     for k in range(8):
         at_value = 1.0 if k == VALUE else 0.0
         s1 = (motion[S1_X, k], at_value * mechanism.l_4, motion[S1_Z, k])
@@ -258,7 +258,7 @@ def _fill_bodies(mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float
         motion[O1_X + 1, k] = 0.5 * (pivot[2] + s1[2])
         for axis in range(3):
             motion[O2_X + axis, k] = 0.5 * (s1[axis] + motion[S2_X + axis, k])
-            motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) / mechanism.l_2
+            motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) * over
 
 
 @kernel

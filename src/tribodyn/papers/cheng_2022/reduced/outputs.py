@@ -106,7 +106,7 @@ def _vane_angle(
     mechanism: Record, theta_a: float, e_x: float, e_y: float, phi_x: float, phi_y: float
 ) -> float:
     """Return the angle of the vane of a trunnion that is displaced and tilted [rad]."""
-    from tribodyn.kernels.vsv.closure import crank_end, vane_angle
+    from tribodyn.kernels.vsv.closure import crank_end, vane_attitude
 
     s1 = crank_end(mechanism, theta_a)
-    return float(vane_angle(mechanism, theta_a, *s1, e_x, e_y, math.tan(phi_x), math.tan(phi_y)))
+    return float(vane_attitude(mechanism, theta_a, *s1, e_x, e_y, math.tan(phi_x), math.tan(phi_y))[0])

@@ -69,7 +69,6 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
         l_4=lengths.l_4,
         pivot_x=lengths.l_m * portable.cos(lengths.gamma),
         pivot_z=lengths.l_m * portable.sin(lengths.gamma),
-        ring_angle=lengths.phi,
         ring_sin=portable.sin(lengths.phi),
         ring_cos=portable.cos(lengths.phi),
         half_length=0.5 * vsv.joint.geometry.length,

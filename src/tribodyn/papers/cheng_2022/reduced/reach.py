@@ -193,5 +193,9 @@ def at_limit(mechanism: Record, theta_a: float, y: FloatArray) -> bool:
     s1 = crank_end(mechanism, theta_a)
     place = (float(y[0]), float(y[1]), portable.tan(y[2]), portable.tan(y[3]))
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _SCAN)
-    missing = [closure_residual(mechanism, *s1, *place, theta_v)[0] for theta_v in turn]
+    sines, cosines = portable.sin(turn), portable.cos(turn)
+    missing = [
+        closure_residual(mechanism, *s1, *place, sine, cosine)[0]
+        for sine, cosine in zip(sines, cosines, strict=True)
+    ]
     return bool(-min(missing) < _MEETING * max(missing))
