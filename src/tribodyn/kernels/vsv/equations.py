@@ -162,12 +162,9 @@ def assemble(inertias: FloatArray, scratch: Record) -> None:
         applied = force[row] - inertia * motion[row, BIAS]
         for i in range(5):
             share = test[row, i]
-            if share == 0.0:
-                continue
             load[i] += share * applied
-            if inertia != 0.0:
-                for j in range(4):
-                    mass[i, j] += inertia * share * motion[row, 1 + j]
+            for j in range(4):
+                mass[i, j] += inertia * share * motion[row, 1 + j]
 
 
 @kernel
