@@ -64,6 +64,7 @@ class NumpyVsv:
 
     def __init__(self, data: VsvData, joint: BushingJoint, entry: FloatArray) -> None:
         self.data, self.joint = constants(data), arrays_of(joint)
+        self.ring_angle = float(np.arctan2(self.data.ring_sin, self.data.ring_cos))
         self.entry = entry
         self.direction = 1.0
         self.theta_v = float(self.data.ideal[0, 0])
@@ -94,7 +95,7 @@ class NumpyVsv:
 
     def ring(self, s_3: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return S2 and its derivative where S3 moves by ``along``."""
-        beta = self.data.ring_angle - np.arctan2(-s_3[0], s_3[2])
+        beta = self.ring_angle - np.arctan2(-s_3[0], s_3[2])
         s_2 = np.array([self.data.l_3 * np.sin(beta), s_3[1], self.data.l_3 * np.cos(beta)])
         turn = (-s_3[2] * along[0] + s_3[0] * along[2]) / (s_3[0] ** 2 + s_3[2] ** 2)
         return s_2, np.array([-s_2[2] * turn, along[1], s_2[0] * turn])
@@ -180,7 +181,7 @@ class NumpyVsv:
         a_3y = held[1] + along[1] * theta_v_b
 
         theta_b = np.arctan2(-s_3[0], s_3[2])
-        middle, arm = theta_b - 0.5 * d.ring_angle, 0.5 * d.l_3 * np.cos(0.5 * d.ring_angle)
+        middle, arm = theta_b - 0.5 * self.ring_angle, 0.5 * d.l_3 * np.cos(0.5 * self.ring_angle)
         o_3 = arm * np.array([-np.sin(middle), 0.0, np.cos(middle)])
         o_swing = np.array([-o_3[2], 0.0, o_3[0]])
         rows, bias = np.zeros((15, 5)), np.zeros(15)
