@@ -38,8 +38,9 @@ def _type_of(value: Any) -> Any:
     from numba.core.types import BaseTuple
 
     typeof: Callable[[Any], Any] = numba.typeof
+    of_tuple: Callable[..., Any] = BaseTuple.from_types
     if isinstance(value, tuple):
-        return BaseTuple.from_types([_type_of(member) for member in value], type(value))
+        return of_tuple([_type_of(member) for member in value], type(value))
     if not isinstance(value, np.ndarray | np.void):
         return typeof(value)
     flags = value.flags
