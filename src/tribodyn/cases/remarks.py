@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from types import MappingProxyType
 from typing import Final
 
@@ -35,7 +36,7 @@ def of_surfaces(case: Case, prefix: str = "", beside: Mapping[str, Sequence[str]
     warnings = [*_of_asperities(case, keys, prefix), *_of_wear(case, keys, prefix)]
     return Remarks(
         tuple(warnings + [text for one in used for text in one.warnings()]),
-        tuple([text for one in used for text in one.notes()] + list(_of_heights(case, prefix))),
+        tuple(chain(*(one.notes() for one in used), _of_heights(case, prefix), _of_law(case, keys, prefix))),
     )
 
 
@@ -115,6 +116,17 @@ def _of_heights(case: Case, prefix: str) -> Iterator[str]:
                 f"{given.strip()} of the {surface} was taken for {RZ_OVER_RA:g} Ra of Gaussian heights; "
                 "surfaces have 4 to 7 Ra."
             )
+
+
+def _of_law(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
+    """Yield which parameters of other contact laws were given values that do nothing."""
+    from tribodyn.contact import LAWS, options_of_others
+
+    law = str(case.at(f"{prefix}contact.law"))
+    for key in sorted(options_of_others(law)) if law in LAWS else ():
+        path = f"{prefix}contact.{key}"
+        if case.at(path) != keys[path].default:
+            yield f"{path} has no effect with the law {law}: it is a parameter of other laws."
 
 
 def _left(case: Case, keys: dict[str, Key], paths: list[str]) -> bool:

@@ -129,6 +129,12 @@ def made(kind: type[ContactLaw], pair: SurfacePair, options: Mapping[str, Any]) 
     return kind(pair, **{key: value for key, value in options.items() if key in own})
 
 
+def options_of_others(name: str) -> set[str]:
+    """Return the names of the options that a law does not have, and another law has."""
+    others = set().union(*map(_options_of, LAWS.values()))
+    return others - _options_of(LAWS[name])
+
+
 def _options_of(kind: type[ContactLaw]) -> set[str]:
     return {entry.name for entry in fields(kind)} - {"pair"}
 

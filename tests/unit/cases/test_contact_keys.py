@@ -9,6 +9,7 @@ import pytest
 import tribodyn as td
 from tribodyn.contact import LAWS
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import parse_case
 
 
 def changed(**changes: object) -> Any:
@@ -55,3 +56,26 @@ def test_what_the_surfaces_cannot_have_is_found_before_a_run() -> None:
     with pytest.raises(InputError) as caught:
         td.load_case("vsv").replace(smooth)
     assert caught.value.key == "contact.separation_from"
+
+
+@pytest.mark.parametrize(
+    ("law", "key", "value", "has_effect"),
+    [
+        ("rsdc", "penalty_stiffness", "7 MPa/um", False),
+        ("linear", "penalty_stiffness", "7 MPa/um", True),
+        ("linear", "separation_from", "surface", False),
+        ("gw", "separation_from", "surface", True),
+    ],
+)
+def test_a_parameter_of_another_law_is_noted(law: str, key: str, value: str, has_effect: bool) -> None:
+    notes = changed(**{"law": law, key: value}).remarks().notes
+    found = [note for note in notes if f"contact.{key} has no effect with the law {law}" in note]
+    assert bool(found) is not has_effect
+
+
+def test_a_parameter_of_another_law_is_noted_for_a_named_pair_too() -> None:
+    text = 'case = "slider-crank"\n[pairs.pins]\ncontact.penalty_stiffness = "7 MPa/um"\n'
+    notes = parse_case(text, "test").remarks().notes
+    assert any(
+        "pairs.pins.contact.penalty_stiffness has no effect with the law rsdc" in note for note in notes
+    )
