@@ -25,7 +25,7 @@ APART: Final = 0.04
 OWN: Final = """() => {
   const whose = document.getElementById("whose").textContent;
   const { values } = pageState.shown;
-  const refused = !document.getElementById("trouble").hidden;
+  const refused = !document.getElementById("error").hidden;
   return whose.endsWith(valuesInWords(values)) && (refused || sameValues(values, pageState.values));
 }"""
 """Whether numbers are those of the run shown and requested, unless the page gives the reason why not."""
@@ -76,7 +76,7 @@ def _looks(page: Page, protocol: CDPSession, seconds: float) -> Iterator[list[fl
         page.wait_for_function(DRAWN, timeout=600_000)
         own = page.evaluate(OWN)
         _pin(page)
-        if page.locator("#trouble").is_visible():
+        if page.locator("#error").is_visible():
             page.keyboard.press("u")
             page.wait_for_function(DRAWN, timeout=600_000)
         protocol.send("HeapProfiler.collectGarbage")

@@ -15,7 +15,7 @@ from matplotlib.patches import Circle, Rectangle
 
 import tribodyn as td
 from tribodyn.figures.style import BLUE, GREY, INK, VERMILION
-from tribodyn.results.reading import lasting
+from tribodyn.results.reading import sustained
 
 STEEL: Final = "#c9d3dd"
 BORE: Final = "#e3d9c8"
@@ -87,13 +87,13 @@ def draw_sustained(axes: Axes) -> None:
     """Draw the force in a pivot over time, with its sustained maximum and its peak."""
     result = td.simulate(td.load_case("four-bar").replace({"run.cycles": 1}))
     force = (result["reaction_force"].sel(joint="coupler-pin") ** 2).sum("axis") ** 0.5
-    sustained = lasting(result, force.values)
+    held = sustained(result, force.values)
     time = 1e3 * result["time"]
     axes.plot(time, force, color=INK, linewidth=0.9)
-    axes.axhline(sustained, color=BLUE)
+    axes.axhline(held, color=BLUE)
     axes.axhline(float(force.max()), color=VERMILION)
     most = float(force.max())
-    axes.text(2.0, sustained + 0.02 * most, "sustained maximum", color=BLUE, size=SMALL)
+    axes.text(2.0, held + 0.02 * most, "sustained maximum", color=BLUE, size=SMALL)
     axes.text(2.0, 0.95 * most, "peak, impacts included", color=VERMILION, size=SMALL)
     axes.set(xlabel="time [ms]", ylabel="force in the pin [N]", ylim=(0.0, 1.05 * most))
     axes.spines[["top", "right"]].set_visible(False)

@@ -104,7 +104,7 @@ class DenseDifferences:
 
 
 class DifferencesOfTerms:
-    """Differences of equations of which some are zero all along: their terms tell how large a move must be.
+    """Differences of equations of which some are zero all along: their terms show how large a move must be.
 
     Parameters
     ----------

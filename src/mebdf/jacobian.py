@@ -49,7 +49,7 @@ class Linear(NamedTuple):
 
 
 class Matrices(NamedTuple):
-    """What stands beside the Jacobian: arguments of the classes that solve.
+    """What accompanies the Jacobian: arguments of the classes that solve.
 
     Attributes
     ----------

@@ -395,7 +395,7 @@ def test_a_run_that_fails_says_so_and_can_be_left(at: Opened) -> None:
     person.wait_until_shown({CLEARANCE: "30 um"})
     person.type_into("loads.air_moment", "2000 N m")
     person.wait_for("pageState.shown.failure")
-    trouble = person.page.locator("#trouble")
+    trouble = person.page.locator("#error")
     assert "came closer than the contact law reaches" in trouble.inner_text()
     assert trouble.get_attribute("role") == "alert"
     person.keep_picture("workbench-failed")
@@ -502,19 +502,19 @@ def test_a_picture_that_comes_late_does_not_take_away_why_a_request_was_refused(
         person.page.wait_for_timeout(50)
     delayed.sort(key=lambda one: isinstance(one[1], bytes))
     _deliver(person, delayed, "pageState.shown.values['drive.speed_amplitude'] === '18 deg/s'")
-    assert "reaches only" in person.page.locator("#trouble").inner_text()
+    assert "reaches only" in person.page.locator("#error").inner_text()
     person.press("u")
     _deliver(person, delayed, "!requests.awaited")
-    assert not person.page.locator("#trouble").is_visible()
+    assert not person.page.locator("#error").is_visible()
 
 
 def test_of_an_address_with_unknown_keys_the_page_says_so(at: Opened) -> None:
     person = at("#joint.clearance=24um&joint.colour=red")
     person.wait_until_shown({CLEARANCE: "24 um"})
-    assert "does not have" in person.page.locator("#trouble").inner_text()
+    assert "does not have" in person.page.locator("#error").inner_text()
     person.type_into(CLEARANCE, "25 um")
     person.wait_until_shown({CLEARANCE: "25 um"})
-    assert not person.page.locator("#trouble").is_visible()
+    assert not person.page.locator("#error").is_visible()
 
 
 def _over_a_line_held_up(at: Opened) -> tuple[Person, Delayed]:

@@ -82,7 +82,7 @@ class Sources:
 def cached(dispatcher: Any, sources: Sources, kind: str = "") -> Any:
     """Return a compiled function that keeps its machine code in :func:`folder`, if there is one.
 
-    ``kind`` tells apart what is compiled of the same function with other options.
+    ``kind`` distinguishes what is compiled of the same function with other options.
     """
     function = getattr(dispatcher, "py_func", None)  # None where NUMBA_DISABLE_JIT is set
     if function is not None and _is_file(function.__code__.co_filename) and folder(sources) is not None:
@@ -191,7 +191,7 @@ class _Locator(caching._CacheLocator):
         return _hash(self._py_file)
 
     def get_disambiguator(self) -> str:
-        """Return what tells functions of one name apart, the same in every copy of the package."""
+        """Return what distinguishes functions of one name, the same in every copy of the package."""
         place = self._sources.name_of(Path(self._py_file))
         return f"{hashlib.sha256(place.encode()).hexdigest()[:12]}-{self._line}{self._kind}"
 
@@ -284,7 +284,7 @@ class _KernelCache(caching.FunctionCache):
         return found
 
     def _claim(self, signature: Any) -> str:
-        """Return what tells a compiled function from all others, in every process."""
+        """Return what identifies a compiled function, in every process."""
         return f"{self._impl.filename_base} {signature}"
 
     def _load(self, signature: Any, target: Any) -> Any:

@@ -182,7 +182,7 @@ class Case(Group):
         return Remarks(tuple(words.format(name) for name in unused))
 
     def idle(self) -> tuple[str, ...]:
-        """Return the paths of keys that others put out of force; by default there are none."""
+        """Return the paths of keys that others override; by default there are none."""
         return ()
 
     def without_effect(self) -> tuple[str, ...]:
@@ -338,9 +338,9 @@ def _validated(
     except InputError as error:
         # What does not go together may only follow from what is wrong by itself, and what is missing from
         # what could not be read.
-        told = {fault.key for fault in faults.found}
+        known_faults = {fault.key for fault in faults.found}
         found = [fault for fault in error.faults if sound or not isinstance(fault, Disagreement)]
-        found = [fault for fault in found if fault.key not in told]
+        found = [fault for fault in found if fault.key not in known_faults]
         raise together([*faults.found, *found]) from None
     faults.raise_any()
     return case

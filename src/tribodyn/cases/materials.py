@@ -1,7 +1,8 @@
 """The library of materials: typical properties with their sources, and what a case takes from them.
 
 A case names a material, as in ``surfaces.bushing.material = "ptfe-liner"``. Keys beside it, and a table over
-the temperature, go before it. What the library does not know stays at the default of the key; both is told.
+the temperature, go before it. Keys that the library does not have keep
+their defaults; both are reported.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ _UNNAMED: Final = "ptfe-liner"
 """Whose range of wear rates holds for a liner without a name: many commercial and experimental liners."""
 _ROOM: Final = 293.15
 _FAR: Final = 50.0
-"""Distance [K] from the temperatures of a property from which on it is told."""
+"""Distance [K] from the temperatures of a property from which on it is reported."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a user is told when keys are unknown or values do not go together, and of values that do."""
+"""Messages when keys are unknown or values do not go together, and of values that do."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LONGEST: Final = 200
 """Characters of a path that may be one that is misspelled."""
 _MOST_NEAR: Final = 3
 CROSS_CHECK: Final = "cross_check"
-"""Type of what pydantic is told by a table whose own path nobody knew."""
+"""Type of what pydantic receives from a table whose own path nobody knew."""
 
 
 def unknown(
@@ -205,8 +205,8 @@ class Asked:
 
 
 def problems(error: ValidationError, asked: Asked) -> list[InputError]:
-    """Turn what pydantic found into what a user is told, one error each."""
-    return [told for found in error.errors() for told in _problem(found, asked)]
+    """Turn what pydantic found into errors for users, one each."""
+    return [problem for found in error.errors() for problem in _problem(found, asked)]
 
 
 def _problem(found: ErrorDetails, asked: Asked) -> Iterator[InputError]:

@@ -295,7 +295,7 @@ class _Signal(_Timed):
         return constant(mean)
 
     def over_run(self, duration: float, *, rising: bool = False) -> Signal:
-        """Return what it is over a run [s]; a cyclic table that is ``rising`` goes on from where it ends."""
+        """Return it over a run [s]; a cyclic table that is ``rising`` continues from where it ends."""
         from tribodyn.core.signals import for_each_cycle
 
         if not self.cyclic:

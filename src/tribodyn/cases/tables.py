@@ -22,7 +22,7 @@ from tribodyn.cases.parameters import keys_with_units
 from tribodyn.cases.units import from_si
 
 FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns a changed copy'
-"""What is told whoever tries to change a case."""
+"""Message for an attempt to change a case."""
 LONGEST_NAME: Final = 40
 ALLOWED_NAME: Final = f"a name of letters without accents, digits, - and _, at most {LONGEST_NAME} of them"
 _NAME: Final = re.compile(rf"[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}")

@@ -121,7 +121,7 @@ def to_si(text: str, like: str) -> float:
         Number and unit, such as ``"20 um"``; a viscosity also as a kinematic one with the density,
         ``"32 cSt at 870 kg/m^3"``.
     like
-        A unit of the wanted dimension; angles and plain ratios are told apart.
+        A unit of the wanted dimension; angles and plain ratios are distinguished.
 
     Raises
     ------

@@ -33,7 +33,7 @@ def to_toml(
     """Return a case of some kind as TOML; see :meth:`tribodyn.cases.Case.to_toml`.
 
     Of the keys that are a user's ``own``, comments say what they would be without. ``idle`` keys are out of
-    force; ``origins`` tell where values come from that are neither. Values that are ``linked`` to expressions
+    force; ``origins`` are the sources of values that are neither. Values that are ``linked`` to expressions
     are written as these, with what they are in a comment.
     """
     keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
@@ -122,9 +122,9 @@ def _lines(
     if not comments:
         yield from [] if value is None else [line]
     else:
-        told = key.path in origins
-        changed = not told and key.default is not None and value != key.default
-        sourced = replace(key, source=origins[key.path]) if told else key
+        has_origin = key.path in origins
+        changed = not has_origin and key.default is not None and value != key.default
+        sourced = replace(key, source=origins[key.path]) if has_origin else key
         yield from _commented(line, sourced, own=changed or key.path in own)
 
 

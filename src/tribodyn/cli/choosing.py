@@ -77,7 +77,7 @@ def _analysis(args: Namespace) -> dict[str, str]:
 
 
 def typed(text: str) -> str:
-    """Return an argument as it was typed: where Python was told of no encoding, it is read as UTF-8."""
+    """Return an argument as it was typed: where Python knows no encoding, it is read as UTF-8."""
     try:
         return os.fsencode(text).decode()
     except UnicodeError:

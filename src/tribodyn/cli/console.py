@@ -63,8 +63,8 @@ def _on_stderr(text: str) -> None:
     try:
         print(text, file=sys.stderr, flush=True)
     except OSError:
-        # Nobody can be told; what was done, and the exit status, stay what they are. Python would try again
-        # at its end, and make the status its own.
+        # Nothing can be printed; what was done, and the exit status, stay. Python would try again at its end,
+        # and make the status its own.
         with contextlib.suppress(OSError, ValueError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 

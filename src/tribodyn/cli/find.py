@@ -70,7 +70,7 @@ def execute(args: Namespace) -> int:
     with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
         last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
         stack.enter_context(announced_compilation(console.note))
-        watcher = Watcher(_told(console), stop, console.note)
+        watcher = Watcher(_printer(console), stop, console.note)
         search = Search(asked, directory.path, Means(workers=args.workers, keep_results=False), watcher)
         root = search.root(args.within / 100.0)
         search.dataset()
@@ -78,12 +78,12 @@ def execute(args: Namespace) -> int:
     return 0
 
 
-def _told(console: Console) -> Callable[[Arrival], None]:
-    def tell(arrival: Arrival) -> None:
+def _printer(console: Console) -> Callable[[Arrival], None]:
+    def show(arrival: Arrival) -> None:
         if arrival.point is not None:
             console.note(f"tried {arrival.point.label}")
 
-    return tell
+    return show
 
 
 def _tell(search: Search, root: float, console: Console) -> None:

@@ -32,7 +32,7 @@ class Interruption:
     Parameters
     ----------
     message
-        Told the user when it hears a signal.
+        Shown to the user when a signal arrives.
     """
 
     def __init__(self, message: str = _STOPPING) -> None:
@@ -123,7 +123,7 @@ def on_leaving(action: Callable[[], None]) -> None:
 
 
 def last_words(text: str) -> None:
-    """Have the user told this from now on, where a signal ends the process."""
+    """Show this to the user from now on, where a signal ends the process."""
     _met.last_words = text
 
 

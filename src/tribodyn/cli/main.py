@@ -214,7 +214,7 @@ def _executed(arguments: Sequence[str]) -> int:
         with log.logged(args, arguments):
             return _logged(args)
     except BrokenPipeError:
-        # Whoever read our output has gone; there is nobody left to tell.
+        # Whoever read our output has gone; nobody reads it any more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return FAILED
     except (Exception, KeyboardInterrupt) as error:
@@ -241,8 +241,8 @@ def _complain(error: BaseException, *, as_json: bool) -> None:
         complain(_in_words(fault))
     if as_json:
         about = [{name: getattr(fault, name, None) for name in ("source", "key")} for fault in faults]
-        told = [{**where, "message": _in_words(fault)} for where, fault in zip(about, faults, strict=True)]
-        show_json({"status": "refused" if isinstance(error, InputError) else "failed", "faults": told})
+        shown = [{**where, "message": _in_words(fault)} for where, fault in zip(about, faults, strict=True)]
+        show_json({"status": "refused" if isinstance(error, InputError) else "failed", "faults": shown})
 
 
 def _in_words(error: BaseException) -> str:

@@ -28,11 +28,11 @@ def announced_compilation(note: Callable[[str], None]) -> Iterator[None]:
     from numba.core import event
 
     class Announcement(event.Listener):
-        told = False
+        shown = False
 
         def on_start(self, event: Any) -> None:
-            if not self.told:
-                self.told = True
+            if not self.shown:
+                self.shown = True
                 note(_MESSAGE)
 
         def on_end(self, event: Any) -> None:
@@ -118,7 +118,7 @@ class Bar:
 
         self._console = console
         self._write = tqdm.write
-        # Not tqdm's own measure: 0 by 0 where a terminal does not tell its size, and then no bar is drawn.
+        # Not tqdm's own measure: 0 by 0 where a terminal does not report its size, and then no bar is drawn.
         columns, rows = shutil.get_terminal_size()
         self._bar = tqdm(
             total=total,

@@ -205,7 +205,7 @@ def _stopped(dataset: xr.Dataset, case: Case, failure: str, path: Path) -> str:
         return (
             f"the wear campaign stopped after {dataset.attrs.get('wear_cycles_reached', 0)} of "
             f"{case.campaign_cycles} cycles: {failure}; what was computed until then is saved in "
-            f"{os.fspath(path)}; the same command goes on from there"
+            f"{os.fspath(path)}; the same command continues from there"
         )
     reached = float(dataset.attrs.get("time_reached", 0.0))
     return (

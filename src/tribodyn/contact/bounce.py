@@ -6,7 +6,7 @@ points enter contact at once, so δ̇₋ = v₀, and with w = −(dh/dt)/v₀ an
     dh*/dτ = −w,   dw/dτ = −max(P_k + C w, 0) / 2E₀,   E₀ = m v₀²/2σ.
 
 So e depends on the law and on E₀ alone: speed and mass enter only together, as the energy per area. E₀ is
-told by the pressure that the same impact would reach without damping.
+found from the pressure that the same impact would reach without damping.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ def _of_function(pressure: Callable[[FloatArray], Any]) -> type[ContactLaw]:
     class Own(ContactLaw):
         name: ClassVar[str] = called
         title: ClassVar[str] = f"function {called}"
-        source: ClassVar[str] = "a function of one's own"
+        source: ClassVar[str] = "a user-defined function"
         validity: ClassVar[str] = "known to whoever wrote it"
 
         def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:

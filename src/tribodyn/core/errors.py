@@ -1,4 +1,4 @@
-"""The ways in which tribodyn tells a user that something cannot go on."""
+"""Errors that users see."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Final
 from tribodyn.core.quoting import brief
 
 MOST_FAULTS: Final = 20
-"""How many things that are wrong a user is told of at once."""
+"""How many things that are wrong a user reads at once."""
 
 
 class TribodynError(Exception):
@@ -80,7 +80,7 @@ class InputErrors(InputError):
 
 
 def together(faults: Sequence[InputError]) -> InputError:
-    """Return one error for all that is wrong, which is at least one thing; of many the first are told."""
+    """Return one error for all that is wrong, which is at least one thing; of many the first are named."""
     return faults[0] if len(faults) == 1 else InputErrors(faults[:MOST_FAULTS])
 
 
@@ -102,8 +102,8 @@ class Faults:
         try:
             yield
         except InputError as error:
-            told = {str(fault) for fault in self.found}
-            self.found += [fault for fault in error.faults if str(fault) not in told]
+            known = {str(fault) for fault in self.found}
+            self.found += [fault for fault in error.faults if str(fault) not in known]
             if len(self.found) >= MOST_FAULTS:
                 self.raise_any()
 

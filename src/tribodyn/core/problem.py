@@ -190,7 +190,7 @@ class Problem:
     picture_type
         Type of the pictures that the solution keeps; ``picture`` fills double precision.
     sample
-        ``sample(t, y)`` sets in the memory what is held until the next sampling time, and tells whether it
+        ``sample(t, y)`` sets in the memory what is held until the next sampling time, and returns whether it
         has; ``None`` where nothing is.
     """
 

@@ -1,4 +1,4 @@
-"""TOML from strangers: what would cost more than its length tells is refused before it is parsed.
+"""TOML from strangers: what would cost more than its length suggests is refused before it is parsed.
 
 The parser calls itself for every bracket, and keeps all beginnings of a dotted key. One pass over the text
 finds how deep both go, strings and comments left out; the first string that does not end is where the parser

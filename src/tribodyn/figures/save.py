@@ -28,7 +28,7 @@ def save(figure: Figure, folder: Path, name: str) -> Path:
     Returns
     -------
     pathlib.Path
-        The PNG file; the PDF stands beside it.
+        The PNG file; the PDF is in the same folder.
     """
     path = folder / f"{name}.png"
     save_png(figure, path)

@@ -25,8 +25,8 @@ ORANGE: Final = "#e69f00"
 PURPLE: Final = "#a6568a"
 GREY: Final = "#767676"
 PALE: Final = "#c9c9c9"
-# Okabe and Ito's colours (https://jfly.uni-koeln.de/color/): told apart by colour-blind readers. Every line
-# has its own dash pattern beside its colour, so that a grey print still tells them apart.
+# Okabe and Ito's colours (https://jfly.uni-koeln.de/color/): distinct for colour-blind readers. Every line
+# has its own dash pattern beside its colour, so that a grey print still distinguishes them.
 LineStyle: TypeAlias = str | tuple[float, tuple[float, ...]]
 SOLID: Final[LineStyle] = "-"
 DASHED: Final[LineStyle] = (0, (5, 1.8))

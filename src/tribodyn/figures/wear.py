@@ -147,7 +147,7 @@ def _of_motion(
 
 
 def _marker(cycles: FloatArray) -> str:
-    """Mark the stops as long as they can be told apart."""
+    """Mark the stops as long as they can be distinguished."""
     return "o" if cycles.size <= 40 else ""
 
 

@@ -27,7 +27,7 @@ class Cvode:
     def steps(self, segment: Segment) -> Iterator[Step]:
         """Yield the accepted steps, see :class:`tribodyn.integrate.base.Method`.
 
-        LU decompositions and rejected steps are not told by scikit-sundae.
+        LU decompositions and rejected steps are not reported by scikit-sundae.
         """
         # Without a least step CVODE goes on, printing warnings, when its steps no longer change t.
         t_old, t_end = segment.t_start, segment.t_end

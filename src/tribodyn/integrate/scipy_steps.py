@@ -72,7 +72,7 @@ class ScipyMethod:
 
 
 def _step_quietly(solver: Any) -> str | None:
-    """Step; what SciPy would warn of is told by the failure it leads to."""
+    """Step; what SciPy would warn of appears as the failure it leads to."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         message: str | None = solver.step()

@@ -306,7 +306,7 @@ def joint_report(
     sign: float = 1.0,
     entry_velocity: FloatArray | None = None,
 ) -> dict[str, float]:
-    """Return what is told about a joint, see ``kernels/joints/quantities.py``; arguments as above."""
+    """Return what is reported of a joint, see ``kernels/joints/quantities.py``; arguments as above."""
     memory, pose = new_memory(data, entry_velocity), pose_at(y, omega=omega, sign=sign)
     out = memory.scratch.report
     report(data, memory, pose)

@@ -221,7 +221,7 @@ class WearingSystem(SimulatedSystem, Protocol):
         ...
 
     def carried(self, run: FinishedRun) -> Carried:
-        """Return what the next cycle goes on from."""
+        """Return what the next cycle continues from."""
         ...
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:

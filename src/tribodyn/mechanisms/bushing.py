@@ -133,7 +133,7 @@ def bushing_facts(case: HasBushing) -> dict[str, object]:
 def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> list[str]:
     """Return what the temperatures of a case change, one sentence; nothing where they change nothing.
 
-    ``clearance`` is that over the rows of a run [m], where it does not keep still.
+    ``clearance`` is that over the rows of a run [m], where it changes.
     """
     if clearance is not None and clearance.size:
         return [of_clearances(float(clearance[0]), float(clearance[-1]), float(clearance.min()))]

@@ -75,7 +75,7 @@ def beyond_law(
     )
 
 
-def instant(time: float, begins: Iterable[float] = (), lasting: float = 0.0) -> str:
+def instant(time: float, begins: Iterable[float] = (), impact_time: float = 0.0) -> str:
     """Return an instant in words, with the impact that it belongs to.
 
     Parameters
@@ -84,14 +84,14 @@ def instant(time: float, begins: Iterable[float] = (), lasting: float = 0.0) -> 
         The instant [s]; NaN where it is not known.
     begins
         Times of the start and of the reversals [s].
-    lasting
+    impact_time
         How long impacts last after each of them [s].
     """
     if math.isnan(time):
         return "at an unknown time"
     before = max((begin for begin in begins if begin <= time), default=-math.inf)
     words = f"at t = {time:.4g} s"
-    if time > before + lasting:
+    if time > before + impact_time:
         return words
     event = f"the reversal at {before:.4g} s" if before > 0.0 else "the start"
     return f"{words}, in the impact after {event}"
@@ -156,7 +156,7 @@ def of_reversals(every: FloatArray, turns: FloatArray, *, period: float, t_end: 
     t_end
         Simulated time reached [s].
     carried
-        Whether the start is a reversal, because the run goes on from another one.
+        Whether the start is a reversal, because the run continues from another one.
     """
     settling = impact_time(period)
     held = turns[(turns + settling <= t_end) & ((turns > 0.0) | carried)]

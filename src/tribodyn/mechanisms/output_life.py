@@ -21,7 +21,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 
 _SOFT: Final = 1.0e-6
-"""Stiffness of a direction over the largest one that is none."""
+"""Stiffness of a direction over the largest one that counts as zero."""
 _N_WAYS: Final = 6
 """Translations and rotations of a shaft."""
 

@@ -13,11 +13,11 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart, plain
 from tribodyn.results.outputs import ERROR_UNITS
-from tribodyn.results.reading import column, lasting, peak, settled
+from tribodyn.results.reading import column, peak, settled, sustained
 from tribodyn.results.summary import KeyResult
 
 _AT_REST: Final = 1.0e-9
-"""Change of an ideal value in one step, over its range, that is none."""
+"""Change of an ideal value in one step, over its range, that counts as zero."""
 Reduction = Callable[[xr.Dataset, FloatArray], float]
 
 
@@ -60,10 +60,10 @@ DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
 }
 """By what stands in the name of the key result: errors in one direction of motion."""
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
-    "lasting": (
+    "sustained": (
         "sustained",
         "Largest difference from the motion with ideal joints for 99 % of the time; impacts excluded.",
-        lasting,
+        sustained,
     ),
     "max": ("peak", "Largest value at any time, impacts included.", lambda d, error: peak(settled(d, error))),
     "rms": ("rms", "Root mean square over time of the difference from the motion with ideal joints.", _rms),

@@ -46,7 +46,7 @@ def of_reversals(peaks: Peaks, table: Table) -> dict[str, FloatArray]:
 
 
 def of_rows(
-    times: FloatArray, values: Mapping[str, FloatArray], begins: FloatArray, lasting: float
+    times: FloatArray, values: Mapping[str, FloatArray], begins: FloatArray, window: float
 ) -> dict[str, FloatArray]:
     """Return the same peaks and times [s] from rows that follow the steps, by name.
 
@@ -58,7 +58,7 @@ def of_rows(
         Quantities by name, shape (n_t, n) each; their sizes are looked at.
     begins
         The start and the reversals that were reached [s], shape (n_reversals,).
-    lasting
+    window
         How long impacts last after each [s].
 
     Returns
@@ -71,7 +71,7 @@ def of_rows(
     found |= {f"{name}_time": np.full(shape, np.nan) for name in found}
     for k, (begin, end) in enumerate(zip(begins, np.append(begins[1:], np.inf), strict=True)):
         inside = (times >= begin) & (times <= end)
-        impact = times <= begin + lasting
+        impact = times <= begin + window
         for part, rows in zip(PARTS, (inside & impact, inside & ~impact), strict=True):
             for name, column in values.items():
                 sizes = np.abs(column[rows])

@@ -32,7 +32,7 @@ class Worn:
     depth
         Wear depth at the nodes [m], in their shape.
     carried
-        Where the run goes on from; None for the start of the case.
+        Where the run continues from; None for the start of the case.
     """
 
     depth: FloatArray

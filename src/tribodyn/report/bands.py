@@ -1,4 +1,4 @@
-"""What assumed numbers do to a run: the band of its key results over a sweep that stands beside it."""
+"""What assumed numbers do to a run: the band of its key results over a sweep in its folder."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict
     case = parse_case(str(dataset.attrs["case"]), "case")
     keys = [key for key in json.loads(sweep.attrs["varied"]) if key in sweep.dims]
     here = {key: _nearest(sweep[key].values, case.at(key)) for key in keys}
-    told = known([name for name in summary if name in sweep], str(summary["kind"]))
+    shown = known([name for name in summary if name in sweep], str(summary["kind"]))
     rows = [
         {
             "label": key_result.label,
@@ -55,7 +55,7 @@ def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict
             "whole": _band(sweep[name].values, key_result.digits),
             "alone": [_band(_alone(sweep[name], key, here), key_result.digits) for key in keys],
         }
-        for name, key_result in told.items()
+        for name, key_result in shown.items()
         if key_result.group in GROUPS and not key_result.count
     ]
     return {"keys": [{"name": key, "range": _range(sweep[key])} for key in keys], "rows": rows}

@@ -15,7 +15,7 @@ from tribodyn.views.overlay import overlays
 from tribodyn.views.section import Chapter
 
 MOST: Final = 6
-"""Points up to which their curves can be told apart."""
+"""Points up to which their curves can be distinguished."""
 LEAD: Final = "Press the name of a run below a plot to hide or show it."
 
 

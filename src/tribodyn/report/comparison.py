@@ -118,7 +118,7 @@ def render(runs: Sequence[ComparedRun]) -> str:
 
 
 def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]:
-    """Return summaries in which like stands beside like, and in a sentence what they were taken from.
+    """Return summaries of the same stretch, and in a sentence what they were taken from.
 
     Loads and accuracy are those of what all results hold; wear, trust and effort are those of each whole run.
     """

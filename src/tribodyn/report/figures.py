@@ -36,7 +36,7 @@ def draw_all(dataset: xr.Dataset, directory: str | Path, *, part: slice = slice(
     Returns
     -------
     list of pathlib.Path
-        The PNG files written, in reading order; the PDF of each stands beside it.
+        The PNG files written, in reading order; the PDF of each is in the same folder.
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)

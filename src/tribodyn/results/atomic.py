@@ -101,7 +101,7 @@ def write_together(contents: Mapping[Path, Sequence[bytes | memoryview]], stale:
     """Write files of one folder that belong together, the first of which the others follow from.
 
     All are on the disk before any takes its name. Then what belongs to the old first file goes, the new first
-    file takes its name, and the others theirs: whenever the process is killed, none stands beside a first
+    file takes its name, and the others theirs: whenever the process is killed, none is there with a first
     file that it does not belong to.
 
     Parameters

@@ -18,7 +18,7 @@ TEXTS: Final = "list of texts, as JSON"
 FACTS: Final = "table of numbers and texts, as JSON"
 
 CARRIED: Final = "carried on"
-"""The ``start`` of a run that goes on from where another one ended."""
+"""The ``start`` of a run that continues from where another one ended."""
 SWEEP: Final = "sweep"
 """The ``kind`` of a sweep; that of a run is the kind of its case."""
 

@@ -60,7 +60,7 @@ def outside(dataset: xr.Dataset, name: str) -> float:
 def reversals_held(dataset: xr.Dataset) -> int:
     """Return how many reversals the run holds with the impacts that follow them.
 
-    Where a run goes on from another one, its start is a reversal; otherwise it is none.
+    Where a run continues from another one, its start is a reversal; otherwise it is none.
     """
     turns = column(dataset, "reversal_time")
     held = turns + float(dataset.attrs["impact_time"]) <= float(dataset.attrs["time_reached"])
@@ -114,7 +114,7 @@ def settled(dataset: xr.Dataset, values: FloatArray) -> FloatArray:
     return values[in_settled(dataset)]
 
 
-def lasting(dataset: xr.Dataset, values: FloatArray) -> float:
+def sustained(dataset: xr.Dataset, values: FloatArray) -> float:
     """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
 
     Parameters

@@ -66,7 +66,7 @@ def write_run(
     summary: Summary,
     stale: Iterable[Path] = (),
 ) -> list[Path]:
-    """Write a run; summary and case of an earlier one never stand beside its result.
+    """Write a run; summary and case of an earlier one never remain with its result.
 
     Parameters
     ----------

@@ -210,7 +210,7 @@ def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
 
 
 def load_equations(case: Case) -> bool:
-    """Load the equations of a case if they are compiled, and tell whether they are."""
+    """Load the equations of a case if they are compiled, and return whether they are."""
     return loaded(case, partial(_first_steps, _session(case)))
 
 

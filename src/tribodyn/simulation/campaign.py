@@ -3,7 +3,7 @@
 A campaign stops at some cycles. At each stop one drive cycle is simulated with the bushing as worn as it is
 then, from the state and the memory of contact in which the cycle simulated before it ended. Its sliding load
 is repeated over the cycles of the jump that follows, the simulated one among them. What lies between two
-simulated cycles is a :class:`Campaign`, and nothing else: a campaign goes on from it to the same bits.
+simulated cycles is a :class:`Campaign`, and nothing else: a campaign continues from it to the same bits.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class Cycles(Protocol):
         wear
             Depth at the nodes [m].
         carried
-            Where to go on from.
+            Where to continue from.
         done
             Cycles of wear behind, for the display of progress.
         """
@@ -158,7 +158,7 @@ def run_campaign(
     resumed
         Where an earlier run of the same campaign was; from the beginning by default.
     keep
-        Called after every jump with what the campaign goes on from.
+        Called after every jump with what the campaign continues from.
 
     Returns
     -------

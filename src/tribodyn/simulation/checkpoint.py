@@ -37,7 +37,7 @@ def write(path: Path, worn: Campaign, case: str) -> None:
     path
         The file; its folder must exist.
     worn
-        What the campaign goes on from.
+        What the campaign continues from.
     case
         Text of the case, by which the campaign is known again.
     """
@@ -77,7 +77,7 @@ def read(
     Returns
     -------
     tuple or None
-        What the campaign goes on from, and warnings about it.
+        What the campaign continues from, and warnings about it.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def read(
             if known and facts["case"] == case
             else None
         )
-        told = _changed(facts["versions"]) if known else []
+        warnings = _changed(facts["versions"]) if known else []
     except FileNotFoundError:
         return None
     # A damaged archive makes its readers raise what they like, NotImplementedError among it.
@@ -102,7 +102,7 @@ def read(
         raise _refused(path, "it was written by another version of tribodyn")
     if worn is None:
         raise _refused(path, f"it holds {brief(facts['cycles'])} cycles of a campaign of another case")
-    return worn, told
+    return worn, warnings
 
 
 def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -160,7 +160,7 @@ def _changed(versions: Mapping[str, str]) -> list[str]:
 def _refused(path: Path, reason: str) -> InputError:
     name = brief(path)
     return InputError(
-        f"a wear campaign cannot go on from {name}: {reason}; choose another directory, or remove the file "
-        "to begin anew",
+        f"a wear campaign cannot continue from {name}: {reason}; choose another directory, or remove the "
+        "file to begin anew",
         key="wear.cycles",
     )

@@ -50,7 +50,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
             checkpoint, text, cycles.plan.node_area.shape, cycles.system.nodes.n_states, columns
         )
     )
-    resumed, told = (None, []) if found is None else found
+    resumed, changes = (None, []) if found is None else found
 
     def keep(campaign: Campaign) -> None:
         if checkpoint is not None:
@@ -72,7 +72,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
             **campaign.history,
             "stage_depth": cycles.system.as_field(campaign.stage_depth),
         },
-        warnings=[*told, *_not_reached(cycles.case, campaign)],
+        warnings=[*changes, *_not_reached(cycles.case, campaign)],
         failure=cycle.failure or "",
     )
     return session.dataset(replace(cycles.last, cost=campaign.statistics), more)

@@ -101,7 +101,7 @@ def contributions(
     workers
         Processes on this machine, by default one for each processor; 0 computes in this process.
     watcher
-        Who is told how it is going, and may end it.
+        Who hears of its progress, and may end it.
 
     Returns
     -------

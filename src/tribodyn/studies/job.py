@@ -15,7 +15,7 @@ Finished: TypeAlias = Iterator[tuple[Point, PointOutcome]]
 LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
 _SOON: Final = 5.0
-"""How long workers may get ready before a user is told why nothing happens [s]."""
+"""How long workers may get ready before a user reads why nothing happens [s]."""
 _PREPARING: Final = (
     "preparing the workers; where the equations are not compiled yet this takes a minute or two"
 )
@@ -36,7 +36,7 @@ class SweepJob:
     stop
         Asked several times a second; when true, what is still to be done is called off.
     note
-        Told what a user should know.
+        Called with what a user should know.
     """
 
     points: Sequence[Point]

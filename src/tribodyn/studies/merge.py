@@ -70,14 +70,22 @@ def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
 
 def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float], type, dict[str, str]]:
     """Return the values of a key result over all points; a point that failed has none."""
-    told = known([name], kind).get(name)
-    about = {"units": told.unit or "1", "long_name": told.label} if told else {"long_name": name}
+    about_number = known([name], kind).get(name)
+    about = (
+        {"units": about_number.unit or "1", "long_name": about_number.label}
+        if about_number
+        else {"long_name": name}
+    )
     values = [math.nan if row.get("failure") else _number(row.get(name)) for row in rows]
-    return values, float, about | ({"group": told.group, "comment": told.meaning} if told else {})
+    return (
+        values,
+        float,
+        about | ({"group": about_number.group, "comment": about_number.meaning} if about_number else {}),
+    )
 
 
-def _text(told: object) -> str:
-    return "; ".join(told) if isinstance(told, list) else str(told)
+def _text(about_number: object) -> str:
+    return "; ".join(about_number) if isinstance(about_number, list) else str(about_number)
 
 
 def _number(value: object) -> float:

@@ -90,7 +90,7 @@ def _nothing(_: object) -> None:
 
 @dataclass(frozen=True)
 class Watcher:
-    """Who is told how a sweep is going, and may end it.
+    """Who hears of the progress of a sweep, and may end it.
 
     Attributes
     ----------

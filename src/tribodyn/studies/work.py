@@ -1,6 +1,6 @@
 """What a worker does: one point, from the text of a case to numbers and bytes.
 
-It writes no file but the whole result, where it is told a folder for that.
+It writes no file but the whole result, where it is given a folder for that.
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ def _check_levels(scan: Scan) -> None:
 
 
 def _check_spikes(scan: Scan) -> list[str]:
-    """Refuse numbers that stand for a missing height; tell of points that stand out."""
+    """Refuse numbers that stand for a missing height; report points that stand out."""
     heights = levelled(scan, "mean").heights
     off = np.abs(heights - np.nanmedian(heights))
     scale = 1.4826 * float(np.nanmedian(off)) or float(np.nanmean(off))

@@ -34,7 +34,7 @@ class Table:
     width
         Fields of a line; by default those of the first line.
     comment
-        Is told of comments between the lines.
+        Called with comments between the lines.
     source
         Name of the file.
     """

@@ -31,7 +31,7 @@ class Unrolled:
     empty
         Height [mm] below which nothing happens and the drawing is shortened; 0 where it is not.
     middle
-        What is added to heights where they are told [mm]: the middle of a surface that is not about zero.
+        What is added to heights where they are shown [mm]: the middle of a surface that is not about zero.
     """
 
     theta: FloatArray

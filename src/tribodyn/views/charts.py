@@ -105,7 +105,7 @@ LOOKS: Final = (
     ("purple", "dash"),
     ("grey", "longdash"),
 )
-"""Colour and dash of curves that have no look of their own; told apart in grey by the dash."""
+"""Colour and dash of curves that have no look of their own; distinguished in grey by the dash."""
 
 
 @dataclass(frozen=True)

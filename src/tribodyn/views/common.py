@@ -21,7 +21,7 @@ _NEEDED: Final = {"cycle_period", "impact_time", "time_reached", "start"}
 def in_common(results: Sequence[xr.Dataset]) -> tuple[list[xr.Dataset], str]:
     """Return of each result what all of them hold, and in a sentence what that is, empty where they agree.
 
-    Runs that begin alike are cut to the time of the shortest. Where some go on from another run and others do
+    Runs that begin alike are cut to the time of the shortest. Where some continue another run and others do
     not, the last whole drive cycles are taken and the impacts after those reversals that all of them hold.
 
     Parameters

@@ -33,10 +33,10 @@ def reversal_times(dataset: xr.Dataset) -> FloatArray:
 
 def impact_windows(dataset: xr.Dataset) -> FloatArray:
     """Return begin and end [s] of the impacts after the start and each reversal, shape (n, 2)."""
-    time, lasting = series(dataset, "time"), impact_time(dataset)
+    time, window = series(dataset, "time"), impact_time(dataset)
     begins = np.concatenate([[0.0], reversal_times(dataset)])
-    windows = np.column_stack([begins, begins + lasting])
-    return np.asarray(windows[(lasting > 0.0) & (windows[:, 1] > time[0]) & (windows[:, 0] < time[-1])])
+    windows = np.column_stack([begins, begins + window])
+    return np.asarray(windows[(window > 0.0) & (windows[:, 1] > time[0]) & (windows[:, 0] < time[-1])])
 
 
 def direction(dataset: xr.Dataset) -> FloatArray:

@@ -16,7 +16,7 @@ from tribodyn.views.series import series
 _EVEN: Final = 241
 """Moments where a result holds no pressure frames of its own."""
 _SHORT: Final = 0.5
-"""Runs shorter than this [s] are told in milliseconds."""
+"""Runs shorter than this [s] are shown in milliseconds."""
 
 
 def time_unit(dataset: xr.Dataset) -> tuple[str, float]:

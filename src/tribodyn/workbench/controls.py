@@ -92,7 +92,7 @@ def _number(value: Value | None) -> float | None:
 
 
 _GOES_ON: Final = re.compile(r"(at|between|by|for|from|in|its|linear|of|over|where|which|with)\b")
-"""How a meaning begins that goes on from the name of its key."""
+"""How a meaning begins that continues from the name of its key."""
 
 
 def label(case: Case, key: Key) -> str:

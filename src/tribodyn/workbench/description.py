@@ -1,4 +1,4 @@
-"""What a page is told of a case: its controls, key results and charts, and what can be edited."""
+"""What a page shows of a case: its controls, key results and charts, and what can be edited."""
 
 from __future__ import annotations
 

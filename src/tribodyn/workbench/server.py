@@ -247,7 +247,7 @@ def pointer(address: str) -> Iterator[Path]:
 
 
 def open_browser(path: Path) -> bool:
-    """Open a file in the user's browser; tell whether one was found."""
+    """Open a file in the user's browser; return whether one was found."""
     try:
         return webbrowser.open(path.as_uri())
     except (OSError, webbrowser.Error):

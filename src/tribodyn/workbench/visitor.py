@@ -113,7 +113,7 @@ class Visitor:
         return self.frames[run]
 
     def pin(self, run: str) -> bool:
-        """Keep a run until it is unpinned as often; tell whether there is such a run."""
+        """Keep a run until it is unpinned as often; return whether there is such a run."""
         if run not in self.cases:
             return False
         self.pins[run] += 1

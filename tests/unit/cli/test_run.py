@@ -300,7 +300,7 @@ def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(
     assert Path("out/checkpoint.npz").exists()
     message = capsys.readouterr().err.splitlines()[-1]
     assert "stopped after 2000 of 400 cycles: interrupted" in message
-    assert "saved in out; the same command goes on from there" in message
+    assert "saved in out; the same command continues from there" in message
     campaign("")
     assert main(CAMPAIGN) == 0
     assert "going on with the wear campaign kept in" in capsys.readouterr().err

@@ -77,7 +77,7 @@ def test_a_torn_file_is_refused(kept, worn, tmp_path):
 
 
 def parts(found):
-    """Return the bytes of all that a campaign goes on from."""
+    """Return the bytes of all that a campaign continues from."""
     arrays = [found.depth, found.load, found.stage_cycles, found.stage_depth, *found.history.values()]
     arrays += [found.carried.state, found.carried.entry_velocity]
     return found.cycles, found.gain, found.life, found.statistics, [array.tobytes() for array in arrays]
@@ -104,7 +104,7 @@ def test_a_damaged_file_is_refused_or_unharmed(damage, worn, tmp_path):
         found = attempt(path)
         if isinstance(found, InputError):
             refused += 1
-            assert "a wear campaign cannot go on from" in str(found)
+            assert "a wear campaign cannot continue from" in str(found)
         else:
             assert parts(found) == parts(worn)  # the byte stood for nothing, such as a date
     assert refused > 200 if damage == "byte" else refused == 300
@@ -129,7 +129,7 @@ def test_facts_of_another_kind_are_refused(facts, worn, tmp_path):
     with np.load(path, allow_pickle=False) as archive:
         arrays = dict(archive)
     np.savez(path, **{**arrays, "facts": facts})
-    with pytest.raises(InputError, match="a wear campaign cannot go on from"):
+    with pytest.raises(InputError, match="a wear campaign cannot continue from"):
         checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
 
 

@@ -83,10 +83,12 @@ async def test_one_result_waits_for_a_page_that_has_not_drawn_and_it_is_the_newe
     async with hosting() as host:
         page = await host.greeted()
         page.draws = False
-        for number in range(5):
+        await page.run(0, wide(20), rest=True)
+        assert (await page.picture()).number == 0
+        # A run that a later one stops has no result: on a slow machine some of these have none.
+        for number in range(1, 5):
             await page.run(number, wide(20 + number), rest=True)
             await asyncio.sleep(0.05)
-        assert (await page.picture()).number == 0
         await page.say("drawn", number=0)
         assert (await page.picture()).number == 4
 

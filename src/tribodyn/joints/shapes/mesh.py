@@ -122,7 +122,7 @@ def nearby(points: FloatArray) -> NDArray[np.intp]:
 
 
 def patches(position: FloatArray, normal: FloatArray, area: FloatArray) -> NDArray[np.void]:
-    """Return records of rows of neighbouring nodes, with bounds that tell whether any can touch."""
+    """Return records of rows of neighbouring nodes, with bounds that return whether any can touch."""
     first = np.arange(0, len(area), PATCH)
     rows = np.zeros(first.size, dtype=Row)
     rows["first"], rows["whole"] = first, 1.0

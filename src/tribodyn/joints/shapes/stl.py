@@ -35,7 +35,7 @@ def read_stl(content: bytes) -> FloatArray:
     elif content.lstrip()[:5].lower() == b"solid":
         corners = _text(content)
     else:
-        raise InputError("is neither a binary STL file, whose length tells its triangles, nor one in text")
+        raise InputError("is neither a binary STL file, whose length fits its triangles, nor one in text")
     if not 0 < len(corners) <= MOST_NODES:
         raise InputError(f"has {len(corners)} triangles; a mesh has at least one and at most {MOST_NODES}")
     if not np.isfinite(corners).all():

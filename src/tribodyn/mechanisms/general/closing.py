@@ -172,7 +172,7 @@ class System:
     def over_sizes(self, rows: FloatArray) -> FloatArray:
         """Return rows (m, 6 n) over ways in units of the size and turns, each of length one.
 
-        Whether rows depend on each other is told by these: it is a matter of places, not of masses.
+        Whether rows depend on each other follows from these: it is a matter of places, not of masses.
         """
         return with_unit_rows(rows * np.tile(np.repeat([self.size, 1.0], 3), self.n))
 
@@ -259,7 +259,7 @@ class System:
         return longest
 
     def wander(self, chance: np.random.Generator) -> bool:
-        """Move the bodies some way along the freedoms that are left; tell whether there are any."""
+        """Move the bodies some way along the freedoms that are left; return whether there are any."""
         g, root, _ = self.scaled()
         anywhere = chance.normal(size=6 * self.n)
         way = dense.product(root, anywhere - self.solve(g, dense.product(g, anywhere)))

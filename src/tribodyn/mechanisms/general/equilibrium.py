@@ -45,13 +45,13 @@ _MOVING: Final = 1.0e-6
 _SLIDING: Final = 100.0
 """The same with which a motion that is about to begin is looked at."""
 _ROUNDING: Final = 1.0e-10
-"""Acceleration over the one that loads would cause without joints that is none."""
+"""Acceleration over the one that loads would cause without joints that counts as zero."""
 _MOST_LOOKS: Final = 20
 _MOST_STEPS: Final = 100
 _SETTLED: Final = 1.0e-3
-"""Change of a gap, over the roughness, that is none."""
+"""Change of a gap, over the roughness, that counts as zero."""
 _BALANCED: Final = 1.0e-6
-"""Load over the largest one met on the way that is none."""
+"""Load over the largest one met on the way that counts as zero."""
 _LOST: Final = 3.0
 """How many times the largest gap of its joint a shaft may move without finding what holds it."""
 _TILTED: Final = 30.0
@@ -70,7 +70,7 @@ _BACK: Final = 0.5
 _NEARER: Final = 4.0
 """Factor by which bodies that do not come to rest count as near from look to look."""
 _ADRIFT: Final = 1.0e-3
-"""Load along a freedom that nothing holds, over all loads, that is none."""
+"""Load along a freedom that nothing holds, over all loads, that counts as zero."""
 _TINY: Final = 1.0e-300
 _FAR: Final = 0.5
 """Part of the largest gap of a joint that a step may not pass."""
@@ -335,7 +335,7 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     loads
         With the bodies where the search begins.
     change
-        Change of gaps, over the roughness, that is none.
+        Change of gaps, over the roughness, that counts as zero.
     near
         Change of gaps, over the roughness, after which the possible motions are not looked for again; it
         grows from look to look.

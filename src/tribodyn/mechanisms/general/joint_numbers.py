@@ -1,4 +1,4 @@
-"""Key results of each joint by its name; the sustained maximum of a quantity stands beside its peak."""
+"""Key results of each joint by its name; the sustained maximum of a quantity is shown with its peak."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tribodyn.mechanisms.general.readings import (
     offset,
     sizes,
 )
-from tribodyn.results.reading import column, lasting, peak, settled, time_mean
+from tribodyn.results.reading import column, peak, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_life import wear_life, wear_rate
 
@@ -84,7 +84,7 @@ def pair(
             unit,
             group,
             f"{meaning} for 99 % of the time; impacts excluded.",
-            lambda d: above_zero(lasting(d, values(d))) * scale,
+            lambda d: above_zero(sustained(d, values(d))) * scale,
         ),
         loud: KeyResult(
             f"{label}, peak",

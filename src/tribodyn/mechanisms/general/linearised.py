@@ -34,12 +34,12 @@ _MOST_STEPS: Final = 200
 _LONGEST: Final = 0.2
 """Largest step, turns [rad] and ways in units of the length that positions are resolved against."""
 _STILL: Final = 1.0e-8
-"""Step in the same units that is none."""
+"""Step in the same units that counts as zero."""
 _TINY: Final = 1.0e-300
 _FLAT: Final = 1.0e-9
-"""Stiffness over the largest one that is none."""
+"""Stiffness over the largest one that counts as zero."""
 _UNLOADED: Final = 1.0e-6
-"""Force along a motion without stiffness, over all forces, that is none."""
+"""Force along a motion without stiffness, over all forces, that counts as zero."""
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def _axis(place: Place, which: int) -> FloatArray:
     names, axes = list(place.surface.axes), list(place.surface.axes.values())
     if len(axes) == 1:
         return np.arange(_shape(place)[which], dtype=np.float64)
-    # An arc of a ball's race instead of its latitude: rows are then told in metres everywhere.
+    # An arc of a ball's race instead of its latitude: rows are then in metres everywhere.
     return axes[which] * (_radius(place) if names[which] == LATITUDE else 1.0)
 
 

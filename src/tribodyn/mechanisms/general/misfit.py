@@ -73,7 +73,7 @@ class Misfit:
         return np.asarray(1.0 / np.where(self._allowed > 0.0, self._allowed, hard), np.float64)
 
     def close(self) -> bool:
-        """Move the bodies to where the joints miss least; tell whether the clearances take that."""
+        """Move the bodies to where the joints miss least; return whether the clearances take that."""
         weights = self.weights
         for _ in range(_MOST_STEPS):
             change = self._change(weights)

@@ -170,7 +170,7 @@ class JointKeys(_OfAllTypes):
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several keys."""
-        # A type that is none is refused as such, by the check of its family.
+        # A type that counts as zero is refused as such, by the check of its family.
         if self.type not in JOINTS:
             return
         demand(self.between[0] != self.between[1], "between", "a joint connects two different bodies")

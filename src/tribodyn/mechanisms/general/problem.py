@@ -68,7 +68,7 @@ def mechanism_problem(
     state
         Where it begins, shape (13 n,); that of the assembly by default, whose shafts are in the middle.
     carried
-        State and remembered entry velocities to go on from instead.
+        State and remembered entry velocities to continue from instead.
     dense
         Whether the Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
     """

@@ -29,7 +29,7 @@ from tribodyn.mechanisms.general.outputs import rotations
 from tribodyn.mechanisms.general.positions import DrivePath, held, undamped, walked
 
 _SETTLED: Final = 1.0e-5
-"""Change of gaps over the roughness that is none."""
+"""Change of gaps over the roughness that counts as zero."""
 _NEAR: Final = 0.1
 """Change of gaps over the roughness that turns the directions of possible motions by less than rounding."""
 

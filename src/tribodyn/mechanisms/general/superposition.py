@@ -34,7 +34,7 @@ from tribodyn.mechanisms.general.outputs import Output
 CAUSES: Final = ("clearance", "tilt", "friction")
 """What an error of a joint is divided into."""
 _NOTHING: Final = 1.0e-9
-"""Force over the largest one that is none."""
+"""Force over the largest one that counts as zero."""
 
 
 @dataclass(frozen=True)

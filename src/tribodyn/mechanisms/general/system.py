@@ -1,4 +1,4 @@
-"""A case of a mechanism as a system to integrate, and what its runs tell.
+"""A case of a mechanism as a system to integrate, and what its runs return.
 
 One file because all of it is asked of one object, which computes assembly, start and maps once.
 """
@@ -209,7 +209,7 @@ class MechanismSystem:
         return np.asarray(self.maps(depth), dtype=np.float64)
 
     def carried(self, run: FinishedRun) -> Carried:
-        """Return what the next cycle goes on from."""
+        """Return what the next cycle continues from."""
         return Carried(run.solution.y_end, run.problem.memory.contact.entry_velocity)
 
     def contact_energy(self, worn: Worn) -> float:

@@ -96,7 +96,7 @@ class JournalLoad(ShaftLoad):
         demand(not opposing or not placed, "frame", f"{words}, with no direction, point or span")
         words = "a force on the journal acts on its axis: the first two of three lengths are zero"
         demand(self.point is None or self.point[:2] == (0.0, 0.0), "point", words)
-        words = "the spread along the span tells it"
+        words = "it follows from the span"
         demand(self.point is None or self.span is None, "point", words)
 
     @property

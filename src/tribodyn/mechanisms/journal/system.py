@@ -1,4 +1,4 @@
-"""A case of the journal as a system to integrate, and what its runs tell."""
+"""A case of the journal as a system to integrate, and what its runs return."""
 
 from __future__ import annotations
 

@@ -46,8 +46,8 @@ def _steps(case: JournalCase) -> float:
     if case.film.lubricated:
         return _IN_OIL[0] + _IN_OIL[1] * rebounds
     damped = case.contact.law_of(case.surface_pair).damping_factor != "none"
-    lasting = min(rebounds, _REBOUNDS) if damped or case.contact.loss_coefficient else rebounds
-    return _OF_REBOUND * lasting + _AT_REST * rebounds
+    counted = min(rebounds, _REBOUNDS) if damped or case.contact.loss_coefficient else rebounds
+    return _OF_REBOUND * counted + _AT_REST * rebounds
 
 
 WORKLOAD: Final = workload

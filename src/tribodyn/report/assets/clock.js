@@ -21,7 +21,7 @@ const clock = {
   /** Go to a frame; the figures follow with the next picture of the screen. */
   go(frame) {
     clock.frame = Math.max(0, Math.min(clock.frames - 1, frame));
-    clock.tell();
+    clock.write();
     if (clock.due) return;
     clock.due = true;
     requestAnimationFrame(() => {
@@ -45,7 +45,7 @@ const clock = {
   },
 
   /** Say on the slider what moment it is. */
-  tell() {
+  write() {
     const { time, notes } = page.clock;
     const text = `t = ${(clock.now() * page.clock.scale).toFixed(3)} ${page.clock.unit}`;
     const step = time[Math.min(clock.frame + 1, clock.frames - 1)] - clock.now();
@@ -95,7 +95,7 @@ const clock = {
       clock.longest = Math.max(clock.longest, k ? t - page.clock.time[k - 1] : 0);
     });
     clock.frame = clock.nearest(before);
-    clock.tell();
+    clock.write();
   },
 
   /** Connect the controls of the page, where there are any. */

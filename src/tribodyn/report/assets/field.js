@@ -80,12 +80,12 @@ class Field {
     drawField(pen, this);
     fieldAxes(pen, this);
     colourBar(pen, this);
-    this.tell(pen);
+    this.write(pen);
     this.area.plotted = this;
   }
 
   /** Say where the peak is, or what is at the node that is read. */
-  tell(pen) {
+  write(pen) {
     const { probe } = this;
     this.readout.textContent = probe ? this.atNode(...probe) : this.atPeak();
     if (!probe) return;

@@ -4,7 +4,7 @@
 const DRAG = 6;
 /** Least height of a drag that zooms the ordinate too [px]. */
 const UPRIGHT_DRAG = 24;
-/** Farthest that a point may be from the pointer to be told [px]. */
+/** Farthest that a point may be from the pointer to be shown [px]. */
 const REACH = 40;
 
 /** Let a plot of curves follow the pointer. */

@@ -38,7 +38,7 @@ class Sheet {
     area.append(this.canvas);
   }
 
-  /** Fit the canvas to its area and the screen; tell whether there is room to draw. */
+  /** Fit the canvas to its area and the screen; return whether there is room to draw. */
   fit() {
     const ratio = devicePixelRatio || 1;
     [this.width, this.height] = [this.area.clientWidth, this.area.clientHeight];

@@ -1,4 +1,4 @@
-// Begin: read the data of the page, tell the style sheet that scripts run, draw what is near.
+// Begin: read the data of the page, let the style sheet know that scripts run, draw what is near.
 
 /** Return the data of the page: a header in JSON after its length, and the arrays that it refers to, all compressed. */
 async function pageData() {

@@ -41,18 +41,18 @@ widgets.scene = (box) => {
 function sceneMagnifier(state, changed) {
   const output = element("output");
   const slider = element("input", { type: "range", min: 1, step: 1 });
-  const tell = () => {
+  const write = () => {
     output.textContent = `${state.magnification}×`;
     slider.setAttribute("aria-valuetext", output.textContent);
   };
   const put = (value) => {
     slider.value = value;
     state.magnification = Number(slider.value);
-    tell();
+    write();
   };
   slider.addEventListener("input", () => {
     state.magnification = Number(slider.value);
-    tell();
+    write();
     changed();
   });
   const take = ({ value, most }) => {

@@ -17,7 +17,7 @@ class Solid {
     for (let n = 1; n + 1 < corners.length; n++) this.corners.push(corners[0], corners[n], corners[n + 1]);
   }
 
-  /** Add the skin between loops of equally many points, each loop closed, with lids unless told otherwise. */
+  /** Add the skin between loops of equally many points, each loop closed, with lids unless given otherwise. */
   loft(loops, colour, lids = true) {
     const rings = loops.map((loop) => loop.map((point) => this.corner(point, colour)));
     for (let n = 0; n + 1 < rings.length; n++) {

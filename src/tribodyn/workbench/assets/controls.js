@@ -108,7 +108,7 @@ function entryOf(control, id) {
   return entry;
 }
 
-/** Wish a value as it was typed; what cannot be is refused by the server and said beside the box. */
+/** Request a value as it was typed; what cannot be is refused by the server and said beside the box. */
 function typedIn(key, typed) {
   complain(key, "");
   const text = typed || pageState.controls.get(key).text;
@@ -141,7 +141,7 @@ function trackOf({ key, label, least, greatest, step, unit }) {
   return [element("div", { class: "ground" }, curve, slider)];
 }
 
-/** Wish the value of the case again. */
+/** Request the value of the case again. */
 function giveBack(key) {
   complain(key, "");
   pageState.gesture(pageState.changed(key, pageState.controls.get(key).text));
@@ -183,7 +183,7 @@ function fillSlider(slider, control, text) {
   slider.setAttribute("aria-valuetext", shownText(control.key));
 }
 
-/** Say beside the box of a key what is wrong with it; tell whether there is such a box. */
+/** Say beside the box of a key what is wrong with it; return whether there is such a box. */
 function complain(key, text) {
   const box = key && controlAt(key);
   if (!box) return false;

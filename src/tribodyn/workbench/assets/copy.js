@@ -29,7 +29,7 @@ function copyPart(title, text) {
   return element("div", {}, element("h3", {}, title), code, copy);
 }
 
-/** Copy a text; tell whether the browser let it be. */
+/** Copy a text; return whether the browser let it be. */
 async function copied(text) {
   try {
     await navigator.clipboard.writeText(text);

@@ -10,11 +10,11 @@ function greeted(hello) {
     const wanted = readAddress();
     const known = Object.entries(wanted).filter(([key]) => isKnown(key, wanted));
     // The first run is of what is left of it, and does not take this away.
-    if (known.length < Object.keys(wanted).length) trouble("The address names keys that this case does not have.", 2);
+    if (known.length < Object.keys(wanted).length) showError("The address names keys that this case does not have.", 2);
     pageState.values = Object.fromEntries(known);
   }
   pageState.pins.forEach(({ run }) => line.say({ type: "pin", run }));
-  pageState.tell("requested");
+  pageState.notify("requested");
   requests.send(true);
 }
 
@@ -73,7 +73,7 @@ line.hear = {
   run: (run) => requests.arrived(run),
   refused: (message) => requests.refused(message),
   ask: askFirst,
-  error: ({ message }) => trouble(message),
+  error: ({ message }) => showError(message),
   sweep: sweepArrived,
   slope: slopeArrived,
   down: () => {

@@ -92,7 +92,7 @@ const model = {
     if (document.getElementById("edit").open) document.getElementById("edit").close();
   },
 
-  /** Take back an edit that cannot be, and say why; tell whether the request was one. */
+  /** Take back an edit that cannot be, and say why; return whether the request was one. */
   refused(mine, faults, message) {
     if (!model.pending || model.pending.number !== mine) return false;
     const { before } = model.pending;

@@ -95,7 +95,7 @@ function numberRow(one) {
 /** Show the warnings of the run. */
 function showWarnings() {
   const { failure, warnings, number: mine } = pageState.shown;
-  if (mine >= requests.troubled) trouble(failure && `This run is not complete: ${failure}`, mine);
+  if (mine >= requests.erroneous) showError(failure && `This run is not complete: ${failure}`, mine);
   const list = document.getElementById("warnings");
   const missed = energyMissed(pageState.shown.results);
   const reasons = missed > MOST_MISSED ? [energyReason(missed), ...warnings] : warnings;

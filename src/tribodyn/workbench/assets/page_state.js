@@ -27,7 +27,7 @@ const pageState = {
     pageState.listeners[event].push(action);
   },
 
-  tell(event) {
+  notify(event) {
     pageState.listeners[event].forEach((action) => action());
   },
 
@@ -46,7 +46,7 @@ const pageState = {
   /** Request values, during a gesture or at its end. */
   request(values, rest) {
     pageState.values = values;
-    pageState.tell("requested");
+    pageState.notify("requested");
     requests.send(rest);
   },
 
@@ -56,7 +56,7 @@ const pageState = {
     pageState.past.push(before);
     pageState.future = [];
     writeAddress();
-    pageState.tell("requested");
+    pageState.notify("requested");
   },
 
   /** Request values as a gesture of its own. */
@@ -83,7 +83,7 @@ const pageState = {
       pageState.trail = [...pageState.trail.filter((one) => one.run !== run.run), pageState.shown].slice(-TRAIL);
     }
     pageState.shown = run;
-    pageState.tell("shown");
+    pageState.notify("shown");
   },
 };
 

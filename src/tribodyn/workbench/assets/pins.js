@@ -6,7 +6,7 @@ function togglePin() {
   if (!shown) return;
   if (pageState.pins.some((run) => run.run === shown.run)) return letGo(shown);
   if (pageState.pins.length >= pageState.hello.limits.pins) {
-    return trouble(`At most ${pageState.hello.limits.pins} runs can be pinned: let one go first.`);
+    return showError(`At most ${pageState.hello.limits.pins} runs can be pinned: let one go first.`);
   }
   pageState.pins = [...pageState.pins, shown];
   chosen.against = shown.run;

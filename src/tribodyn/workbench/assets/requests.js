@@ -16,7 +16,7 @@ const requests = {
   /** Number of the last request that does not show a point of a sweep. */
   own: 0,
   /** Number of the request that the error shown belongs to: the run of an earlier one leaves it there. */
-  troubled: 0,
+  erroneous: 0,
   sent: null,
   last: 0,
   due: null,
@@ -74,8 +74,8 @@ const requests = {
     if (model.refused(number, faults, message)) return tellState();
     const typed = requests.typed.get(number);
     requests.typed.delete(number);
-    const told = faults.filter(({ key, message: text }) => complain(key ?? typed?.key, text));
-    if (told.length < faults.length) trouble(message, number);
+    const shown = faults.filter(({ key, message: text }) => complain(key ?? typed?.key, text));
+    if (shown.length < faults.length) showError(message, number);
     if (typed && pageState.values[typed.key] === typed.text) requests.takeBack(typed);
     return tellState();
   },
@@ -91,7 +91,7 @@ const requests = {
     pageState.values = before;
     if (pageState.past.length && sameValues(pageState.past[pageState.past.length - 1], before)) pageState.past.pop();
     writeAddress();
-    pageState.tell("requested");
+    pageState.notify("requested");
   },
 };
 
@@ -120,9 +120,9 @@ function stateInWords(busy) {
 }
 
 /** Show an error that belongs to no key; an empty text removes it, as does the run of a later request. */
-function trouble(text, number = requests.number) {
-  requests.troubled = number;
-  const box = document.getElementById("trouble");
+function showError(text, number = requests.number) {
+  requests.erroneous = number;
+  const box = document.getElementById("error");
   write(box, text);
   box.hidden = !text;
 }

@@ -28,7 +28,7 @@ const secret = {
   /** Get another one from a server for many; a server for one person has given its only one away. */
   lost() {
     if (location.protocol === "https:") location.replace(`/?token=new${location.hash}`);
-    else trouble("This browser has lost the secret of this workbench: start the workbench again.", 2);
+    else showError("This browser has lost the secret of this workbench: start the workbench again.", 2);
   },
 };
 

@@ -30,7 +30,7 @@ const line = {
     line.socket = socket;
   },
 
-  /** Say something; tell whether there is a line. */
+  /** Say something; return whether there is a line. */
   say(message) {
     const up = line.socket.readyState === WebSocket.OPEN;
     if (up) line.socket.send(JSON.stringify(message));

@@ -145,13 +145,13 @@ function followSweep(canvas, key) {
   });
 }
 
-/** Wish the value of a point. */
+/** Request the value of a point. */
 function takePoint(key, sweep, { text }) {
   sweep.looked = "";
   pageState.gesture(pageState.changed(key, text));
 }
 
-/** Wish the value of the next point of the sweep of a key, or of the one before. */
+/** Request the value of the next point of the sweep of a key, or of the one before. */
 function stepPoint(key, way) {
   const sweep = sweeps.get(key);
   if (!sweep) return;

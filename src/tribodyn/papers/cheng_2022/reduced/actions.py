@@ -97,7 +97,7 @@ class VaneLoad(ShaftLoad):
         demand(
             self.span is None or self.centre_of_pressure is None,
             "centre_of_pressure",
-            "the spread along the span tells it",
+            "it follows from the span",
         )
         places = (self.point, self.centre_of_pressure, self.span)
         words = "give one of point, centre_of_pressure and span"

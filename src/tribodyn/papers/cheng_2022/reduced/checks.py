@@ -91,7 +91,7 @@ def notes(
     turns
         Times of the start and of the reversals that were reached [s].
     carried
-        Whether the start is a reversal, because the run goes on from another one.
+        Whether the start is a reversal, because the run continues from another one.
     """
     share = lift_off_share(found, t_end)
     messages = [

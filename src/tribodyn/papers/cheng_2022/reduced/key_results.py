@@ -14,12 +14,12 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.results.reading import (
     column,
     largest,
-    lasting,
     norm,
     outside,
     peak,
     reversals_held,
     rms,
+    sustained,
     time_mean,
 )
 from tribodyn.results.summary import KeyResult
@@ -78,7 +78,7 @@ class _Peak:
             self.unit,
             self.group,
             "Exceeded during 1 % of the time only; impacts excluded.",
-            lambda d: lasting(d, self.values(d)) * self.scale,
+            lambda d: sustained(d, self.values(d)) * self.scale,
         )
         return {
             **({self.sustained: lasts} if self.sustained else {}),

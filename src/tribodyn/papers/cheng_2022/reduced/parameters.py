@@ -170,7 +170,7 @@ class TableDrive:
 
     def turns(self, duration: float) -> FloatArray:
         """Return the times at which the crank reverses or the table kinks [s], up to ``duration``."""
-        # Of a piece at rest scipy tells the beginning; where it ends the table kinks.
+        # Of a piece at rest scipy returns the beginning; where it ends the table kinks.
         found = np.concatenate([[0.0], self._speed.roots(extrapolate=False), self.signal.kinks])
         return np.asarray(np.unique(found[np.isfinite(found) & (found <= duration)]))
 
@@ -223,7 +223,7 @@ class Vsv:
     terms
         Loads from tables; targets and coordinates as in ``kernels/vsv/data.py``.
     opening
-        What the clearance has more than that of the joint over time [m, s]; None where it keeps still.
+        What the clearance has more than that of the joint over time [m, s]; None where it is constant.
     """
 
     formulation: str

@@ -208,7 +208,7 @@ def vsv_problem(
     wear
         Wear depth at the nodes [m].
     carried
-        Where to go on from, at the beginning of a drive cycle, instead of ``start``.
+        Where to continue from, at the beginning of a drive cycle, instead of ``start``.
     """
     data = vsv_data(vsv, wear, duration)
     events = run_segments(vsv, duration)

@@ -59,7 +59,7 @@ def sense(lengths: Lengths) -> float:
 
 
 def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
-    """Return θ_v [rad] of the assembly that :func:`sense` tells; NaN where the loop cannot close.
+    """Return θ_v [rad] of the assembly that :func:`sense` gives; NaN where the loop cannot close.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A case of the variable stator vane mechanism as a system to integrate, and what its runs tell."""
+"""A case of the variable stator vane mechanism as a system to integrate, and what its runs return."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ class VsvSystem:
         return np.swapaxes(depth, -1, -2)
 
     def carried(self, run: FinishedRun) -> Carried:
-        """Return what the next cycle goes on from."""
+        """Return what the next cycle continues from."""
         return Carried(run.solution.y_end, run.problem.memory.joint.entry_velocity)
 
     def contact_energy(self, worn: Worn) -> float:
@@ -299,7 +299,7 @@ class VsvSystem:
         }
 
     def _clearance(self, run: FinishedRun) -> FloatArray | None:
-        """Return the radial clearance at the rows [m], shape (n_t,), where it does not keep still."""
+        """Return the radial clearance at the rows [m], shape (n_t,), where it changes."""
         opening = self.vsv.opening
         return None if opening is None else self.bushing.geometry.clearance + opening(run.solution.t)
 
