@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -213,6 +214,11 @@ def _of_laws() -> Iterator[tuple[str, tuple[type[float], Any]]]:
 
     for kind in LAWS.values():
         for name, said in parameters_of(kind):
+            if name in _ContactOfAnyLaw.model_fields:
+                # A law of another package must not change the keys of the others.
+                words = f"contact.{name} is a key of all laws, and not declared by the law {kind.name}"
+                warnings.warn(words, stacklevel=2)
+                continue
             limits = Bounds(gt=_written(said.above, said.unit), le=_written(said.most, said.unit))
             if said.unit:
                 default = from_si(said.default, said.unit)

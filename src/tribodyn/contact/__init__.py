@@ -15,6 +15,7 @@ from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.own import OwnLaw, check_law, law_of_user
+from tribodyn.contact.parameter import parameters_of
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.contact.table import tabulate
@@ -44,12 +45,16 @@ def _of_packages() -> Iterator[type[ContactLaw]]:
     not keep a user from the others.
     """
     taken = {kind.name for kind in OURS}
+    parameters = {name: said for kind in OURS for name, said in parameters_of(kind)}
     for entry in entry_points(group="tribodyn.laws"):
         try:
             kind = entry.load()
             check_law(kind)
             if kind.name in taken:
                 raise ValueError(f"there is a law {kind.name!r} already")
+            for name, said in parameters_of(kind):
+                if parameters.setdefault(name, said) != said:
+                    raise ValueError(f"another law has another parameter {name!r}")
         except Exception as error:
             warnings.warn(f"the contact law {entry.value} was left out: {error}", stacklevel=2)
             continue

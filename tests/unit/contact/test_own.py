@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 import numpy as np
 from tribodyn.contact import ContactLaw
+from tribodyn.contact.parameter import parameter
 
 @dataclass(frozen=True)
 class Mine(ContactLaw):
@@ -35,6 +36,24 @@ class Mine(ContactLaw):
 
 class Nameless(ContactLaw):
     pass
+
+@dataclass(frozen=True)
+class Steep(Mine):
+    name: ClassVar[str] = "steep"
+    steepness: float = parameter(2.5, "", "decay of the pressure over h*", above=0.0)
+
+    def stiffness_pressure(self, h_star):
+        return 0.02 * self.pair.hardness * np.exp(-self.steepness * np.asarray(h_star))
+
+@dataclass(frozen=True)
+class Clashing(Mine):
+    name: ClassVar[str] = "clashing"
+    penalty_stiffness: float = parameter(2.5, "", "of no unit")
+
+@dataclass(frozen=True)
+class Shadowing(Mine):
+    name: ClassVar[str] = "shadowing"
+    tensile_clip: float = parameter(2.5, "", "not a switch")
 """
 
 
@@ -101,23 +120,39 @@ def test_what_is_no_law_is_refused(given: Any, hint: str) -> None:
         tabulate(law_of_user(given)(pair.surface_pair))
 
 
-def test_a_package_adds_its_law_and_one_that_is_none_keeps_nobody_from_the_others(tmp_path: Path) -> None:
-    (tmp_path / "mine.py").write_text(LAW, encoding="utf-8")
-    about = tmp_path / "mine-1.0.dist-info"
-    about.mkdir()
+def check_with_package(place: Path, laws: str, law: str, *more: str) -> subprocess.CompletedProcess[str]:
+    """Check ``vsv`` with a law where a package is installed that registers some."""
+    (place / "mine.py").write_text(LAW, encoding="utf-8")
+    about = place / "mine-1.0.dist-info"
+    about.mkdir(exist_ok=True)
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n", encoding="utf-8")
-    (about / "entry_points.txt").write_text(
-        "[tribodyn.laws]\nmine = mine:Mine\nwrong = mine:Nameless\ngone = nowhere:Law\n", encoding="utf-8"
-    )
-    path = os.pathsep.join([str(tmp_path), *sys.path])
-    done = subprocess.run(
-        [sys.executable, "-m", "tribodyn", "check", "vsv", "--set", "contact.law=mine"],
+    (about / "entry_points.txt").write_text(f"[tribodyn.laws]\n{laws}", encoding="utf-8")
+    path = os.pathsep.join([str(place), *sys.path])
+    return subprocess.run(
+        [sys.executable, "-m", "tribodyn", "check", "vsv", "--set", f"contact.law={law}", *more],
         env=os.environ | {"PYTHONPATH": path},
         capture_output=True,
         text=True,
     )
+
+
+def test_a_package_adds_its_law_and_one_that_is_none_keeps_nobody_from_the_others(tmp_path: Path) -> None:
+    laws = "mine = mine:Mine\nwrong = mine:Nameless\ngone = nowhere:Law\n"
+    done = check_with_package(tmp_path, laws, "mine")
     assert done.returncode == 0, done.stderr
     assert "mine:Nameless was left out: the contact law Nameless lacks name" in " ".join(
         done.stderr.split()
     ).replace("law: ", "")
     assert "nowhere:Law was left out" in done.stderr
+
+
+def test_the_law_of_a_package_has_parameters_and_takes_none_from_the_others(tmp_path: Path) -> None:
+    laws = "a = mine:Steep\nb = mine:Clashing\nc = mine:Shadowing\n"
+    done = check_with_package(tmp_path, laws, "steep", "--set", "contact.steepness=3")
+    assert done.returncode == 0, done.stderr
+    said = " ".join(done.stderr.split())
+    assert "mine:Clashing was left out: another law has another parameter 'penalty_stiffness'" in said
+    assert "contact.tensile_clip is a key of all laws, and not declared by the law shadowing" in said
+    refused = check_with_package(tmp_path, laws, "steep", "--set", "contact.steepness=-3")
+    assert refused.returncode != 0
+    assert "contact.steepness" in refused.stderr + refused.stdout
