@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final
+from collections.abc import Iterator, Mapping
+from typing import Final, Protocol
 
 import numpy as np
 
 from tribodyn.cases.messages import Remarks
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys
+from tribodyn.mechanisms.general.body import BodyKeys
+from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.elements.stop import Stop
-
-if TYPE_CHECKING:
-    from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanisms.general.parts import JointKeys, SpringKeys
+from tribodyn.mechanisms.general.run_keys import RunKeys
 
 _ROUNDED: Final = 1.0e-6
 """Share of a cycle by which rounded periods may miss whole multiples."""
@@ -24,14 +25,45 @@ _DEEP: Final = 1.0e-9
 """Angle [rad] or displacement [m] past a stop that is rounding."""
 
 
-def of_mechanism(case: MechanismCase) -> Remarks:
+class MechanismTables(Protocol):
+    """What is looked at of a case."""
+
+    @property
+    def bodies(self) -> Mapping[str, BodyKeys]:
+        """The bodies."""
+
+    @property
+    def joints(self) -> Mapping[str, JointKeys]:
+        """The joints."""
+
+    @property
+    def drives(self) -> Mapping[str, DriveKeys]:
+        """The drives."""
+
+    @property
+    def springs(self) -> Mapping[str, SpringKeys]:
+        """The springs."""
+
+    @property
+    def run(self) -> RunKeys:
+        """Length and analysis."""
+
+    @property
+    def span(self) -> float:
+        """Time that the drives run forward [s]."""
+
+    def elements(self) -> Iterator[tuple[str, str, ElementKeys]]:
+        """Yield table, name and keys of all elements."""
+
+
+def of_mechanism(case: MechanismTables) -> Remarks:
     """Return what is to be said of period, stops, masses and springs of a case."""
     warnings, notes = _of_period(case)
     warnings += [*_of_stops(case), *_of_masses(case), *_of_springs(case)]
     return Remarks(tuple(warnings), tuple(notes))
 
 
-def _of_period(case: MechanismCase) -> tuple[list[str], list[str]]:
+def _of_period(case: MechanismTables) -> tuple[list[str], list[str]]:
     """Return warnings and notes of drives whose motion does not come again after ``run.period``."""
     warnings: list[str] = []
     notes: list[str] = []
@@ -51,7 +83,7 @@ def _of_period(case: MechanismCase) -> tuple[list[str], list[str]]:
     return warnings, notes
 
 
-def _of_stops(case: MechanismCase) -> Iterator[str]:
+def _of_stops(case: MechanismTables) -> Iterator[str]:
     """Yield the stops that the start or a drive is beyond."""
     stops = ((name, keys) for _, name, keys in case.elements() if isinstance(keys, Stop))
     for name, stop in stops:
@@ -75,7 +107,7 @@ def _of_stops(case: MechanismCase) -> Iterator[str]:
             )
 
 
-def _range(case: MechanismCase, driven: list[DriveKeys], coordinate: str) -> tuple[float, float]:
+def _range(case: MechanismTables, driven: list[DriveKeys], coordinate: str) -> tuple[float, float]:
     """Return between which values drives prescribe a coordinate of a joint; zeros where none does."""
     for drive in driven:
         of, level = GIVEN[drive.gives]
@@ -100,7 +132,7 @@ def _in(value: float, unit: str) -> str:
     return f"{math.degrees(value):.4g} deg" if unit == "deg" else f"{1e3 * value:.4g} mm"
 
 
-def _of_springs(case: MechanismCase) -> Iterator[str]:
+def _of_springs(case: MechanismTables) -> Iterator[str]:
     """Yield the springs that do nothing."""
     for name, spring in case.springs.items():
         if spring.stiffness == spring.damping == 0.0:
@@ -110,7 +142,7 @@ def _of_springs(case: MechanismCase) -> Iterator[str]:
             )
 
 
-def _of_masses(case: MechanismCase) -> Iterator[str]:
+def _of_masses(case: MechanismTables) -> Iterator[str]:
     """Yield the bodies in joints with clearance that are much lighter than the heaviest body."""
     real = {body for joint in case.joints.values() if joint.real is not None for body in joint.between}
     heaviest = max(body.mass for body in case.bodies.values())
