@@ -1,4 +1,7 @@
-"""Numbers that follow time or a coordinate, as tables of a case: constant, sinusoidal, or through a table."""
+"""Numbers that follow time or a coordinate, as tables of a case: constant, sinusoidal, or through a table.
+
+One file because signals, tables and maps of all quantities share their keys and checks.
+"""
 
 from __future__ import annotations
 

@@ -27,9 +27,9 @@ from tribodyn.core.quoting import as_given
 from tribodyn.simulation import simulate
 from tribodyn.studies.least_squares import (
     CONFIDENCE,
+    FitParameter,
     LeastSquares,
     Loss,
-    Parameter,
     cost_of,
     fit,
     starting_points,
@@ -169,9 +169,9 @@ class Calibration:
         missed = (computed - self.values) / self.noise
         return np.where(np.isfinite(missed), missed, _FAILED)
 
-    def parameters(self) -> list[Parameter]:
+    def parameters(self) -> list[FitParameter]:
         """Return the parameters of the fit: shares of the ranges, plus one, so that steps are shares, too."""
-        return [Parameter(one.key.path, 1.0, 2.0) for one in self.keys]
+        return [FitParameter(one.key.path, 1.0, 2.0) for one in self.keys]
 
     def fitted(self, starts: int) -> LeastSquares:
         """Return the fit, from the best of several starts, with the noise scaled to the scatter."""

@@ -17,7 +17,7 @@ CONFIDENCE: Final = 0.95
 
 
 @dataclass(frozen=True)
-class Parameter:
+class FitParameter:
     """A parameter of a fit.
 
     Attributes
@@ -63,7 +63,7 @@ class LeastSquares:
         The loss.
     """
 
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[FitParameter, ...]
     values: FloatArray
     residuals: FloatArray
     jacobian: FloatArray
@@ -121,7 +121,7 @@ class LeastSquares:
 
 def fit(
     residuals: Callable[[Mapping[str, float]], FloatArray],
-    parameters: Sequence[Parameter],
+    parameters: Sequence[FitParameter],
     *,
     starts: int = STARTS,
     loss: Loss = "linear",
@@ -180,7 +180,7 @@ def cost_of(residuals: FloatArray, loss: Loss) -> float:
     return 0.5 * float(np.sum(squares if loss == "linear" else 2.0 * (np.sqrt(1.0 + squares) - 1.0)))
 
 
-def starting_points(parameters: Sequence[Parameter], starts: int) -> list[list[float]]:
+def starting_points(parameters: Sequence[FitParameter], starts: int) -> list[list[float]]:
     """Return points inside the bounds: the middle, then a Halton sequence; always the same ones."""
     shares = stats.qmc.Halton(len(parameters), scramble=False).random(starts)
     shares = np.clip(np.vstack([np.full((1, len(parameters)), 0.5), shares[1:]]), 0.02, 0.98)
