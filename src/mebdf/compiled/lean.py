@@ -12,6 +12,7 @@ import hashlib
 import os
 import secrets
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from typing import Any, Final
 
 import numba as nb
@@ -72,10 +73,15 @@ class LeanLibrary(codegen.JITCodeLibrary):
     @property
     def has_dynamic_globals(self) -> bool:
         """Whether it contains addresses that only this process has."""
-        own = self._for_callers().global_variables
-        return any(each.name.startswith(_IN_THIS_PROCESS) for each in own) or any(
-            each.has_dynamic_globals for each in self._linking_libraries
+        return self._has_addresses or any(
+            each._has_addresses if isinstance(each, LeanLibrary) else each.has_dynamic_globals
+            for each in self._called()
         )
+
+    @cached_property
+    def _has_addresses(self) -> bool:
+        names = (each.name for each in self._for_callers().global_variables)
+        return any(name.startswith(_IN_THIS_PROCESS) for name in names)
 
     def finalize(self) -> None:
         """Optimise the library with all that it calls, and make its machine code."""
@@ -132,22 +138,25 @@ class LeanLibrary(codegen.JITCodeLibrary):
     def _whole(self) -> Any:
         """Return a new module of its intermediate code and of all that it calls."""
         module = self._for_callers().clone()
-        seen = {id(self)}
-
-        def link(libraries: Iterable[Any]) -> None:
-            for library in libraries:
-                if id(library) in seen:
-                    continue
-                seen.add(id(library))
-                self._reload_init.update(library._reload_init)
-                if isinstance(library, LeanLibrary):
-                    module.link_in(library._for_callers(), preserve=True)
-                    link(library._linking_libraries)
-                else:
-                    module.link_in(library._get_module_for_linking(), preserve=True)
-
-        link(self._linking_libraries)
+        for each in self._called():
+            self._reload_init.update(each._reload_init)
+            called = each._for_callers() if isinstance(each, LeanLibrary) else each._get_module_for_linking()
+            module.link_in(called, preserve=True)
         return module
+
+    def _called(self) -> list[Any]:
+        """Return the libraries of all that is called, each once, behind one that calls it."""
+        found: dict[int, Any] = {id(self): self}
+
+        def add(libraries: Iterable[Any]) -> None:
+            for each in libraries:
+                if id(each) not in found:
+                    found[id(each)] = each
+                    if isinstance(each, LeanLibrary):
+                        add(each._linking_libraries)
+
+        add(self._linking_libraries)
+        return [each for each in found.values() if each is not self]
 
 
 class LeanCode(codegen.JITCPUCodegen):
@@ -173,8 +182,9 @@ def reduced(compiled: Any) -> tuple[Any, ...]:
     library: Any = compiled.library
     if isinstance(library, LeanLibrary):
         compiled.library.serialize_using_object_code = library.kept
-    kept: tuple[Any, ...] = compiled._reduce()
-    return kept
+    *kept, environments = compiled._reduce()
+    # Machine code takes constants from them. For one without any, numba would import its module.
+    return *kept, tuple(each for each in environments if each.consts)
 
 
 def rebuilt(context: Any, kept: tuple[Any, ...]) -> Any:

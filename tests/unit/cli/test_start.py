@@ -17,7 +17,7 @@ HEAVY = ("numpy", "numba", "scipy", "pydantic", "pint", "xarray", "matplotlib", 
 
 UNNEEDED = (
     *("pint", "dask", "matplotlib", "jinja2", "numpy.f2py", "scipy.integrate", "scipy.interpolate"),
-    *("scipy.linalg", "scipy.optimize", "scipy.sparse", "scipy.special"),
+    *("scipy.linalg", "scipy.optimize", "scipy.sparse", "scipy.special", "numba.np.arrayobj"),
 )
 """Libraries that no run of ``vsv`` without figures needs."""
 
@@ -109,7 +109,8 @@ def test_a_run_imports_no_library_that_only_some_need() -> None:
         "assert main(['run', 'vsv', *arguments, '-o', tempfile.mkdtemp()]) == 0\n"
         f"print([name for name in {UNNEEDED!r} if name in sys.modules], len(sys.modules) < 1500)"
     )
-    output = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    ).stdout
+    for _ in range(2):  # the first one may compile
+        output = subprocess.run(
+            [sys.executable, "-c", program], capture_output=True, text=True, check=True
+        ).stdout
     assert output.splitlines()[-1] == "[] True"
