@@ -23,6 +23,8 @@ _BODY: Final = 6
 """Columns of a body."""
 _NOTHING: Final = 1.0e-13
 """Length of what is left of a row or column that counts as nothing."""
+_EXACT: Final = 1.0e-9
+"""The same of all that was left out, and what rows miss by in motions that they leave."""
 
 
 @dataclass(frozen=True)
@@ -70,15 +72,15 @@ class MultifrontalQR:
 
     def __init__(self, matrix: FloatArray) -> None:
         self.matrix = matrix
-        rows, columns = (np.ones(size, np.bool_) for size in matrix.shape)
-        self._fronts, self._lost = [], 0.0
-        for front, lost in _eliminated(matrix):
+        self._fronts, self._free, self._lost = list[_Front](), list[IntArray](), 0.0
+        for front, left, lost in _eliminated(matrix):
             self._lost = math.hypot(self._lost, lost)
+            self._free.append(left)
             if front.columns.size:
                 self._fronts.append(front)
-                rows[front.pivots] = columns[front.columns] = False
-        self._dependent, self._free = np.flatnonzero(rows), np.flatnonzero(columns)
-        self.rank = matrix.shape[1] - self._free.size
+        pivots = np.concatenate([front.pivots for front in self._fronts] or [np.zeros(0, np.int64)])
+        self._dependent = np.setdiff1d(np.arange(len(matrix)), pivots)
+        self.rank = pivots.size
 
     @cached_property
     def bounds(self) -> tuple[float, float]:
@@ -98,10 +100,13 @@ class MultifrontalQR:
     def is_certain(self, least: float) -> bool:
         """Return whether singular values would show the same rank.
 
-        Those of independent rows then exceed ``least`` times the largest, and those of others are none.
+        Those of independent rows then exceed ``least`` times the largest, those of others are none, and the
+        motions that are left were found accurately.
         """
-        lower, upper = self.bounds
-        return self.rank == 0 or (lower > least * upper and self._lost <= _NOTHING * len(self.matrix))
+        if self.rank == 0:
+            return True
+        (lower, upper), missed = self.bounds, dense.norm(dense.product(self.matrix, self.null))
+        return lower > least * upper and max(self._lost, missed) <= _EXACT
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Return the shortest x (6 n,) with the least |A x − right|, right of shape (m,)."""
@@ -116,14 +121,20 @@ class MultifrontalQR:
 
         Their entries are zero, not only small, of bodies that do not move.
         """
-        unit = np.eye(self.matrix.shape[1])[:, self._free]
-        if unit.size == 0:
-            return unit
-        found = self._back(np.zeros((len(self.matrix), self._free.size)), unit)
-        for _ in range(2):
-            lower = dense.cholesky(dense.product(found.T, found))
-            found = np.ascontiguousarray(dense.solve(lower, found.T).T)
-        return found
+        unit = np.eye(self.matrix.shape[1])[:, np.concatenate(self._free)]
+        rows = np.ascontiguousarray(self._back(np.zeros((len(self.matrix), unit.shape[1])), unit).T)
+        end = 0
+        for columns in filter(len, self._free):
+            begin, end = end, end + len(columns)
+            before, own = rows[:begin], rows[begin:end]
+            for _ in range(2):
+                shares = dense.product(before, own.T) if begin else np.zeros((0, len(own)))
+                own = own - dense.product(shares.T, before)
+                lower = dense.cholesky(dense.product(own, own.T))
+                # Turned round it is an upper triangle, which is solved without exchanges: zeros stay zero.
+                own = dense.solve(lower[::-1, ::-1], own[::-1])[::-1]
+            rows[begin:end] = own
+        return np.ascontiguousarray(rows.T)
 
     @cached_property
     def dependent(self) -> FloatArray:
@@ -166,8 +177,8 @@ def _reflected(normals: FloatArray, columns: FloatArray) -> FloatArray:
     return columns
 
 
-def _eliminated(matrix: FloatArray) -> Iterator[tuple[_Front, float]]:
-    """Give the fronts in their order, each with the size of what counts as nothing in it."""
+def _eliminated(matrix: FloatArray) -> Iterator[tuple[_Front, IntArray, float]]:
+    """Give the fronts in their order, each with the columns left over and the size of what was dropped."""
     work, size = np.array(matrix, np.float64), matrix.shape[1]
     acts = np.logical_or.reduceat(work != 0.0, np.arange(0, size, _BODY), axis=1)
     bodies_of = [set(np.flatnonzero(row).tolist()) for row in acts]
@@ -181,8 +192,6 @@ def _eliminated(matrix: FloatArray) -> Iterator[tuple[_Front, float]]:
         body = min(left, key=lambda b: (len(neighbours[b]), len(rows_of[b]), b))
         left.discard(body)
         rows = np.array(sorted(rows_of[body]), np.int64)
-        if rows.size == 0:
-            continue
         own, others = _columns([body], size), _columns(sorted(neighbours[body]), size)
         n = own.size
         out, order, normals = dense.triangle(work[np.ix_(rows, np.append(own, others))], n, _NOTHING)
@@ -197,8 +206,8 @@ def _eliminated(matrix: FloatArray) -> Iterator[tuple[_Front, float]]:
             bodies_of[row] = neighbours[body]
         for other in neighbours[body]:
             neighbours[other] = around(other)
-        beside = np.append(own[k:], others)
-        yield _Front(rows, normals, own[:k], beside, out[:k, :k], out[:k, k:]), math.hypot(*lost)
+        front = _Front(rows, normals, own[:k], np.append(own[k:], others), out[:k, :k], out[:k, k:])
+        yield front, own[k:], math.hypot(*lost)
 
 
 def _columns(bodies: list[int], size: int) -> IntArray:

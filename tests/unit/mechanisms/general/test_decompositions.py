@@ -103,6 +103,19 @@ def test_bodies_at_rest_have_no_part_in_the_motions_of_others() -> None:
     assert not found.null[: 6 * (N_BODIES - 2)].any()
 
 
+def test_only_the_motion_of_a_hub_moves_the_bodies_around_it() -> None:
+    rng = np.random.default_rng(5)
+    hub = np.zeros((5, N_BODIES, 6))
+    hub[:, 0] = rng.normal(size=(5, 6))
+    spokes = np.zeros((N_BODIES - 1, 2, N_BODIES, 6))
+    for body in range(1, N_BODIES):
+        spokes[body - 1][:, [0, body]] = rng.normal(size=(2, 2, 6))
+    found = factors(with_unit_rows(np.vstack([hub.reshape(5, -1), spokes.reshape(-1, 6 * N_BODIES)])))
+    assert found is not None
+    moved = np.any(found.null.reshape(N_BODIES, 6, -1) != 0.0, axis=1).sum(axis=0)
+    assert sorted(moved) == [1] * 4 * (N_BODIES - 1) + [N_BODIES]
+
+
 def test_least_squares_and_null_space_are_those_of_singular_values() -> None:
     given = 1e4 * graph(5, redundant=1)
     rank = 5 * N_BODIES
