@@ -60,7 +60,7 @@ DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
 }
 """By what stands in the name of the key result: errors in one direction of motion."""
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
-    "sustained": (
+    "lasting": (
         "sustained",
         "Largest difference from the motion with ideal joints for 99 % of the time; impacts excluded.",
         sustained,
