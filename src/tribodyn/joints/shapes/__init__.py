@@ -1,4 +1,4 @@
-"""Shapes of clearance joints: how nodes come onto their surfaces, one file each, listed once."""
+"""Shapes of clearance joints: how nodes come onto their surfaces, listed once."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ from collections.abc import Callable
 from typing import Final
 
 from tribodyn.joints.shapes.annulus import Annulus
-from tribodyn.joints.shapes.ball import Ball
 from tribodyn.joints.shapes.base import Points, Shape, Surface
 from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.mesh import Mesh
-from tribodyn.joints.shapes.sphere import Sphere
+from tribodyn.joints.shapes.round import Ball, Sphere
 
 SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "cylinder": Cylinder,

@@ -16,7 +16,7 @@ from tribodyn.kernels.mechanism.quantities import BODY, COUPLING
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kept import Layout
 from tribodyn.mechanisms.general.variables import Observed
-from tribodyn.mechanisms.journal.quantities import FILM, WATCHED
+from tribodyn.mechanisms.journal.variables import FILM, WATCHED
 
 TURNED: Final = "turned"
 """Name of the angle of rotation since the start [rad]; results do not hold it."""

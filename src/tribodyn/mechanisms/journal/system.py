@@ -42,8 +42,8 @@ from tribodyn.mechanisms.journal.energy_balance import balance_columns, residual
 from tribodyn.mechanisms.journal.equilibrium import Equilibrium, equilibrium
 from tribodyn.mechanisms.journal.model import BEARING, inertia, mechanism_of
 from tribodyn.mechanisms.journal.parameters import Journal, Loads
-from tribodyn.mechanisms.journal.quantities import FILM, LOADS, WATCHED
 from tribodyn.mechanisms.journal.rows import TURNED, layout_of, peaks_of, rebounds_of, rows_of
+from tribodyn.mechanisms.journal.variables import FILM, LOADS, WATCHED
 from tribodyn.mechanisms.wear_state import Worn
 
 SETTLED: Final = 0.01

@@ -1,4 +1,4 @@
-"""Deviation of the journal, the forces that hold it, and its energy balance."""
+"""What the report shows of the journal: its chapters, and what a comparison lays over each other."""
 
 from __future__ import annotations
 
@@ -8,9 +8,14 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.mechanisms.journal.energy_balance import BALANCE
+from tribodyn.views import overlay
 from tribodyn.views.charts import Chart, ChartCurve, Panel
+from tribodyn.views.encode import packed
 from tribodyn.views.energy_balance import balance_chart
-from tribodyn.views.series import series
+from tribodyn.views.overlay import Overlay, scaled
+from tribodyn.views.playback import playback_times
+from tribodyn.views.section import OVER_TIME, Chapter, Payload, Section
+from tribodyn.views.series import peak, series
 
 _FORCES: Final = (("F_c", "contact force"), ("F_o", "film force"))
 
@@ -75,3 +80,47 @@ ENERGY: Final = balance_chart(
         "the film. The residual is what the integration lost or made up."
     ),
 )
+
+
+def _path(dataset: xr.Dataset) -> Payload | None:
+    """Return path and positions at the frames [µm]."""
+    times, time = playback_times(dataset), series(dataset, "time")
+    if times.size < 2:
+        return None
+    clearance = float(dataset.attrs.get("clearance", 0.0)) * 1e6
+    x, y = (series(dataset, name, 1e6) for name in ("e_x", "e_y"))
+    return {
+        "clearance": clearance,
+        "reach": 1.25 * max(clearance, peak(x), peak(y), 1e-3),
+        "joined": False,
+        "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
+        "places": ["centre"],
+        "paths": [{"x": packed(x), "y": packed(y)}],
+        "at": [{"x": packed(np.interp(times, time, x)), "y": packed(np.interp(times, time, y))}],
+    }
+
+
+PATH: Final = Section(
+    name="path",
+    title="The journal in its clearance",
+    caption=(
+        "The circle is the clearance, the mark is the centre of the journal now, the line its path. Beyond "
+        "the circle the mean planes of the surfaces overlap."
+    ),
+    needs=("e_x", "e_y"),
+    widget="orbit",
+    data=_path,
+    still="path",
+)
+
+CHAPTERS: Final = (
+    Chapter("playback", "The run", "Move the slider, or press play.", (PATH,), playback=True),
+    Chapter("time", "Over time", OVER_TIME, (DEVIATION.section, FORCES.section, ENERGY.section)),
+)
+"""Chapters in reading order."""
+
+OVERLAYS: Final = (
+    *overlay.BUSHING,
+    Overlay("film", "Film force", (scaled("F_ox", "along X [N]", 1.0), scaled("F_oy", "along Y [N]", 1.0))),
+)
+"""What a comparison of runs shows."""

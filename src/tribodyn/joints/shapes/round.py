@@ -1,7 +1,7 @@
-"""A ball in a bore, along which it slides freely: the end of a lever in a slot, a ball on a guide.
+"""A ball in a race (ball joints, rod ends), and one in a bore along which it slides (a lever in a slot).
 
-Ball and bore touch around the equator of the ball; beside it the gap opens by R (1 − cos λ). Nodes travel
-with the ball.
+The pressure of a race has no moment about the centre. Ball and bore touch around the equator of the ball;
+beside it the gap opens by R (1 − cos λ). Nodes travel with the ball.
 """
 
 from __future__ import annotations
@@ -16,6 +16,45 @@ from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes.base import Points, Surface, check_positive, no_points
 from tribodyn.joints.shapes.rings import Rings, across
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Sizes of a ball in a race.
+
+    Attributes
+    ----------
+    radius
+        Of the ball [m].
+    clearance
+        Radial clearance [m].
+    band
+        Latitude up to which the race reaches on both sides of the plane across the axis [rad].
+    """
+
+    radius: float
+    clearance: float
+    band: float
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that make no joint."""
+        check_positive("sphere", radius=self.radius, radial=self.clearance)
+        if not 0.0 < self.band <= 0.5 * math.pi:
+            raise InputError(f"must lie above 0 and at most at 90°, not {self.band:g} rad", key="band")
+
+    def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
+        """Return the band; weights are Gauss's in the sine of the latitude, over which area is uniform."""
+        n_theta, n_latitude = grid
+        sine, weight = across(-portable.sin(self.band), portable.sin(self.band), n_latitude)
+        cosine = np.sqrt(1.0 - sine**2)
+        bore = self.radius + self.clearance
+        strip = bore * bore * weight
+        rings = Rings(self.radius * cosine, self.radius * sine, cosine, sine, strip)
+        return (rings.surface("race", ("latitude", portable.asin(sine)), self.clearance, n_theta, NO_TILT),)
+
+    def points(self) -> Points:
+        """Return the one sphere; its force acts wherever the ball is, on the race or beside it."""
+        return Points(self.radius, self.clearance, 0.0, (0.0,))
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Where the centre of the journal goes inside the clearance circle."""
+"""Figures of the journal, in the order in which one reads them."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import chart, energy
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, SOLID, finish, lines, sheet
+from tribodyn.mechanisms.journal.energy_balance import BALANCE
+from tribodyn.mechanisms.journal.sections import DEVIATION, FORCES
 from tribodyn.views.series import peak, series
 
 TITLE: Final = "Journal: path in the clearance circle"
@@ -44,10 +47,20 @@ def _ends(axes: Axes, dataset: xr.Dataset, x: FloatArray, y: FloatArray) -> None
     axes.plot(*balance, "x", color=INK, ms=6, mew=1.2, label="static equilibrium", zorder=6)
 
 
-FAMILY: Final = Family(
+PATH: Final = Family(
     name="path",
     title=TITLE,
     caption="The circle is the clearance: beyond it the mean planes of the surfaces overlap.",
     needs=("e_x", "e_y", "e_x_balance", "e_y_balance"),
     draw=draw,
 )
+
+FIGURES: Final[dict[str, Family]] = {
+    family.name: family
+    for family in (
+        chart.family(DEVIATION),
+        PATH,
+        chart.family(FORCES),
+        energy.family((BALANCE,)),
+    )
+}
