@@ -372,8 +372,6 @@ class MechanismCase(_WithElements):
                 continue
             key = f"loads.{name}.along"
             demand_known(load.along, self.joints, key, "joint")
-            words = "no table of this load follows a joint: leave this out, or give a table over its angles"
-            demand(bool(load.joint_axes), key, words)
             free = self.joints[load.along].kind.COORDINATES
             for over in load.joint_axes:
                 coordinate = COORDINATE_OF[over]

@@ -9,7 +9,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from tribodyn.cases.messages import Remarks
-from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys
+from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements.base import ElementKeys
 from tribodyn.mechanisms.general.elements.stop import Stop
@@ -41,6 +41,10 @@ class MechanismTables(Protocol):
         """The drives."""
 
     @property
+    def loads(self) -> Mapping[str, LoadKeys]:
+        """The loads."""
+
+    @property
     def springs(self) -> Mapping[str, SpringKeys]:
         """The springs."""
 
@@ -57,8 +61,9 @@ class MechanismTables(Protocol):
 
 
 def of_mechanism(case: MechanismTables) -> Remarks:
-    """Return what is to be said of period, stops, masses and springs of a case."""
+    """Return what is to be said of period, loads, stops, masses and springs of a case."""
     warnings, notes = _of_period(case)
+    notes += _of_loads(case)
     warnings += [*_of_stops(case), *_of_masses(case), *_of_springs(case)]
     return Remarks(tuple(warnings), tuple(notes))
 
@@ -81,6 +86,16 @@ def _of_period(case: MechanismTables) -> tuple[list[str], list[str]]:
         elif whole > 1:
             notes.append(f"A cycle is run.period: {whole} cycles of drive {name}.")
     return warnings, notes
+
+
+def _of_loads(case: MechanismTables) -> Iterator[str]:
+    """Yield the loads that name a joint and do not follow it; a function from Python may."""
+    for name, load in case.loads.items():
+        if load.along is not None and not load.joint_axes:
+            yield (
+                f"loads.{name}.along has no effect: no table of it follows a joint. Leave it out, or give "
+                "a table over its angles or a function of its angle."
+            )
 
 
 def _of_stops(case: MechanismTables) -> Iterator[str]:

@@ -10,15 +10,15 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.friction import FrictionLimit
-from tribodyn.studies.least_squares import Parameter, fit
+from tribodyn.studies.least_squares import FitParameter, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
 PARAMETERS: Final = (
-    Parameter("coulomb", 0.0, 60.0),
-    Parameter("viscous", 0.0, 300.0),
-    Parameter("stribeck", 0.0, 100.0),
-    Parameter("stribeck_speed", 1e-3, 0.5, True),
+    FitParameter("coulomb", 0.0, 60.0),
+    FitParameter("viscous", 0.0, 300.0),
+    FitParameter("stribeck", 0.0, 100.0),
+    FitParameter("stribeck_speed", 1e-3, 0.5, True),
 )
 """Forces [N], viscous coefficient [N s/m], speed [m/s]."""
 

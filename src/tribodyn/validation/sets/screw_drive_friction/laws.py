@@ -9,14 +9,14 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.friction import FrictionLimit
-from tribodyn.studies.least_squares import LeastSquares, Parameter, fit
+from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.catalogue import ValidationSet
 
 Values = Mapping[str, float]
 Law = Callable[[Values, FloatArray], FloatArray]
-_PAYLOAD: Final = Parameter("payload", -3.0, 3.0)
-_MOVING: Final = (Parameter("coulomb", 0.0, 10.0), Parameter("viscous", 0.0, 1.0))
-_STRIBECK: Final = (Parameter("stribeck", -3.0, 3.0), Parameter("stribeck_speed", 0.05, 50.0, True))
+_PAYLOAD: Final = FitParameter("payload", -3.0, 3.0)
+_MOVING: Final = (FitParameter("coulomb", 0.0, 10.0), FitParameter("viscous", 0.0, 1.0))
+_STRIBECK: Final = (FitParameter("stribeck", -3.0, 3.0), FitParameter("stribeck_speed", 0.05, 50.0, True))
 
 
 def friction(given: Values, speed: FloatArray, suffix: str = "") -> FloatArray:
@@ -41,15 +41,15 @@ def by_direction(given: Values, speed: FloatArray) -> FloatArray:
     return np.where(speed > 0.0, friction(given, speed, " forward"), friction(given, speed, " backward"))
 
 
-def _both(parameters: tuple[Parameter, ...]) -> tuple[Parameter, ...]:
+def _both(parameters: tuple[FitParameter, ...]) -> tuple[FitParameter, ...]:
     return tuple(
-        Parameter(f"{one.name} {way}", one.low, one.high, one.logarithmic)
+        FitParameter(f"{one.name} {way}", one.low, one.high, one.logarithmic)
         for way in ("forward", "backward")
         for one in parameters
     )
 
 
-LAWS: Final[dict[str, tuple[Law, tuple[Parameter, ...]]]] = {
+LAWS: Final[dict[str, tuple[Law, tuple[FitParameter, ...]]]] = {
     "Coulomb + viscous": (symmetric, (_PAYLOAD, *_MOVING)),
     "Stribeck": (symmetric, (_PAYLOAD, *_MOVING, *_STRIBECK)),
     "Stribeck by direction": (by_direction, _both((*_MOVING, *_STRIBECK))),

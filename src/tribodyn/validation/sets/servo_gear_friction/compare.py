@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.studies.least_squares import LeastSquares, Parameter, fit
+from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
@@ -91,14 +91,14 @@ def direct_measurements(one: ValidationSet) -> FloatArray:
 
 def friction_floor(measured: FloatArray) -> LeastSquares:
     """Return the fit of one friction floor to measured values, or to their logarithms, shape (n,)."""
-    return fit(lambda given: given["floor"] - measured, [Parameter("floor", -5.0, 1.0)], starts=1)
+    return fit(lambda given: given["floor"] - measured, [FitParameter("floor", -5.0, 1.0)], starts=1)
 
 
 def droop(measured: FloatArray) -> FloatArray:
     """Return the droop c/V with c from relative least squares [deg per N m], shape (3,)."""
     found = fit(
         lambda given: given["constant"] / VOLTAGES / measured - 1.0,
-        [Parameter("constant", 1.0, 100.0)],
+        [FitParameter("constant", 1.0, 100.0)],
         starts=1,
     )
     return np.asarray(found.named["constant"] / VOLTAGES)

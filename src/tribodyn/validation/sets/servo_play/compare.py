@@ -9,16 +9,16 @@ import numpy as np
 
 from tribodyn.cases.units import number_in
 from tribodyn.core.arrays import FloatArray
-from tribodyn.studies.least_squares import LeastSquares, Parameter, fit
+from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import Input, ValidationSet
 
 SINGLE: Final = "single STS3215"
 PARAMETERS: Final = (
-    Parameter("play", 0.0, 3.0),
-    Parameter("compliance", 0.0, 20.0),
-    Parameter("torque", 0.0, 1.0),
-    Parameter("dead_band", 0.0, 1.0),
+    FitParameter("play", 0.0, 3.0),
+    FitParameter("compliance", 0.0, 20.0),
+    FitParameter("torque", 0.0, 1.0),
+    FitParameter("dead_band", 0.0, 1.0),
 )
 """Play and dead band [deg], compliance [deg/(N m)], torque [N m]."""
 
