@@ -823,3 +823,14 @@ def test_a_template_is_started_from(at: Opened, linkage: Workbench) -> None:
     _edit(person, "start")
     assert "Pendulum" in person.page.locator("h1").inner_text()
     assert person.page.evaluate("Object.keys(pageState.shown.sections)")
+
+
+def test_a_template_of_another_kind_leaves_nothing_of_the_figures_before(at: Opened) -> None:
+    """Check that the scene of the template does not get the data of the vane, which has another scene."""
+    person = at()
+    person.wait_until_shown({})
+    person.look_at("mechanism")
+    person.press("m")
+    person.page.locator("#template").select_option("pendulum")
+    _edit(person, "start")
+    assert "Pendulum" in person.page.locator("h1").inner_text()

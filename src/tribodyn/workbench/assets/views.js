@@ -10,6 +10,8 @@ const SOLID = new Set(["scene", "linkage"]);
 function makeViews() {
   const place = document.getElementById("views");
   place.replaceChildren();
+  // Those of a model before have other figures of the same names.
+  page.figures = {};
   for (const { name, title, lead } of pageState.hello.chapters) {
     const sections = pageState.hello.sections.filter((section) => section.chapter === name);
     const moving = sections.some((one) => one.playback);
