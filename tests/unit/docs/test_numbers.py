@@ -42,9 +42,16 @@ def test_pages_and_measurements_name_the_same_numbers(measured: ModuleType) -> N
     assert used == set(measured.NUMBERS)
 
 
+def on_one_line(text: str) -> str:
+    """Return a text as if no line of it were broken."""
+    return " ".join(text.split())
+
+
 def unheld(text: str, snippets: list[str]) -> list[str]:
     """Return the numbers of a text that stand in none of the snippets."""
-    held = [found.span() for snippet in snippets for found in re.finditer(re.escape(snippet), text)]
+    text = on_one_line(text)
+    flat = [re.escape(on_one_line(snippet)) for snippet in snippets]
+    held = [found.span() for snippet in flat for found in re.finditer(snippet, text)]
     return [
         number[0]
         for number in numbers(text)
@@ -60,8 +67,8 @@ def test_no_number_of_a_page_is_typed_without_something_that_holds_it(page: Path
 
 @pytest.mark.parametrize("page", [page for page in pages() if name(page) in LISTED], ids=name)
 def test_every_listed_number_stands_on_its_page(page: Path) -> None:
-    text = prose(page)
-    snippets = [snippet for of_kind in LISTED[name(page)].values() for snippet in of_kind]
+    text = on_one_line(prose(page))
+    snippets = [on_one_line(snippet) for of_kind in LISTED[name(page)].values() for snippet in of_kind]
     assert [snippet for snippet in snippets if snippet not in text] == []
 
 
