@@ -3,6 +3,7 @@
 python -m benchmarks costs             all cases, each in a process of its own, and the table of the manual
 python -m benchmarks.costs vsv 2       one case over two cycles, as JSON
 python -m benchmarks.costs ring-20 1   a ring of 20 vanes over one cycle, as JSON
+python -m benchmarks.costs chain-40 1  a chain of 40 closed four-bars over one cycle, as JSON
 
 A run simulates and saves; compilation, figures and report are left out. Processor time begins when libraries
 and compiled equations are loaded, and peak memory is that of the whole process.
@@ -18,7 +19,7 @@ import time
 from pathlib import Path
 from typing import Any, Final
 
-from benchmarks import ring
+from benchmarks import chain, ring
 from benchmarks.child import measured
 
 RUNS: Final = (
@@ -31,17 +32,22 @@ RUNS: Final = (
     ("ring-10", 1.0),
     ("ring-20", 1.0),
     ("ring-40", 1.0),
+    ("ring-80", 1.0),
+    ("chain-10", 1.0),
+    ("chain-20", 1.0),
+    ("chain-40", 1.0),
 )
-"""Names and numbers of cycles; ``ring-N`` is the ring of N vanes of the benchmark ``ring``."""
+"""Names and numbers of cycles; ``ring-N`` and ``chain-N`` are those of the modules of these names."""
+_MADE: Final = {"ring": ring.case, "chain": chain.case}
 
 
 def case(name: str, cycles: float) -> Any:
-    """Return a built-in case or a ring over some cycles."""
+    """Return a built-in case, a ring or a chain over some cycles."""
     import tribodyn as td
 
     kind, _, number = name.partition("-")
-    if kind == "ring":
-        return ring.case(int(number), cycles)
+    if kind in _MADE:
+        return _MADE[kind](int(number), cycles)
     return td.load_case(name).replace({"run.cycles": cycles})
 
 
