@@ -4,10 +4,10 @@ Both are sums over the counts of a :class:`~tribodyn.mechanisms.workload.Workloa
 fitted to 37 runs of all built-in cases: contact grids of 96 to 133,000 nodes, film grids of 1,500 to 25,000
 cells, 1 to 30 bodies, 500 to 250,000 samples, up to 160 drive cycles, all integrators but ``cvode``. Memory
 is the peak resident size of a process that simulates and saves. Time is its processor time (AMD EPYC),
-without compilation, figures and report. Estimate over measurement was 0.7 to 2.7 for time. Memory of the
-program and of a number of a sample were fitted again to a dozen runs of today's program: 1.0 to 1.6.
-``tests/unit/simulation/test_costs.py`` measures others: within a factor of 2 for memory, 3 for
-time.
+without compilation, figures and report. Estimate over measurement was 0.7 to 2.7 for time. The memory of
+the program and of a number of a sample, and the times of the start, were fitted again to thirteen runs of up
+to 83 bodies: 1.0 to 1.6 for memory, 1.1 to 2.3 for time. ``tests/unit/simulation/test_costs.py`` measures
+others: within a factor of 2 for memory, 3 for time.
 """
 
 from __future__ import annotations
@@ -59,9 +59,9 @@ _ASSEMBLY: Final = Coefficient(10.0, "B", "square of the number of states: assem
 _DENSE: Final = Coefficient(100.0, "B", "the same with integrators that use full matrices")
 
 _START: Final = Coefficient(0.5, "s", "reading, laws, start and result")
-_PART: Final = Coefficient(0.3, "s", "joint with clearance: its tables")
-_START_STATE: Final = Coefficient(3.0e-3, "s", "state: assembly and start")
-_STATES_CUBED: Final = Coefficient(2.0e-9, "s", "cube of the number of states: matrices of the start")
+_PART: Final = Coefficient(0.2, "s", "joint with clearance: its tables")
+_START_STATE: Final = Coefficient(1.0e-3, "s", "state: assembly and start")
+_STATES_CUBED: Final = Coefficient(5.0e-10, "s", "cube of the number of states: matrices of the start")
 _STEP: Final = Coefficient(5.0e-6, "s", "step in compiled code")
 _STATE: Final = Coefficient(1.0e-6, "s", "state in a step")
 _EVALUATION: Final = Coefficient(3.0e-9, "s", "node in an evaluation of the contact")
