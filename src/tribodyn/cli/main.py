@@ -3,36 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import os
 import re
 import sys
 import traceback
-from collections.abc import Sequence
-from typing import Any, Final, NoReturn, Protocol
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, Final, NoReturn, Protocol, cast
 
-from tribodyn.cli import (
-    bounce,
-    cases,
-    check,
-    compare,
-    completion,
-    contributions,
-    find,
-    fit,
-    log,
-    materials,
-    new,
-    report,
-    reproduce,
-    run,
-    serve,
-    show,
-    stribeck,
-    surface,
-    sweep,
-    validate,
-    workbench,
-)
+from tribodyn.cli import completion, log
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
@@ -53,29 +32,30 @@ class Command(Protocol):
         """Do it and return the exit status."""
 
 
-COMMANDS: Final[dict[str, Command]] = {
-    "run": run,
-    "cases": cases,
-    "new": new,
-    "show": show,
-    "check": check,
-    "sweep": sweep,
-    "find": find,
-    "contributions": contributions,
-    "fit": fit,
-    "workbench": workbench,
-    "serve": serve,
-    "report": report,
-    "compare": compare,
-    "reproduce": reproduce,
-    "validate": validate,
-    "surface": surface,
-    "materials": materials,
-    "stribeck": stribeck,
-    "bounce": bounce,
-    "completion": completion,
-}
-"""All sub-commands: a new one is a module beside this one and a line here."""
+class _Modules(Mapping[str, Command]):
+    """Modules beside this one, each imported when it is first asked for."""
+
+    def __init__(self, *names: str) -> None:
+        self._names = names
+
+    def __getitem__(self, name: str) -> Command:
+        if name not in self._names:
+            raise KeyError(name)
+        return cast(Command, importlib.import_module(f"tribodyn.cli.{name}"))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+COMMANDS: Final = _Modules(
+    *("run", "cases", "new", "show", "check", "sweep", "find", "contributions", "fit", "workbench", "serve"),
+    *("report", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
+    "completion",
+)
+"""All sub-commands: a new one is a module beside this one and a name here."""
 
 _EXAMPLES: Final = {
     "run": "tribodyn run vsv --set joint.clearance='25 um' -o wide",
@@ -154,7 +134,13 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _parser() -> _Parser:
+def _commands(arguments: Sequence[str]) -> Iterable[str]:
+    """Return the command that the arguments begin with; where they begin with none, all commands."""
+    return arguments[:1] if arguments and arguments[0] in COMMANDS else COMMANDS
+
+
+def _parser(names: Iterable[str]) -> _Parser:
+    """Return the parser of some commands."""
     parser = _Parser(
         prog="tribodyn",
         description="Tribo-dynamics of mechanisms with dry, rough, worn clearance joints.",
@@ -164,7 +150,8 @@ def _parser() -> _Parser:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, command in COMMANDS.items():
+    for name in names:
+        command = COMMANDS[name]
         below = commands.add_parser(
             name,
             help=command.HELP,
@@ -204,7 +191,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _executed(arguments: Sequence[str]) -> int:
     """Execute a command; say what went wrong."""
-    parser = _parser()
+    parser = _parser(_commands(arguments))
     try:
         completion.answer(parser)
         if not arguments:

@@ -85,6 +85,17 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out.startswith("tribodyn ")
 
 
+def test_a_command_imports_no_other_command() -> None:
+    program = (
+        "import sys\nfrom tribodyn.cli.main import COMMANDS, main\nmain(['new'])\n"
+        "print([name for name in COMMANDS if f'tribodyn.cli.{name}' in sys.modules])"
+    )
+    output = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout
+    assert output.splitlines()[-1] == "['new', 'completion']"
+
+
 def test_the_package_itself_is_light() -> None:
     program = (
         "import sys, tribodyn\n"
