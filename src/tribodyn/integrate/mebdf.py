@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Problem, Solution
-from tribodyn.integrate.binding import argument_types, is_compiled, kernel_types, machine_code
+from tribodyn.integrate.binding import argument_types, is_compiled, kernel_types
 from tribodyn.integrate.driver import IntegrationTask, Walk
 from tribodyn.integrate.schedule import make_schedule
 
@@ -251,24 +251,31 @@ class _CompiledWalk(Walk):
         return int(bad[0]), int(bad[1])
 
 
-def compile_ahead(problem: Problem | None) -> None:
-    """Compile the core of the solver, and then the loop and the functions of a problem, the last ones first.
-
-    For a process that shares the work with one that begins at the other end; nothing is evaluated.
-    """
+def compile_core() -> None:
+    """Compile the core of the solver."""
     from mebdf.kernels.core import resume
     from mebdf.kernels.state import state_type
 
     resume.compile(state_type().types)
-    if problem is None:
-        return
-    types = kernel_types(problem)
+
+
+def compile_functions(problem: Problem, *names: str) -> None:
+    """Compile functions of a problem, named as in its `CompiledFunctions`; nothing is evaluated."""
+    arguments = argument_types(problem, kernel_types(problem))
+    for name in names:
+        function = getattr(problem.functions, name)
+        if is_compiled(function):
+            function.compile(arguments[name])
+
+
+def compile_loop(problem: Problem) -> None:
+    """Compile the loop over the steps of a problem and all that it calls; nothing is evaluated."""
     walk = _CompiledWalk(IntegrationTask(problem, make_schedule(problem.t_span, (), (), ()), rtol=0.1))
     walk.prepare()
-    for function in reversed(walk._functions):
+    functions: tuple[Any, ...] = walk._functions
+    for function in functions:
         if function is not None:
             function.__wrapper_address__()
-    machine_code(problem, types)
 
 
 @contextmanager

@@ -220,22 +220,29 @@ def compile_for_parent(*, ahead: bool) -> None:
     Parameters
     ----------
     ahead
-        Whether to compile what another process, which takes these steps, needs last.
+        Whether to help another process, which takes these steps.
     """
     import gc
 
     from mebdf.compiled.cache import share_work
-    from tribodyn.integrate.mebdf import compile_ahead
+    from tribodyn.integrate.mebdf import compile_core, compile_functions, compile_loop
     from tribodyn.kernels.jit import SOURCES
     from tribodyn.mechanisms.catalogue import parse_case
 
     session = _session(parse_case(from_parent(), "case"))
     gc.disable()  # looking for cycles takes a fifth of the time, and what it would free is little
     share_work(SOURCES)
-    if ahead:
-        template = getattr(session.system, "template", None)
-        compile_ahead(template() if template else None)
-    else:
+    template = getattr(session.system, "template", None)
+    problem = None if template is None else template()
+    # Two processes that compile the same calls wait for each other at each of them: they begin far apart.
+    if ahead and problem:
+        compile_functions(problem, "rhs", "jac", "enter", "advance")
+        compile_loop(problem)
+    elif ahead or problem:
+        compile_core()
+    if not ahead:
+        if problem:
+            compile_functions(problem, "picture", "observe", "accept")
         _first_steps(session)
 
 

@@ -1,8 +1,8 @@
 """Equations are compiled by processes of their own, which can be stopped.
 
 Compilation takes minutes and cannot be interrupted inside a process. The process that asked for it loads the
-machine code from the cache. Where there are two processors a second process compiles the core of the solver
-and what a run needs last; no function is compiled twice.
+machine code from the cache. Where there are two processors a second process compiles the functions of the
+problem, while the first one compiles the core of the solver and what finds the start; none is compiled twice.
 """
 
 from __future__ import annotations
