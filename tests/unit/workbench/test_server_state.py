@@ -50,7 +50,7 @@ async def test_equations_are_compiled_before_a_run_is_made() -> None:
 async def test_what_a_long_case_takes_is_known_without_running_it_to_its_end() -> None:
     async with hosting(Slow()) as host:
         page = await host.greeted()
-        await page.run(1, rest=True)
+        await page.run(1, {"joint.clearance": "30 um"}, rest=True)
         assert (await page.until("ask"))["seconds"] == pytest.approx(200.0, rel=1e-6)
 
 
