@@ -101,7 +101,7 @@ def execute(args: Namespace) -> int:
         # It imports and loads while this process imports, too.
         fork_server.start(name=args.case, changes=changes(args))
     from tribodyn.studies import Means, Sampling, make_plan
-    from tribodyn.studies.search import limit
+    from tribodyn.studies.search import limit, no_run_has
 
     console = Console.of(args)
     case = chosen_case(args)
@@ -126,7 +126,10 @@ def execute(args: Namespace) -> int:
     lost = int(dataset.attrs["points_failed"])
     if lost:
         complain(_lost(dataset, lost))
-    return 0 if drawn and not lost else 1
+    absent = [name for name in (*shown, *(asked.name for asked in limits)) if name not in dataset]
+    for name in absent:
+        complain(no_run_has(name, dataset))
+    return 0 if drawn and not lost and not absent else 1
 
 
 def _judge(dataset: xr.Dataset, path: Path) -> None:

@@ -166,6 +166,8 @@ class Search:
             for text in dataset["failure"].values.ravel().tolist():
                 if text:
                     raise TribodynError(f"a run of the search failed: {text}")
+            if self.question.until.name not in dataset:
+                raise TribodynError(no_run_has(self.question.until.name, dataset))
             numbers = dataset[self.question.until.name].values.tolist()
             self.tried |= dict(zip(missing, numbers, strict=True))
         if not all(math.isfinite(self.tried[value]) for value in values):
@@ -317,6 +319,11 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
     if full is None:
         raise InputError(f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}", key=option)
     return Limit(full, value, at_least)
+
+
+def no_run_has(name: str, dataset: xr.Dataset) -> str:
+    """Return that runs do not give a key result of their kind, and which one was probably meant."""
+    return f"no run has {name} for this case{meant(name, [str(other) for other in dataset.data_vars])}"
 
 
 def _readable(value: float) -> float:

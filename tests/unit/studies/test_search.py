@@ -44,6 +44,17 @@ def test_a_limit_outside_the_range_says_what_is_there(simulated: list[Any]) -> N
         td.studies.find("vsv", "joint.clearance", "10..30 um", "contact_force_max_N=2000")
 
 
+def test_a_key_result_that_no_run_gives_is_named(
+    simulated: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(TribodynError, match="no run has error_max_um_vane"):
+        td.studies.find("vsv", "joint.clearance", "10..29 um", "error_max_um_vane=1000")
+    sweep = ["sweep", "vsv", "--vary", "joint.clearance=10,20 um", "--summary-only", "--workers", "0"]
+    for option in ("--limit=error_max_um_vane=1000", "--show=error_max_um_vane"):
+        assert main([*sweep, option, "-o", str(tmp_path / option[2:6])]) == 1
+        assert "no run has error_max_um_vane" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("path", "between", "until", "hint"),
     [

@@ -54,7 +54,7 @@ def require_no_film(assembly: Assembly) -> None:
             f"the oil film of joint {oiled[0]} carries by motion alone and has no stiffness at rest; leave "
             "its film out, or run the dynamic analysis"
         )
-        raise InputError(words, key=f"joints.{oiled[0]}.clearance.film")
+        raise InputError(words, key=f"joints.{oiled[0]}.film")
 
 
 def find_equilibria(
