@@ -78,8 +78,7 @@ def least_squares(matrix: FloatArray, right: FloatArray, rank: int) -> FloatArra
     found = factors(matrix / size)
     if found is not None and found.rank == rank:
         return found.solve(right / size)
-    u, values, v = svd(matrix)
-    return np.asarray(dense.product(v[:rank].T, dense.product(u[:, :rank].T, right) / values[:rank]))
+    return RowSpace(matrix, rank).solve(right)
 
 
 def with_unit_rows(matrix: FloatArray) -> FloatArray:
