@@ -30,6 +30,9 @@ FRAMES: Final = 48
 COLOURS: Final = 64
 PIN: Final = 0.72
 """Radius of the pin over that of the bore, as shown."""
+BESIDE: Final = 11.0
+"""Distance of a name from the middle of its rod [mm]."""
+PAPER: Final = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
 STEEL: Final = "#b7c4d1"
 WINDOW: Final = (-70.0, 195.0, -68.0, 68.0)
 """Part of the plane of the mechanism that is shown [mm]."""
@@ -45,7 +48,10 @@ def draw_mechanism(axes: Axes, drawn: Skeleton, position: NDArray[Any], orientat
     for rod, name in zip(rods, drawn.bodies, strict=False):
         axes.plot(*rod.T, color=INK, linewidth=9.0, solid_capstyle="round")
         axes.plot(*rod.T, color=STEEL, linewidth=7.0, solid_capstyle="round")
-        axes.text(*rod.mean(axis=0), name, size=SMALL, ha="center", va="center")
+        across = np.array([-1.0, 1.0]) * (rod[1] - rod[0])[::-1] / np.linalg.norm(rod[1] - rod[0])
+        axes.text(
+            *(rod.mean(axis=0) + BESIDE * across), name, size=SMALL, ha="center", va="center", bbox=PAPER
+        )
     for point, colour in ((rods[0][0], INK), (rods[0][1], INK), (slider, VERMILION)):
         axes.plot(*point, "o", ms=7, mfc="white", mec=colour, mew=1.6, zorder=4)
     axes.text(*(slider - (0.0, 24.0)), "slider", size=SMALL, ha="center")

@@ -116,3 +116,20 @@ def test_the_mechanism_fits_the_picture_after_the_window_has_become_narrow(
     slider = SEEN.replace("PLACES", json.dumps([[170.0, 0.0, 0.0]]))
     ((across, _),) = reader.plot("mechanism", slider)
     assert 0 < across < reader.plot("mechanism", "plot.clientWidth")
+
+
+def test_arrows_are_not_cut_at_the_edge_of_the_picture(opened: Callable[..., Any], tmp_path: Path) -> None:
+    reader = opened(write(result(), tmp_path))
+    reader.look_at("mechanism")
+    ends = """(() => {
+      const { points } = plot.plotted.solids[2];
+      const matrix = plot.plotted.camera.matrix(plot.plotted.wide());
+      const places = Array.from({ length: points.length / 3 }, (_, k) => points.slice(3 * k, 3 * k + 3));
+      const seen = places.map(place => plot.plotted.project(matrix, place));
+      const of = (k) => seen.map(place => place[k]);
+      const beyond = (k, size) => Math.max(-Math.min(...of(k)), Math.max(...of(k)) - size);
+      return Math.max(beyond(0, plot.clientWidth), beyond(1, plot.clientHeight));
+    })()"""
+    for frame in range(0, N, N // 8):
+        reader.go_to_frame(frame)
+        assert reader.plot("mechanism", ends) < 0

@@ -62,6 +62,7 @@ COMMANDS: Final = (
     "run vsv --json --set joint.clearance=25",
     "run --json",
     "show journl-oil",
+    "show bodies",
     "cases vsv",
     "sweep vsv",
     "sweep vsv --vary joint.clearance=20,30",

@@ -23,7 +23,7 @@ from tribodyn.cli.progress import POINTS, Progress, announced_compilation, progr
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
-from tribodyn.core.quoting import as_given, meant
+from tribodyn.core.quoting import as_given, nearest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,13 +161,14 @@ def _finite(numbers: dict[str, float]) -> dict[str, float]:
 def _shown(asked: str | None, case: Case) -> list[str]:
     """Return the names of the key results that the user requests."""
     from tribodyn.mechanisms.results import key_results_of_case
+    from tribodyn.studies.search import LISTED
 
     names = [name.strip() for name in (asked or "").split(",") if name.strip()]
     known = key_results_of_case(case)
     for name in names:
         if name not in known:
             raise InputError(
-                f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}", key="--show"
+                f"{as_given(name)}; not a key result; {nearest(name, known)}. {LISTED}", key="--show"
             )
     return names
 

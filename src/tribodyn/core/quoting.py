@@ -50,6 +50,20 @@ def meant(word: str, words: Collection[str]) -> str:
     return f'; did you mean "{near}"?' if near else ""
 
 
+def nearest(word: str, words: Collection[str], number: int = 5) -> str:
+    """Return which of many `words` are most like one that is none of them, and how many there are.
+
+    Examples
+    --------
+    >>> nearest("wear", ["wear_depth", "force"])
+    'nearest of 2: wear_depth'
+    """
+    first = closest(word, words)
+    alike = difflib.get_close_matches(word[:LONGEST], words, n=number, cutoff=0.4)
+    found = [*([first] if first else []), *(other for other in alike if other != first)][:number]
+    return f"nearest of {len(words)}: {', '.join(found or list(words)[:number])}"
+
+
 def closest(word: str, words: Collection[str], *, cutoff: float = 0.5) -> str | None:
     """Return the one of `words` that means the same as `word`, or is spelled most like it, if any is.
 

@@ -17,7 +17,7 @@ from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.keys import Value
 from tribodyn.cases.units import with_shared_unit
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.quoting import as_given, meant
+from tribodyn.core.quoting import as_given, meant, nearest
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.results.summary import KeyResult
@@ -241,6 +241,10 @@ def find(
         return Search(asked, Path(directory or place), means, Watcher()).root(within)
 
 
+LISTED: Final = "`tribodyn run` writes those that a case has to summary.json."
+"""Where the names of key results are listed, in words."""
+
+
 def question(case: Case, vary: str, values: str, until: Limit) -> Question:
     """Return what is asked, checked.
 
@@ -317,7 +321,7 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
     if at_least and not least:
         raise InputError(f"{as_given(text)}; points that do not exceed a limit are counted", key=option)
     if full is None:
-        raise InputError(f"{as_given(name)}; allowed: {', '.join(known)}{meant(name, known)}", key=option)
+        raise InputError(f"{as_given(name)}; not a key result; {nearest(name, known)}. {LISTED}", key=option)
     return Limit(full, value, at_least)
 
 

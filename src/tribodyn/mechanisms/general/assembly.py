@@ -19,6 +19,7 @@ from tribodyn.mechanisms.general.decompositions import DEPENDENT
 from tribodyn.mechanisms.general.equations import new_memory
 from tribodyn.mechanisms.general.misfit import Misfit
 from tribodyn.mechanisms.general.model import Model, ModelError
+from tribodyn.mechanisms.general.odd_axes import odd_axes
 from tribodyn.mechanisms.general.speeds import speeds_of, start
 
 
@@ -223,22 +224,28 @@ def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:
     if not drives:
         return []
     if len(drives) == 1:
+        locking = _locking(system, dependent, names)
         text = (
-            f"drive {drives[0]} has nothing to drive: {_locking(system, dependent, names)} leave its "
-            "coordinate no degree of freedom; remove one of them, or the drive"
+            f"drive {drives[0]} has nothing to drive: {', '.join(locking) or 'the joints'} leave its "
+            f"coordinate no degree of freedom; remove one of them, or the drive{_odd_axes(system, locking)}"
         )
     else:
         text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
     return [ModelError(f"drives.{drives[-1]}", text)]
 
 
-def _locking(system: System, dependent: FloatArray, drives: Mapping[tuple[int, int], str]) -> str:
-    """Return the joints and elements that hold the coordinate of a drive, in words."""
+def _locking(system: System, dependent: FloatArray, drives: Mapping[tuple[int, int], str]) -> list[str]:
+    """Return the joints and elements that hold the coordinate of a drive."""
     of_drive = [row in drives for row in system.rows]
     combined = dense.product(dependent[:, of_drive].T, dependent)
     held = _taking_part(system, combined)
-    names = dict.fromkeys(system.model.constraint(k)[0] for k, m in held if (k, m) not in drives)
-    return ", ".join(names) or "the joints"
+    return list(dict.fromkeys(system.model.constraint(k)[0] for k, m in held if (k, m) not in drives))
+
+
+def _odd_axes(system: System, locking: list[str]) -> str:
+    """Return which axes of the joints among what holds a drive are out of plane, in words."""
+    joints = system.model.case.joints
+    return odd_axes({name: keys for name, keys in joints.items() if f"joint {name}" in locking})
 
 
 def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:

@@ -34,6 +34,7 @@ from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.frames import GROUND
 from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.model import Model, ModelError
+from tribodyn.mechanisms.general.odd_axes import odd_axes
 
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""
@@ -351,6 +352,7 @@ class System:
                 if way >= size
                 else f"closing, its directions stay {math.degrees(math.asin(min(size, 1.0))):.3g}° apart"
             )
+            + odd_axes(self.model.case.joints)
         )
         return ModelError(f"joints.{name}", text)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Final
 
 import numpy as np
@@ -11,6 +11,7 @@ from tribodyn.cases.beyond import FollowedTable
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
+from tribodyn.mechanisms.general.actions import LoadKeys
 from tribodyn.mechanisms.general.case import MechanismCase
 
 _Z: Final = 2
@@ -37,6 +38,14 @@ def coordinate(case: MechanismCase, couplings: Mapping[str, FloatArray], joint: 
     """Return a coordinate of a joint or its rate, by a name of ``OBSERVED``, shape (n_t,)."""
     own = couplings[OBSERVED[over]][:, list(case.joints).index(joint)]
     return np.asarray(case.joints[joint].sign * (own if own.ndim == 1 else own[:, _Z]))
+
+
+def followed_by(load: LoadKeys) -> Iterator[str]:
+    """Yield the variables of a result that force and moment of a load follow."""
+    if load.along is not None:
+        yield from (OBSERVED[over] for over in load.joint_axes)
+    if load.frame == "motion":
+        yield from ("velocity", "angular_velocity")
 
 
 def _opposed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:

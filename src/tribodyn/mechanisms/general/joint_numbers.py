@@ -166,10 +166,10 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         scale=1e-6,
     ),
     "friction_heat_J": _named(
-        "Friction heat",
+        "Dry friction heat, whole run",
         "J",
         "Joints",
-        "Heat of friction in this joint over the run.",
+        "Heat of dry friction in this joint since the start of the run; its oil film is not counted.",
         lambda d, j: float(column(d, "joint_friction")[-1, j]) if of_surfaces(d, j).size else math.nan,
     ),
     "flash_temperature_K": _named(

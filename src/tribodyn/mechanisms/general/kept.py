@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import Final
 
 import numpy as np
@@ -16,7 +17,7 @@ from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_WHOLE, OF_SE
 from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.films import film_columns
-from tribodyn.mechanisms.general.followed import OBSERVED
+from tribodyn.mechanisms.general.followed import OBSERVED, followed_by
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.outputs import MOTION
 from tribodyn.mechanisms.general.run_keys import FEW_FRAMES, SMALL
@@ -38,7 +39,7 @@ OF_LARGE: Final = (
     *("reaction_force", "reaction_moment", "drive_moment", "drive_force"),
     *("joint_friction", "pressure_max", "gap_min", *OIL),
 )
-"""What results of large models hold unless the case says: what key results, figures and report read."""
+"""What results of large models hold, with what loads follow, unless the case says: what a report reads."""
 _OF_LEGS: Final = ("reaction_force", "reaction_moment", "displacement", "relative_velocity")
 """What forces and moments of elements are computed from."""
 _ALWAYS: Final = ("reaction_force", "drive_moment", "drive_force")
@@ -61,7 +62,10 @@ def kept(case: MechanismCase) -> tuple[str, ...]:
     every = (*BODIES, *JOINTS)
     if case.results.quantities is not None:
         return tuple(name for name in every if name in case.results.quantities)
-    return tuple(name for name in every if name in OF_LARGE) if is_large(case) else every
+    if not is_large(case):
+        return every
+    wanted = {*OF_LARGE, *chain.from_iterable(map(followed_by, case.loads.values()))}
+    return tuple(name for name in every if name in wanted)
 
 
 def not_kept(case: MechanismCase) -> list[str]:

@@ -128,10 +128,10 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         lambda d: peak(settled(d, offset(d))) * 1e6,
     ),
     "friction_heat_J": KeyResult(
-        "Friction heat",
+        "Dry friction heat, whole run",
         "J",
         "Loss",
-        "Heat of friction in all joints over the run.",
+        "Heat of dry friction in all joints since the start of the run; oil films are not counted.",
         lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
     ),
     "film_pressure_max_MPa": KeyResult(

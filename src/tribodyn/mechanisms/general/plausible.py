@@ -8,6 +8,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
+from tribodyn.cases.groups import Wear
 from tribodyn.cases.messages import Remarks
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.body import BodyKeys
@@ -49,6 +50,10 @@ class MechanismTables(Protocol):
         """The springs."""
 
     @property
+    def wear(self) -> Wear:
+        """Wear of the joints."""
+
+    @property
     def run(self) -> RunKeys:
         """Length and analysis."""
 
@@ -61,10 +66,10 @@ class MechanismTables(Protocol):
 
 
 def of_mechanism(case: MechanismTables) -> Remarks:
-    """Return what is to be said of period, loads, stops, masses and springs of a case."""
+    """Return what is to be said of period, loads, stops, masses, springs and wear of a case."""
     warnings, notes = _of_period(case)
     notes += _of_loads(case)
-    warnings += [*_of_stops(case), *_of_masses(case), *_of_springs(case)]
+    warnings += [*_of_stops(case), *_of_masses(case), *_of_springs(case), *_of_wear(case)]
     return Remarks(tuple(warnings), tuple(notes))
 
 
@@ -168,3 +173,13 @@ def _of_masses(case: MechanismTables) -> Iterator[str]:
                 "heaviest one: contacts in its joints vibrate so fast that a run may take hours, or stop. "
                 f"Check bodies.{name}.mass and its unit, or make its joints ideal."
             )
+
+
+def _of_wear(case: MechanismTables) -> Iterator[str]:
+    """Yield that a depth limit has no effect where no joint wears."""
+    real = (joint.real for joint in case.joints.values())
+    if case.wear.depth_limit is not None and not any(keys and keys.contact == "surface" for keys in real):
+        yield (
+            "wear.depth_limit has no effect: no joint has a clearance in which surfaces wear. Give a joint "
+            'a clearance whose contact is "surface", or leave it out.'
+        )

@@ -110,19 +110,25 @@ function arrowButton({ arrows }, kind, { label: what, unit: of, scale }, changed
   return made;
 }
 
-/** Add forces or moments of joints, or of loads where they act, as arrows; those of moments have two heads. */
-function addArrows(solid, data, kind, frame) {
+/** Return forces or moments of joints, or of loads where they act, as arrows: [{from, along, length}]. */
+function arrowsNow(data, kind, frame) {
   const about = data.forces[kind];
-  const colour = theme.rgb(ARROW_COLOURS[kind]);
-  for (const [name, vectors] of Object.entries(about ? about.at : {})) {
+  return Object.entries(about ? about.at : {}).flatMap(([name, vectors]) => {
     const from = about.points[name]
       ? pointNow(about.points[name], 1, frame, 0)
       : pointNow(data.joints.find((joint) => joint.name === name).points, 2, frame, 0);
     const vector = pointNow(vectors, 1, frame, 0);
     const share = Math.hypot(...vector) / about.scale;
-    if (share < ARROW.least) continue;
-    const length = ARROW.length * data.size * Math.min(share, ARROW.most);
-    addArrow(solid, data.size, from, unit(vector), length, kind.endsWith("moment") ? 2 : 1, colour);
+    if (share < ARROW.least) return [];
+    return [{ from, along: unit(vector), length: ARROW.length * data.size * Math.min(share, ARROW.most) }];
+  });
+}
+
+/** Add arrows of a kind; those of moments have two heads. */
+function addArrows(solid, data, kind, frame) {
+  const colour = theme.rgb(ARROW_COLOURS[kind]);
+  for (const { from, along, length } of arrowsNow(data, kind, frame)) {
+    addArrow(solid, data.size, from, along, length, kind.endsWith("moment") ? 2 : 1, colour);
   }
 }
 

@@ -23,7 +23,7 @@ widgets.linkage = (box) => {
   };
   const show = (frame) => {
     const { data, ghosts, magnification } = state;
-    stage.look((wide) => new Camera(shownPlaces(data), data.eye, data.up, wide));
+    stage.look((wide) => new Camera(shownPlaces(data, state.arrows), data.eye, data.up, wide));
     const [solid, clear, above] = [new Solid(), new Solid(), new Solid()];
     for (const { data: other, strength } of ghosts) addLinkage(clear, other, frame, strength, magnification);
     addLinkage(solid, data, frame, 1, magnification);
@@ -34,12 +34,17 @@ widgets.linkage = (box) => {
   return { take, paint: () => clock.frames || show(0), show };
 };
 
-/** Return where bodies and joints are, at some of the frames. */
-function shownPlaces({ bodies, joints, outlines }) {
+/** Return where bodies, joints and the tips of arrows of some kinds are, at some of the frames. */
+function shownPlaces(data, kinds) {
   const SOME = 24;
+  const { bodies, joints, outlines } = data;
   const bores = joints.filter(({ clearance }) => clearance).flatMap(aroundBore);
   const all = [...bores, ...bodies, ...bodies.flatMap(({ solid }) => solid ?? []), ...outlines, ...joints.map((joint) => ({ points: joint.points, n: 2, shown: 1 }))];
-  return all.flatMap(({ points, n, shown = n }) => {
+  const frames = Math.max(...all.map(({ points, n }) => points.length / (3 * n)));
+  const tips = Array.from({ length: SOME }, (_, k) => Math.floor((k * frames) / SOME)).flatMap((frame) =>
+    [...kinds].flatMap((kind) => arrowsNow(data, kind, frame).map(({ from, along, length }) => plus(from, along, length))),
+  );
+  const places = all.flatMap(({ points, n, shown = n }) => {
     const frames = points.length / (3 * n);
     const step = Math.max(1, Math.floor(frames / SOME));
     const found = [];
@@ -48,6 +53,7 @@ function shownPlaces({ bodies, joints, outlines }) {
     }
     return found;
   });
+  return [...places, ...tips];
 }
 
 /** Return points at a distance around a joint on all sides, so that the camera leaves room for its bore; not for a ring. */

@@ -55,9 +55,6 @@ function tellNumbers() {
   const focused = document.activeElement?.dataset.number;
   const table = document.querySelector("#numbers table");
   table.classList.toggle("doubtful", Boolean(shown.doubtful));
-  const other = compared();
-  const heads = ["number", "", other ? "from pinned" : "", pageState.trail.length ? "over the last runs" : "", slope.key ? "slope" : ""];
-  table.tHead.replaceChildren(element("tr", {}, ...heads.map((text) => element("td", {}, text))));
   for (const [k, robust] of [true, false].entries()) {
     const rows = known.filter((one) => one.robust === robust);
     table.tBodies[k].replaceChildren(...(chosen.all ? rows : atFirst(rows, robust)).map(numberRow));
@@ -87,8 +84,8 @@ function numberRow(one) {
   const range = rangeText(one);
   const main = element("td", { class: "value" }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));
   const change = difference(value, compared()?.results[name]);
-  const rest = [change, robust ? range : range && `this run ${words}`, slopeText(name)];
-  const cells = rest.map((text) => element("td", {}, text));
+  const rest = [["from pinned", change], robust ? ["last runs", range] : ["this run", range && words], ["slope", slopeText(name)]];
+  const cells = rest.map(([what, text]) => element("td", { "data-what": what }, text));
   return element("tr", { "data-row": name }, element("th", { scope: "row" }, button(label, choose, about)), main, ...cells);
 }
 

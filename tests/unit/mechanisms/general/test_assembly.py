@@ -168,6 +168,30 @@ def test_a_drive_against_a_locked_joint_has_nothing_to_drive() -> None:
     assert "drive motor has nothing to drive: joint pivot, joint lock leave" in findings[0].text
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (
+            "crankpin",
+            (0.0, 0.1, 1.0),
+            "the axis of crankpin is not parallel to that of main, wrist, by 5.71 deg",
+        ),
+        (
+            "guide",
+            (1.0, 0.0, 0.1),
+            "the axis of guide is not perpendicular to that of main, crankpin, wrist, by 5.71 deg",
+        ),
+    ],
+)
+def test_an_axis_out_of_plane_that_locks_a_drive_is_named(
+    old: str, new: tuple[float, float, float], words: str
+) -> None:
+    keys = {f"joints.{old}.axis": list(new), "joints.wrist.clearance.ideal": True}
+    assembly = assemble(model_of(td.load_case("slider-crank").replace(keys)))
+    found = [*assembly.findings, drive_through(assembly, 0.01).finding]
+    assert any(finding and words in finding.text.replace(" and ", ", ") for finding in found)
+
+
 def test_a_loop_that_does_not_close_over_the_drive_is_found() -> None:
     # Crank and ground are too long for coupler and rocker: no full turn.
     late = drive_through(assemble(four_bar(crank=0.5)), 1.0)

@@ -26,6 +26,12 @@ def test_the_slider_crank_itself_is_plausible() -> None:
         assert parsed(text).remarks().warnings == ()
 
 
+def test_a_depth_limit_of_ideal_joints_alone_is_reported() -> None:
+    limit = '[wear]\ndepth_limit = "5 um"\n'
+    assert "wear.depth_limit has no effect" in said(limit)
+    assert "wear.depth_limit" not in said(limit, FILE)
+
+
 @pytest.mark.parametrize(
     ("more", "words"),
     [

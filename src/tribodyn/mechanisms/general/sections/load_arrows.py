@@ -14,7 +14,7 @@ from tribodyn.core.signals import Signal
 from tribodyn.mechanisms.actions import Factors
 from tribodyn.mechanisms.general.actions import LoadKeys
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.followed import OBSERVED, coordinate
+from tribodyn.mechanisms.general.followed import OBSERVED, coordinate, followed_by
 from tribodyn.mechanisms.general.skeleton import Skeleton, rotated
 from tribodyn.mechanisms.loads import parts_of
 from tribodyn.views.playback import playback_times
@@ -55,7 +55,7 @@ def load_arrows(
     """
     found = {}
     for name, load in case.loads.items():
-        if not _needed(load) <= set(map(str, dataset.variables)):
+        if not {*followed_by(load)} <= set(map(str, dataset.variables)):
             continue
         body = drawn.bodies.index(load.body)
         moved, turned = position[:, body], orientation[:, body]
@@ -129,12 +129,6 @@ class _Load:
         if values.ndim == 1:
             return np.interp(times, time, values)
         return np.stack([np.interp(times, time, column) for column in values.T], axis=-1)
-
-
-def _needed(load: LoadKeys) -> set[str]:
-    """Return the variables of a result that its arrows follow; results of large models hold fewer."""
-    names = {OBSERVED[over] for over in load.joint_axes} if load.along is not None else set()
-    return names | ({"velocity", "angular_velocity"} if load.frame == "motion" else set())
 
 
 def _values(signal: Signal, places: FloatArray) -> FloatArray:
