@@ -51,7 +51,7 @@ def meant(word: str, words: Collection[str]) -> str:
 
 
 def nearest(word: str, words: Collection[str], number: int = 5) -> str:
-    """Return which of many `words` are most like one that is none of them, and how many there are.
+    """Return which of many `words` are most like one that is not among them, and how many there are.
 
     Examples
     --------

@@ -142,9 +142,9 @@ def at_times(run: xr.Dataset, times: FloatArray) -> xr.Dataset:
     if np.array_equal(old, times):
         return run
     over_time = {
-        name: (("time",), _between(run, str(name), times), values.attrs)
+        name: (values.dims, _between(run, str(name), times), values.attrs)
         for name, values in run.data_vars.items()
-        if values.dims == ("time",)
+        if values.dims[:1] == ("time",)
     }
     rest = run.drop_vars([*over_time, "time"])
     return rest.assign(over_time).assign_coords(time=("time", times, run["time"].attrs))
@@ -154,7 +154,8 @@ def _between(run: xr.Dataset, name: str, times: FloatArray) -> FloatArray:
     old, values = run["time"].values, run[name].values
     rate = f"{name}_dot"
     if rate not in run:
-        return np.asarray(np.interp(times, old, values))
+        columns = [np.interp(times, old, one) for one in values.reshape(old.size, -1).T]
+        return np.stack(columns, axis=-1).reshape(times.size, *values.shape[1:])
     return np.asarray(CubicHermiteSpline(old, values, run[rate].values)(np.clip(times, old[0], old[-1])))
 
 

@@ -74,10 +74,12 @@ def test_runs_with_rows_of_their_own_come_side_by_side():
     def run(time):
         time = np.array(time)
         return xr.Dataset(
-            {"a": ("time", 2.0 * time), "b": ("z", np.ones(2))}, coords={"time": time, "z": [0.0, 1.0]}
+            {"a": ("time", 2.0 * time), "b": ("z", np.ones(2)), "c": (("time", "z"), np.outer(time, [1, 3]))},
+            coords={"time": time, "z": [0.0, 1.0]},
         )
 
     whole = joined([run([0.0, 1.0, 3.0]), run([0.0, 2.0, 3.0])], xr.Variable("law", ["x", "y"]))
     assert whole["time"].values.tolist() == [0.0, 1.0, 2.0, 3.0]
     assert whole["a"].dims == ("law", "time")
     np.testing.assert_allclose(whole["a"].values, 2.0 * np.array([[0.0, 1.0, 2.0, 3.0]] * 2), rtol=1e-15)
+    np.testing.assert_allclose(whole["c"].values[1], np.outer([0.0, 1.0, 2.0, 3.0], [1, 3]), rtol=1e-15)
