@@ -58,7 +58,9 @@ def worn_volume(depth: FloatArray, node_area: FloatArray) -> float:
     return float(np.sum(node_area * depth))
 
 
-def resampled(depth: FloatArray, z: FloatArray, fine_z: FloatArray, n_theta: int) -> FloatArray:
+def resampled(
+    depth: FloatArray, z: FloatArray, fine_z: FloatArray, n_theta: int, *, turn: float = 0.0
+) -> FloatArray:
     """Return a wear depth at the nodes of another grid.
 
     Parameters
@@ -69,6 +71,8 @@ def resampled(depth: FloatArray, z: FloatArray, fine_z: FloatArray, n_theta: int
         Axial positions of the rows [m]; both from edge to edge.
     n_theta
         Number of uniform angles wanted.
+    turn
+        Angle of the first of them, over a full turn [1].
 
     Returns
     -------
@@ -83,5 +87,5 @@ def resampled(depth: FloatArray, z: FloatArray, fine_z: FloatArray, n_theta: int
     n = depth.shape[1]
     # Three more angles on either side: the slope at a node is made from its neighbours.
     around = np.arange(-3, n + 4)
-    wanted = np.arange(n_theta) * (n / n_theta)
+    wanted = np.mod(np.arange(n_theta) * (n / n_theta) + turn * n, n)
     return np.asarray(PchipInterpolator(around, along[:, around % n], axis=1)(wanted))

@@ -451,6 +451,9 @@ class MechanismCase(_WithElements):
         words = "a wear campaign needs whole cycles here: the last of them is the first whose wear counts"
         demand(cycles == int(cycles), "run.cycles", words)
         for name, joint in self.joints.items():
+            grooved = joint.film is not None and joint.film.boundary == "groove" and self.wear.feedback
+            words = 'the film of a bore that wears goes around it: give "periodic", or wear.feedback = false'
+            demand(not grooved, f"joints.{name}.film.boundary", words)
             words = "a wear campaign takes its cycles one by one: temperatures that last are needed"
             tables = {} if joint.real is None else joint.real.temperature.tables
             demand(not tables, f"joints.{name}.clearance.temperature.over_time", words)

@@ -85,9 +85,12 @@ def _films(clearances: Sequence[Clearance], worn: FloatArray | None) -> FilmData
 
 
 def _depth(film: Film, barrel: Place, worn: FloatArray) -> FloatArray:
-    """Return the wear depth at the nodes of a film [m]; the barrel is the first surface of a joint."""
+    """Return the wear depth at the nodes of a film [m]; the barrel is the first surface of a joint.
+
+    The angle of a film's node is that of the force on the shaft, which is opposite to the node.
+    """
     depth = worn[barrel.nodes].reshape(barrel.surface.field_shape)
-    return resampled(depth, barrel.surface.axes["z"], film.z, film.grid.theta)
+    return resampled(depth, barrel.surface.axes["z"], film.z, film.grid.theta, turn=0.5)
 
 
 def new_memory(data: MechanismData) -> MechanismMemory:

@@ -112,3 +112,18 @@ def test_a_worn_bore_has_a_film_of_its_shape() -> None:
     worn, made = (model._assembled(wear).data.films for model, wear in ((system, depth), (wider, None)))
     gap = worn.constants["clearance"][0] + worn.wear_node[0]
     assert gap == pytest.approx(np.full(gap.shape, made.constants["clearance"][0]), rel=1e-12)
+
+
+@pytest.mark.parametrize("theta", [24, 27])
+def test_a_film_is_worn_where_its_bore_is(theta: int) -> None:
+    """The angle of a node of a film is that of the force on the shaft: the node is opposite to it."""
+    grid = {"joints.main.film.grid.theta": theta, "joints.main.clearance.nodes_around": 96}
+    system = MechanismSystem(bearing().case().replace(grid))
+    places = [place for place in system.maps.places if place.surface.name == "barrel"]
+    depth = np.zeros(system.maps.n_nodes)
+    axes = places[0].surface.axes
+    depth[places[0].nodes] = (1e-6 * (1.0 + np.cos(axes["theta"] - 1.0)) * (1.0 + axes["z"][:, None])).ravel()
+    film = system._assembled(depth).data.films
+    angles, z = 2.0 * np.pi * np.arange(theta) / theta, film.z_node[0]
+    wanted = 1e-6 * (1.0 + np.cos(angles[:, None] + np.pi - 1.0)) * (1.0 + z)
+    assert film.wear_node[0] == pytest.approx(wanted, abs=1e-9)
