@@ -151,17 +151,22 @@ def impossible_name(path: str, declared: Mapping[str, Key]) -> str | None:
     return None
 
 
-def alternatives(model: type[BaseModel], keys: Mapping[str, Key]) -> list[tuple[str, str]]:
+def alternatives(model: type[BaseModel], keys: Mapping[str, Key]) -> tuple[tuple[str, str], ...]:
     """Return the pairs of keys of which only one may be given, as the groups of a case declare them."""
-    tables = {key.table for key in keys.values()}
-    return [
+    return _alternatives(model, frozenset(key.table for key in keys.values()))
+
+
+# Cases of a sweep have the same tables.
+@lru_cache(maxsize=8)
+def _alternatives(model: type[BaseModel], tables: frozenset[str]) -> tuple[tuple[str, str], ...]:
+    return tuple(
         (f"{prefix}{first}", f"{prefix}{second}")
         for pattern, pairs in _declared_pairs(model)
         for table in tables
         if re.fullmatch(pattern, table)
         for prefix in [f"{table}." if table else ""]
         for first, second in pairs
-    ]
+    )
 
 
 @cache

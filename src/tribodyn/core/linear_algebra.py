@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 
 @contextmanager
@@ -15,5 +17,11 @@ def one_thread() -> Iterator[None]:
     Matrices of mechanisms are small. Several threads gain nothing there; beside other work they wait for each
     other and take many times as long, and how many there are decides the last digits of sums.
     """
-    with threadpool_limits(1, user_api="blas"):
+    with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
         yield
+
+
+@lru_cache(maxsize=1)
+def _libraries(_modules: int) -> ThreadpoolController:
+    """Return the libraries of this process. The search takes milliseconds; only imports add libraries."""
+    return ThreadpoolController()

@@ -264,6 +264,7 @@ def joint_wrench(
     omega: float = 0.0,
     sign: float = 1.0,
     entry_velocity: FloatArray | None = None,
+    memory: JointMemory | None = None,
 ) -> FloatArray:
     """Return the wrench (F_x, F_y, M_x, M_y, M_z) on the trunnion [N, N m], shape (5,), signs of the paper.
 
@@ -275,8 +276,10 @@ def joint_wrench(
         As for :func:`pose_at`.
     entry_velocity
         Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
+    memory
+        From :func:`new_memory`, with entry velocities of its own; for many wrenches of one joint.
     """
-    memory, out = new_memory(data, entry_velocity), np.empty(5)
+    memory, out = memory or new_memory(data, entry_velocity), np.empty(5)
     wrench(data, memory, pose_at(y, omega=omega, sign=sign), memory.scratch.wrench)
     from_wrench(memory.scratch.wrench, out)
     return out

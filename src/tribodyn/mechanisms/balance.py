@@ -50,6 +50,7 @@ def damped_newton(
     """
     q = start.copy()
     load, jacobian = residual(q)
+    size = float(dense.norm(load * scale))
     for _ in range(_MAX_ITERATIONS):
         ask()
         # A little stiffness where there is none lets the shaft move to where there is some.
@@ -60,21 +61,24 @@ def damped_newton(
         if not np.isfinite(length):
             return None
         step *= min(1.0, longest / length) if length > 0.0 else 1.0
-        q, load, jacobian = _line_search(residual, q, step, load, scale)
+        q, load, jacobian, size = _line_search(residual, q, step, size, scale)
         if length < _CONVERGED:
             return q
     return None
 
 
 def _line_search(
-    residual: Residual, q: FloatArray, step: FloatArray, load: FloatArray, scale: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Halve the step up to five times until the residual is smaller; then take it all the same."""
-    size = float(dense.norm(load * scale))
+    residual: Residual, q: FloatArray, step: FloatArray, size: float, scale: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, float]:
+    """Halve the step up to five times until the residual is smaller than ``size``; then take it all the same.
+
+    Return the end of the step with the loads there, their derivative and their size.
+    """
     share = 1.0
     for _ in range(5):
         trial, gradient = residual(q + share * step)
-        if dense.norm(trial * scale) < size:
+        reached = float(dense.norm(trial * scale))
+        if reached < size:
             break
         share *= 0.5
-    return q + share * step, trial, gradient
+    return q + share * step, trial, gradient, reached

@@ -19,7 +19,7 @@ from tribodyn.contact.base import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import skip
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
-from tribodyn.joints.bushing import joint_report, joint_wrench
+from tribodyn.joints.bushing import joint_report, joint_wrench, new_memory
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.wear import resampled
@@ -216,6 +216,7 @@ def force_parts(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
 
 def on_finer_grid(
     joint: BushingJoint,
+    data: BushingData,
     rows: Mapping[str, FloatArray],
     wear: FloatArray | None = None,
     clearance: FloatArray | None = None,
@@ -226,6 +227,8 @@ def on_finer_grid(
     ----------
     joint
         The joint on the run's grid.
+    data
+        What the kernels of the run read of it, with its wear.
     rows
         Columns of the run, of which the attitudes are used.
     wear
@@ -251,7 +254,7 @@ def on_finer_grid(
     row = int(np.argmax(rows["p_max"]))
     at_rest = joint_report(_at(fine, clearance, row), _attitude(rows, row))
     found["pressure_at_rest"] = float(at_rest["p_max"])
-    found["grid_force_error"] = _force_error(joint.data(wear), fine, rows, clearance)
+    found["grid_force_error"] = _force_error(data, fine, rows, clearance)
     return found
 
 
@@ -260,11 +263,13 @@ def _force_error(
 ) -> float:
     """Return the largest error of the force on a coarse grid over the largest force [1]; NaN if stopped."""
     largest = error = 0.0
+    remembered, of_fine = new_memory(coarse), new_memory(fine)
     for row in np.unique(np.linspace(0, rows["e_x"].size - 1, _SAMPLES).astype(int)).tolist():
         if skip():
             return math.nan
         y = _attitude(rows, row)
-        exact = joint_wrench(_at(fine, clearance, row), y)[:2]
+        exact = joint_wrench(_at(fine, clearance, row), y, memory=of_fine)[:2]
+        found = joint_wrench(_at(coarse, clearance, row), y, memory=remembered)[:2]
         largest = max(largest, float(portable.hypot(*exact)))
-        error = max(error, float(portable.hypot(*(joint_wrench(_at(coarse, clearance, row), y)[:2] - exact))))
+        error = max(error, float(portable.hypot(*(found - exact))))
     return error / largest if largest > 0.0 else 0.0

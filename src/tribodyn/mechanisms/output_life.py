@@ -42,9 +42,11 @@ def shaft_displacements(
     """
     size = float(np.max(np.linalg.norm(position, axis=1), initial=np.finfo(float).tiny))
     lever = np.concatenate([normal, np.cross(position / size, normal)], axis=1)
-    of_nodes = (lever[:, :, None] * lever[:, None, :]).reshape(-1, _N_WAYS**2)
-    stiffness = dense.product(weight, of_nodes).reshape(-1, _N_WAYS, _N_WAYS)
-    force = dense.product(weight, lever * depth[:, None])
+    row, column = np.triu_indices(_N_WAYS)
+    of_nodes = np.concatenate([lever[:, row] * lever[:, column], lever * depth[:, None]], axis=1)
+    sums = dense.product(weight, of_nodes)
+    stiffness, force = np.empty((len(sums), _N_WAYS, _N_WAYS)), sums[:, row.size :]
+    stiffness[:, row, column] = stiffness[:, column, row] = sums[:, : row.size]
     moved = np.linalg.pinv(stiffness, rcond=_SOFT, hermitian=True) @ force[..., None]
     most = float(depth.max(initial=0.0))
     way = np.linalg.norm(moved[:, :3, 0], axis=1)

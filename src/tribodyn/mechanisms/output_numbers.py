@@ -73,7 +73,7 @@ MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
 
 def number_of(dataset: xr.Dataset, output: str) -> int:
     """Return the number of an output, whose name may be that of a key result; an unknown one raises."""
-    return [plain(str(name)) for name in dataset["output"].values].index(plain(output))
+    return [plain(str(name)) for name in dataset.variables["output"].values].index(plain(output))
 
 
 def _made(measure: str, unit: str, output: str) -> KeyResult:
@@ -84,7 +84,7 @@ def _made(measure: str, unit: str, output: str) -> KeyResult:
     def compute(dataset: xr.Dataset) -> float:
         k = number_of(dataset, output)
         error = column(dataset, "output_error")[:, k]
-        if str(dataset["output_unit"].values[k]) != unit or not np.isfinite(error).all():
+        if str(dataset.variables["output_unit"].values[k]) != unit or not np.isfinite(error).all():
             return math.nan
         return scale * read(dataset, k)
 
@@ -153,9 +153,9 @@ def _at(variable: str, unit: str, instant: str) -> KeyResult:
     _, shown, scale = ERROR_UNITS[unit]
 
     def compute(dataset: xr.Dataset) -> float:
-        k = dataset["instant"].values.tolist().index(instant)
-        output = number_of(dataset, str(dataset["instant_output"].values[k]))
-        of_unit = str(dataset["output_unit"].values[output]) == unit
+        k = dataset.variables["instant"].values.tolist().index(instant)
+        output = number_of(dataset, str(dataset.variables["instant_output"].values[k]))
+        of_unit = str(dataset.variables["output_unit"].values[output]) == unit
         return scale * float(column(dataset, variable)[k]) if of_unit else math.nan
 
     return KeyResult(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)

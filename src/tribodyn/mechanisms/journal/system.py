@@ -186,7 +186,7 @@ class JournalSystem:
         law = self.case.contact.law_of(self.case.surface_pair)
         joint, pressure = self.journal.joint, largest["pressure_peak"]
         load = loading(law, joint.touch, pressure, at_steps["separation_least"])
-        finer, speed = on_finer_grid(joint, rows), rows["omega"] * joint.geometry.radius
+        finer, speed = on_finer_grid(joint, joint.data(), rows), rows["omega"] * joint.geometry.radius
         damped = of_damping_pressure(pressure, finer["pressure_at_rest"])
         return ResultPart(
             columns=columns,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Final, Literal
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.fields import choice
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
@@ -93,20 +93,29 @@ def error_growth(
         In the units of the outputs; NaN for angular velocities.
     """
     change = moved[:, [0, 1, 3, 4]] * _HANDS
-    angles = [
-        [_vane_angle(mechanism, *(pose + side * np.append(0.0, step))) for side in (0.5, -0.5)]
-        for pose, step in zip(poses, change, strict=True)
-    ]
-    of_angle = -np.diff(np.array(angles), axis=1)
+    forward, backward = (
+        _vane_angles(mechanism, poses[:, 0], poses[:, 1:] + side * change) for side in (0.5, -0.5)
+    )
+    of_angle = (forward - backward)[:, None]
     is_angle = [keys.quantity == "angle" for keys in outputs.values()]
     return np.asarray(np.where(is_angle, of_angle, np.nan))
 
 
-def _vane_angle(
-    mechanism: Record, theta_a: float, e_x: float, e_y: float, phi_x: float, phi_y: float
-) -> float:
-    """Return the angle of the vane of a trunnion that is displaced and tilted [rad]."""
-    from tribodyn.kernels.vsv.closure import crank_end, vane_attitude
+def _vane_angles(mechanism: Record, theta_a: FloatArray, attitudes: FloatArray) -> FloatArray:
+    """Return angles of the vane [rad], shape (n,).
 
-    s1 = crank_end(mechanism, theta_a)
-    return float(vane_attitude(mechanism, theta_a, *s1, e_x, e_y, math.tan(phi_x), math.tan(phi_y))[0])
+    Parameters
+    ----------
+    mechanism
+        Sizes of the mechanism.
+    theta_a
+        Angles of the crank [rad], shape (n,).
+    attitudes
+        e_x, e_y, φ_x and φ_y of the trunnion [m and rad], shape (n, 4).
+    """
+    from tribodyn.kernels.vsv.closure import vane_attitude
+
+    s1_x = mechanism.pivot_x - mechanism.l_1 * portable.sin(theta_a)
+    s1_z = mechanism.pivot_z + mechanism.l_1 * portable.cos(theta_a)
+    places = np.column_stack([theta_a, s1_x, s1_z, attitudes[:, :2], portable.tan(attitudes[:, 2:])])
+    return np.array([vane_attitude(mechanism, *place)[0] for place in places.tolist()])

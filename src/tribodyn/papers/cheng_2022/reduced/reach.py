@@ -81,6 +81,13 @@ def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
     return np.asarray(0.5 * (low + high))
 
 
+# Asked for the same snapshots of every case of a sweep.
+@lru_cache(maxsize=64)
+def ideal_at(lengths: Lengths, theta_a: tuple[float, ...]) -> tuple[float, ...]:
+    """Return θ_v [rad] at crank angles [rad], see :func:`ideal_vane_angle`."""
+    return tuple(ideal_vane_angle(lengths, np.array(theta_a)).tolist())
+
+
 def _bracket(lengths: Lengths, sign: float, theta_a: FloatArray) -> FloatArray:
     """Return between which θ_v [rad] of a scan the closure rises through zero, shape (2, n), or NaN."""
     scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)

@@ -44,7 +44,7 @@ from tribodyn.papers.cheng_2022.reduced.loads import terms_of
 from tribodyn.papers.cheng_2022.reduced.outputs import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
-from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_vane_angle
+from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_at
 from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.papers.cheng_2022.reduced.times import following, output_times, snapshots
 from tribodyn.results.attributes import CARRIED
@@ -190,6 +190,9 @@ class VsvSystem:
 
     def output_lives(self, run: FinishedRun, depth: FloatArray) -> dict[str, float]:
         """Return after how many cycles the errors of outputs reach their limits, by their names."""
+        limits = limits_of(self.case.outputs)
+        if not np.isfinite(limits).any():
+            return dict.fromkeys(self.case.outputs, np.nan)
         film, rows = self._playback(run), run.rows(OBSERVED)
         times = run.solution.picture_times[film]
         states = np.stack([np.interp(times, run.solution.t, rows[name]) for name in _POSE], axis=1)
@@ -199,7 +202,7 @@ class VsvSystem:
         growth = error_growth(self.case.outputs, run.problem.data.mechanism, states, moved)
         error = output_columns(self.case.outputs, rows)["output_error"]
         error = np.stack([np.interp(times, run.solution.t, one) for one in error.T], axis=1)
-        found = lives(error, growth, limits_of(self.case.outputs))
+        found = lives(error, growth, limits)
         return dict(zip(self.case.outputs, found.tolist(), strict=True))
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
@@ -227,7 +230,7 @@ class VsvSystem:
         moving = {} if clearance is None else {"radial_clearance": clearance}
         memory = run.problem.memory
         found = extremes(memory.joint.extremes, memory.collar)
-        found |= on_finer_grid(bushing, rows, worn, clearance)
+        found |= on_finer_grid(bushing, run.problem.data.joint, rows, worn, clearance)
         largest = of_run(memory.peaks, WATCHED)
         pressure = largest["pressure_peak"]
         law = self.case.contact.law_of(self._worn_case(worn).surface_pair)
@@ -289,7 +292,7 @@ class VsvSystem:
             "snapshot_time": times,
             "frame": np.arange(frames.size, dtype=np.float64),
             "frame_time": frames,
-            "snapshot_theta_v": ideal_vane_angle(self.vsv.lengths, self.vsv.drive.angle(times)),
+            "snapshot_theta_v": ideal_at(self.vsv.lengths, tuple(self.vsv.drive.angle(times).tolist())),
             "snapshot_direction": _directions(run.problem.data.actions.segments, times),
             "theta": self.bushing.theta,
             "z": self.bushing.z,
