@@ -111,23 +111,36 @@ def _nearest(path: str, keys: Mapping[str, Key]) -> str:
         return f"write a table [{first}.NAME]"
     named_so = ([key.path for key in keys.values() if key.name == word] for word in (name, *meanings(name)))
     elsewhere = next((paths for paths in named_so if paths), [])
-    elsewhere = [other for other in elsewhere if ANY_NAME not in other] or elsewhere
+    elsewhere = _sharing_most([other for other in elsewhere if ANY_NAME not in other] or elsewhere, path)
     of_a_part = ANY_NAME in as_declared(table, keys)
     if "." in table and inside and (not elsewhere or (of_a_part and len(elsewhere) > 1)):
         return f"keys of {table}: {', '.join(inside)}"
     meant = closest(path, elsewhere or keys) or next(iter(elsewhere), None)
+    if table and meant and "." not in meant.removesuffix(f".{VALUE}"):
+        return f"{_nearest_valid(meant)}, which stands above the first [table]"
     return _nearest_valid(meant) if meant else ""
 
 
+def _sharing_most(paths: list[str], path: str) -> list[str]:
+    """Return those of some paths that have most names in common with a path."""
+    shared = [len({*path.split(".")} & {*other.split(".")}) for other in paths]
+    return [other for other, number in zip(paths, shared, strict=True) if number == max(shared)]
+
+
 def _renamed(path: str, keys: Mapping[str, Key]) -> str:
-    """Return the key with one of the tables of its path by our word for it; empty where there is none."""
+    """Return the key with one of the tables of its path by our word for it; empty where there is none.
+
+    A name that a user gives to a table, such as that of a body, may be new.
+    """
     parts = path.split(".")
-    others = (
+    others = [
         ".".join([*parts[:k], word, *parts[k + 1 :]])
         for k, part in enumerate(parts[:-1])
         for word in meanings(part)
-    )
-    return next((other for other in others if other in keys), "")
+    ]
+    near = difflib.get_close_matches(parts[0][:80], list(_inside("", keys)), n=1, cutoff=0.6)
+    others += [".".join([*near, *parts[1:]])] if len(parts) > 1 else []
+    return next((other for other in others if other in keys or as_declared(other, keys) in keys), "")
 
 
 def _tables_of(keys: Mapping[str, Key]) -> set[str]:

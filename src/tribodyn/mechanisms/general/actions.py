@@ -36,6 +36,13 @@ GIVEN: Final = {
 }
 """What a drive may give: a coordinate, and 0 for itself, 1 for its rate, 2 for what acts along it."""
 
+
+def given_of(coordinate: str) -> str:
+    """Return what a drive may give of a coordinate, in words."""
+    *some, last = (given for given, (of, _) in GIVEN.items() if of == coordinate)
+    return f"{', '.join(some)} or {last}"
+
+
 UNITS: Final = {
     "angle": "rad",
     "speed": "rad/s",

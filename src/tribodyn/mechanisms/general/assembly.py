@@ -225,8 +225,9 @@ def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:
         return []
     if len(drives) == 1:
         locking = _locking(system, dependent, names)
+        leave = "leaves" if len(locking) == 1 else "leave"
         text = (
-            f"drive {drives[0]} has nothing to drive: {', '.join(locking) or 'the joints'} leave its "
+            f"drive {drives[0]} has nothing to drive: {', '.join(locking) or 'the joints'} {leave} its "
             f"coordinate no degree of freedom; remove one of them, or the drive{_odd_axes(system, locking)}"
         )
     else:

@@ -27,7 +27,7 @@ from tribodyn.cases.temperature import Temperature
 from tribodyn.core.errors import below
 from tribodyn.mechanisms.base import plain
 from tribodyn.mechanisms.general import solids
-from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of
+from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of, given_of
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements import ELEMENTS
 from tribodyn.mechanisms.general.elements.base import ElementKeys
@@ -355,7 +355,8 @@ class MechanismCase(_WithElements):
             demand_known(drive.joint, self.joints, f"drives.{name}.joint", "joint")
             joint, (coordinate, level) = self.joints[drive.joint], GIVEN[drive.gives]
             free = joint.kind.COORDINATES
-            can = f"it has the {' and the '.join(free)}" if free else "it has nothing to drive"
+            own = (f"the {of} (give {given_of(of)})" for of in free)
+            can = f"it has {' and '.join(own)}" if free else "it has nothing to drive"
             words = f"{drive.joint} is {joint.kind.named}: {can}, and {drive.gives} drives the {coordinate}"
             demand(coordinate in free, f"drives.{name}.joint", words)
             if level < 2:
