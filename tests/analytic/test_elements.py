@@ -213,6 +213,130 @@ def test_a_screw_jack_without_friction_holds_and_lifts_as_its_lead_says(
     assert of_joint(moving, "reaction_force_global", "bearing")[:, 2] == pytest.approx(lifted + G, rel=EXACT)
 
 
+MEAN = 8e-3
+"""Mean radius of a thread with friction [m]."""
+
+
+def rubbing_jack(
+    speed: float | None, friction: float, lead: float, axis: int = 1, kind: str = "two", **given: object
+) -> td.Case:
+    """Return a screw jack with friction in its thread, driven at a speed [rad/s] or left alone."""
+    mechanism = drawn("Screw jack", f"0, 0, -{G} m/s^2")
+    wheel(mechanism, "screw", 1.0, 2e-4, "0, 0, 0 mm")
+    mechanism.body("nut", mass="20 kg", centre="0, 0, 30 mm", inertia="0.1, 0.1, 0.1 kg m^2")
+    mechanism.revolute("bearing", "ground", "screw", point="0, 0, 0 mm", axis=[0, 0, axis])
+    thread = {"lead": f"{lead} mm", "friction_coefficient": friction, "radius": f"{1e3 * MEAN} mm", **given}
+    if kind == "two":
+        mechanism.prismatic("guide", "nut", "ground", point="40, 0, 30 mm", axis=[0, 0, 1])
+        mechanism.screw("thread", joints=["bearing", "guide"], **thread)
+    else:
+        mechanism.cylindrical("nut", "nut", "screw", point="0, 0, 30 mm", axis=[0, 0, -1])
+        mechanism.screw("thread", joints=["nut"], **thread)
+        mechanism.joint("guide", "pin-slot", "ground", "nut", point="40, 0, 30 mm", axis=[0, 0, 1])
+    if speed is not None:
+        mechanism.drive("motor", "bearing", speed=f"{axis * speed!r} rad/s")
+    return mechanism.case()
+
+
+@pytest.mark.parametrize(("axis", "lead", "kind"), [(1, 5.0, "two"), (-1, 5.0, "one"), (1, -20.0, "two")])
+@pytest.mark.parametrize("friction", [0.05, 0.15])
+def test_the_efficiency_of_a_screw_jack_is_that_of_its_lead_angle_and_friction_angle(
+    axis: int, lead: float, kind: str, friction: float
+) -> None:
+    """Raising takes W r tan(φ + ρ), lowering is helped by W r tan(φ − ρ)."""
+    weight, pitch = 20.0 * G, 1e-3 * lead / (2.0 * math.pi)
+    angle, rho = math.atan(abs(pitch) / MEAN), math.atan(friction)
+    # Sliding is so fast that friction is developed to 1e-9.
+    for rising in (True, False):
+        speed = (-40.0 if rising else 40.0) * math.copysign(1.0, lead)
+        run = td.simulate(rubbing_jack(speed, friction, lead, axis, kind, slip_velocity="1e-5 m/s"))
+        moved = run["velocity"].sel(body="nut", axis="z").values
+        assert moved == pytest.approx(-pitch * speed, rel=1e-8)
+        wanted = weight * MEAN * math.tan(angle + rho if rising else angle - rho)
+        assert abs(run["element_moment"].values) == pytest.approx(abs(wanted), rel=1e-8)
+        assert abs(run["element_force"].values) == pytest.approx(weight, rel=1e-8)
+        gone = abs(moved[-1]) * float(run["time"].values[-1])
+        work = {
+            name: float(run[name].values[-1]) for name in ("energy_in", "energy_friction", "energy_gravity")
+        }
+        assert abs(work["energy_gravity"]) == pytest.approx(weight * gone, rel=1e-8)
+        if rising:
+            efficiency = math.tan(angle) / math.tan(angle + rho)
+            assert work["energy_gravity"] / work["energy_in"] == pytest.approx(efficiency, rel=1e-7)
+        side = 1.0 if rising else -1.0
+        across = weight / (math.cos(angle) - side * friction * math.sin(angle))
+        slid = 40.0 * 0.02 * MEAN / math.cos(angle)
+        assert work["energy_friction"] == pytest.approx(friction * across * slid, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("given", "words", "key"),
+    [
+        ({}, "needs the mean radius", "screws.second.radius"),
+        ({"radius": "8 mm"}, "the force of screw first is not unique", "screws.first.friction_coefficient"),
+    ],
+)
+def test_friction_of_a_thread_needs_its_radius_and_a_force_that_is_unique(
+    given: dict[str, str], words: str, key: str
+) -> None:
+    mechanism = drawn("Two threads")
+    wheel(mechanism, "screw", 1.0, 2e-4, "0, 0, 0 mm")
+    mechanism.body("nut", mass="20 kg", centre="0, 0, 30 mm", inertia="0.1, 0.1, 0.1 kg m^2")
+    mechanism.revolute("bearing", "ground", "screw", point="0, 0, 0 mm", axis=[0, 0, 1])
+    mechanism.prismatic("guide", "nut", "ground", point="40, 0, 30 mm", axis=[0, 0, 1])
+    thread = {"joints": ["bearing", "guide"], "lead": "5 mm", "friction_coefficient": 0.1}
+    mechanism.screw("first", **thread, radius="8 mm").screw("second", **thread, **given)
+    with pytest.raises(InputError, match=words) as caught:
+        td.check(mechanism.case())
+    assert caught.value.key == key
+
+
+@pytest.mark.parametrize("share", [0.9, 1.1])
+def test_a_screw_locks_itself_from_a_friction_angle_above_its_lead_angle(share: float) -> None:
+    """What sticks creeps, at the speed at which so much friction is developed; else W drives the screw."""
+    lead, pitch = 20.0, 20e-3 / (2.0 * math.pi)
+    angle = math.atan(pitch / MEAN)
+    friction = share * math.tan(angle)
+    run = td.simulate(rubbing_jack(None, friction, lead, slip_velocity="1e-4 m/s"))
+    turning = about_z(run, "screw")
+    if share > 1.0:
+        developed = 1.0 / share
+        creep = 1e-4 * developed / math.sqrt(1.0 - developed**2)
+        assert abs(turning[-1]) * MEAN / math.cos(angle) == pytest.approx(creep, rel=1e-3)
+    else:
+        # N of the flanks lifts the nut and turns the screw: 20 kg p α = W − N axial, 2e-4 kg m² α = N torque.
+        axial = math.cos(angle) + friction * math.sin(angle)
+        torque = MEAN * (math.sin(angle) - friction * math.cos(angle))
+        pushed = 20.0 * G / (axial + 20.0 * pitch * torque / 2e-4)
+        assert abs(turning[-1]) == pytest.approx(pushed * torque / 2e-4 * 0.02, rel=0.02)
+
+
+def test_the_efficiency_of_a_gear_with_friction_in_its_bearings_is_that_of_its_tooth_force() -> None:
+    """Bearings carry F/cos α and turn at different radii: friction follows the load that is transmitted."""
+    first, second, journal, friction, angle, torque = 0.02, 0.05, 4e-3, 0.1, math.radians(20.0), 3.0
+    mechanism = drawn("Gears", "0, 0, 0 m/s^2")
+    for name, x in (("pinion", 0.0), ("wheel", first + second)):
+        wheel(mechanism, name, 1.0, 1e-4, f"{1e3 * x}, 0, 0 mm")
+        mechanism.revolute(f"{name}-bearing", "ground", name, point=f"{1e3 * x}, 0, 0 mm", axis=[0, 0, 1])
+        mechanism.friction(
+            f"{name}-friction",
+            joint=f"{name}-bearing",
+            radius=f"{1e3 * journal} mm",
+            friction_coefficient=friction,
+            slip_velocity="1e-5 m/s",
+        )
+    bearings = ["pinion-bearing", "wheel-bearing"]
+    mechanism.gear("mesh", joints=bearings, ratio=-first / second, pressure_angle="20 deg")
+    mechanism.load("brake", "wheel", direction=[0, 0, 1], moment=f"{torque} N m")
+    run = td.simulate(mechanism.drive("motor", "pinion-bearing", speed="100 rad/s").case())
+    rubbed = friction * journal / math.cos(angle)
+    efficiency = (1.0 - rubbed / second) / (1.0 + rubbed / first)
+    into, out = (abs(float(run[name].values[-1])) for name in ("energy_in", "energy_friction"))
+    lifted = torque * 100.0 * first / second * float(run["time"].values[-1])
+    assert out / lifted == pytest.approx(1.0 / efficiency - 1.0, rel=1e-7)
+    assert into == pytest.approx(out, rel=1e-9)
+
+
 def test_a_geared_five_bar_is_led_through_turns_that_its_angles_do_not_fit_in() -> None:
     # Two cranks in the ratio −0.5 and two rods: a loop, which the program first leads through its cycle.
     mechanism = drawn("Geared five-bar").body(

@@ -203,16 +203,18 @@ def _taking_part(system: System, dependent: FloatArray) -> list[tuple[int, int]]
 
 def _loads_not_unique(model: Model, redundancy: Redundancy) -> list[ModelError]:
     """Return the elements that follow a reaction which is not unique."""
-    return [
-        ModelError(
-            f"{element.keys.TABLE}.{element.name}.normal_load",
-            f"the reaction of {law.load_of} is not unique: no friction follows from it; give normal_load, "
-            f"or let joints hold less: {', '.join(redundancy.joints)}",
-        )
-        for element in model.elements
-        for equation in element.equations
-        if (law := equation.law) is not None and law.load_of in redundancy.joints
-    ]
+    found, sharing = [], ", ".join(redundancy.joints)
+    for element in model.elements:
+        table, itself = f"{element.keys.TABLE}.{element.name}", f"{element.keys.METHOD} {element.name}"
+        for law in (equation.law for equation in element.equations if equation.law is not None):
+            words = "is not unique: no friction follows from it"
+            if law.load_of in redundancy.joints:
+                words = f"the reaction of {law.load_of} {words}; give normal_load, or let joints hold less"
+                found.append(ModelError(f"{table}.normal_load", f"{words}: {sharing}"))
+            elif law.load_leg is not None and itself in redundancy.joints:
+                words = f"the force of {itself} {words}; let joints hold less"
+                found.append(ModelError(f"{table}.friction_coefficient", f"{words}: {sharing}"))
+    return found
 
 
 def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:

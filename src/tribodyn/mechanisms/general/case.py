@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
 from pydantic import PrivateAttr, create_model
@@ -384,9 +384,13 @@ class MechanismCase(_WithElements):
         """Return the case with elements as the ideal counterpart has them: without play."""
         if not any(keys.has_play for _, _, keys in self.elements()):
             return self
+        return self.with_elements(lambda keys: keys.without_play)
+
+    def with_elements(self, change: Callable[[ElementKeys], ElementKeys]) -> Self:
+        """Return the case with each element as ``change`` returns it."""
         tables: dict[str, dict[str, ElementKeys]] = {}
         for table, name, keys in self.elements():
-            tables.setdefault(table, {})[name] = keys.without_play
+            tables.setdefault(table, {})[name] = change(keys)
         return self.model_copy(update=tables)
 
     def elements(self) -> Iterator[tuple[str, str, ElementKeys]]:

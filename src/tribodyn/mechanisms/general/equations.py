@@ -280,16 +280,18 @@ def _place_load(record: Any, model: Model, load: LoadKeys) -> None:
 def _fill_elements(records: Any, model: Model, signals: SignalList) -> None:
     """Fill the legs of all elements; only the first of each counts the equation, and only where it holds."""
     number = model.first_leg
-    for equation in (equation for element in model.elements for equation in element.equations):
-        first = number
-        for leg in equation.legs:
-            record = records[number]
-            _fill_leg(record, model, leg)
-            if equation.law is not None:
-                _fill_law(record, model, equation.law, signals)
-            if number > first:
-                record.n_rows, record.first_leg, records[number - 1].next_leg = 0, first, number
-            number += 1
+    for element in model.elements:
+        of_element = number
+        for equation in element.equations:
+            first = number
+            for leg in equation.legs:
+                record = records[number]
+                _fill_leg(record, model, leg)
+                if equation.law is not None:
+                    _fill_law(record, model, equation.law, signals, of_element)
+                if number > first:
+                    record.n_rows, record.first_leg, records[number - 1].next_leg = 0, first, number
+                number += 1
 
 
 def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
@@ -301,13 +303,15 @@ def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
     _add_row(record, _MEASURES[leg.measure], 2, 0)
 
 
-def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList) -> None:
-    """Fill the force law of an element; its equation is no constraint."""
+def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList, first: int) -> None:
+    """Fill the force law of an element with a first leg; its equation is no constraint."""
     fields = record_type(*((name, "f8") for name in law.parameters))
     record.law, record.n_rows = address_of(law.function, fields), 0
     record.parameters.values[: len(law.parameters)] = list(law.parameters.values())
     if law.load_of:
         record.load_of = model.joints.index(law.load_of)
+    if law.load_leg is not None:
+        record.load_of = first + law.load_leg
     if law.table is not None:
         pieces, record.over_rate = pieces_of(law.table), int(law.over_rate)
         record.table[:] = signals.add(pieces), signals.add(integral_of(pieces))

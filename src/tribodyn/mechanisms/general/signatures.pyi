@@ -361,6 +361,9 @@ class Signatures:
         *,
         joints: Sequence[str],
         lead: str,
+        friction_coefficient: float | str | None = ...,
+        radius: str | None = ...,
+        slip_velocity: str | None = ...,
     ) -> Self: ...
     def distance(
         self,

@@ -22,7 +22,6 @@ from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.elements.joint_friction import JointFriction
 from tribodyn.mechanisms.general.linearised import LinearEquations, Linearised
 from tribodyn.mechanisms.general.outputs import rotations
 from tribodyn.mechanisms.general.positions import DrivePath, held, walked
@@ -47,14 +46,9 @@ def without_friction(case: MechanismCase) -> MechanismCase:
         )
         for name, joint in case.joints.items()
     }
-    smooth = {"friction_coefficient": 0.0, "static_coefficient": None}
-    frictions = {
-        name: keys.model_copy(update=smooth)
-        for _, name, keys in case.elements()
-        if isinstance(keys, JointFriction)
-    }
     loads = {name: load for name, load in case.loads.items() if load.frame != "motion"}
-    return case.model_copy(update={"joints": joints, JointFriction.TABLE: frictions, "loads": loads})
+    smooth = case.with_elements(lambda keys: keys.without_friction)
+    return smooth.model_copy(update={"joints": joints, "loads": loads})
 
 
 def require_freedom(assembly: Assembly) -> None:

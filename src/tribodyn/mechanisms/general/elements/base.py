@@ -109,6 +109,8 @@ class ForceLaw:
         Whether it is a function of the rate of the coordinate instead.
     load_of
         Ideal joint whose reaction across its axis the law finds as ``normal``; empty for none.
+    load_leg
+        Leg of the first equation of the same element whose force across its z is ``normal``; None for none.
     """
 
     function: Callable[[Any, Any], None]
@@ -116,6 +118,7 @@ class ForceLaw:
     table: Signal | None = None
     over_rate: bool = False
     load_of: str = ""
+    load_leg: int | None = None
 
 
 @dataclass(frozen=True)
@@ -212,6 +215,11 @@ class ElementKeys(NamedGroup):
     @property
     def without_play(self) -> Self:
         """The element in the ideal counterpart of the mechanism; by default itself."""
+        return self
+
+    @property
+    def without_friction(self) -> Self:
+        """The element without friction but for its viscous part; by default itself."""
         return self
 
     def check_run(self, duration: float, *, dynamic: bool, campaign: bool) -> None:

@@ -12,7 +12,7 @@ what sticks creeps, by less than the slip velocity u_s.
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
@@ -34,6 +34,28 @@ def regularised(joint: Any, law: Any) -> None:
     law.in_rate = -fall * direction - limit * slip * slip / (square * math.sqrt(square)) - joint.viscous
     law.friction = limit * direction * v
     law.damping = joint.viscous * v * v
+
+
+def friction_law(
+    coefficient: float,
+    slip_velocity: float,
+    *,
+    normal_load: float = 0.0,
+    breakaway: float = 0.0,
+    stribeck_velocity: float = 1.0,
+    viscous: float = 0.0,
+    load_of: str = "",
+) -> ForceLaw:
+    """Return the law of friction, Coulomb's by default; ``breakaway`` is what μ_s is above μ."""
+    parameters = {
+        "normal_load": normal_load,
+        "friction_coefficient": coefficient,
+        "breakaway": breakaway,
+        "stribeck_velocity": stribeck_velocity,
+        "slip_velocity": slip_velocity,
+        "viscous": viscous,
+    }
+    return ForceLaw(regularised, parameters, load_of=load_of)
 
 
 class JointFriction(OfJointKeys):
@@ -75,6 +97,11 @@ viscous = "5 N s/m"
     viscous: float = quantity("0 N s/m", "force over sliding speed", "assumed", ge=0, example="5 N s/m")
     slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
 
+    @property
+    def without_friction(self) -> Self:
+        """The viscous part alone."""
+        return self.model_copy(update={"friction_coefficient": 0.0, "static_coefficient": None})
+
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return the leg of the sliding distance: radius times angle, or position."""
         static = self.static_coefficient
@@ -95,15 +122,12 @@ viscous = "5 N s/m"
         demand(not own or joint.real is None, "joint", words)
         words = f"{joint.kind.named} has no reaction across its axis: give normal_load"
         demand(not own or joint.kind.holds_across, "normal_load", words)
-        return ForceLaw(
-            regularised,
-            {
-                "normal_load": self.normal_load or 0.0,
-                "friction_coefficient": self.friction_coefficient,
-                "breakaway": static - self.friction_coefficient,
-                "stribeck_velocity": self.stribeck_velocity,
-                "slip_velocity": self.slip_velocity,
-                "viscous": self.viscous,
-            },
+        return friction_law(
+            self.friction_coefficient,
+            self.slip_velocity,
+            normal_load=self.normal_load or 0.0,
+            breakaway=static - self.friction_coefficient,
+            stribeck_velocity=self.stribeck_velocity,
+            viscous=self.viscous,
             load_of=self.joint if own else "",
         )

@@ -4,22 +4,33 @@ With displacement and angle of the nut against the screw along and about the axi
 
     z·d − lead/(2π) θ = constant,
 
-whichever way the axis is drawn. The multiplier is the axial force on the nut. There is no friction.
+whichever way the axis is drawn. The multiplier λ is the axial part of the force across the flanks,
+N = |λ|/cos φ with the lead angle φ, tan φ = lead/(2π r). Friction at the mean radius r acts along the helix,
+on the coordinate
+
+    s = r θ cos φ + z·d sin φ,
+
+by the law of ``joint_friction`` with the load N. A nut that lifts a weight W takes the torque of textbooks,
+W r tan(φ + ρ) with tan ρ = μ.
 """
 
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from dataclasses import replace
+from typing import ClassVar, Self
+
+import numpy as np
 
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import names, quantity
+from tribodyn.cases.fields import names, number, quantity
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.elements import base
+from tribodyn.mechanisms.general.elements.joint_friction import friction_law
 
 
 class Screw(base.ElementKeys):
-    """A screw: a thread without friction between a screw and its nut."""
+    """A screw: a thread between a screw and its nut, with friction or without."""
 
     TABLE: ClassVar[str] = "screws"
     METHOD: ClassVar[str] = "screw"
@@ -57,6 +68,39 @@ torque = "0.2 N m"
         example="4 mm",
         required=True,
     )
+    friction_coefficient: float = number(
+        0.0, "of the thread, mu; over the cosine of the flank angle where flanks are inclined", "", ge=0, le=2
+    )
+    radius: float | None = quantity(
+        None, "mean radius of the thread, at which it slides; needed with friction", "", gt=0, example="8 mm"
+    )
+    slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
+
+    @property
+    def without_friction(self) -> Self:
+        """The screw whose thread has no friction."""
+        return self.model_copy(update={"friction_coefficient": 0.0})
+
+    def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
+        """Return the constraint, and the force of friction where there is some."""
+        (thread,) = self.legs(joints)
+        if self.friction_coefficient == 0.0:
+            return (base.Equation((thread,), None),)
+        if self.radius is None:
+            demand(False, "radius", "friction in a thread needs the mean radius at which it slides")
+            raise AssertionError
+        pitch = self.lead / (2.0 * math.pi)
+        slope = math.hypot(self.radius, pitch)
+        cosine, sine = self.radius / slope, pitch / slope
+        sliding = replace(
+            thread, along=sine * thread.along, about=self.radius * cosine, reported=thread.along
+        )
+        law = friction_law(self.friction_coefficient / cosine, self.slip_velocity)
+        turning, lifting = replace(thread, along=np.zeros(3)), _crosswise(thread)
+        return (
+            base.Equation((turning, lifting), None),
+            base.Equation((sliding,), replace(law, load_leg=1)),
+        )
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the leg from the screw to the nut."""
@@ -82,3 +126,9 @@ torque = "0.2 N m"
         demand(base.are_parallel(base.axis_of(bearing), base.axis_of(guide)), "joints", words)
         points = base.origin(bearing, carrier)[[1, 0]]
         return (base.other_body(bearing, carrier), base.other_body(guide, carrier)), points
+
+
+def _crosswise(thread: base.Leg) -> base.Leg:
+    """Return the displacement of a thread along x of other axes: its force is then one across their z."""
+    turned = thread.axes[:, [2, 0, 1]]
+    return replace(thread, axes=turned, along=thread.along[[2, 0, 1]], about=0.0)
