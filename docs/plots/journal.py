@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tribodyn as td
+from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.mechanisms.journal.case import JournalCase
 from tribodyn.mechanisms.journal.stribeck import stribeck
 from tribodyn.mechanisms.journal.system import JournalSystem, journal_of
@@ -31,7 +32,7 @@ def fixed_step(
     Returns times [s] and eccentricities [m].
     """
     problem = JournalSystem(case).problem(duration)
-    call, data, memory = problem.functions, problem.data, problem.memory
+    call, data, memory = machine_code(problem, kernel_types(problem)), problem.data, problem.memory
     y, rate = problem.y0.copy(), np.empty(problem.y0.size)
     times, eccentricities = [], []
     for t in np.arange(0.0, duration, step):

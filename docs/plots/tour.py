@@ -104,9 +104,9 @@ def tour(film: Recorder) -> None:
     """Go through what a person can do."""
     page = film.page
     slider = page.locator(f".control[data-key='{KEY}'] input[type=range]")
-    film.say("A run of the vane mechanism: a value, and what it does")
+    film.say("The vane mechanism: each value has a slider")
     film.take(3000)
-    film.say("Drag a value: mechanism, orbit, pressure and numbers follow")
+    film.say("Move a slider: mechanism, orbit, pressure and numbers follow")
     box = slider.bounding_box()
     assert box is not None
     y = box["y"] + 0.5 * box["height"]
@@ -117,7 +117,7 @@ def tour(film: Recorder) -> None:
         page.mouse.up()
         film.take(900)
     film.take(1200)
-    film.say("P pins the run; differences are told in percent, its curves stay behind")
+    film.say("P pins the run: differences in percent, and its curves stay behind")
     page.keyboard.press("p")
     film.take(2500)
     film.say("A double click on the name: back to the case's value")
@@ -128,28 +128,28 @@ def tour(film: Recorder) -> None:
     film.take(3000)
     follow_time(film)
     sweep(film)
-    film.say("What cannot be is said beside its box; the old run stays")
+    film.say("An invalid value gets a message beside its box; the run stays")
     entry = page.locator(f".control[data-key='{KEY}'] .entry")
     entry.fill("40 mN")
     entry.press("Enter")
     film.take(3500)
     entry.press("Escape")
-    film.say("Curves over time: hatched is what depends on what was before")
+    film.say("Curves over time: hatched where a value depends on the motion before")
     page.locator("#contact-force").scroll_into_view_if_needed()
     film.take(3500)
     page.evaluate("scrollTo(0, 0)")
-    film.say("C copies the run as a command or as Python, to the bit; files are saved from here, too")
+    film.say("C copies the run as a command or as Python, and saves files")
     page.keyboard.press("c")
     film.take(4000)
     page.keyboard.press("Escape")
-    film.say("Dark where the system is; ? lists all keys")
+    film.say("Dark if the system is; ? lists all keys")
     page.emulate_media(color_scheme="dark")
     film.take(3500)
 
 
 def follow_time(film: Recorder) -> None:
     """Step through half a drive cycle."""
-    film.say("One time for all pictures: play, or step with , and .")
+    film.say("One time for all figures: play, or step with , and .")
     for _ in range(7):
         for _ in range(8):
             film.page.keyboard.press(".")
@@ -160,12 +160,12 @@ def sweep(film: Recorder) -> None:
     """Sweep the clearance and look at its points."""
     page = film.page
     page.select_option("#points", "9")
-    film.say("Sweep a key: the answer stands as a curve in the track of its slider")
+    film.say("Sweep a key: the result is a curve above its slider")
     film.click("Sweep radial clearance")
     for count in (3, 6, 9):
         page.wait_for_function(f"() => sweeps.get('{KEY}').points.length >= {count}", timeout=600_000)
         film.take(900)
-    film.say("Point at the curve: that run is shown at once")
+    film.say("Point at the curve: that run is shown")
     curve = page.locator(f".control[data-key='{KEY}'] canvas").bounding_box()
     assert curve is not None
     for share in (0.2, 0.45, 0.7, 0.97):
@@ -175,7 +175,7 @@ def sweep(film: Recorder) -> None:
     page.locator(f".control[data-key='{KEY}'] input[type=range]").focus()
     page.wait_for_function(f"() => slope.key === '{KEY}' && slope.finished", timeout=600_000)
     page.evaluate("scrollTo(0, 0)")
-    film.say("The key in focus: by how many percent each number follows it, with its scatter")
+    film.say("The key in focus: change of each number in percent, with its standard error")
     film.take(4000)
 
 

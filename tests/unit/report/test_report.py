@@ -138,12 +138,12 @@ def test_every_figure_names_its_data(report):
 
 def test_warnings_come_before_numbers(report):
     words = _page(report[2]).words
-    assert words.index("Before you trust") < words.index("Results")
+    assert words.index("Why these numbers may be wrong") < words.index("Results")
 
 
 def test_failure_comes_first_and_says_how_far_it_went(make_result, tmp_path):
     words = _page(write(make_result(1.0, failure="stopped at t = 1 s: step too small"), tmp_path)).words
-    assert words.index("step too small") < words.index("Before you trust")
+    assert words.index("step too small") < words.index("Why these numbers may be wrong")
     assert "0.995 s that were simulated" in words
 
 
