@@ -19,7 +19,7 @@ from tribodyn.core.signals import Signal
 from tribodyn.core.stopping import ask
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
-from tribodyn.joints.rows import angles_of, rows_of
+from tribodyn.joints.rows import angles_of, rings_of, rows_of
 from tribodyn.joints.shapes import Points, Shape, Surface
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
@@ -193,6 +193,7 @@ def join(where: Sequence[Place], laws: Sequence[SurfaceLaw], wear: FloatArray | 
         rows=rows,
         nodes=nodes,
         angles=angles_of(rows),
+        rings=rings_of(rows, nodes),
         table_nodes=tables.joined("nodes", 1, (0, 4)),
         energy=tables.joined("energy", 1, (0,)),
         cubics=tables.joined("cubics", 0, (0,)),

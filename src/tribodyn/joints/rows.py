@@ -13,7 +13,24 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.joints.surface.data import AREA, GAP, LIFT, N_ANGLE, NORMAL, POSITION, Row
+from tribodyn.kernels.joints.surface.data import (
+    AREA,
+    ARM,
+    COUNT,
+    GAP,
+    HEIGHT,
+    LEAST,
+    LIFT,
+    N_ANGLE,
+    N_AXIAL,
+    N_RADIAL,
+    N_RING,
+    NODE_AREA,
+    NORMAL,
+    POSITION,
+    RADIUS,
+    Row,
+)
 from tribodyn.kernels.lanes import WIDTH
 
 OUT_OF_REACH: Final = 1.0e3
@@ -73,6 +90,16 @@ def _around(node: NDArray[np.int64], count: int) -> FloatArray:
     """Return cosine and sine of the angles of nodes in a ring of ``count``, and zeros, shape (3, n)."""
     theta = 2.0 * np.pi * node / count
     return np.stack([portable.cos(theta), portable.sin(theta), np.zeros(theta.size)])
+
+
+def rings_of(rows: Rows, nodes: FloatArray) -> FloatArray:
+    """Return what the nodes of each row share, see ``kernels/joints/surface/data.py``."""
+    rings, first = np.zeros((N_RING, rows.size + WIDTH - 1)), rows["first"]
+    own = rings[:, : rows.size]
+    own[N_RADIAL], own[N_AXIAL], own[ARM] = rows["normal"][:, 0], rows["normal"][:, 2], rows["arm"]
+    own[RADIUS], own[HEIGHT] = nodes[POSITION, first], nodes[POSITION + 2, first]
+    own[LEAST], own[NODE_AREA], own[COUNT] = rows["least"], nodes[AREA, first], rows["count"]
+    return rings
 
 
 def angles_of(rows: Rows) -> FloatArray:

@@ -24,6 +24,7 @@ from numba.extending import intrinsic, models, register_model
 WIDTH: Final = 4
 _NUMBER: Final = ir.DoubleType()
 _VECTOR: Final = ir.VectorType(_NUMBER, WIDTH)
+_WHOLE: Final = ir.VectorType(ir.IntType(32), WIDTH)
 _INDEX: Final = ir.IntType(64)
 _ROW: Final = 8
 """Numbers in a row of the array that :func:`rows` reads."""
@@ -166,18 +167,6 @@ def _above(typing: Any, a: Any, b: Any, x: Any, y: Any) -> Any:
 
 
 @intrinsic
-def _entries(typing: Any, array: Any, numbers: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        data = context.make_array(called.args[0])(context, builder, arguments[0]).data
-        found = ir.Constant(_VECTOR, ir.Undefined)
-        for k, place in enumerate(_places(builder, arguments[1])):
-            found = builder.insert_element(found, builder.load(builder.gep(data, [place])), _INDEX(k))
-        return found
-
-    return _lanes(array, numbers), generate
-
-
-@intrinsic
 def _parts(typing: Any, lanes: Any) -> Any:
     def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
         numbers = [builder.extract_element(arguments[0], _INDEX(k)) for k in range(WIDTH)]
@@ -201,8 +190,40 @@ def _shuffled(builder: Any, order: tuple[int, ...], a: Any, b: Any) -> Any:
 
 def _places(builder: Any, numbers: Any) -> list[Any]:
     """Return the whole numbers in four lanes, none of them negative, as indices."""
-    whole = builder.fptosi(numbers, ir.VectorType(ir.IntType(32), WIDTH))
+    whole = builder.fptosi(numbers, _WHOLE)
     return [builder.zext(builder.extract_element(whole, _INDEX(k)), _INDEX) for k in range(WIDTH)]
+
+
+@intrinsic
+def _store_places(typing: Any, array: Any, place: Any, numbers: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        index = context.cast(builder, arguments[1], called.args[1], types.int64)
+        address = _address(context, builder, called.args[0], arguments[0], index)
+        whole = builder.fptosi(arguments[2], _WHOLE)
+        builder.store(whole, builder.bitcast(address, _WHOLE.as_pointer()), align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, place, numbers), generate
+
+
+def _stored_places(context: Any, builder: Any, kinds: Any, arguments: Any) -> list[Any]:
+    """Return the indices that were stored in the second array at the place that is the third argument."""
+    index = context.cast(builder, arguments[2], kinds[2], types.int64)
+    address = _address(context, builder, kinds[1], arguments[1], index)
+    first = builder.bitcast(address, ir.IntType(32).as_pointer())
+    return [builder.zext(builder.load(builder.gep(first, [_INDEX(k)])), _INDEX) for k in range(WIDTH)]
+
+
+@intrinsic
+def _entries_at(typing: Any, array: Any, places: Any, place: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        data = context.make_array(called.args[0])(context, builder, arguments[0]).data
+        found = ir.Constant(_VECTOR, ir.Undefined)
+        for k, at in enumerate(_stored_places(context, builder, called.args, arguments)):
+            found = builder.insert_element(found, builder.load(builder.gep(data, [at])), _INDEX(k))
+        return found
+
+    return _lanes(array, places, place), generate
 
 
 def _transposed(builder: Any, parts: list[Any]) -> list[Any]:
@@ -213,22 +234,44 @@ def _transposed(builder: Any, parts: list[Any]) -> list[Any]:
     return [_shuffled(builder, order, *pair) for order in (first, last) for pair in (low, high)]
 
 
+def _rows_from(context: Any, builder: Any, called: Any, array: Any, places: list[Any]) -> Any:
+    """Return the columns of four rows of a table."""
+    starts = [builder.mul(place, _INDEX(_ROW)) for place in places]
+    columns: list[Any] = []
+    for half in (0, WIDTH):
+        parts = [builder.add(start, _INDEX(half)) for start in starts]
+        addresses = [_address(context, builder, called.args[0], array, part) for part in parts]
+        columns += _transposed(builder, [_read(builder, address) for address in addresses])
+    return context.make_tuple(builder, called.return_type, columns)
+
+
 @intrinsic
 def _rows(typing: Any, array: Any, numbers: Any) -> Any:
     def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        starts = [builder.mul(place, _INDEX(_ROW)) for place in _places(builder, arguments[1])]
-        columns: list[Any] = []
-        for half in (0, WIDTH):
-            places = [builder.add(start, _INDEX(half)) for start in starts]
-            addresses = [_address(context, builder, called.args[0], arguments[0], place) for place in places]
-            columns += _transposed(builder, [_read(builder, address) for address in addresses])
-        return context.make_tuple(builder, called.return_type, columns)
+        return _rows_from(context, builder, called, arguments[0], _places(builder, arguments[1]))
 
     return types.UniTuple(_lanes, _ROW)(array, numbers), generate
 
 
+@intrinsic
+def _rows_at(typing: Any, array: Any, places: Any, place: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        stored = _stored_places(context, builder, called.args, arguments)
+        return _rows_from(context, builder, called, arguments[0], stored)
+
+    return types.UniTuple(_lanes, _ROW)(array, places, place), generate
+
+
 def _put(array: Any, place: int, lanes: Any) -> None:
     array[place : place + WIDTH] = lanes
+
+
+def _named(places: Any, place: int) -> Any:
+    return places[place : place + WIDTH].astype(int)
+
+
+def _table_rows(array: Any, numbers: Any) -> Any:
+    return tuple(array.reshape(-1, _ROW)[numbers].T)
 
 
 load: Final = _either(_load, lambda array, place: array[place : place + WIDTH].copy())
@@ -247,11 +290,18 @@ smaller: Final = _either(_of_two("minimum"), lambda a, b: np.minimum(a, b))
 """Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none."""
 above: Final = _either(_above, lambda a, b, x, y: np.where(a > b, x, y))
 """Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number."""
-entries: Final = _either(_entries, lambda array, numbers: array[numbers.astype(int)])
-"""Return the entries of an array that ``numbers`` name."""
+store_places: Final = _either(_store_places, _put)
+"""Write whole numbers in lanes, none of them negative, into an array from ``place`` on, for what follows.
+
+Read from there they are at hand sooner than from lanes; the array tells nothing else about them.
+"""
+entries_at: Final = _either(_entries_at, lambda array, places, place: array[_named(places, place)])
+"""Return the entries of an array that the numbers name that ``store_places`` wrote into ``places``."""
+rows_at: Final = _either(_rows_at, lambda array, places, place: _table_rows(array, _named(places, place)))
+"""Return what ``rows`` does, for such numbers."""
 parts: Final = _either(_parts, tuple)
 """Return the four numbers."""
 total: Final = _either(_total, lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 """Return the sum of the lanes."""
-rows: Final = _either(_rows, lambda array, numbers: tuple(array.reshape(-1, _ROW)[numbers.astype(int)].T))
+rows: Final = _either(_rows, lambda array, numbers: _table_rows(array, numbers.astype(int)))
 """Return eight lanes: the columns of those four rows of a table of eight columns that ``numbers`` name."""

@@ -22,6 +22,11 @@ LIFT: Final = 2
 N_ANGLE: Final = 3
 """Rows of the table of angles of rings: cos θ, sin θ, and what ``ring`` adds to the gap [m]."""
 
+N_RADIAL, N_AXIAL, ARM, RADIUS, HEIGHT, LEAST, NODE_AREA, COUNT = range(8)
+N_RING: Final = 8
+"""Rows of the array of rings: n_r, n_z, arm, radius, height and least gap [m], area of a node [m²], and
+number of nodes; what stands there for a patch means nothing."""
+
 N_POINTS: Final = 2
 """Most points of a point contact."""
 
@@ -116,6 +121,8 @@ class SurfaceData(NamedTuple):
         Shape (``N_NODE``, n_nodes).
     angles
         Cosines, sines and ``LIFT`` of the angles of rings, see ``ring``, shape (``N_ANGLE``, n_angles).
+    rings
+        What the nodes of a row share, and empty rows behind, shape (``N_RING``, n_rows + 3).
     table_nodes, energy, cubics
         The arrays of all contact tables, one after the other.
     """
@@ -125,6 +132,7 @@ class SurfaceData(NamedTuple):
     rows: Record
     nodes: FloatArray
     angles: FloatArray
+    rings: FloatArray
     table_nodes: FloatArray
     energy: FloatArray
     cubics: FloatArray

@@ -19,6 +19,11 @@ from tribodyn.kernels.joints.surface.station import Maps, Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
 from tribodyn.kernels.lanes import WIDTH
 
+BLOCK_GROUPS: Final = 16 * WIDTH
+"""Where the groups of the block begin."""
+COLUMNS: Final = 14
+"""Lanes of a group."""
+
 Scratch: Final = record_type(
     ("pose", Pose),
     ("tilt", Tilt),
@@ -72,6 +77,8 @@ class SurfaceMemory(NamedTuple):
         Nodes of patches that it belongs to, shape (n_nodes,), and their number, shape (n_surfaces,).
     reports, peaks
         Of each surface, see ``quantities``, shape (n_surfaces,).
+    block
+        Four rings and the groups of their nodes, see ``block`` and ``ring``; work, as ``scratch`` is.
     scratch
         See :data:`Scratch`.
     """
@@ -85,7 +92,12 @@ class SurfaceMemory(NamedTuple):
     n_touched: IntArray
     reports: Record
     peaks: Record
+    block: FloatArray
     scratch: Record
+
+
+def _block_size(rows: Record) -> int:
+    return BLOCK_GROUPS + COLUMNS * WIDTH * WIDTH * (int(rows["count"].max(initial=0)) // WIDTH + 1)
 
 
 def new_memory(data: SurfaceData) -> SurfaceMemory:
@@ -103,6 +115,7 @@ def new_memory(data: SurfaceData) -> SurfaceMemory:
         n_touched=np.zeros(n_surfaces, dtype=np.int64),
         reports=np.zeros(n_surfaces, dtype=Report),
         peaks=peaks,
+        block=np.zeros(_block_size(data.rows)),
         scratch=new_record(Scratch),
     )
 

@@ -9,26 +9,32 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels import extremes
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.data import AREA, COS, GAP, LIFT, POSITION, SIN, SurfaceData
-from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
+from tribodyn.kernels.joints.surface.data import NODE_AREA, RADIUS, SurfaceData
+from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
-    Law,
-    Node,
-    add_friction,
-    add_pressures,
-    energy_of,
-    gap_and_approach,
-    groups,
-    law_of,
-    motion_of,
-    no_pressure,
-    no_traction,
-    node_of,
+    APPROACH,
+    COSINE,
+    DRAG_SPEED,
+    ENERGY,
+    POSITION,
+    PRESSURE,
+    RIGID,
+    SINE,
+    SQUARE,
+    STRIDE,
+    fill_groups,
+    fill_pressures,
     place_of,
-    slip_of,
-    with_pressure,
-    with_traction,
 )
+from tribodyn.kernels.joints.surface.ring_sums import (
+    Pressures,
+    no_pressure,
+    put_pressures,
+    with_pressure,
+    with_pressures_of,
+)
+from tribodyn.kernels.joints.surface.ring_wrench import no_forces, put_forces, with_forces_of
 from tribodyn.kernels.lanes import (
     WIDTH,
     above,
@@ -45,80 +51,96 @@ from tribodyn.kernels.lanes import (
 )
 
 Terms = tuple[Any, Any, Any, Any, Any]
-"""Sums of energy over σ, power of damping and of friction over −μ, nodes in contact, and where these pull."""
-
-
-@inlined
-def _with_terms(
-    sums: Terms, law: Law, energy: FloatArray, onset: Any, node: Node, approach: Any, friction: Any
-) -> Terms:
-    """Return the sums with those of four more nodes."""
-    zero = zeros()
-    touching = above(onset, node.position, spread(1.0), zero)
-    return (
-        sums[0] + energy_of(law, energy, node),
-        sums[1] + (node.pressure - node.rigid) * approach,
-        sums[2] + friction,
-        sums[3] + touching,
-        sums[4] + above(node.pressure, zero, zero, touching),
-    )
-
-
-@inlined
-def _add_terms(surface: Record, area: float, sums: Terms, out: Record) -> None:
-    """Add the sums of a row whose nodes have an area [m²] to the report."""
-    out.energy_contact += area * surface.roughness * total(sums[0])
-    out.damping_power += area * total(sums[1])
-    out.friction_power -= area * surface.friction_coefficient * total(sums[2])
-    out.contact_fraction += area * total(sums[3])
-    out.tensile_clip_share += area * total(sums[4])
+"""Energy over σ, power of damping and of friction over −μ, area in contact, and area where it pulls."""
+Rest = tuple[Pressures, Any, Terms, Any, Any]
+"""Sums of rigid pressures, ∫P_k dA, the terms, highest pressure and nearest place in the table."""
 
 
 @kernel
 def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) -> float:
-    """Add the sums over the nodes of rings to the report; return the nearest place in the table."""
-    surface, out, scratch, tilt = data.surfaces[s], memory.reports[s], memory.scratch, memory.scratch.tilt
-    cos, sin, lift, drawn = data.angles[COS], data.angles[SIN], data.angles[LIFT], data.nodes[GAP]
-    limit, law, kept = surface.h_last * surface.roughness, law_of(data, surface), first_kept(surface)
-    energy = data.energy[surface.first_interval : surface.last_interval]
+    """Fill the sums over the nodes of rings in the report; return the nearest place in the table."""
+    surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
+    limit, kept = surface.h_last * surface.roughness, first_kept(surface)
+    forces, terms = no_forces(), (zeros(), zeros(), zeros(), zeros(), zeros())
+    rest = no_pressure(), zeros(), terms, zeros(), spread(math.inf)
+    for r in range(surface.first_row, surface.last_row, WIDTH):
+        found = fill_windows(data, surface, memory, station, r, limit, 1.0)
+        for k in range(rings_from(surface, r)):
+            memory.reached[r + k, 0], memory.reached[r + k, 1] = groups_of(memory.block, k)
+        if found > 0:
+            fill_motion(data, surface, memory, station, r)
+            end = fill_groups(data, surface, memory, r, 1.0)
+            fill_pressures(data, surface, memory, end, 1.0)
+            forces = with_forces_of(forces, data.rings, surface, memory, r)
+            rest = _with_rest_of(rest, data.rings, surface, memory, station, r, kept)
+            kept += WIDTH * found
+    put_forces(surface, station, forces, scratch)
+    put_pressures(rest[0], scratch.rigid)
+    scratch.rigid_load = total(rest[1])
+    _put_terms(surface, rest[2], out)
+    a, b, c, d = parts(rest[3])
+    out.p_max = extremes.larger(extremes.larger(a, b), extremes.larger(c, d))
+    a, b, c, d = parts(rest[4])
+    return extremes.smaller(extremes.smaller(a, b), extremes.smaller(c, d))
+
+
+@inlined
+def _with_rest_of(
+    rest: Rest,
+    rings: FloatArray,
+    surface: Record,
+    memory: SurfaceMemory,
+    station: Record,
+    r: int,
+    kept: int,
+) -> Rest:
+    """Return the sums with those of the block of rings that begins at row ``r``; keep what slides."""
+    block, zero, one, at = memory.block, zeros(), spread(1.0), BLOCK_GROUPS
+    normal, pushed, terms, highest, nearest = rest
     onset = spread((surface.onset - surface.h_first) * surface.inverse_step + 1.0)
     torque = spread(station.direction * surface.torque_radius * station.w[2])
-    highest, nearest = zeros(), spread(math.inf)
-    for r in range(surface.first_row, surface.last_row):
-        row = data.rows[r]
-        first, number = groups(row, surface, station, tilt, limit)
-        memory.reached[r, 0], memory.reached[r, 1] = first, number
-        if number == 0:
-            continue
-        motion = motion_of(data, surface, row, station, tilt)
-        pressures, rigids, tractions = no_pressure(), no_pressure(), no_traction()
-        spin = absolute(spread(station.w[2] * data.nodes[POSITION, row.first]))
-        terms = zeros(), zeros(), zeros(), zeros(), zeros()
-        for group in range(first, first + number):
-            angle, at = place_of(row, group)
-            c, s = load(cos, angle), load(sin, angle)
-            gap, approach = gap_and_approach(motion, load(drawn, at) + load(lift, angle), c, s)
-            node = node_of(law, gap, approach, load(memory.entry_velocity, at))
-            around, along, square = slip_of(motion, c, s)
-            drag = node.pressure / square_root(square + law.square)
-            pressures = with_pressure(pressures, node.pressure, c, s)
-            rigids = with_pressure(rigids, node.rigid, c, s)
-            tractions = with_traction(tractions, drag * around, drag * along, c, s)
-            friction = node.pressure * torque if surface.torque_radius > 0.0 else drag * square
-            terms = _with_terms(terms, law, energy, onset, node, approach, friction)
-            highest, nearest = larger(highest, node.pressure), smaller(nearest, node.position)
-            speed = square_root(square) if surface.along > 0.0 else spin
-            store(memory.sliding, kept, node.pressure * speed)
+    for k in range(rings_from(surface, r)):
+        sums, energy, heat, friction, touched, pulled, begin = no_pressure(), zero, zero, zero, zero, zero, at
+        spin = absolute(spread(station.w[2] * rings[RADIUS, r + k]))
+        at += STRIDE * groups_of(block, k)[1]
+        for group in range(begin, at, STRIDE):
+            rigid, p, position = (
+                load(block, group + RIGID),
+                load(block, group + PRESSURE),
+                load(block, group + POSITION),
+            )
+            sums = with_pressure(sums, rigid, load(block, group + COSINE), load(block, group + SINE))
+            energy = energy + load(block, group + ENERGY)
+            heat = heat + (p - rigid) * load(block, group + APPROACH)
+            friction = friction + p * (
+                torque if surface.torque_radius > 0.0 else load(block, group + DRAG_SPEED)
+            )
+            touching = above(onset, position, one, zero)
+            touched, pulled = touched + touching, pulled + above(p, zero, zero, touching)
+            highest, nearest = larger(highest, p), smaller(nearest, position)
+            speed = square_root(load(block, group + SQUARE)) if surface.along > 0.0 else spin
+            store(memory.sliding, kept, p * speed)
             kept += WIDTH
-        add_pressures(data, surface, row, tilt.phi, pressures, scratch.normal)
-        add_pressures(data, surface, row, tilt.phi, rigids, scratch.rigid)
-        add_friction(data, surface, row, station.direction, pressures, tractions, scratch.friction)
-        scratch.rigid_load += data.nodes[AREA, row.first] * total(rigids[0])
-        _add_terms(surface, data.nodes[AREA, row.first], terms, out)
-    a, b, c, d = parts(highest)
-    out.p_max = extremes.larger(extremes.larger(a, b), extremes.larger(c, d))
-    a, b, c, d = parts(nearest)
-    return extremes.smaller(extremes.smaller(a, b), extremes.smaller(c, d))
+        area = spread(rings[NODE_AREA, r + k])
+        normal = with_pressures_of(normal, rings, r + k, surface.lean, memory.scratch.tilt.phi, sums)
+        pushed = pushed + area * sums[0]
+        terms = (
+            terms[0] + area * energy,
+            terms[1] + area * heat,
+            terms[2] + area * friction,
+            terms[3] + area * touched,
+            terms[4] + area * pulled,
+        )
+    return normal, pushed, terms, highest, nearest
+
+
+@inlined
+def _put_terms(surface: Record, sums: Terms, out: Record) -> None:
+    """Fill the terms in the report."""
+    out.energy_contact = surface.roughness * total(sums[0])
+    out.damping_power = total(sums[1])
+    out.friction_power = -surface.friction_coefficient * total(sums[2])
+    out.contact_fraction, out.tensile_clip_share = total(sums[3]), total(sums[4])
 
 
 @inlined

@@ -1,53 +1,84 @@
-"""Wrench of a surface of revolution: sums over the nodes of a row, carried to the origin once a row."""
+"""Wrench of a surface of revolution: sums over the nodes of a ring, carried to the origin once a ring."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.joints.surface.data import COS, GAP, LIFT, SIN, SurfaceData
-from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
+from tribodyn.kernels.joints.surface.data import NODE_AREA, SurfaceData
+from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
-    add_friction,
-    add_pressures,
-    gap_and_approach,
-    groups,
-    law_of,
-    motion_of,
+    ALONG_UNIT,
+    AROUND_UNIT,
+    COSINE,
+    PRESSURE,
+    SINE,
+    STRIDE,
+    fill_groups,
+    fill_pressures,
+)
+from tribodyn.kernels.joints.surface.ring_sums import (
+    Pressures,
+    Tractions,
     no_pressure,
     no_traction,
-    node_of,
-    place_of,
-    slip_of,
+    put_pressures,
+    put_tractions,
     with_pressure,
+    with_pressures_of,
     with_traction,
+    with_tractions_of,
 )
-from tribodyn.kernels.lanes import load, square_root
+from tribodyn.kernels.lanes import WIDTH, load, spread, zeros
+
+Forces = tuple[Pressures, Tractions, Any]
+"""Sums of pressures and of tractions, and ∫P_c dA."""
 
 
 @kernel
 def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> None:
     """Fill ``normal`` and ``friction`` of the scratch; arguments as for ``wrench.wrench``."""
-    tilt, entry_velocity = memory.scratch.tilt, memory.entry_velocity
-    normal, friction = memory.scratch.normal, memory.scratch.friction
-    cos, sin, lift, drawn = data.angles[COS], data.angles[SIN], data.angles[LIFT], data.nodes[GAP]
-    limit, law = surface.h_last * surface.roughness, law_of(data, surface)
-    for k in range(6):
-        normal[k] = friction[k] = 0.0
-    for r in range(surface.first_row, surface.last_row):
-        row = data.rows[r]
-        first, number = groups(row, surface, station, tilt, limit) if row.area > 0.0 else (0, 0)
-        if number == 0:
-            continue
-        motion = motion_of(data, surface, row, station, tilt)
-        pressures, tractions = no_pressure(), no_traction()
-        for group in range(first, first + number):
-            angle, at = place_of(row, group)
-            c, s = load(cos, angle), load(sin, angle)
-            gap, approach = gap_and_approach(motion, load(drawn, at) + load(lift, angle), c, s)
-            node = node_of(law, gap, approach, load(entry_velocity, at))
-            around, along, square = slip_of(motion, c, s)
-            drag = node.pressure / square_root(square + law.square)
-            pressures = with_pressure(pressures, node.pressure, c, s)
-            tractions = with_traction(tractions, drag * around, drag * along, c, s)
-        add_pressures(data, surface, row, tilt.phi, pressures, normal)
-        add_friction(data, surface, row, station.direction, pressures, tractions, friction)
+    limit, forces = surface.h_last * surface.roughness, no_forces()
+    for r in range(surface.first_row, surface.last_row, WIDTH):
+        if fill_windows(data, surface, memory, station, r, limit, 0.0) > 0:
+            fill_motion(data, surface, memory, station, r)
+            end = fill_groups(data, surface, memory, r, 0.0)
+            fill_pressures(data, surface, memory, end, 0.0)
+            forces = with_forces_of(forces, data.rings, surface, memory, r)
+    put_forces(surface, station, forces, memory.scratch)
+
+
+@inlined
+def no_forces() -> Forces:
+    """Return empty sums."""
+    return no_pressure(), no_traction(), zeros()
+
+
+@inlined
+def with_forces_of(
+    forces: Forces, rings: FloatArray, surface: Record, memory: SurfaceMemory, r: int
+) -> Forces:
+    """Return the sums with those of the block of rings that begins at row ``r``."""
+    block, phi, at = memory.block, memory.scratch.tilt.phi, BLOCK_GROUPS
+    normal, friction, pushed = forces
+    for k in range(rings_from(surface, r)):
+        pressures, tractions, begin = no_pressure(), no_traction(), at
+        at += STRIDE * groups_of(block, k)[1]
+        for group in range(begin, at, STRIDE):
+            c, s, p = load(block, group + COSINE), load(block, group + SINE), load(block, group + PRESSURE)
+            t, b = p * load(block, group + AROUND_UNIT), p * load(block, group + ALONG_UNIT)
+            pressures, tractions = with_pressure(pressures, p, c, s), with_traction(tractions, t, b, c, s)
+        normal = with_pressures_of(normal, rings, r + k, surface.lean, phi, pressures)
+        friction = with_tractions_of(friction, rings, r + k, tractions)
+        pushed = pushed + spread(rings[NODE_AREA, r + k]) * pressures[0]
+    return normal, friction, pushed
+
+
+@inlined
+def put_forces(surface: Record, station: Record, forces: Forces, scratch: Record) -> None:
+    """Fill ``normal`` and ``friction`` of the scratch."""
+    put_pressures(forces[0], scratch.normal)
+    put_tractions(surface, station.direction, forces[2], forces[1], scratch.friction)

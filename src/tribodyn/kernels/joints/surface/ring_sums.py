@@ -1,0 +1,98 @@
+"""Sums over the nodes of rings, carried to the origin ring by ring, in lanes until the last ring."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import inlined
+from tribodyn.kernels.joints.surface.data import ARM, HEIGHT, N_AXIAL, N_RADIAL, NODE_AREA, RADIUS
+from tribodyn.kernels.lanes import spread, total, zeros
+
+Pressures = tuple[Any, Any, Any, Any, Any]
+Tractions = tuple[Any, Any, Any, Any, Any, Any]
+
+
+@inlined
+def no_pressure() -> Pressures:
+    """Return empty sums of pressures."""
+    return zeros(), zeros(), zeros(), zeros(), zeros()
+
+
+@inlined
+def with_pressure(sums: Pressures, p: Any, c: Any, s: Any) -> Pressures:
+    """Return the sums of p (1, c, s, c c, c s) with those of four more nodes."""
+    p_c = p * c
+    return sums[0] + p, sums[1] + p_c, sums[2] + p * s, sums[3] + p_c * c, sums[4] + p_c * s
+
+
+@inlined
+def with_pressures_of(
+    sums: Pressures, rings: FloatArray, r: int, lean: float, phi: FloatArray, ring: Pressures
+) -> Pressures:
+    """Return −F and (M_x, −M_y) of the pressures of rings with those of ring ``r``, from its own sums."""
+    p, p_c, p_s, p_cc, p_cs = ring
+    area, n_r, lever = spread(rings[NODE_AREA, r]), spread(rings[N_RADIAL, r]), spread(rings[ARM, r])
+    radial, bent = area * n_r, spread(lean) * n_r * n_r
+    x, y = bent * spread(phi[0]), bent * spread(phi[1])
+    return (
+        sums[0] + radial * p_c,
+        sums[1] + radial * p_s,
+        sums[2] + area * (spread(rings[N_AXIAL, r]) * p),
+        sums[3] + area * (lever * p_s + (y * p_cs - x * (p - p_cc))),
+        sums[4] + area * (lever * p_c + (y * p_cc - x * p_cs)),
+    )
+
+
+@inlined
+def put_pressures(sums: Pressures, out: FloatArray) -> None:
+    """Fill ``out`` (6,) with force and moment of the pressures of all rings."""
+    out[0], out[1], out[2] = -total(sums[0]), -total(sums[1]), -total(sums[2])
+    out[3], out[4], out[5] = total(sums[3]), -total(sums[4]), 0.0
+
+
+@inlined
+def no_traction() -> Tractions:
+    """Return empty sums of tractions."""
+    return zeros(), zeros(), zeros(), zeros(), zeros(), zeros()
+
+
+@inlined
+def with_traction(sums: Tractions, t: Any, b: Any, c: Any, s: Any) -> Tractions:
+    """Return the sums of tractions t around and b along (1, c, s) with those of four more nodes."""
+    t_1, t_c, t_s, b_1, b_c, b_s = sums
+    return t_1 + t, t_c + t * c, t_s + t * s, b_1 + b, b_c + b * c, b_s + b * s
+
+
+@inlined
+def with_tractions_of(sums: Tractions, rings: FloatArray, r: int, ring: Tractions) -> Tractions:
+    """Return (−F_x, F_y, F_z, M_x, −M_y, M_z) of tractions with those of ring ``r``, from its sums."""
+    t, t_c, t_s, b, b_c, b_s = ring
+    area, n_r, n_z = spread(rings[NODE_AREA, r]), spread(rings[N_RADIAL, r]), spread(rings[N_AXIAL, r])
+    radius, z = spread(rings[RADIUS, r]), spread(rings[HEIGHT, r])
+    lever = radius * n_r + z * n_z
+    return (
+        sums[0] + area * (t_s + n_z * b_c),
+        sums[1] + area * (t_c - n_z * b_s),
+        sums[2] + area * (n_r * b),
+        sums[3] + area * (lever * b_s - z * t_c),
+        sums[4] + area * (lever * b_c + z * t_s),
+        sums[5] + area * (radius * t),
+    )
+
+
+@inlined
+def put_tractions(surface: Record, direction: float, load: Any, sums: Tractions, out: FloatArray) -> None:
+    """Fill ``out`` (6,) with force and moment of friction on all rings.
+
+    Tractions are given over −μ, ``load`` is ∫P_c dA [N].
+    """
+    factor = -surface.friction_coefficient
+    for k in range(6):
+        out[k] = 0.0
+    if surface.torque_radius > 0.0:
+        out[5] = factor * direction * surface.torque_radius * total(load)
+    else:
+        out[0], out[1], out[2] = -factor * total(sums[0]), factor * total(sums[1]), factor * total(sums[2])
+        out[3], out[4], out[5] = factor * total(sums[3]), -factor * total(sums[4]), factor * total(sums[5])
