@@ -19,9 +19,8 @@ from tribodyn.views.section import Chapter, Section
 Shown = dict[str, Any]
 
 _LARGEST_PICTURE: Final = 100_000_000
-_COLOURS: Final = 32
-_QUALITY: Final = 50
-"""Colours of a drawing, those of its smoothed edges among them; quality of a map in percent."""
+_COLOURS: Final = 256
+"""Colours of a picture, those of smoothed edges among them."""
 
 
 def chapters(
@@ -110,9 +109,9 @@ def _still(path: Path, family: Family | None) -> Shown:
 
 
 def embedded(path: Path) -> str:
-    """Return a picture for paper as a data address, in a sixth of the bytes of its PNG file.
+    """Return a picture for paper as a data address, in a fraction of the bytes of its PNG file.
 
-    A drawing has few colours, which are kept without loss; a map becomes smaller with a little loss.
+    Its colours are rounded by an octree: faster than a median cut, which also loses colours of thin lines.
 
     Raises
     ------
@@ -120,15 +119,10 @@ def embedded(path: Path) -> str:
         The file is missing, or no picture.
     """
     drawn = Image.open(io.BytesIO(read_regular(path, _LARGEST_PICTURE))).convert("RGB")
-    few = drawn.quantize(_COLOURS, dither=Image.Dither.NONE).convert("RGB")
-    kept = min(_webp(few, lossless=True), _webp(drawn, quality=_QUALITY), key=len)
-    return "data:image/webp;base64," + base64.b64encode(kept).decode("ascii")
-
-
-def _webp(picture: Image.Image, **options: float) -> bytes:
+    few = drawn.quantize(_COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     target = io.BytesIO()
-    picture.save(target, "WEBP", method=2, **options)
-    return target.getvalue()
+    few.convert("RGB").save(target, "WEBP", method=2, lossless=True)
+    return "data:image/webp;base64," + base64.b64encode(target.getvalue()).decode("ascii")
 
 
 def reading(names: Iterable[str], file: str = "result.nc") -> str:
