@@ -20,6 +20,8 @@ _MARK: Final = b"\ntribodyn crc32 "
 """Stands behind the NetCDF file, before the checksum of all of it; what reads NetCDF does not look there."""
 _FIRST_ROOM: Final = 1024
 """What a file in memory begins with [bytes]; it grows."""
+_CACHE: Final = 1
+"""Cache of an array that is written in one piece [bytes]; by default a copy of all arrays stays until the end."""
 _DIGITS: Final = 8
 _CHARACTER: Final = 4
 """Bytes that a character of a text takes in an array."""
@@ -91,6 +93,7 @@ def _defined(
         tuple(map(str, variable.dims)),
         fletcher32=values.ndim > 0 and values.size > 0 and kind in "fiu",
         fill_value=math.nan if kind == "f" else None,
+        chunk_cache=_CACHE,
     )
     written.setncatts(attributes)
     written.set_auto_maskandscale(False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import netCDF4
@@ -76,3 +78,23 @@ def test_what_was_written_is_read_however_large(kind: str, monkeypatch: pytest.M
     values = np.arange(100_000).astype(kind)
     content = netcdf_content(xr.Dataset({"x": ("time", values)}))
     np.testing.assert_array_equal(dataset_of(content)["x"].values, values)
+
+
+_PEAK = """
+import resource
+import numpy as np, xarray as xr
+from tribodyn.results.netcdf import netcdf_parts
+arrays = {f"v{i}": (("x", "y"), np.full((1000, 1000), float(i))) for i in range(5)}
+def peak(): return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+netcdf_parts(xr.Dataset({"v0": arrays["v0"]}))
+before = peak()
+netcdf_parts(xr.Dataset(arrays))
+print((peak() - before) / 8e6)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere memory is counted in other units")
+def test_writing_holds_one_copy_of_the_numbers() -> None:
+    done = subprocess.run([sys.executable, "-c", _PEAK], stdout=subprocess.PIPE, text=True, check=True)
+    # In arrays, of which there are five and the first was written before; with a second copy it would be nine.
+    assert float(done.stdout) < 7.0
