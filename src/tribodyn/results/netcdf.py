@@ -21,7 +21,7 @@ _MARK: Final = b"\ntribodyn crc32 "
 _FIRST_ROOM: Final = 1024
 """What a file in memory begins with [bytes]; it grows."""
 _CACHE: Final = 1
-"""Cache of an array that is written in one piece [bytes]; by default a copy of all arrays stays until the end."""
+"""Cache of an array that is written in one piece [bytes]; by default a copy of all arrays is kept."""
 _DIGITS: Final = 8
 _CHARACTER: Final = 4
 """Bytes that a character of a text takes in an array."""

@@ -96,5 +96,5 @@ print((peak() - before) / 8e6)
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere memory is counted in other units")
 def test_writing_holds_one_copy_of_the_numbers() -> None:
     done = subprocess.run([sys.executable, "-c", _PEAK], stdout=subprocess.PIPE, text=True, check=True)
-    # In arrays, of which there are five and the first was written before; with a second copy it would be nine.
+    # In arrays, of which the first of five was written before; with a second copy it would be nine.
     assert float(done.stdout) < 7.0
