@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar, Final, Literal, cast
+from typing import TYPE_CHECKING, ClassVar, Final, Literal, Protocol, cast
 
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Numbers, choice, quantity, series
@@ -29,6 +29,34 @@ _FOLLOWING: Final = {
     "specific_wear_rate": "wear.specific_wear_rate",
 }
 """What a table over the temperature may hold, and the key that takes the value at that of the bushing."""
+
+
+class InCycles(Protocol):
+    """A case whose wear campaign takes cycles."""
+
+    @property
+    def duration(self) -> float: ...  # noqa: D102
+
+    @property
+    def period(self) -> float | None: ...  # noqa: D102
+
+    @property
+    def campaign_cycles(self) -> int: ...  # noqa: D102
+
+    @property
+    def settling_cycles(self) -> int: ...  # noqa: D102
+
+
+def time_followed(case: InCycles) -> float:
+    """Return how long temperatures are followed [s]: over the run, or all cycles of its campaign."""
+    if not case.campaign_cycles or case.period is None:
+        return case.duration
+    return (case.settling_cycles + case.campaign_cycles + 1) * case.period
+
+
+def times_of(tables: Iterable[TemperatureTable]) -> tuple[float, ...]:
+    """Return the times of the rows of some tables [s], increasing."""
+    return tuple(sorted({time for table in tables for time in table.knots}))
 
 
 class PropertiesKeys(Group):

@@ -236,6 +236,11 @@ def summed(parts: Sequence[tuple[Signal, float]]) -> Signal:
     return Signal("table", coefficients, knots, kinks)
 
 
+def begun(signal: Signal, time: float) -> Signal:
+    """Return a table over time as it goes on after some time, which is zero then."""
+    return replace(signal, knots=signal.knots - time, kinks=signal.kinks - time)
+
+
 def scaled(signal: Signal, factor: float) -> Signal:
     """Return a signal times a factor."""
     factors = np.array([factor, factor, 1.0, 1.0]) if signal.kind == "sinusoid" else factor

@@ -10,7 +10,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -153,6 +153,11 @@ class WearingCase(SystemCase, Protocol):
         """Cycles simulated before the first one whose wear counts."""
         ...
 
+    @property
+    def temperature_times(self) -> tuple[float, ...]:
+        """Times of the rows of all temperatures that follow time [s], increasing; none without any."""
+        ...
+
 
 class SimulatedSystem(Protocol):
     """What one case describes, ready to be integrated."""
@@ -192,6 +197,10 @@ class SimulatedSystem(Protocol):
 
 class WearingSystem(SimulatedSystem, Protocol):
     """A system whose joints wear, in cycles of its drive."""
+
+    def beginning(self, time: float) -> Self:
+        """Return the system of a cycle that begins so long [s] after the first: temperatures follow time."""
+        ...
 
     @property
     def nodes(self) -> WearNodes:

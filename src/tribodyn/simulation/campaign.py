@@ -46,6 +46,8 @@ class CampaignPlan:
         What is written down about the motion of each cycle, by name.
     limits
         Those of its entries that end the campaign, with the value at which they do.
+    changes
+        Cycles at which temperatures change, increasing: no jump passes one.
     """
 
     cycles: int
@@ -57,6 +59,7 @@ class CampaignPlan:
     node_area: FloatArray
     of_cycle: tuple[str, ...]
     limits: Mapping[str, float] = field(default_factory=dict)
+    changes: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -97,7 +100,7 @@ class Cycles(Protocol):
         carried
             Where to continue from.
         done
-            Cycles of wear behind, for the display of progress.
+            Cycles of wear behind; below zero before the first one whose wear counts.
         """
         ...
 
@@ -205,8 +208,8 @@ def _settled(system: Cycles, plan: CampaignPlan) -> tuple[Campaign, Cycle | None
         statistics=vars(Statistics()),
     )
     cycle: Cycle | None = None
-    for _ in range(plan.settling):
-        cycle = system.cycle(nothing, worn.carried, 0)
+    for done in range(-plan.settling, 0):
+        cycle = system.cycle(nothing, worn.carried, done)
         statistics = _added(worn.statistics, cycle.statistics)
         worn = replace(worn, carried=cycle.carried, statistics=statistics)
         if cycle.failure is not None:
@@ -246,8 +249,8 @@ def _jumped(system: Cycles, worn: Campaign, cycle: Cycle, plan: CampaignPlan) ->
 
 def _jump(worn: Campaign, cycle: Cycle, plan: CampaignPlan) -> int:
     """Return the cycles of the next jump, the simulated one among them, as its change of load allows."""
-    remaining = plan.cycles - worn.cycles
-    if not plan.feedback:
+    remaining = min([plan.cycles, *(at for at in plan.changes if at > worn.cycles)]) - worn.cycles
+    if not (plan.feedback or plan.changes):
         return remaining
     gain = plan.control.first
     if worn.gain > 0.0:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from typing import Final, cast
 
 import numpy as np
 import xarray as xr
@@ -22,6 +22,8 @@ from tribodyn.simulation import checkpoint as checkpoints
 from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_campaign
 from tribodyn.simulation.session import Session
 from tribodyn.wear import Archard, JumpControl, worn_volume
+
+_ROUNDING: Final = 1.0e-9
 
 
 def simulate_plain(session: Session) -> xr.Dataset:
@@ -75,7 +77,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
         warnings=[*changes, *_not_reached(cycles.case, campaign)],
         failure=cycle.failure or "",
     )
-    return session.dataset(replace(cycles.last, cost=campaign.statistics), more)
+    return cycles.session.dataset(replace(cycles.last, cost=campaign.statistics), more)
 
 
 def _archard(system: WearingSystem, wear: groups.Wear) -> Archard:
@@ -221,17 +223,27 @@ class _Cycles:
             node_area=nodes.area,
             of_cycle=tuple(self.session.mechanism.of_cycle),
             limits=self.case.wear_limits,
+            changes=self._changes,
         )
+
+    @property
+    def _changes(self) -> tuple[int, ...]:
+        """Cycles of wear with which rows of temperatures are reached."""
+        rounded, begin = self.system.period * (1.0 + _ROUNDING), self.case.settling_cycles
+        reached = {math.ceil(time / rounded) - begin for time in self.case.temperature_times}
+        return tuple(sorted(cycles for cycles in reached if cycles > 0))
 
     def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
         """Simulate one cycle, see :class:`tribodyn.simulation.campaign.Cycles`."""
-        session, system, cycles = self.session, self.system, self.case.wear.cycles
+        cycles, period = self.case.wear.cycles, self.system.period
+        self.system = system = self.system.beginning((self.case.settling_cycles + done) * period)
+        self.session = session = replace(self.session, system=system)
 
         def within(t: float) -> None:
             if session.progress is not None:
-                session.progress(min(done + t / system.period, float(cycles)))
+                session.progress(min(max(done, 0) + t / period, float(cycles)))
 
-        self.last = run = session.integrated(system.period, Worn(wear, carried), within)
+        self.last = run = session.integrated(period, Worn(wear, carried), within)
         return Cycle(
             carried=system.carried(run),
             sliding_load=system.sliding_load(run.problem),

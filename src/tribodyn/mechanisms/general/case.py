@@ -23,7 +23,7 @@ from tribodyn.cases.known import demand_known
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
-from tribodyn.cases.temperature import Temperature
+from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
 from tribodyn.mechanisms.base import plain
 from tribodyn.mechanisms.general import solids
@@ -182,7 +182,7 @@ class MechanismCase(_WithElements):
             for part, table in joint.real.temperature.tables.items()
         }
         yield from followed(self, drives, self.span)
-        yield from followed(self, warm, self.span)
+        yield from followed(self, warm, self.span if self.wear.cycles == 0 else time_followed(self))
         yield from followed(self, loads, self.span, cycle=self.period, follows=along)
 
     def idle(self) -> tuple[str, ...]:
@@ -292,6 +292,12 @@ class MechanismCase(_WithElements):
     def campaign_cycles(self) -> int:
         """Cycles of a wear campaign; 0 where the case asks for none."""
         return self.wear.cycles
+
+    @property
+    def temperature_times(self) -> tuple[float, ...]:
+        """Times of the rows of all temperatures that follow time [s], increasing."""
+        real = [joint.real for joint in self.joints.values() if joint.real is not None]
+        return times_of(table for clearance in real for table in clearance.temperature.tables.values())
 
     @property
     def settling_cycles(self) -> int:
@@ -459,6 +465,3 @@ class MechanismCase(_WithElements):
             grooved = joint.film is not None and joint.film.boundary == "groove" and self.wear.feedback
             words = 'the film of a bore that wears goes around it: give "periodic", or wear.feedback = false'
             demand(not grooved, f"joints.{name}.film.boundary", words)
-            words = "a wear campaign takes its cycles one by one: temperatures that last are needed"
-            tables = {} if joint.real is None else joint.real.temperature.tables
-            demand(not tables, f"joints.{name}.clearance.temperature.over_time", words)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import begun
 from tribodyn.mechanisms.bushing import of_clearances, of_heat
 from tribodyn.mechanisms.checks import named
 from tribodyn.mechanisms.general.model import Model
@@ -19,6 +21,17 @@ _FRICTION: Final = "joint.friction_coefficient"
 def opens(model: Model) -> list[bool]:
     """Return of each joint with clearance whether it follows temperatures over time."""
     return [any(opening is not None for opening in real.openings) for real in model.clearances.values()]
+
+
+def from_time(model: Model, time: float) -> Model:
+    """Return a mechanism whose clearances are those of its temperatures from a time on [s]."""
+    if time == 0.0:
+        return model
+    clearances = {}
+    for name, real in model.clearances.items():
+        radial, axial = (None if one is None else begun(one, time) for one in real.openings)
+        clearances[name] = replace(real, openings=(radial, axial))
+    return replace(model, clearances=clearances)
 
 
 def openings(model: Model, t: FloatArray) -> FloatArray:

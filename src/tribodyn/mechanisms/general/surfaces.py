@@ -10,7 +10,7 @@ import numpy as np
 
 from tribodyn.cases.case import demand
 from tribodyn.cases.groups import Surfaces
-from tribodyn.cases.temperature import Names
+from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
@@ -206,13 +206,14 @@ def _openings(
         return None, None
     names, surfaces, cold = _names(name, keys), case.of_pair(keys).surfaces, _cold(case, joint, keys)
     geometry = _geometry(cold)
-    temperature.check(geometry, surfaces, keys.liner, case.duration, names)
+    followed = time_followed(case)
+    temperature.check(geometry, surfaces, keys.liner, followed, names)
     radial, axial = temperature.opening(geometry, surfaces, keys.liner, names), None
     if isinstance(cold, Cylinder) and len(cold.faces) == 2:
         axial = temperature.play_opening(cold.length, sum(cold.faces.values()), surfaces, names)
         hot = _hot(case, name, keys, cold)
         assert isinstance(hot, Cylinder)
-        when, least = axial.least(case.duration) if axial is not None else (0.0, 0.0)
+        when, least = axial.least(followed) if axial is not None else (0.0, 0.0)
         left = 1e6 * (sum(hot.faces.values()) + least)
         words = (
             f"the joint would seize along its axis: {when:.4g} s after the start {-left:.3g} um are missing"

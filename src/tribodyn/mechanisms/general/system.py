@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any, Final
+from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,7 +36,13 @@ from tribodyn.mechanisms.general.ideal_motion import compared
 from tribodyn.mechanisms.general.kept import Layout, columns, frames, layout_of, not_kept, note
 from tribodyn.mechanisms.general.maps import Maps
 from tribodyn.mechanisms.general.model import Model, model_of
-from tribodyn.mechanisms.general.openings import of_temperatures, openings, opens, radial_clearances
+from tribodyn.mechanisms.general.openings import (
+    from_time,
+    of_temperatures,
+    openings,
+    opens,
+    radial_clearances,
+)
 from tribodyn.mechanisms.general.output_columns import instant_errors, kinematic_columns, output_coordinates
 from tribodyn.mechanisms.general.output_life import error_growth
 from tribodyn.mechanisms.general.outputs import MOTION, Motion, Output, outputs_of
@@ -68,11 +74,16 @@ class MechanismSystem:
     """The mechanism of a case; see :class:`~tribodyn.mechanisms.base.WearingSystem`."""
 
     case: MechanismCase
+    begin: float = 0.0
+
+    def beginning(self, time: float) -> Self:
+        """Return the mechanism whose temperatures are those from a time on [s]."""
+        return replace(self, begin=time) if self.case.temperature_times else self
 
     @cached_property
     def model(self) -> Model:
         """The mechanism as drawn; kinematic analyses have ideal joints, vibrations no friction."""
-        found = model_of(self._modelled)
+        found = from_time(model_of(self._modelled), self.begin)
         return found.counterpart if self._analysis == "kinematic" else found
 
     @cached_property
@@ -101,7 +112,8 @@ class MechanismSystem:
 
     def _worn(self, depth: FloatArray | None) -> Model:
         """Return the mechanism with the roughness that its joints have at a wear depth [m]."""
-        return worn_model(self.model, self.maps.places, depth)
+        found = worn_model(self.model, self.maps.places, depth)
+        return found if found is self.model else from_time(found, self.begin)
 
     @cached_property
     def real(self) -> tuple[tuple[str, Clearance], ...]:

@@ -14,7 +14,13 @@ from tribodyn.cases.groups import Solver, Wear, check_output_interval
 from tribodyn.cases.joint import PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.rough import BushingCase
-from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature, cold_geometry
+from tribodyn.cases.temperature import (
+    OVER_TIME,
+    ChangingTemperature,
+    cold_geometry,
+    time_followed,
+    times_of,
+)
 from tribodyn.core.errors import Faults
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 from tribodyn.papers.cheng_2022.reduced.actions import (
@@ -219,6 +225,11 @@ class VsvCase(BushingCase):
         return tuple(instant.name for instant in instants_of(self.outputs))
 
     @property
+    def temperature_times(self) -> tuple[float, ...]:
+        """Times of the rows of all temperatures that follow time [s], increasing."""
+        return times_of(self.temperature.tables.values())
+
+    @property
     def settling_cycles(self) -> int:
         """Cycles simulated before the first one whose wear counts."""
         assert self.run.cycles is not None
@@ -259,7 +270,7 @@ class VsvCase(BushingCase):
         along = {path: f"the {self.loads.more[path.split('.')[2]].along}" for path in loads}
         warm = {f"{OVER_TIME}.{part}": table for part, table in self.temperature.tables.items()}
         yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
-        yield from followed(self, warm, self.duration)
+        yield from followed(self, warm, time_followed(self))
 
     def idle(self) -> tuple[str, ...]:
         """Return the keys of the sinusoid that a table takes the place of."""
@@ -367,10 +378,9 @@ class VsvCase(BushingCase):
             demand(arm is None or 0.0 <= arm <= longest, f"loads.more.{name}.{key}", words)
 
     def _check_temperature(self) -> None:
-        """Check that temperatures over time leave a clearance, and belong to one run."""
-        self.temperature.check(cold_geometry(self.joint), self.surfaces, self.joint.liner, self.duration)
-        words = "a wear campaign takes its cycles one by one: temperatures that last are needed"
-        demand(self.wear.cycles == 0 or not self.temperature.tables, OVER_TIME, words)
+        """Check that temperatures over time leave a clearance."""
+        geometry, liner = cold_geometry(self.joint), self.joint.liner
+        self.temperature.check(geometry, self.surfaces, liner, time_followed(self))
 
     def _check_reach(self) -> None:
         """Check that the loop closes at every crank angle of the drive."""

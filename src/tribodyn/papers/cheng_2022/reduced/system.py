@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Final
+from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.cases.temperature import cold_geometry
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
+from tribodyn.core.signals import begun
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import contact_energy
@@ -95,11 +96,17 @@ class VsvSystem:
     """The mechanism of a case; see :class:`~tribodyn.mechanisms.base.WearingSystem`."""
 
     case: VsvCase
+    begin: float = 0.0
 
     @cached_property
     def vsv(self) -> Vsv:
         """The mechanism in the symbols of the paper."""
-        return vsv_of(self.case)
+        found = vsv_of(self.case)
+        return found if found.opening is None else replace(found, opening=begun(found.opening, self.begin))
+
+    def beginning(self, time: float) -> Self:
+        """Return the mechanism whose temperatures are those from a time on [s]."""
+        return replace(self, begin=time) if self.case.temperature_times else self
 
     @property
     def bushing(self) -> BushingJoint:
