@@ -130,3 +130,42 @@ def test_reynolds_film_of_a_short_bearing_is_half_a_film() -> None:
     one = film_state(film(SHORT, "reynolds"), at(0.5), omega=OMEGA).force
     other = film_state(film(SHORT, "half-sommerfeld"), at(0.5), omega=OMEGA).force
     np.testing.assert_allclose(one, other, rtol=2e-3)
+
+
+def mobility_sums(eps: float, angle: float) -> FloatArray:
+    """Return ∫ cos(φ − α) (cos φ, sin φ)/(1 − ε cos φ)³ dφ over the half of a film that is pressed."""
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    phi = angle + 0.5 * math.pi * nodes
+    part = 0.5 * math.pi * weights * np.cos(phi - angle) / (1.0 - eps * np.cos(phi)) ** 3
+    return np.array([part @ np.cos(phi), part @ np.sin(phi)])
+
+
+def moving(eps: float, velocity: FloatArray) -> FloatArray:
+    """Return a state displaced along X that moves with a velocity (2,) [c/s]."""
+    state = at(eps)
+    state[4:6] = CLEARANCE * velocity
+    return state
+
+
+@pytest.mark.parametrize("eps", ECCENTRICITIES)
+def test_mobility_of_a_short_bearing(eps: float) -> None:
+    """Booker's mobility by its inverse: force over velocity in any direction; closed forms in three.
+
+    J. F. Booker, Dynamically loaded journal bearings: mobility method of solution, J. Basic Eng. 87 (1965).
+    """
+    root = math.sqrt(1.0 - eps**2)
+    towards, away = ((3.0 * e * root + (1.0 + 2.0 * e**2) * math.acos(-e)) / root**5 for e in (eps, -eps))
+    across = [2.0 * eps / root**4, 0.5 * math.pi / root**3]
+    for angle, wanted in ((0.0, [towards, 0.0]), (math.pi, [-away, 0.0]), (0.5 * math.pi, across)):
+        assert mobility_sums(eps, angle) == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    oil = film(SHORT, "half-sommerfeld")
+    unit = VISCOSITY * RADIUS * oil.length**3 / CLEARANCE**2
+    for angle in np.radians([0.0, 30.0, 75.0, 90.0, 140.0, 180.0, 250.0]).tolist():
+        direction = np.array([math.cos(angle), math.sin(angle)])
+        force = np.array(film_state(oil, moving(eps, 3.0 * direction)).force)
+        wanted = -3.0 * unit * mobility_sums(eps, angle)
+        assert np.abs(force - wanted).max() < 2.0 * RIGHT * np.linalg.norm(wanted), angle
+        # A journal that turns with ω in a bearing at rest moves as one that does not, seen from ω/2.
+        swept = 3.0 * direction + np.array([0.0, 0.5 * OMEGA * eps])
+        turned = np.array(film_state(oil, moving(eps, swept), omega=OMEGA).force)
+        assert np.abs(turned - force).max() < 2.0 * RIGHT * np.linalg.norm(force), angle
