@@ -129,12 +129,14 @@ def at(browser: Browser, server: Workbench) -> Iterator[Opened]:
         width: int = 1280,
         dark: bool = False,
         webgl: bool = True,
+        moving: bool = False,
         line: Any = None,
         server: Workbench = server,
     ) -> Person:
         context = browser.new_context(
             viewport={"width": width, "height": 800},
             color_scheme="dark" if dark else "light",
+            reduced_motion="no-preference" if moving else "reduce",
             storage_state=server.state,
             permissions=["clipboard-read", "clipboard-write"],
         )
@@ -177,6 +179,19 @@ def test_the_first_picture_is_of_the_case(at: Opened) -> None:
 
 
 ON_MARKS = "[plot.plotted].flatMap(({now, x, y}) => now.map(([a, b]) => [x.at(a), y.at(b)]))"
+
+
+def test_the_mechanism_moves_until_a_value_is_changed(at: Opened) -> None:
+    person = at(moving=True)
+    person.wait_until_shown({})
+    person.wait_for("clock.playing && clock.frame > 3")
+    person.slider().focus()
+    person.press("Home")
+    person.wait_until_shown({CLEARANCE: "5 um"})
+    person.wait_for("!clock.playing")
+    person.page.locator(".clock [data-play]").click()
+    person.press("End")
+    person.wait_for("clock.playing")
 
 
 def test_the_page_is_small(at: Opened) -> None:

@@ -66,6 +66,23 @@ function stateArrived({ state, message, seconds, share = null }) {
   tellState();
 }
 
+let opened = false;
+
+/** Play the first run until the reader acts; not for readers who prefer reduced motion. */
+function playAtFirst() {
+  if (opened || !clock.frames) return;
+  opened = true;
+  if (clock.playing || matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+  clock.toggle();
+  const acts = ["pointerdown", "keydown", "input"];
+  const act = ({ target, key }) => {
+    for (const name of acts) removeEventListener(name, act, true);
+    const ofClock = key === " " || (target instanceof Element && target.closest(".clock"));
+    if (clock.playing && !ofClock) clock.toggle();
+  };
+  for (const name of acts) addEventListener(name, act, true);
+}
+
 line.hear = {
   hello: greeted,
   model: adopt,
@@ -97,6 +114,7 @@ pageState.on("shown", () => {
   const key = focusedSlider();
   if (key && slope.key !== key) askSlope(key);
 });
+pageState.on("shown", playAtFirst);
 
 for (const [id, act] of Object.entries({ undo: pageState.undo, redo: pageState.redo, pin: togglePin, stop: requests.stop, "take-away": openAway, model: model.open })) {
   document.getElementById(id).addEventListener("click", act);
