@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
@@ -18,6 +19,10 @@ from tribodyn.mechanisms.general.skeleton import MM, Mark, Skeleton, case_of, ou
 TITLE: Final = "The mechanism in its cycle"
 _NAMED: Final = 16
 """Bodies up to which these and their joints are named: names of more would lie on each other."""
+_AWAY: Final = 9.0
+"""Distance of a name from what it names [pt]."""
+_STEEP: Final = 0.5
+"""Share of a direction to the side from which a name begins or ends there, and is not centred."""
 _MOMENTS: Final = 8
 """Moments that are drawn, evenly over the playback, all but the first pale."""
 
@@ -71,9 +76,34 @@ def draw_at(
             other = hub if len(points) > 2 else points[1]
             axes.plot(*np.array([other, point]).T, color=colour, linewidth=1.8 if colour == INK else 1.0)
         if colour == INK and len(drawn.bodies) <= _NAMED:
-            axes.annotate(
-                drawn.bodies[body], hub, xytext=(5, -9), textcoords="offset points", size=SMALL, color=GREY
-            )
+            _name(axes, drawn.bodies[body], hub, _beside(points), GREY)
+
+
+def _beside(points: FloatArray) -> FloatArray:
+    """Return the direction across a body, down or to the right, in which its name stands."""
+    x, y = points[-1] - points[0]
+    length = np.hypot(x, y)
+    if len(points) > 2 or length == 0.0:
+        return np.array([0.5, -0.9])
+    across = np.array([y, -x]) / length
+    return across if (-across[1], across[0]) > (-1e-9, 0.0) else -across
+
+
+def _name(axes: Axes, text: str, place: FloatArray, towards: FloatArray, colour: str) -> None:
+    """Write a name beside a place, above what is drawn there."""
+    side = "center" if abs(towards[0]) < _STEEP else "left" if towards[0] > 0.0 else "right"
+    axes.annotate(
+        text,
+        place,
+        xytext=_AWAY * towards,
+        textcoords="offset points",
+        size=SMALL,
+        color=colour,
+        ha=side,
+        va="center",
+        path_effects=[withStroke(linewidth=2.0, foreground="white")],
+        zorder=5,
+    )
 
 
 def draw_joints(
@@ -91,7 +121,7 @@ def draw_joints(
         axes.plot(x, y, "o", ms=7, mfc="white", mec=rim, mew=1.4, zorder=4)
         if len(drawn.bodies) <= _NAMED:
             names = ", ".join(mark.name for mark in marks)
-            axes.annotate(names, (x, y), xytext=(6, 6), textcoords="offset points", size=SMALL)
+            _name(axes, names, np.array([x, y]), np.array([0.7, 1.0]), INK)
 
 
 FAMILY: Final = Family(
