@@ -80,13 +80,13 @@ def draw_at(
 
 
 def _beside(points: FloatArray) -> FloatArray:
-    """Return the direction across a body, down or to the right, in which its name stands."""
+    """Return the direction across a body, downwards, in which its name stands."""
     x, y = points[-1] - points[0]
     length = np.hypot(x, y)
     if len(points) > 2 or length == 0.0:
         return np.array([0.5, -0.9])
     across = np.array([y, -x]) / length
-    return across if (-across[1], across[0]) > (-1e-9, 0.0) else -across
+    return np.asarray(-across if across[1] > 0.0 else across)
 
 
 def _name(axes: Axes, text: str, place: FloatArray, towards: FloatArray, colour: str) -> None:
@@ -94,8 +94,8 @@ def _name(axes: Axes, text: str, place: FloatArray, towards: FloatArray, colour:
     side = "center" if abs(towards[0]) < _STEEP else "left" if towards[0] > 0.0 else "right"
     axes.annotate(
         text,
-        place,
-        xytext=_AWAY * towards,
+        (place[0], place[1]),
+        xytext=(_AWAY * towards[0], _AWAY * towards[1]),
         textcoords="offset points",
         size=SMALL,
         color=colour,
