@@ -6,7 +6,10 @@ import json
 import math
 import subprocess
 import sys
+import time
 from collections.abc import Mapping
+from importlib.resources import files
+from pathlib import Path
 
 import pytest
 
@@ -192,3 +195,30 @@ def test_a_check_takes_little_memory_however_fine_the_grid() -> None:
 def test_output_times_by_default_are_limited_too(length: Changes) -> None:
     with pytest.raises(InputError, match="at most 2000000 output times"):
         td.load_case("slider-crank", length)
+
+
+def processor_time(case: Case) -> float:
+    """Return the least processor time of three runs of a case [s]."""
+    prepare(case)
+    times = []
+    for _ in range(3):
+        begin = time.process_time()
+        td.simulate(case)
+        times.append(time.process_time() - begin)
+    return min(times)
+
+
+def test_an_oil_film_takes_a_few_times_the_time_of_a_dry_joint(tmp_path: Path) -> None:
+    """The costs page gives the factors; here they hold within 1.7."""
+    oiled = Path(str(files("tribodyn.mechanisms.general").joinpath("built_in/slider-crank-oil.toml")))
+    film = '[joints.big-end.film]\nviscosity = "0.01 Pa s"\n'
+    text = oiled.read_text(encoding="utf-8")
+    assert film in text
+    (tmp_path / "dry.toml").write_text(text.replace(film, ""), encoding="utf-8")
+    pairs = {
+        3.7: (td.load_case("slider-crank-oil"), td.load_case(tmp_path / "dry.toml")),
+        2.2: (td.load_case("journal-oil"), td.load_case("journal-dry")),
+    }
+    for factor, cases in pairs.items():
+        oil, dry = map(processor_time, cases)
+        assert factor / 1.7 < oil / dry < 1.7 * factor, factor
