@@ -37,6 +37,7 @@ DONE_BY = {
     "show": ("show", "vsv"),
     "new": ("new", "slider-crank"),
     "check": ("check", "vsv"),
+    "compile": ("compile", "vsv"),
     "sweep": ("sweep", *VARIED),
     "find": ("find", *FOUND, "--within", "30", "--workers", "2"),
     "materials": ("materials",),

@@ -53,7 +53,7 @@ class _Modules(Mapping[str, Command]):
 COMMANDS: Final = _Modules(
     *("run", "cases", "new", "show", "check", "sweep", "find", "contributions", "fit", "workbench", "serve"),
     *("report", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
-    "completion",
+    *("compile", "completion"),
 )
 """All sub-commands: a new one is a module beside this one and a name here."""
 
@@ -77,6 +77,7 @@ _EXAMPLES: Final = {
     "materials": "tribodyn materials ptfe-liner bronze-c93200",
     "stribeck": "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'",
     "bounce": "tribodyn bounce vsv --law rsdc",
+    "compile": "tribodyn compile vsv slider-crank.toml",
     "completion": "tribodyn completion bash",
 }
 """How the help of each command ends."""

@@ -29,6 +29,8 @@ Steps = Callable[[], Any]
 _Result = TypeVar("_Result")
 
 _CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent(ahead={})"
+PROCESSES: Final = 2
+"""Processes that compile the equations of a case, at most."""
 _LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
 _loaded: Final[set[Choices]] = set()
@@ -119,7 +121,8 @@ def compile_elsewhere(case: Case) -> None:
         return
     with suppress(OSError), ExitStack() as stack:
         child, *helping = (
-            stack.enter_context(_child(ahead=ahead)) for ahead in (False, True)[: processors()]
+            stack.enter_context(_child(ahead=ahead))
+            for ahead in (False, True)[: min(processors(), PROCESSES)]
         )
         for process in (child, *helping):
             assert process.stdin is not None
