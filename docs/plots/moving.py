@@ -26,12 +26,13 @@ from tribodyn.mechanisms.general.figures.film import moving
 from tribodyn.mechanisms.general.skeleton import Skeleton
 
 JOINT: Final = "wrist"
+CRANK: Final = "crank"
 FRAMES: Final = 48
 COLOURS: Final = 64
 PIN: Final = 0.72
 """Radius of the pin over that of the bore, as shown."""
-BESIDE: Final = 11.0
-"""Distance of a name from the middle of its rod [mm]."""
+BESIDE: Final = np.array([18.0, 11.0])
+"""Distance of a name from the middle of its rod, to the side and upwards [mm]."""
 PAPER: Final = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
 STEEL: Final = "#b7c4d1"
 WINDOW: Final = (-70.0, 195.0, -68.0, 68.0)
@@ -49,9 +50,9 @@ def draw_mechanism(axes: Axes, drawn: Skeleton, position: NDArray[Any], orientat
         axes.plot(*rod.T, color=INK, linewidth=9.0, solid_capstyle="round")
         axes.plot(*rod.T, color=STEEL, linewidth=7.0, solid_capstyle="round")
         across = np.array([-1.0, 1.0]) * (rod[1] - rod[0])[::-1] / np.linalg.norm(rod[1] - rod[0])
-        axes.text(
-            *(rod.mean(axis=0) + BESIDE * across), name, size=SMALL, ha="center", va="center", bbox=PAPER
-        )
+        side = -1.0 if name == CRANK and across[0] > 0.0 else 1.0  # away from the rod
+        place = rod.mean(axis=0) + side * BESIDE * across
+        axes.text(*place, name, size=SMALL, ha="center", va="center", bbox=PAPER)
     for point, colour in ((rods[0][0], INK), (rods[0][1], INK), (slider, VERMILION)):
         axes.plot(*point, "o", ms=7, mfc="white", mec=colour, mew=1.6, zorder=4)
     axes.text(*(slider - (0.0, 24.0)), "slider", size=SMALL, ha="center")
