@@ -25,6 +25,7 @@ FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns
 """Message for an attempt to change a case."""
 LONGEST_NAME: Final = 40
 ALLOWED_NAME: Final = f"a name of letters without accents, digits, - and _, at most {LONGEST_NAME} of them"
+_QUOTED: Final = re.compile(r'"((?:[^"\\]|\\.)*)"')
 _NAME: Final = re.compile(rf"[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}")
 
 
@@ -145,7 +146,9 @@ def impossible_name(path: str, declared: Mapping[str, Key]) -> str | None:
         pattern = key.path.split(".")
         for place, step in enumerate(pattern[: len(steps)]):
             if step == ANY_NAME and not _NAME.fullmatch(steps[place]):
-                return ".".join(steps[place:])
+                rest = ".".join(steps[place:])
+                quoted = _QUOTED.match(rest)
+                return quoted[1] if quoted else rest
             if step not in (ANY_NAME, steps[place]):
                 break
     return None

@@ -169,6 +169,8 @@ def test_names_are_bare_keys_of_limited_length(name: str) -> None:
     for line in ("", 'clearance = "30 um"'):
         with pytest.raises(InputError, match="allowed: a name of letters without accents, digits, - and _"):
             parsed(f'case = "toy"\n[joints.{name}]\n{line}')
+    with pytest.raises(InputError, match='given "crank pin"; allowed'):
+        parsed('case = "toy"\n[joints."crank pin"]\nclearance = "30 um"')
 
 
 @given(st.from_regex(r"[A-Za-z0-9_-]{1,40}", fullmatch=True))

@@ -16,6 +16,7 @@ from tribodyn.cases.load import flat
 from tribodyn.cases.tables import expanded
 from tribodyn.cases.units import si_unit
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import meant
 from tribodyn.mechanisms.general.arguments import CASE, signature_of_case
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.docstrings import docstring
@@ -27,6 +28,11 @@ else:
 
     class Signatures:
         """Stands for the methods that are added below, whose types are in ``signatures.pyi``."""
+
+        def __getattr__(self, name: str) -> Any:
+            """Say which method was probably meant by a name that none has."""
+            hint = meant(name, [method.name for method in METHODS])
+            raise AttributeError(f"a Mechanism has no method {name!r}{hint}", name=name, obj=self)
 
 
 SOURCE: Final = "Mechanism"

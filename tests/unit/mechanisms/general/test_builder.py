@@ -49,6 +49,12 @@ def test_a_call_without_a_body_or_with_one_too_many_is_refused() -> None:
         misspelt.case()
 
 
+def test_a_method_by_another_word_is_named() -> None:
+    with pytest.raises(AttributeError, match=r"no method 'hinge'; did you mean \"revolute\"\?"):
+        getattr(td.Mechanism(), "hinge")  # noqa: B009
+    assert not hasattr(td.Mechanism(), "__deepcopy__")
+
+
 def test_numpy_arrays_are_numbers_in_si_units() -> None:
     times = np.linspace(0.0, 1.0, 5)
     drawn = td.Mechanism(gravity=np.array([0.0, -9.81, 0.0]), run={"duration": "1 s"})
