@@ -52,6 +52,7 @@ def thinned(x: FloatArray, y: FloatArray, most: int = MOST) -> tuple[FloatArray,
     return x[kept], y[kept]
 
 
+_APART: Final = 64
 FINEST: Final = 4000
 """Parts of an ordinate that a curve may be off by: a tenth of a pixel where it is shown whole."""
 
@@ -60,7 +61,8 @@ def straightened(x: FloatArray, y: FloatArray, tolerance: float) -> tuple[FloatA
     """Return a curve without the points that a straight line between its neighbours replaces.
 
     Stretches are split where a line misses most until none misses more than the tolerance (Douglas and
-    Peucker 1973, along y). Ends, and points at gaps (NaN), stay.
+    Peucker 1973, along y). Ends, and points at gaps (NaN), stay. Of a curve that is not
+    straight every 64th point stays, too: half the time for a thirtieth more points.
 
     Parameters
     ----------
@@ -85,6 +87,7 @@ def straightened(x: FloatArray, y: FloatArray, tolerance: float) -> tuple[FloatA
         if not far.any():
             return x[kept], y[kept]
         kept |= far & (miss == np.fmax.reduceat(miss, knots)[np.cumsum(kept) - 1])
+        kept[::_APART] = True
 
 
 def _extremes(y: FloatArray, begin: int, end: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:

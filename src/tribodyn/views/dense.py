@@ -42,5 +42,6 @@ def dense_times(time: FloatArray, values: FloatArray, rates: FloatArray, toleran
     miss = np.linalg.norm(np.diff(values, axis=0) - step[:, None] * rates[:-1], axis=1)
     miss = np.maximum(miss, np.linalg.norm(np.diff(values, axis=0) - step[:, None] * rates[1:], axis=1)) / 4.0
     pieces = np.clip(np.ceil(np.sqrt(miss / tolerance)), 1, _MOST).astype(int)
-    parts = [begin + length * np.arange(n) / n for begin, length, n in zip(time, step, pieces, strict=False)]
-    return np.concatenate([*parts, time[-1:]])
+    number = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    begin, length = np.repeat(time[:-1], pieces), np.repeat(step, pieces)
+    return np.append(begin + length * number / np.repeat(pieces, pieces), time[-1])
