@@ -32,6 +32,7 @@ def draw(dataset: xr.Dataset) -> Figure:
     figure = sheet(dataset, TITLE, 4.2)
     axes = figure.subplots()
     axes.set_aspect("equal")
+    axes.margins(0.12)
     case, motion = case_of(dataset), at_frames(dataset)
     if case is None or motion is None:
         note(axes, "nothing to draw")
@@ -76,17 +77,18 @@ def draw_at(
             other = hub if len(points) > 2 else points[1]
             axes.plot(*np.array([other, point]).T, color=colour, linewidth=1.8 if colour == INK else 1.0)
         if colour == INK and len(drawn.bodies) <= _NAMED:
-            _name(axes, drawn.bodies[body], hub, _beside(points), GREY)
+            centre = plane @ (MM * position.mean(axis=0))
+            _name(axes, drawn.bodies[body], hub, _beside(points, hub - centre), GREY)
 
 
-def _beside(points: FloatArray) -> FloatArray:
-    """Return the direction across a body, downwards, in which its name stands."""
+def _beside(points: FloatArray, outwards: FloatArray) -> FloatArray:
+    """Return the direction across a body, away from the centre of all, in which its name stands."""
     x, y = points[-1] - points[0]
     length = np.hypot(x, y)
     if len(points) > 2 or length == 0.0:
         return np.array([0.5, -0.9])
     across = np.array([y, -x]) / length
-    return np.asarray(-across if across[1] > 0.0 else across)
+    return np.asarray(-across if across @ outwards < 0.0 else across)
 
 
 def _name(axes: Axes, text: str, place: FloatArray, towards: FloatArray, colour: str) -> None:
