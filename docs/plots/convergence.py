@@ -5,6 +5,7 @@ python docs/plots/convergence.py OUTPUT_DIRECTORY
 
 from __future__ import annotations
 
+import math
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +17,7 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.joints import Grid
 from tribodyn.joints.bushing import joint_wrench
+from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
@@ -23,8 +25,9 @@ REVERSAL = np.pi
 DURATION = "4 s"
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
 REFERENCE = 1e-7
-GRIDS = ((24, 4), (32, 6), (48, 8), (64, 12), (96, 16), (128, 24), (192, 32))
-FINEST = (384, 64)
+GRIDS = ((24, 8), (36, 12), (48, 16), (68, 24), (96, 32), (136, 48))
+FINEST = (384, 96)
+CLEARANCES = {"20 um": "o-", "40 um": "s-", "80 um": "^-", "160 um": "d-"}
 
 
 def run(changes: dict[str, object]) -> xr.Dataset:
@@ -103,19 +106,19 @@ def grid_errors(case: VsvCase, result: xr.Dataset) -> list[float]:
 
 
 def draw_grid(target: Path) -> None:
-    """Force errors over the number of nodes at 20 and 40 µm."""
+    """Force errors over the number of nodes, and which grid is taken by default."""
     figure, axes = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
     nodes = [theta * z for theta, z in GRIDS]
-    for clearance, style in (("20 um", "o-"), ("40 um", "s--")):
+    for clearance, style in CLEARANCES.items():
         case = td.load_case("vsv").replace({"joint.clearance": clearance, "run.duration": DURATION})
         errors = grid_errors(case, td.simulate(case))
-        axes.loglog(nodes, errors, style, label=clearance.replace("um", "µm"))
+        (line,) = axes.loglog(nodes, errors, style, label=clearance.replace("um", "µm"))
+        axes.axvline(math.prod(grid_of(case)), color=line.get_color(), linewidth=0.8, linestyle=":")
         for grid, error in zip(GRIDS, errors, strict=True):
             print(f"clearance {clearance}, grid {grid[0]} x {grid[1]}: force error {error:.2g} %")
     axes.axhline(0.2, color="0.5", linewidth=0.8)
-    axes.axvline(96 * 16, color="0.5", linewidth=0.8, linestyle=":")
     axes.set(xlabel="nodes (θ × z)", ylabel="largest force error [%]")
-    axes.set_title(f"against {FINEST[0]} × {FINEST[1]}; dotted: the default 96 × 16")
+    axes.set_title(f"against {FINEST[0]} × {FINEST[1]}; dotted: the default of each")
     axes.set_xticks(nodes, [f"{theta}×{z}" for theta, z in GRIDS], minor=False, rotation=30)
     axes.minorticks_off()
     axes.grid(alpha=0.3)

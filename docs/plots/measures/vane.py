@@ -7,11 +7,16 @@ from typing import Final
 
 import numpy as np
 
+import tribodyn as td
 from measures.base import PEAK, SOLVERS, Numbers, force, key_result, spread, vsv
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.damping import MOMENTS, under_moment
 from tribodyn.papers.cheng_2022.runs import Runs, smooth
+
+CLEARANCES: Final = (20, 40, 80, 160)
+"""Of the table of default grids [µm]."""
 
 
 def by_cycle(runs: Runs, name: str, clearance: str) -> float:
@@ -97,6 +102,12 @@ def grid_error(runs: Runs, clearance: str) -> str:
     return f"{100.0 * vsv(runs, joint__clearance=clearance).attrs['grid_force_error']:.1g}"
 
 
+def default_grid(runs: Runs, clearance: str) -> str:
+    """Return the nodes around and along that a clearance is given."""
+    theta, z = grid_of(td.load_case("vsv").replace({"joint.clearance": clearance}))
+    return f"{theta} × {z}"
+
+
 def floors(runs: Runs) -> FloatArray:
     """Return the peak force with a least entry velocity of 1 µm/s and of 1 mm/s [N]."""
     return np.array(
@@ -120,8 +131,8 @@ NUMBERS: Final[Numbers] = {
     "undamped, moment, exact, peak [N]": undamped_force,
     "tilt about Y, exact over paper": partial(rise_of_tilt, name="phi_y"),
     "peak pressure, exact over paper": partial(rise_of_tilt, name="p_max"),
-    "grid error, 20 µm [%]": partial(grid_error, clearance="20 um"),
-    "grid error, 40 µm [%]": partial(grid_error, clearance="40 um"),
+    **{f"grid, {c} µm": partial(default_grid, clearance=f"{c} um") for c in CLEARANCES},
+    **{f"grid error, {c} µm [%]": partial(grid_error, clearance=f"{c} um") for c in CLEARANCES},
     "peak, v_min 1 µm/s over 1 mm/s": lambda runs: f"{floors(runs)[0] / floors(runs)[1]:.1f}",
 }
 """Numbers by name."""

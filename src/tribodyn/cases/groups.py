@@ -12,6 +12,7 @@ from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Bounds, choice, count, file, number, quantity, switch, text
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.units import from_si
+from tribodyn.joints.resolution import resolving
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair
@@ -366,10 +367,19 @@ class Tolerances(Group):
 
 
 class GridKeys(Group):
-    """Quadrature points over the bushing."""
+    """Quadrature points over each surface of a clearance; by default as many as resolve its contact."""
 
-    theta: int = count(96, "points around the bushing", ASSUMED, ge=12, le=4096)
-    z: int = count(16, "Gauss points along the bushing", ASSUMED, ge=2, le=256)
+    theta: int | None = count(
+        None, "points around; by default by clearance over roughness", "", ge=12, le=4096, example="96"
+    )
+    z: int | None = count(
+        None, "Gauss points along; by default by clearance over roughness", "", ge=2, le=256, example="16"
+    )
+
+    def resolved(self, clearance: float, roughness: float) -> tuple[int, int]:
+        """Return the points around and along of a clearance [m] between surfaces of a roughness [m]."""
+        around, along = resolving(clearance, roughness)
+        return self.theta or around, self.z or along
 
 
 class Solver(Group):

@@ -67,8 +67,6 @@ class Bearing:
         Elastic sleeve of the bore; None where there is none.
     friction
         Its friction.
-    nodes
-        Nodes around.
     """
 
     contact: groups.Contact
@@ -76,7 +74,6 @@ class Bearing:
     geometry: BushingGeometry
     liner: Liner | None
     friction: Friction
-    nodes: int
 
 
 def bearings(case: HasBushing) -> dict[str, Bearing]:
@@ -89,9 +86,13 @@ def bearings(case: HasBushing) -> dict[str, Bearing]:
             geometry=case.temperature.dimensions(joint, case.surfaces),
             liner=joint.liner.layer(case.surfaces.bushing),
             friction=Friction(joint.friction_coefficient, joint.friction, joint.slip_velocity),
-            nodes=case.solver.grid.theta,
         )
     }
+
+
+def grid_of(case: HasBushing) -> tuple[int, int]:
+    """Return how many nodes the joint has around and along, edges apart; heat does not change them."""
+    return case.solver.grid.resolved(case.joint.clearance, case.surface_pair.roughness_rms)
 
 
 def bushing_of(case: HasBushing) -> BushingJoint:
@@ -102,7 +103,7 @@ def bushing_of(case: HasBushing) -> BushingJoint:
         geometry=bearing.geometry,
         friction=bearing.friction,
         entry=EntryMemory(contact.onset_separation, contact.least_entry_velocity, contact.tensile_clip),
-        grid=Grid(bearing.nodes, case.solver.grid.z),
+        grid=Grid(*grid_of(case)),
         roughness=bearing.pair.roughness_rms,
         table=contact_table(
             case.joint.contact,

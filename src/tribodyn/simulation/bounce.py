@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
@@ -11,7 +12,11 @@ from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC
 from tribodyn.contact.bounce import bounce
 from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Grid, contact_table
 from tribodyn.joints.drop import design_speed, drop
+from tribodyn.joints.resolution import resolving
 from tribodyn.mechanisms.bushing import Bearing
+
+_FINER: Final = 8
+"""How many times finer around than by default; along the axis nothing changes."""
 
 
 @dataclass(frozen=True)
@@ -69,15 +74,14 @@ def _row(bearing: Bearing, name: str, factor: str, wanted: float, mass: float) -
     contact = bearing.contact.model_copy(update=changes)
     onset, pressure = contact.onset_separation, contact.design_pressure
     chosen, width = contact.law_of(bearing.pair), contact.smoothing_width
-    table = contact_table(
-        SURFACE, chosen, bearing.geometry, onset=onset, smoothing_width=width, liner=bearing.liner
-    )
+    geometry, roughness = bearing.geometry, bearing.pair.roughness_rms
+    table = contact_table(SURFACE, chosen, geometry, onset=onset, smoothing_width=width, liner=bearing.liner)
     joint = BushingJoint(
-        geometry=bearing.geometry,
+        geometry=geometry,
         friction=replace(bearing.friction, coefficient=0.0),
         entry=EntryMemory(onset, contact.minimum_entry_velocity, contact.tensile_clip),
-        grid=Grid(4 * bearing.nodes, 2),
-        roughness=bearing.pair.roughness_rms,
+        grid=Grid(_FINER * resolving(geometry.clearance, roughness)[0], 2),
+        roughness=roughness,
         table=table,
     )
     speed = design_speed(joint, mass=mass, pressure=pressure)

@@ -29,7 +29,7 @@ def _near(key: Key, scale: float) -> object:
     if key.kind == "number":
         return float(key.default or 1.0) * (1.0 - 0.1 * abs(scale))
     if key.kind == "count":
-        return int(key.default or 0) + int(10 * abs(scale))
+        return int(key.default or 16) + int(10 * abs(scale))
     return key.default
 
 

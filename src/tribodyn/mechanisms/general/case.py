@@ -25,6 +25,7 @@ from tribodyn.cases.remarks import of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
+from tribodyn.joints.resolution import FEWEST
 from tribodyn.mechanisms.base import plain
 from tribodyn.mechanisms.general import solids
 from tribodyn.mechanisms.general.actions import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of, given_of
@@ -37,7 +38,7 @@ from tribodyn.mechanisms.general.output_keys import JointInstants, OutputKeys
 from tribodyn.mechanisms.general.pairs import PairKeys, friction_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanisms.general.plausible import of_mechanism
-from tribodyn.mechanisms.general.run_keys import ROWS, Integration, NodeKeys, ResultKeys, RunKeys
+from tribodyn.mechanisms.general.run_keys import ROWS, Integration, ResultKeys, RunKeys
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 
 _PAIRS: Final = "pairs"
@@ -132,18 +133,15 @@ class MechanismCase(_WithElements):
                 found[joint + _FRICTION] = value
         return found
 
-    def with_plain_grids(self) -> Self:
-        """Return the case with no surface finer than by default."""
-        plain, grid = NodeKeys(), self.solver.grid
+    def with_coarse_grids(self) -> Self:
+        """Return the case with few nodes on all surfaces."""
         joints = {
             name: joint
             if joint.clearance is None
-            else joint.model_copy(update={"clearance": joint.clearance.with_nodes(plain.theta, plain.z)})
+            else joint.model_copy(update={"clearance": joint.clearance.with_nodes(*FEWEST)})
             for name, joint in self.joints.items()
         }
-        at_most = NodeKeys(theta=min(grid.theta, plain.theta), z=min(grid.z, plain.z))
-        solver = self.solver.model_copy(update={"grid": at_most})
-        return self.model_copy(update={"joints": joints, "solver": solver})
+        return self.model_copy(update={"joints": joints})
 
     def of_pair(self, clearance: ClearanceKeys) -> PairKeys | Self:
         """Return surfaces, contact law, friction and wear of a joint: its pair, or those of the case."""

@@ -84,10 +84,10 @@ class ClearanceKeys(_OfAllShapes):
     temperature: ChangingTemperature = ChangingTemperature()
     ideal: bool = switch(False, "treat the joint as ideal and ignore this table", "assumed")
     nodes_around: int | None = count(
-        None, "nodes around; by default solver.grid.theta", "", ge=12, le=4096, example="96"
+        None, "nodes around; without it solver.grid.theta", "", ge=12, le=4096, example="96"
     )
     nodes_along: int | None = count(
-        None, "nodes along; by default solver.grid.z", "", ge=2, le=256, example="16"
+        None, "nodes along; without it solver.grid.z", "", ge=2, le=256, example="16"
     )
 
     def model_post_init(self, context: object, /) -> None:
@@ -99,12 +99,12 @@ class ClearanceKeys(_OfAllShapes):
             demand(self.radial <= 0.1 * self.radius, "radial", words)
 
     def with_nodes(self, around: int, along: int) -> Self:
-        """Return the clearance with at most so many nodes of its own."""
-        most = {"nodes_around": around, "nodes_along": along}
-        given = {key: getattr(self, key) for key in most}
-        return self.model_copy(
-            update={key: min(own, most[key]) for key, own in given.items() if own is not None}
-        )
+        """Return the clearance with so many nodes, or with its own where those are fewer."""
+        fewer = {
+            "nodes_around": min(self.nodes_around or around, around),
+            "nodes_along": min(self.nodes_along or along, along),
+        }
+        return self.model_copy(update=fewer)
 
 
 class _Joint(NamedGroup):

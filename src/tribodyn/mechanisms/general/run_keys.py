@@ -6,6 +6,7 @@ from typing import Final, Literal
 
 from tribodyn.cases.case import Group
 from tribodyn.cases.fields import choice, count, names, number, quantity
+from tribodyn.cases.groups import GridKeys
 from tribodyn.cases.keys import ASSUMED
 from tribodyn.cases.known import demand_known
 from tribodyn.mechanisms.playback import EVEN
@@ -99,16 +100,9 @@ class ResultKeys(Group):
             demand_known(name, (*BODIES, *JOINTS), "results.quantities", "quantity")
 
 
-class NodeKeys(Group):
-    """Quadrature points over each surface of a joint with clearance, unless the joint says otherwise."""
-
-    theta: int = count(96, "points around", ASSUMED, ge=12, le=4096)
-    z: int = count(16, "Gauss points across", ASSUMED, ge=2, le=256)
-
-
 class Integration(Group):
     """The time integration; absolute tolerances follow from clearances and sizes."""
 
     name: str = choice("mebdf", "integrator", ASSUMED, family="tribodyn.integrate:SOLVERS")
     rtol: float = number(1e-5, "relative tolerance", ASSUMED, ge=1e-12, le=0.1)
-    grid: NodeKeys = NodeKeys()
+    grid: GridKeys = GridKeys()

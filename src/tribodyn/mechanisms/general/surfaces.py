@@ -49,7 +49,6 @@ def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
         geometry=BushingGeometry(shape.clearance, shape.radius, shape.length),
         liner=_liner(case, name, keys),
         friction=Friction(keys.friction_coefficient, "traction", keys.slip_velocity),
-        nodes=keys.nodes_around or case.solver.grid.theta,
     )
 
 
@@ -98,11 +97,11 @@ def _clearance(
 ) -> Clearance:
     pair = material_of(case, name, depth)
     contact, surfaces = pair.contact, pair.surface_pair
-    grid, law = case.solver.grid, contact.law_of(surfaces)
+    law = contact.law_of(surfaces)
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
     return Clearance(
         shape=shape,
-        grid=(keys.nodes_around or grid.theta, keys.nodes_along or grid.z),
+        grid=grid_of(case, joint, keys),
         roughness=surfaces.roughness_rms,
         law=law,
         table=table_of(
@@ -124,6 +123,13 @@ def _clearance(
         film=_film(joint, shape, pair.surfaces),
         openings=_openings(case, name, joint, keys),
     )
+
+
+def grid_of(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> tuple[int, int]:
+    """Return the nodes of a surface of a clearance around and along; wear and heat do not change them."""
+    clearance, roughness = _cold(case, joint, keys).clearance, case.of_pair(keys).surface_pair.roughness_rms
+    around, along = case.solver.grid.resolved(clearance, roughness)
+    return keys.nodes_around or around, keys.nodes_along or along
 
 
 def _film(joint: JointKeys, shape: Shape, surfaces: Surfaces) -> Film | None:

@@ -152,8 +152,8 @@ class MechanismSystem:
 
     def check(self) -> Sequence[str]:
         """Put the mechanism together, move it through its cycle, and say what there is to know of it."""
-        # A finer grid than by default would change nothing of that, and take much memory.
-        coarse = replace(self, case=self.case.with_plain_grids())
+        # A finer grid would change nothing of that, and may take much memory.
+        coarse = replace(self, case=self.case.with_coarse_grids())
         touches = zip(coarse.maps.names, coarse._contacts(coarse.model).touches, strict=True)
         rough = [text for name, touch in touches for text in named(name, [of_clearance(touch)])]
         return [*coarse.assembly.remarks, *rough, *of_temperatures(coarse.model)]

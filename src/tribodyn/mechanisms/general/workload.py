@@ -13,6 +13,7 @@ from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kept import frames, layout_of
 from tribodyn.mechanisms.general.parts import ClearanceKeys
 from tribodyn.mechanisms.general.shapes import SHAPES
+from tribodyn.mechanisms.general.surfaces import grid_of
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 
 _STEPS: Final = (300.0, 500.0, 1300.0)
@@ -65,12 +66,11 @@ def _keys(case: MechanismCase, real: list[ClearanceKeys]) -> Keys:
 
 def _nodes(case: MechanismCase) -> Iterator[float]:
     """Yield the nodes of every surface; those of a mesh are its triangles."""
-    grid = case.solver.grid
     for joint in case.joints.values():
         clearance = joint.real
         if clearance is None:
             continue
-        around, along = clearance.nodes_around or grid.theta, clearance.nodes_along or grid.z
+        around, along = grid_of(case, joint, clearance)
         yield SHAPES[joint.shape].nodes(clearance, around, along + _EDGES)
 
 

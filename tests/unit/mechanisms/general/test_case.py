@@ -10,6 +10,7 @@ from tests.unit.mechanisms.general.slider_crank import FILE, built, parsed
 
 from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
+from tribodyn.joints.resolution import resolving
 from tribodyn.joints.shapes import Cylinder
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.case import MechanismCase
@@ -65,7 +66,7 @@ def test_keys_fill_records_in_si_with_numbers_for_names() -> None:
     assert joints == [(n, 0), (0, 1), (1, 2), (n, 2)]
     wrist = model.clearances["wrist"]
     assert wrist.shape == Cylinder(9.5e-3, 20e-6, 20e-3, axial=50e-6, flange=14e-3)
-    assert wrist.grid == (96, 16)
+    assert wrist.grid == resolving(20e-6, wrist.roughness)
     spring, load = couplings[len(model.joints) :]
     assert spring.length == pytest.approx(0.1)
     (term,) = data.terms[load.first_term : load.last_term]

@@ -22,6 +22,7 @@ from tribodyn.cases.temperature import (
     times_of,
 )
 from tribodyn.core.errors import Faults
+from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 from tribodyn.papers.cheng_2022.reduced.actions import (
     COMPONENTS,
@@ -364,9 +365,12 @@ class VsvCase(BushingCase):
             self.surfaces.check_running_in(self.wear.final_roughness)
 
     def run_in(self, depth: float) -> Self:
-        """Return the case with the roughness of a bushing that is worn by a mean depth [m]."""
+        """Return the case with the roughness of a bushing that is worn by a mean depth [m], on its grid."""
         worn = self.surfaces.run_in(depth, self.wear.final_roughness)
-        return self.model_copy(update={"surfaces": worn})
+        theta, z = grid_of(self)
+        grid = self.solver.grid.model_copy(update={"theta": theta, "z": z})
+        solver = self.solver.model_copy(update={"grid": grid})
+        return self.model_copy(update={"surfaces": worn, "solver": solver})
 
     def _check_loads(self) -> None:
         """Check that forces act on the vane."""

@@ -6,6 +6,7 @@ from typing import Final
 
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.quantities import OBSERVED
+from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, MOST_CLOSE
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -23,7 +24,8 @@ _STRIDE: Final = 3.0
 def workload(case: VsvCase) -> Workload:
     """Return the counts of a case."""
     duration = case.period if case.campaign_cycles else case.duration
-    cycles, grid, run = duration / case.period, case.solver.grid, case.run
+    cycles, run = duration / case.period, case.run
+    around, along = grid_of(case)
     windows = 1.0 + 2.0 * cycles
     steps = _STEPS_OF_REVERSAL * (2.0 * cycles) + _STEPS_OF_SECOND * duration
     length = "run.cycles" if run.cycles is not None else "run.duration"
@@ -32,7 +34,7 @@ def workload(case: VsvCase) -> Workload:
     return Workload(
         steps=steps,
         states=len(STATES),
-        nodes=grid.theta * (grid.z + 2.0),
+        nodes=around * (along + 2.0),
         joints=1.0,
         fields=_SNAPSHOTS + frames * min(2.0, max(1.0, cycles)),
         samples=duration / run.output_interval + windows,

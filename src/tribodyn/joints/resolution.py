@@ -1,0 +1,43 @@
+"""How many nodes resolve the contact of rough surfaces in a clearance.
+
+Asperities touch within some standard deviations σ of their heights. A shaft that leans on a bore with the
+radial clearance c touches it over an angle that goes with √(σ/c), and where it is tilted as far as it can be,
+over such a part of the length near an edge. Both quadratures converge faster than any power once they resolve
+that, so the numbers of nodes follow √(c/σ). The factors hold the error of the contact force in smooth motion
+below 1e-5, measured on the vane for clearances from 10 µm to 320 µm; the page on convergence shows it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+AROUND: Final = 3.4
+ALONG: Final = 1.1
+"""Groups of nodes around and along for c = σ."""
+GROUP: Final = 4
+"""Kernels take so many nodes at once."""
+FEWEST: Final = (48, 16)
+"""Around and along, however narrow the clearance is: wear and measured forms have shapes of their own."""
+MOST: Final = (512, 128)
+"""Around and along, however wide the clearance is; a run says if its grid is too coarse."""
+
+
+def resolving(clearance: float, roughness: float) -> tuple[int, int]:
+    """Return how many nodes around and along resolve the contact.
+
+    Parameters
+    ----------
+    clearance
+        Radial clearance c as drawn [m].
+    roughness
+        Combined rms roughness σ [m].
+
+    Examples
+    --------
+    >>> resolving(20e-6, 1.634e-6)
+    (48, 16)
+    """
+    ratio = math.sqrt(clearance / roughness)
+    around, along = (GROUP * math.ceil(factor * ratio) for factor in (AROUND, ALONG))
+    return min(max(around, FEWEST[0]), MOST[0]), min(max(along, FEWEST[1]), MOST[1])
