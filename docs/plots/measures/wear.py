@@ -23,7 +23,7 @@ MILLION: Final[dict[str, object]] = {
 HOW_SURE: Final[dict[str, dict[str, object]]] = {
     "default": {},
     "jumps halved": {"wear.jump_limit": 0.025, "wear.jump_depth": 0.125},
-    "grid 48 × 32": {"solver.grid.z": 32},
+    "grid 64 × 32": {"solver.grid.z": 32},
     "grid 144 × 24": {"solver.grid.theta": 144, "solver.grid.z": 24},
 }
 """Changes of a campaign of 100 000 cycles."""

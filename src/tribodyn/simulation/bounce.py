@@ -15,7 +15,7 @@ from tribodyn.joints.drop import design_speed, drop
 from tribodyn.joints.resolution import resolving
 from tribodyn.mechanisms.bushing import Bearing
 
-_FINER: Final = 8
+_FINER: Final = 6
 """How many times finer around than by default; along the axis nothing changes."""
 
 
