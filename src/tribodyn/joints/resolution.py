@@ -3,9 +3,9 @@
 Asperities touch within some standard deviations σ of their heights. A shaft that leans on a bore with the
 radial clearance c touches it over an angle that goes with √(σ/c), and where it is tilted as far as it can be,
 over such a part of the length near an edge. Both quadratures converge faster than any power once they resolve
-that, so the numbers of nodes follow √(c/σ). On the vane the error of the contact force in smooth motion is at
-most 2e-5 for clearances from 10 µm to 320 µm, see the page on convergence. Around, three quarters of the nodes
-would do for forces; the largest of the pressures at nodes would miss the peak between them by 6 % then.
+that, so the numbers of nodes follow √(c/σ). On the vane the error of the contact force in smooth motion is
+at most 2e-5 for clearances from 10 µm to 320 µm, see the page on convergence. Around, three quarters of the
+nodes would do for forces; the largest of the pressures at nodes would miss the peak between them by 6 % then.
 """
 
 from __future__ import annotations
