@@ -30,7 +30,7 @@ def resolving(clearance: float, roughness: float) -> tuple[int, int]:
     Parameters
     ----------
     clearance
-        Radial clearance c as drawn [m].
+        Radial clearance c at the temperatures of the run [m].
     roughness
         Combined rms roughness σ [m].
 

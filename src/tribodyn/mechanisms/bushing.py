@@ -91,8 +91,9 @@ def bearings(case: HasBushing) -> dict[str, Bearing]:
 
 
 def grid_of(case: HasBushing) -> tuple[int, int]:
-    """Return how many nodes the joint has around and along, edges apart; heat does not change them."""
-    return case.solver.grid.resolved(case.joint.clearance, case.surface_pair.roughness_rms)
+    """Return how many nodes the joint has around and along at the temperatures of the run, edges apart."""
+    clearance = case.temperature.dimensions(case.joint, case.surfaces).clearance
+    return case.solver.grid.resolved(clearance, case.surface_pair.roughness_rms)
 
 
 def bushing_of(case: HasBushing) -> BushingJoint:

@@ -101,7 +101,7 @@ def _clearance(
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
     return Clearance(
         shape=shape,
-        grid=grid_of(case, joint, keys),
+        grid=grid_of(case, name, keys),
         roughness=surfaces.roughness_rms,
         law=law,
         table=table_of(
@@ -125,10 +125,10 @@ def _clearance(
     )
 
 
-def grid_of(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> tuple[int, int]:
-    """Return the nodes of a surface of a clearance around and along; wear and heat do not change them."""
-    clearance, roughness = _cold(case, joint, keys).clearance, case.of_pair(keys).surface_pair.roughness_rms
-    around, along = case.solver.grid.resolved(clearance, roughness)
+def grid_of(case: MechanismCase, name: str, keys: ClearanceKeys) -> tuple[int, int]:
+    """Return the nodes of a surface of a joint around and along; wear does not change them."""
+    clearance = _shape(case, name, case.joints[name], keys).clearance
+    around, along = case.solver.grid.resolved(clearance, case.of_pair(keys).surface_pair.roughness_rms)
     return keys.nodes_around or around, keys.nodes_along or along
 
 

@@ -66,11 +66,11 @@ def _keys(case: MechanismCase, real: list[ClearanceKeys]) -> Keys:
 
 def _nodes(case: MechanismCase) -> Iterator[float]:
     """Yield the nodes of every surface; those of a mesh are its triangles."""
-    for joint in case.joints.values():
+    for name, joint in case.joints.items():
         clearance = joint.real
         if clearance is None:
             continue
-        around, along = grid_of(case, joint, clearance)
+        around, along = grid_of(case, name, clearance)
         yield SHAPES[joint.shape].nodes(clearance, around, along + _EDGES)
 
 
