@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 
@@ -309,6 +310,26 @@ def test_a_screw_locks_itself_from_a_friction_angle_above_its_lead_angle(share: 
         torque = MEAN * (math.sin(angle) - friction * math.cos(angle))
         pushed = 20.0 * G / (axial + 20.0 * pitch * torque / 2e-4)
         assert abs(turning[-1]) == pytest.approx(pushed * torque / 2e-4 * 0.02, rel=0.02)
+
+
+@pytest.mark.parametrize("spin", [2e-5, 2e-6, 1e-7])
+def test_a_light_screw_holds_a_heavy_nut_by_its_friction(spin: float) -> None:
+    """The load of the thread changes by more than the friction that it makes: plain rounds would diverge."""
+    mechanism = drawn("Screw jack", f"0, 0, -{G} m/s^2")
+    wheel(mechanism, "screw", 1.0, spin, "0, 0, 0 mm")
+    mechanism.body("nut", mass="20 kg", centre="0, 0, 30 mm", inertia="0.1, 0.1, 0.1 kg m^2")
+    mechanism.revolute("bearing", "ground", "screw", point="0, 0, 0 mm", axis=[0, 0, 1])
+    mechanism.prismatic("guide", "nut", "ground", point="40, 0, 30 mm", axis=[0, 0, 1])
+    thread = {"lead": "5 mm", "friction_coefficient": 0.15, "radius": "8 mm"}
+    run = td.simulate(mechanism.screw("thread", joints=["bearing", "guide"], **thread).case())
+    assert not run.attrs["failure"]
+    slope = 5e-3 / (2.0 * math.pi * 8e-3)
+    developed = slope / 0.15
+    creep = 1e-3 * developed / math.sqrt(1.0 - developed**2) * math.cos(math.atan(slope)) / 8e-3
+    assert abs(about_z(run, "screw")[-1]) == pytest.approx(creep, rel=1e-4)
+    assert abs(run["element_force"].values[-1]) == pytest.approx(20.0 * G, rel=1e-6)
+    # Derivatives know of the changing load: without, steps would be some thousand.
+    assert json.loads(run.attrs["solver"])["steps"] < 200
 
 
 def test_the_efficiency_of_a_gear_with_friction_in_its_bearings_is_that_of_its_tooth_force() -> None:

@@ -12,26 +12,55 @@ what sticks creeps, by less than the slip velocity u_s.
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Final, Self
 
 from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import number, quantity
 from tribodyn.mechanisms.general.elements.base import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
+LEAST_SLOPE: Final = -1.0e4
+LARGEST_SLOPE: Final = 0.999
+"""Slopes of a reaction over the load that are extrapolated: beyond, rounds are taken as they come."""
+SAME: Final = 1.0e-10
+"""Difference of load and reaction, over these, that may be rounding: the load is kept."""
+LEAST_CHANGE: Final = 1.0e-6
+"""Change of a load, over the reaction, below which rounding decides about the slope."""
+
 
 def regularised(joint: Any, law: Any) -> None:
-    """Fill the friction force at a sliding speed."""
+    """Fill the friction force at a sliding speed.
+
+    The force of a thread changes strongly with its friction. With ``extrapolates`` rounds of both are
+    extrapolated to where neither changes, by the slope of the reaction over the load (Aitken). That slope is in
+    ``held``; load of the last round, load and reaction of the one before are in the entries of a table, zero at
+    first. This law has no table and no controller. Where several joints change each other's reactions, plain
+    rounds are more reliable.
+    """
     v, slip = law.rate, joint.slip_velocity
+    followed = law.normal
+    if joint.extrapolates > 0.0:
+        change, apart = law.table[0] - law.table[1], law.normal - law.table[0]
+        if law.normal == 0.0 and law.table[0] == 0.0:
+            law.held = 0.0
+        elif abs(change) > LEAST_CHANGE * law.normal:
+            slope = (law.normal - law.table_slope) / change
+            law.held = slope if LEAST_SLOPE < slope < LARGEST_SLOPE else 0.0
+        if abs(apart) <= SAME * law.normal:
+            followed = law.table[0]
+        elif change != 0.0:
+            followed = max(law.table[0] + apart / (1.0 - law.held), 0.0)
+        law.table[1], law.table_slope, law.table[0] = law.table[0], law.normal, followed
     square = v * v + slip * slip
     direction = v / math.sqrt(square)
     share = exp(-((v / joint.stribeck_velocity) ** 2))
-    load = joint.normal_load + law.normal
+    load = joint.normal_load + followed
     moving, sticking = joint.friction_coefficient * load, joint.breakaway * load
     limit = moving + sticking * share
     fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * sticking * share
     law.force = -limit * direction - joint.viscous * v
-    law.in_rate = -fall * direction - limit * slip * slip / (square * math.sqrt(square)) - joint.viscous
+    steep = fall * direction + limit * slip * slip / (square * math.sqrt(square))
+    law.in_rate = -steep / (1.0 - law.held) - joint.viscous
     law.friction = limit * direction * v
     law.damping = joint.viscous * v * v
 
@@ -45,6 +74,7 @@ def friction_law(
     stribeck_velocity: float = 1.0,
     viscous: float = 0.0,
     load_of: str = "",
+    load_leg: int | None = None,
 ) -> ForceLaw:
     """Return the law of friction, Coulomb's by default; ``breakaway`` is what μ_s is above μ."""
     parameters = {
@@ -54,8 +84,9 @@ def friction_law(
         "stribeck_velocity": stribeck_velocity,
         "slip_velocity": slip_velocity,
         "viscous": viscous,
+        "extrapolates": 0.0 if load_leg is None else 1.0,
     }
-    return ForceLaw(regularised, parameters, load_of=load_of)
+    return ForceLaw(regularised, parameters, load_of=load_of, load_leg=load_leg)
 
 
 class JointFriction(OfJointKeys):

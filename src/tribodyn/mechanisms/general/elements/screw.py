@@ -95,11 +95,11 @@ torque = "0.2 N m"
         sliding = replace(
             thread, along=sine * thread.along, about=self.radius * cosine, reported=thread.along
         )
-        law = friction_law(self.friction_coefficient / cosine, self.slip_velocity)
+        law = friction_law(self.friction_coefficient / cosine, self.slip_velocity, load_leg=1)
         turning, lifting = replace(thread, along=np.zeros(3)), _crosswise(thread)
         return (
             base.Equation((turning, lifting), None),
-            base.Equation((sliding,), replace(law, load_leg=1)),
+            base.Equation((sliding,), law),
         )
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
