@@ -32,10 +32,10 @@ def regularised(joint: Any, law: Any) -> None:
     """Fill the friction force at a sliding speed.
 
     The force of a thread changes strongly with its friction. With ``extrapolates`` rounds of both are
-    extrapolated to where neither changes, by the slope of the reaction over the load (Aitken). That slope is in
-    ``held``; load of the last round, load and reaction of the one before are in the entries of a table, zero at
-    first. This law has no table and no controller. Where several joints change each other's reactions, plain
-    rounds are more reliable.
+    extrapolated to where neither changes, by the slope of the reaction over the load (Aitken). That slope is
+    in ``held``; load of the last round, load and reaction of the one before are in the entries of a table,
+    zero at first. This law has no table and no controller. Where several joints change each other's
+    reactions, plain rounds are more reliable.
     """
     v, slip = law.rate, joint.slip_velocity
     followed = law.normal
