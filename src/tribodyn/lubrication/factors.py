@@ -26,6 +26,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -217,6 +218,8 @@ _FAR: Final = 1e9
 """H that stands for infinity at the first node."""
 
 
+# Asked for whenever a mechanism is put together, which is several times in a run.
+@lru_cache(maxsize=8)
 def flow_table(roughness: Roughness) -> FlowTable:
     """Return the factors of ``roughness`` as piecewise cubics over 1/H, and the mean gap over H."""
     separation, mean, slope = mean_gap_nodes()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -15,6 +15,7 @@ from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels import dense
+from tribodyn.kernels.address import ByAddress
 from tribodyn.kernels.arrays import new_record, new_records
 from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.joints.film import new_oil
@@ -67,11 +68,23 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
     constants.size = _size(model)
     clearances = tuple(model.clearances.values())
-    contact, films = surfaces(clearances, worn), _films(clearances, worn)
-    film_force = by_address(films, stacked_memory(films))
+    contact = surfaces(clearances, worn)
+    oiled = any(clearance.film is not None for clearance in clearances)
+    films, film_force = _with_force(_films(clearances, worn)) if oiled else _dry()
     parts = Parts(constants, _bodies(model), couplings)
     of_loads = term_records(signals, terms)
     return MechanismData(parts, signals.records(), of_loads, mass, newton, contact, films, film_force)
+
+
+def _with_force(films: FilmData) -> tuple[FilmData, ByAddress]:
+    """Return films with the kernel of their forces."""
+    return films, by_address(films, stacked_memory(films))
+
+
+@cache
+def _dry() -> tuple[FilmData, ByAddress]:
+    """Return the same of a mechanism without films."""
+    return _with_force(stacked_data((), ()))
 
 
 def _films(clearances: Sequence[Clearance], worn: FloatArray | None) -> FilmData:
