@@ -8,15 +8,14 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.bodies import place, rates
 from tribodyn.kernels.mechanism.data import PLAIN, REPORTS, MechanismData, MechanismMemory
+from tribodyn.kernels.mechanism.equations import assemble, solve_rows
 from tribodyn.kernels.mechanism.functions import touch
 from tribodyn.kernels.mechanism.ledger import fill_totals
 from tribodyn.kernels.mechanism.solution import (
-    assemble,
     correct_velocities,
     forces,
     kinematics,
     refresh_velocities,
-    solve_rows,
     take_accelerations,
 )
 
@@ -63,11 +62,11 @@ def repeat(
         elif part == 5:
             assemble(parts, now, data.mass, blocks)
         elif part == 6:
-            take_accelerations(parts, now, data.mass, blocks)
+            take_accelerations(parts, now, data.mass, blocks, 0.0)
         elif part == 7:
-            solve_rows(parts, now, data.mass, blocks, 0.0)
+            solve_rows(parts, now, data.mass, blocks, 0.0, 0.0)
         elif part == 8:
-            correct_velocities(parts, now, data.mass, blocks)
+            correct_velocities(parts, now, data.mass, blocks, 0.0)
         elif part == 9:
             fill_totals(parts, now)
         elif part == 10:

@@ -4,11 +4,13 @@ python -m benchmarks.shares
 
 The functions are called from compiled loops, on states and memories that runs leave at their ends, spread
 over the time of the whole one: at rest few nodes touch, and a call costs less. From Python a call first takes
-its arguments apart, which costs more than an evaluation. A share is mean time of a call times number of calls
-over the processor time of the integration; Newton's iterations solve once for each evaluation at most. What
-is left is the solver itself, rows, everything between, and what a call costs more in a run than when it is
-repeated on one state, with its data at hand and its branches foreseen. Start and result are those of the
-whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
+its arguments apart, which costs more than an evaluation. ``advance`` is called off the constraints, as at the
+end of a step: where they hold already it has nothing to correct and costs two thirds. A share is mean time of
+a call times number of calls over the processor time of the integration; Newton's iterations solve once for
+each evaluation at most. What Python does around the compiled loop, most of all with rows, is measured in the
+run. What is left is the solver itself, and what a call costs more in a run than when it is repeated on one
+state, with its data at hand and its branches foreseen. Start and result are those of the whole simulation.
+Rings of vanes have a benchmark of their own, ``ring``.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, Final
+from unittest import mock
 
 import numpy as np
 
@@ -24,6 +27,7 @@ import tribodyn as td
 from benchmarks.engine_loops import PARTS, repeat
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.problem import LinearSolver
+from tribodyn.integrate import mebdf
 from tribodyn.kernels.jit import kernel
 from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.catalogue import MECHANISMS
@@ -36,6 +40,8 @@ ENDS: Final = (0.07, 0.19, 0.31, 0.43, 0.57, 0.69, 0.81, 0.93)
 """Parts of the whole time after which the states are taken."""
 CALLS: Final = 1000
 PASSES: Final = 3
+AWAY: Final = 1.0e-9
+"""Part by which the state differs from one on the constraints at the end of a step."""
 GAMMA: Final = 1.0e-4
 """Step times coefficient of the factorised matrix [s]; the time does not depend on it."""
 
@@ -141,13 +147,14 @@ def _functions(run: FinishedRun, calls: int) -> dict[str, float]:
     problem = run.problem
     functions, data, memory = problem.functions, problem.data, problem.memory
     t, y, f = run.solution.t_end, run.solution.y_end.copy(), np.empty(problem.y0.size)
+    away = y * (1.0 + AWAY * (-1.0) ** np.arange(y.size))
     n_entries = 0 if problem.algebra is None else problem.algebra.n_entries
     matrix = np.zeros(n_entries) if n_entries else np.zeros((y.size, y.size))
     row = np.empty(problem.n_observed)
     loops: dict[str, Callable[[int], None]] = {
         "rhs": lambda n: _evaluated(functions.rhs, t, y, data, memory, f, n),
         "jac": lambda n: _differentiated(functions.jac, t, y, data, memory, f, matrix, n),
-        "advance": lambda n: _advanced(functions.advance, t, y, data, memory, n),
+        "advance": lambda n: _advanced(functions.advance, t, away, data, memory, n),
         "accept": lambda n: _accepted(functions.accept, t, y, data, memory, n),
         "observe": lambda n: _evaluated(functions.observe, t, y, data, memory, row, n),
     }
@@ -177,6 +184,27 @@ def _parts(run: FinishedRun, calls: int) -> dict[str, float]:
     }
 
 
+def _integrated(session: Session, duration: float) -> tuple[FinishedRun, float, float]:
+    """Return a run, the processor time of the integration, and that of the compiled loop alone [s]."""
+    inside, compiled = [0.0], mebdf._compiled
+
+    def timed(*arguments: Any) -> Callable[..., Any]:
+        loop = compiled(*arguments)
+
+        def call(*values: Any) -> Any:
+            begin = time.thread_time()
+            outcome = loop(*values)
+            inside[0] += time.thread_time() - begin
+            return outcome
+
+        return call
+
+    with mock.patch.object(mebdf, "_compiled", timed):
+        begin = time.process_time()
+        run = session.integrated(duration)
+    return run, time.process_time() - begin, inside[0]
+
+
 def measure(name: str, cycles: float, calls: int) -> dict[str, Any]:
     """Run a built-in case, print and return times and shares."""
     case: Any = td.load_case(name).replace({"run.cycles": cycles})
@@ -186,15 +214,16 @@ def measure(name: str, cycles: float, calls: int) -> dict[str, Any]:
     begin = time.process_time()
     session = Session(case, mechanism, mechanism.system(case))
     problem_found = session.system.problem(case.duration)
-    started, began = time.process_time() - begin, time.process_time()
-    run = session.integrated(case.duration)
-    whole, after = time.process_time() - began, time.process_time()
+    started = time.process_time() - begin
+    run, whole, looped = _integrated(session, case.duration)
+    after = time.process_time()
     dataset = session.dataset(run, ResultPart())
     summarise(dataset)
     result = time.process_time() - after
     ends = [session.integrated(part * case.duration) for part in ENDS]
     functions, numbers = _means([_functions(end, calls) for end in ends]), _numbers(run)
     shares = {key: 1e-6 * each * numbers[key] / whole for key, each in functions.items()}
+    shares["Python around the loop, rows"] = 1.0 - looped / whole
     shares["solver and all else"] = 1.0 - sum(shares.values())
     print(f"{name}: {case.duration / whole:.1f} times as fast as it moves; start {started:.2f} s, ", end="")
     print(f"integration {whole:.3f} s, result {result:.2f} s, {problem_found.y0.size} states")

@@ -4,13 +4,27 @@ With the x axis q of the shaft in the axes of the socket, of length one, and s =
 
     θ = atan2(q_y, q_x),   θ̇ = g·ω,   g = (−h q_x, −h q_y, 1),   q̇ = ω × q,   ḣ = c q̇_z,   c = (2 − s)/s².
 
-Where the shaft does not tilt, g is the axis.
+Where the shaft does not tilt, g is the axis. Few couplings need the angle itself at every evaluation.
 """
 
 from __future__ import annotations
 
+import math
+from typing import Final
+
+from mebdf.kernels.elementary import atan2
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
+
+WHOLE_TURN: Final = 2.0 * math.pi
+
+
+@kernel
+def whole_angle(now: Record) -> float:
+    """Return the angle of the shaft of a coupling with its whole turns [rad]."""
+    raw: float = atan2(now.pose.rotation[1, 0], now.pose.rotation[0, 0])
+    return raw + WHOLE_TURN * round((now.angle_mark - raw) / WHOLE_TURN)
 
 
 @kernel

@@ -32,7 +32,7 @@ from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mechanism.angle import angle_gradient, angle_hessian, angle_rate
+from tribodyn.kernels.mechanism.angle import angle_gradient, angle_hessian, angle_rate, whole_angle
 from tribodyn.kernels.mechanism.data import (
     ANGLE,
     COORDINATE,
@@ -125,7 +125,7 @@ def _fill_term(coupling: Record, now: Record) -> None:
         _fill_distance(coupling, now)
         return
     angle_gradient(q, row[3:6])
-    residual, rate = coupling.about * now.angle - now.offset, 0.0
+    residual, rate = coupling.about * whole_angle(now) - now.offset, 0.0
     acceleration = coupling.about * angle_rate(q, w)
     for i in range(3):
         row[i] = coupling.along[i]

@@ -280,7 +280,6 @@ CouplingNow: Final = record_type(
     ("strip", "f8", (6, 12)),
     ("small", "f8", (3, 3)),
     ("turned", "f8", (3, 3)),
-    ("angle", "f8"),
     ("angle_mark", "f8"),
     ("powers", "f8", (N_POWERS,)),
     ("stored", "f8"),
@@ -322,8 +321,8 @@ slope
 Kq, Kv, Gq, Gv
     Derivatives of the forces on both bodies, with sign, and of the rows' accelerations in position and
     velocity.
-angle, angle_mark
-    Angle of the shaft about the axis with its whole turns, and the one that turns are counted from.
+angle_mark
+    Angle of the shaft about the axis from which its whole turns are counted.
 powers, stored
     What drives and loads put in, what damping, friction and oil film turn into heat, and what temperatures do
     to the energy stored in contact [W]; stored energy [J].
@@ -360,7 +359,8 @@ class Pattern(NamedTuple):
     Attributes
     ----------
     factor
-        Operation and blocks, shape (n, 4).
+        Operation, up to three blocks, how many columns of the first are touched, and how many unknowns the
+        node has that is eliminated, shape (n, 6).
     forward, backward
         Block, row and column, shape (n, 3).
     exchanges
@@ -394,8 +394,8 @@ class Now(NamedTuple):
     ----------
     course, bodies, couplings
         Records named above; of ``bodies`` the last is the ground.
-    x, rest
-        Unknowns and right-hand sides of the nodes, shape (n_nodes, 6).
+    x, rest, left
+        Unknowns and right-hand sides of the nodes, and what a solution leaves of them, shape (n_nodes, 6).
     """
 
     course: Record
@@ -403,6 +403,7 @@ class Now(NamedTuple):
     couplings: Any
     x: FloatArray
     rest: FloatArray
+    left: FloatArray
 
 
 class MechanismData(NamedTuple):
@@ -441,7 +442,7 @@ class MechanismMemory(NamedTuple):
     now
         See :class:`Now`.
     blocks
-        Matrix by blocks, shape (n_blocks, 6, 6).
+        Matrix by blocks, each column by column, shape (n_blocks, 6, 6).
     independence
         Products of all rows, shape (n_rows, n_rows); of no size without redundant rows.
     settled

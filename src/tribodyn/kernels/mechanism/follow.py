@@ -74,7 +74,7 @@ def follow(
             return k
         _stop(now.bodies)
         refresh_velocities(parts, now)
-        correct_velocities(parts, now, pattern, blocks)
+        correct_velocities(parts, now, pattern, blocks, 0.0)
         collect(now.bodies, motion[k])
         for b in range(now.bodies.size - 1):
             body, begin = now.bodies[b], N_STATES * b + TURNING

@@ -18,6 +18,7 @@ from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
     DAMPING,
@@ -113,18 +114,18 @@ def _springs(coupling: Record, now: Record) -> None:
     about the axis ½ k_z θ².
     """
     k, c, twist, slope = coupling.stiffness, coupling.damping, now.twist, now.slope
-    f, q = now.pose.rotation[:, 2], now.pose.rotation[:, 0]
+    f, q, angle = now.pose.rotation[:, 2], now.pose.rotation[:, 0], whole_angle(now)
     for i in range(3):
         now.wrench[i] = -k[i] * now.pose.d[i]
         now.stored += 0.5 * k[i] * now.pose.d[i] ** 2
         slope[i, i] = -k[i]
-    now.stored += 0.5 * (k[3] * f[1] ** 2 + k[4] * f[0] ** 2 + k[5] * now.angle**2)
+    now.stored += 0.5 * (k[3] * f[1] ** 2 + k[4] * f[0] ** 2 + k[5] * angle**2)
     inverse = 1.0 / (q[0] * q[0] + q[1] * q[1])
     # ∂θ/∂ϑ = q × (q_x e_y − q_y e_x) / (q_x² + q_y²).
     g_x, g_y, g_z = -q[2] * q[0] * inverse, -q[2] * q[1] * inverse, 1.0
-    now.wrench[3] = k[3] * f[1] * f[2] - k[5] * now.angle * g_x
-    now.wrench[4] = -k[4] * f[0] * f[2] - k[5] * now.angle * g_y
-    now.wrench[5] = (k[4] - k[3]) * f[0] * f[1] - k[5] * now.angle * g_z
+    now.wrench[3] = k[3] * f[1] * f[2] - k[5] * angle * g_x
+    now.wrench[4] = -k[4] * f[0] * f[2] - k[5] * angle * g_y
+    now.wrench[5] = (k[4] - k[3]) * f[0] * f[1] - k[5] * angle * g_z
     for j in range(3):
         # δf = e_j × f.
         d_x = f[2] if j == 1 else (-f[1] if j == 2 else 0.0)
@@ -186,9 +187,10 @@ def _load(
 @kernel
 def _follow(coupling: Record, joint: Record, places: FloatArray) -> None:
     """Fill coordinate and speed of the joint that a load follows."""
-    x, speed = joint.angle, joint.twist[5]
     if coupling.follows_position == 1:
         x, speed = joint.pose.d[2], joint.twist[2]
+    else:
+        x, speed = whole_angle(joint), joint.twist[5]
     places[FOLLOWED, 0] = places[FOLLOWED, 1] = coupling.follows_sign * x
     places[FOLLOWED_SPEED, 0] = places[FOLLOWED_SPEED, 1] = coupling.follows_sign * speed
 

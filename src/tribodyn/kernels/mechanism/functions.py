@@ -28,12 +28,13 @@ from tribodyn.kernels.mechanism.data import (
     Parts,
 )
 from tribodyn.kernels.mechanism.derivatives import fill_derivatives
+from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
 from tribodyn.kernels.mechanism.law import remember_entry
 from tribodyn.kernels.mechanism.newton import fill_entries
 from tribodyn.kernels.mechanism.observe import fill_row
 from tribodyn.kernels.mechanism.redundancy import choose_rows
-from tribodyn.kernels.mechanism.solution import accelerations, has_law, mark_angles, settle
+from tribodyn.kernels.mechanism.solution import accelerations, mark_angles, settle
 from tribodyn.kernels.mechanism.watch import watch
 
 BEFORE_KINK: Final = 1.0e-9

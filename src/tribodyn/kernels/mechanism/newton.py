@@ -157,7 +157,7 @@ def factorise(
 
 @kernel
 def _split(factors: FloatArray, n_entries: int, n_bodies: int) -> tuple[FloatArray, FloatArray]:
-    """Return E of all bodies, shape (n_bodies, 3, 3), and the blocks, shape (n_blocks, 6, 6)."""
+    """Return E of all bodies, shape (n_bodies, 3, 3), and the blocks by columns, shape (n_blocks, 6, 6)."""
     first = 1 + n_entries
     last = first + 9 * n_bodies
     return factors[first:last].reshape((n_bodies, 3, 3)), factors[last:].reshape((-1, 6, 6))
@@ -169,7 +169,7 @@ def _body_block(body: Record, gyroscopic: FloatArray, gamma: float, block: Float
     for i in range(3):
         block[i, i] = body.mass
         for j in range(3):
-            block[3 + i, 3 + j] = body.inertia[i, j] + gamma * gyroscopic[3 * i + j]
+            block[3 + j, 3 + i] = body.inertia[i, j] + gamma * gyroscopic[3 * i + j]
 
 
 @kernel
@@ -186,9 +186,9 @@ def _add(
     for i in range(n_rows):
         q, v = at + 12 * i, velocity + 12 * i
         for j in range(3):
-            block[i, j] += gamma * (entries[v + j] + gamma * entries[q + j])
+            block[j, i] += gamma * (entries[v + j] + gamma * entries[q + j])
             turned = entries[q + 3] * turn[0, j] + entries[q + 4] * turn[1, j] + entries[q + 5] * turn[2, j]
-            block[i, 3 + j] += gamma * (entries[v + 3 + j] + gamma * turned)
+            block[3 + j, i] += gamma * (entries[v + 3 + j] + gamma * turned)
 
 
 @kernel
@@ -219,8 +219,8 @@ def _coupling_blocks(
             for j in range(6):
                 value = entries[G + 12 * m + 6 * side + j]
                 if coupling.law == 0:
-                    below[m, j] += value
-                beside[j, m] -= value
+                    below[j, m] += value
+                beside[m, j] -= value
         _add(entries, GQ + 6 * side, GV + 6 * side, gamma, turn, below, coupling.n_terms)
     if coupling.node != NONE and coupling.first_leg == NONE:
         diagonal = blocks[coupling.node]
@@ -328,15 +328,10 @@ def _load_coupling(
         if body == n_bodies:
             continue
         way, r = still[body], x[N_STATES * body + VELOCITY :]
-        for row in range(12):
-            other = coupling.socket if row < 6 else coupling.shaft
-            if other == n_bodies:
-                continue
-            at = KQ + 12 * row + 6 * side
-            total = 0.0
-            for j in range(6):
-                total += entries[at + j] * way[j]
-            nodes[other, row % 6] -= gamma * total
+        for rows in range(2):
+            other = coupling.socket if rows == 0 else coupling.shaft
+            if other < n_bodies:
+                _load_rows(entries[KQ + 72 * rows + 6 * side :], gamma, way, nodes[other])
         if coupling.node == NONE:
             continue
         for m in range(coupling.n_terms):
@@ -345,6 +340,16 @@ def _load_coupling(
             for j in range(6):
                 total += held * entries[G + at + j] * r[j] - gamma * entries[GQ + at + j] * way[j]
             nodes[coupling.node, m] += total
+
+
+@kernel
+def _load_rows(entries: FloatArray, gamma: float, way: FloatArray, node: FloatArray) -> None:
+    """Add −γ times six of twelve columns of K_q, from ``entries`` on, times a change of position."""
+    a, b, c, d, e, f = way[0], way[1], way[2], way[3], way[4], way[5]
+    for i in range(6):
+        row = entries[12 * i :]
+        total = row[0] * a + row[1] * b + row[2] * c + row[3] * d + row[4] * e + row[5] * f
+        node[i] -= gamma * total
 
 
 @kernel

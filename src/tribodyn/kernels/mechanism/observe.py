@@ -11,6 +11,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.data import (
     ANGLE,
     CONTACT,
@@ -88,7 +89,7 @@ def _coupling(coupling: Record, now: Record, book: Record, out: Record) -> None:
     """Motion of the shaft, wrench of the joint and of its drives on it, works and powers of a coupling."""
     axis, driving = now.pose.rotation[:, 2], now.work[0, :6]
     _drive(coupling, now, driving)
-    out.joint_angle = now.angle
+    out.joint_angle = whole_angle(now)
     copy(now.pose.d, out.displacement)
     out.tilt_x, out.tilt_y = -axis[1] / axis[2], axis[0] / axis[2]
     copy(now.twist[:3], out.relative_velocity)

@@ -15,10 +15,8 @@ follow.
 
 from __future__ import annotations
 
-import math
-from typing import Any, Final
+from typing import Any
 
-from mebdf.kernels.elementary import atan2
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
@@ -26,13 +24,12 @@ from tribodyn.kernels.mechanism.vectors import (
     cross,
     cross_put,
     cross_rows,
-    multiply,
     put,
     put_cross,
     turn,
+    turn_axes,
+    turn_axes_back,
 )
-
-WHOLE_TURN: Final = 2.0 * math.pi
 
 
 @kernel
@@ -44,15 +41,12 @@ def relative_motion(coupling: Record, now: Record, bodies: Any) -> None:
 
 @kernel
 def _relative_position(coupling: Record, now: Record, bodies: Any) -> None:
-    """Fill what velocities do not change: displacement, rotation, angle and H."""
+    """Fill what velocities do not change: displacement, rotation and H."""
     socket, shaft = bodies[coupling.socket], bodies[coupling.shaft]
     pose, x, arm, point = now.pose, now.x, now.work[0, :3], now.work[1, :3]
-    for i in range(3):
-        for j in range(3):
-            now.small[i, j] = socket.A[j, i]
-    multiply(coupling.to_socket, now.small, now.RT)
-    multiply(now.RT, shaft.A, now.B)
-    multiply(now.B, coupling.shaft_axes, pose.rotation)
+    turn_axes_back(coupling.to_socket, socket.A, now.RT)
+    turn_axes(now.RT, shaft.A, now.B)
+    turn_axes(now.B, coupling.shaft_axes, pose.rotation)
     for i in range(3):
         point[i] = shaft.r[i] - socket.r[i]
     turn(now.RT, point, x)
@@ -63,8 +57,6 @@ def _relative_position(coupling: Record, now: Record, bodies: Any) -> None:
     for i in range(3):
         pose.d[i] = x[i] - point[i]
     _fill_map(coupling, now)
-    raw = atan2(pose.rotation[1, 0], pose.rotation[0, 0])
-    now.angle = raw + WHOLE_TURN * round((now.angle_mark - raw) / WHOLE_TURN)
 
 
 @kernel

@@ -30,7 +30,7 @@ from mebdf.kernels.elementary import hypot
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.mechanism.blocks import factorise, solve
+from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.bodies import collect, move, own_force, place
 from tribodyn.kernels.mechanism.constraints import fill_rows, prescribe
 from tribodyn.kernels.mechanism.data import (
@@ -47,6 +47,7 @@ from tribodyn.kernels.mechanism.data import (
     Parts,
     Pattern,
 )
+from tribodyn.kernels.mechanism.equations import assemble, has_law, solve_rows
 from tribodyn.kernels.mechanism.forces import force
 from tribodyn.kernels.mechanism.law import call_law, fill_law
 from tribodyn.kernels.mechanism.relative import relative_motion, relative_velocity
@@ -55,7 +56,6 @@ from tribodyn.kernels.signals import Signals
 HARD: Final = 1.0e-8
 SOFT: Final = 1.0
 """Compliances of rows, in units of the inverse mass that a row moves."""
-ROUNDS: Final = 3
 MOST_CORRECTIONS: Final = 6
 MOST_ROUNDS: Final = 60
 SETTLED: Final = 1.0e-13
@@ -99,13 +99,6 @@ def _add_term(leg: Record, first: Record) -> None:
 
 
 @kernel
-def has_law(coupling: Record) -> bool:
-    """Tell whether a coupling is the first leg of an element with a force law."""
-    found: bool = coupling.law != 0 and coupling.first_leg == NONE
-    return found
-
-
-@kernel
 def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: float) -> None:
     """Fill the forces of all couplings, and what else ``mode`` asks for, and sum them up at the bodies."""
     parts, now = data.parts, memory.now
@@ -132,88 +125,21 @@ def _apply(state: Record, socket: Record, shaft: Record) -> None:
 
 
 @kernel
-def assemble(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
-    """Fill the blocks of the equations of motion and factorise them."""
-    for k in range(blocks.shape[0]):
-        for i in range(6):
-            for j in range(6):
-                blocks[k, i, j] = 0.0
-    for b in range(parts.bodies.size):
-        body = parts.bodies[b]
-        for i in range(3):
-            blocks[b, i, i] = body.mass
-            for j in range(3):
-                blocks[b, 3 + i, 3 + j] = body.inertia[i, j]
-    for k in range(parts.couplings.size):
-        if parts.couplings[k].node != NONE:
-            _fill_blocks(parts.couplings[k], now.couplings[k], blocks)
-    factorise(pattern, blocks)
+def _solve_near(
+    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, near: float
+) -> None:
+    """Solve; with the factors of a position close by only where these do."""
+    if not solve_rows(parts, now, pattern, blocks, forced, near):
+        assemble(parts, now, pattern, blocks)
+        solve_rows(parts, now, pattern, blocks, forced, 0.0)
 
 
 @kernel
-def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
-    """Fill the blocks of the rows of a coupling, or add those of a later leg of an element."""
-    if coupling.n_rows == 0:
-        if has_law(coupling):
-            for m in range(6):
-                blocks[coupling.node, m, m] = 1.0
-        _add_leg(coupling, state, blocks)
-        return
-    for m in range(6):
-        blocks[coupling.node, m, m] = state.compliance[m] if m < coupling.n_rows else 1.0
-    for side in range(2):
-        block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
-        if block == NONE:
-            continue
-        for m in range(coupling.n_rows):
-            for j in range(6):
-                blocks[block, m, j] = state.G[m, 6 * side + j]
-                blocks[transposed, j, m] = -state.G[m, 6 * side + j]
+def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, near: float) -> None:
+    """Solve for accelerations and multipliers, and fill the constraint wrenches.
 
-
-@kernel
-def _add_leg(coupling: Record, state: Record, blocks: FloatArray) -> None:
-    """Add the only row of a leg to the blocks that it shares with the first leg of its element.
-
-    The row of a force law holds no motion.
+    The factors at hand are those of the position, or, where ``near`` is 1, of one close by.
     """
-    for side in range(2):
-        block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
-        if block == NONE:
-            continue
-        for j in range(6):
-            if coupling.law == 0:
-                blocks[block, 0, j] += state.G[0, 6 * side + j]
-            blocks[transposed, j, 0] -= state.G[0, 6 * side + j]
-
-
-@kernel
-def solve_rows(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float) -> None:
-    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers.
-
-    Force laws act where ``forced`` is 1, and not where it is 0.
-    """
-    x, rest = now.x, now.rest
-    for repeat in range(ROUNDS if parts.constants.n_rows > 0 else 1):
-        for k in range(parts.couplings.size):
-            coupling, state = parts.couplings[k], now.couplings[k]
-            for m in range(6 if coupling.n_rows > 0 else 0):
-                before = x[coupling.node, m] if repeat > 0 else 0.0
-                wanted = rest[coupling.node, m] + state.compliance[m] * before
-                # Unknowns without a row are zero, whatever a state without an answer has left there.
-                x[coupling.node, m] = wanted if m < coupling.n_rows else 0.0
-            if has_law(coupling):
-                for m in range(6):
-                    x[coupling.node, m] = state.law.force if forced == 1.0 and m == 0 else 0.0
-        for b in range(parts.bodies.size):
-            for i in range(6):
-                x[b, i] = rest[b, i]
-        solve(pattern, blocks, x)
-
-
-@kernel
-def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
-    """Solve for accelerations and multipliers with the factors at hand, and fill the constraint wrenches."""
     for b in range(parts.bodies.size):
         for i in range(6):
             now.rest[b, i] = now.bodies[b].force[i]
@@ -221,7 +147,7 @@ def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatAr
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
             now.rest[coupling.node, m] = now.couplings[k].gamma[m]
-    solve_rows(parts, now, pattern, blocks, 1.0)
+    _solve_near(parts, now, pattern, blocks, 1.0, near)
     for k in range(parts.couplings.size):
         _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
     if parts.constants.n_reactive > 0:
@@ -242,7 +168,7 @@ def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArra
         if rounds > MOST_ROUNDS:
             now.x[0, 0] = math.nan
             break
-        solve_rows(parts, now, pattern, blocks, 1.0)
+        solve_rows(parts, now, pattern, blocks, 1.0, 0.0)
         for k in range(parts.couplings.size):
             _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
     for k in range(parts.couplings.size):
@@ -298,7 +224,7 @@ def accelerations(data: MechanismData, memory: MechanismMemory, t: float, y: Flo
     kinematics(parts, now, data.signals, t)
     forces(data, memory, t, mode)
     assemble(parts, now, data.mass, memory.blocks)
-    take_accelerations(parts, now, data.mass, memory.blocks)
+    take_accelerations(parts, now, data.mass, memory.blocks, 0.0)
 
 
 @kernel
@@ -330,21 +256,21 @@ def _gap(parts: Parts, now: Now) -> float:
 def mark_angles(couplings: Any) -> None:
     """Count whole turns from here."""
     for k in range(couplings.size):
-        couplings[k].angle_mark = couplings[k].angle
+        couplings[k].angle_mark = whole_angle(couplings[k])
 
 
 @kernel
-def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float) -> None:
+def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float) -> int:
     """Move the bodies onto the constraints, the shortest way by mass, and fill the kinematics there.
 
-    Those of where the bodies are must have been filled.
+    Those of where the bodies are must have been filled. Return how many corrections it took; the factors are
+    those of where the bodies were before the last one.
     """
-    gap = _gap(parts, now)
-    for _ in range(MOST_CORRECTIONS):
-        if gap <= CLOSED * parts.constants.size:
-            break
+    gap, corrections = _gap(parts, now), 0
+    while corrections < MOST_CORRECTIONS and not gap <= CLOSED * parts.constants.size:
+        corrections += 1
         assemble(parts, now, pattern, blocks)
-        solve_rows(parts, now, pattern, blocks, 0.0)
+        solve_rows(parts, now, pattern, blocks, 0.0, 0.0)
         for b in range(parts.bodies.size):
             move(now.bodies[b], now.x[b], now.rest[b, :4])
         kinematics(parts, now, signals, t)
@@ -353,15 +279,18 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
         gap = _gap(parts, now)
         if not gap < 0.5 * before:
             break
+    return corrections
 
 
 @kernel
-def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, near: float) -> None:
     """Make velocities those that the constraints allow, by impulses, and fill the kinematics with them.
 
-    Those of the positions must have been filled.
+    Those of the positions must have been filled. With ``near`` 1 the factors at hand are those of a position
+    close by; with 0 the position is factorised.
     """
-    assemble(parts, now, pattern, blocks)
+    if near == 0.0:
+        assemble(parts, now, pattern, blocks)
     for b in range(parts.bodies.size):
         for i in range(6):
             now.rest[b, i] = 0.0
@@ -369,7 +298,7 @@ def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatAr
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
             now.rest[coupling.node, m] = -now.couplings[k].rate[m]
-    solve_rows(parts, now, pattern, blocks, 0.0)
+    _solve_near(parts, now, pattern, blocks, 0.0, near)
     for b in range(parts.bodies.size):
         body = now.bodies[b]
         for i in range(3):
@@ -400,9 +329,10 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
             now.x[b, i] = 0.0
         move(now.bodies[b], now.x[b], now.rest[b, :4])  # makes the quaternion one of length 1
     kinematics(parts, now, data.signals, t)
+    near = 0.0
     if n_rows > 0:
-        close(parts, now, data.signals, data.mass, blocks, t)
-        correct_velocities(parts, now, data.mass, blocks)
+        near = 1.0 if close(parts, now, data.signals, data.mass, blocks, t) == 1 else 0.0
+        correct_velocities(parts, now, data.mass, blocks, near)
     collect(now.bodies, memory.settled)
     forces(data, memory, t, REPORTS)
     redundant = parts.constants.rank < n_rows
@@ -411,7 +341,8 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
     if redundant or n_rows == 0 or _has_path(parts):
         # Otherwise the factors of the correction of velocities hold.
         assemble(parts, now, data.mass, blocks)
-    take_accelerations(parts, now, data.mass, blocks)
+        near = 0.0
+    take_accelerations(parts, now, data.mass, blocks, near)
     if redundant:
         set_compliance(parts, now)
     for k in range(parts.couplings.size):

@@ -29,6 +29,22 @@ def turn_back(matrix: FloatArray, vector: FloatArray, out: FloatArray) -> None:
 
 
 @kernel
+def turn_axes(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    """Fill ``out`` (3, 3) with the product of two matrices (3, 3)."""
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
+
+
+@kernel
+def turn_axes_back(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    """Fill ``out`` (3, 3) with a matrix (3, 3) times the transpose of another."""
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = a[i, 0] * b[j, 0] + a[i, 1] * b[j, 1] + a[i, 2] * b[j, 2]
+
+
+@kernel
 def multiply(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     """Fill ``out`` with the product of two matrices."""
     for i in range(a.shape[0]):

@@ -15,12 +15,12 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import move, place
 from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, Parts
+from tribodyn.kernels.mechanism.equations import ROUNDS
 from tribodyn.kernels.mechanism.follow import follow
 from tribodyn.kernels.mechanism.functions import SMALL
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import (
     HARD,
-    ROUNDS,
     close,
     correct_velocities,
     kinematics,
@@ -231,7 +231,7 @@ class System:
         """Fill the velocities of the drives, running forward (1) or back (−1); freedoms are at rest."""
         self.now.bodies.v[:] = self.now.bodies.w[:] = 0.0
         self.refresh()
-        correct_velocities(self.parts, self.now, self.data.mass, self._blocks)
+        correct_velocities(self.parts, self.now, self.data.mass, self._blocks, 0.0)
         self.now.bodies.v[:] *= direction
         self.now.bodies.w[:] *= direction
         self.refresh()

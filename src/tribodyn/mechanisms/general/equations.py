@@ -22,9 +22,9 @@ from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
 from tribodyn.kernels.mechanism import data as kinds
 from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory, Now, Parts
+from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.kernels.mechanism.law import address_of
-from tribodyn.kernels.mechanism.solution import has_law
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
@@ -121,7 +121,7 @@ def new_memory(data: MechanismData) -> MechanismMemory:
     course.until = np.inf
     n_nodes = max(constants.n_nodes, 2)
     return MechanismMemory(
-        now=Now(course, bodies, couplings, np.zeros((n_nodes, 6)), np.zeros((n_nodes, 6))),
+        now=Now(course, bodies, couplings, *np.zeros((3, n_nodes, 6))),
         blocks=np.zeros((n_blocks(data.mass), 6, 6)),
         independence=np.zeros((redundant, redundant)),
         settled=np.zeros(kinds.N_STATES * n_bodies),
@@ -134,7 +134,7 @@ def new_memory(data: MechanismData) -> MechanismMemory:
 
 def n_blocks(pattern: kinds.Pattern) -> int:
     """Return the number of blocks that a pattern works on."""
-    return 1 + int(np.max(pattern.factor[:, 1:]))
+    return 1 + int(np.max(pattern.factor[:, 1:4]))
 
 
 def _size(model: Model) -> float:
@@ -332,7 +332,7 @@ def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList, fir
 
 def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Pattern]:
     """Return the patterns of the equations of motion and of the iteration matrix; number the blocks."""
-    numbers = [couplings[name] for name in ("node", "socket", "shaft")]
+    numbers = [couplings[name] for name in ("node", "socket", "shaft", "n_terms")]
     structure = np.ascontiguousarray(np.stack([*numbers, couplings.law != 0], axis=1), np.int64)
     mass, newton, rows_block, bodies_block = _patterns_of(n_bodies, structure.tobytes())
     couplings.rows_block[:], couplings.bodies_block[:] = rows_block, bodies_block
@@ -347,19 +347,22 @@ def _copy(pattern: kinds.Pattern) -> kinds.Pattern:
 def _patterns_of(n_bodies: int, structure: bytes) -> tuple[kinds.Pattern, kinds.Pattern, IntArray, IntArray]:
     """Return both patterns, and the blocks of rows, (n, 2, 2), and of pairs of bodies, (n, 2).
 
-    ``structure`` holds node, socket and shaft of each coupling, and whether it has a law.
+    ``structure`` holds node, socket, shaft and rows of each coupling, and whether it has a law.
     """
-    couplings: list[list[int]] = np.frombuffer(structure, np.int64).reshape(-1, 4).tolist()
+    couplings: list[list[int]] = np.frombuffer(structure, np.int64).reshape(-1, 5).tolist()
     n_nodes = max([n_bodies, *(1 + node for node, *_ in couplings)])
-    block_of = {(k, k): k for k in range(n_nodes)}
+    block_of, sizes = {(k, k): k for k in range(n_nodes)}, [6] * n_nodes
     of_node: dict[int, list[int]] = {}
     rows_block, bodies_block = np.full((len(couplings), 2, 2), NONE), np.full((len(couplings), 2), NONE)
     laws = {node for node, *_, law in couplings if law}
+    for node, *_, n_terms, _ in couplings:
+        if node != NONE:
+            sizes[node] = n_terms
 
     def block(row: int, column: int) -> int:
         return block_of.setdefault((row, column), len(block_of))
 
-    for k, (node, *ends, _) in enumerate(couplings):
+    for k, (node, *ends, _, _) in enumerate(couplings):
         bodies = [b if b < n_bodies else NONE for b in ends]
         if node != NONE:
             of_node.setdefault(node, []).extend(bodies)
@@ -372,9 +375,9 @@ def _patterns_of(n_bodies: int, structure: bytes) -> tuple[kinds.Pattern, kinds.
         if node not in laws
     ]
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
-    mass = make_pattern(order, dict(block_of))
-    for k, (_, socket, shaft, _) in enumerate(couplings):
+    mass = make_pattern(order, dict(block_of), sizes)
+    for k, (_, socket, shaft, *_) in enumerate(couplings):
         if socket < n_bodies and shaft < n_bodies:
             bodies_block[k] = block(socket, shaft), block(shaft, socket)
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
-    return mass, make_pattern(order, dict(block_of)), rows_block, bodies_block
+    return mass, make_pattern(order, dict(block_of), sizes), rows_block, bodies_block

@@ -116,7 +116,7 @@ def elimination_order(
     return order
 
 
-def make_pattern(order: list[int], block_of: dict[tuple[int, int], int]) -> Pattern:
+def make_pattern(order: list[int], block_of: dict[tuple[int, int], int], sizes: Sequence[int]) -> Pattern:
     """Return the operations that factorise and solve; blocks that fill in are added to ``block_of``.
 
     Parameters
@@ -125,30 +125,32 @@ def make_pattern(order: list[int], block_of: dict[tuple[int, int], int]) -> Patt
         From :func:`elimination_order`.
     block_of
         Numbers of the blocks by row and column, both of each pair.
+    sizes
+        Unknowns of each node, at most six; beyond them blocks on the diagonal are unit matrices, others zero.
     """
     place = {node: i for i, node in enumerate(order)}
     later: dict[int, set[int]] = {node: set() for node in order}
     for a, b in block_of:
         if place[a] < place[b]:
             later[a].add(b)
-    factor: list[tuple[int, int, int, int]] = []
-    forward: list[tuple[int, int, int]] = []
-    backward: list[tuple[int, int, int]] = []
+    factor: list[tuple[int, ...]] = []
+    forward: list[tuple[int, ...]] = []
+    backward: list[tuple[int, ...]] = []
     for node in order:
         below = sorted(later[node], key=place.__getitem__)
-        diagonal = block_of[node, node]
-        factor.append((INVERT, diagonal, 0, 0))
-        factor.extend((DIVIDE, block_of[i, node], diagonal, 0) for i in below)
+        diagonal, size = block_of[node, node], sizes[node]
+        factor.append((INVERT, diagonal, 0, 0, size, size))
+        factor.extend((DIVIDE, block_of[i, node], diagonal, 0, size, size) for i in below)
         for i in below:
             for j in below:
                 target = block_of.setdefault((i, j), len(block_of))
-                factor.append((SUBTRACT, target, block_of[i, node], block_of[node, j]))
+                factor.append((SUBTRACT, target, block_of[i, node], block_of[node, j], sizes[j], size))
             later[i] |= {j for j in below if place[j] > place[i]}
         forward.extend((block_of[i, node], i, node) for i in below)
     for node in reversed(order):
         backward.extend((block_of[node, j], node, j) for j in later[node])
         backward.append((block_of[node, node], node, node))
-    return Pattern(_array(factor, 4), _array(forward, 3), _array(backward, 3), np.zeros(6, dtype=np.int64))
+    return Pattern(_array(factor, 6), _array(forward, 3), _array(backward, 3), np.zeros(6, dtype=np.int64))
 
 
 def _array(operations: Sequence[tuple[int, ...]], width: int) -> IntArray:

@@ -68,10 +68,10 @@ def test_elimination_without_pivoting_between_blocks_is_accurate() -> None:
     matrix, rows, block_of = _loop()
     order = elimination_order(7, 3, rows, [pair for pair in block_of if pair[0] < pair[1]])
     given = dict(block_of)
-    pattern = make_pattern(order, block_of)
+    pattern = make_pattern(order, block_of, [6, 6, 6, 5, 4, 5, 3])
     blocks = np.zeros((n_blocks(pattern), 6, 6))
     for (i, j), number in given.items():
-        blocks[number] = matrix[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
+        blocks[number] = matrix[6 * i : 6 * i + 6, 6 * j : 6 * j + 6].T
     wanted = np.random.default_rng(5).normal(size=42)
     x = (matrix @ wanted).reshape(7, 6)
     assert factorise(pattern, blocks)

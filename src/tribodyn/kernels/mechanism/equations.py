@@ -1,0 +1,197 @@
+"""The equations of motion as one sparse linear system: its blocks, and its solutions for the multipliers.
+
+See ``kernels/mechanism/solution.py`` for what is solved.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.mechanism.blocks import factorise, solve
+from tribodyn.kernels.mechanism.data import NONE, Now, Parts, Pattern
+
+ROUNDS: Final = 3
+NEGLIGIBLE: Final = 1.0e-14
+"""Solutions for the multipliers; part of the whole energy that the last one may change where the factors are
+those of another position: one more would change less than the square of it."""
+
+
+@kernel
+def has_law(coupling: Record) -> bool:
+    """Tell whether a coupling is the first leg of an element with a force law."""
+    found: bool = coupling.law != 0 and coupling.first_leg == NONE
+    return found
+
+
+@kernel
+def assemble(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+    """Fill the blocks of the equations of motion and factorise them."""
+    for k in range(blocks.shape[0]):
+        for i in range(6):
+            for j in range(6):
+                blocks[k, i, j] = 0.0
+    for b in range(parts.bodies.size):
+        body = parts.bodies[b]
+        for i in range(3):
+            blocks[b, i, i] = body.mass
+            for j in range(3):
+                blocks[b, 3 + i, 3 + j] = body.inertia[i, j]
+    for k in range(parts.couplings.size):
+        if parts.couplings[k].node != NONE:
+            _fill_blocks(parts.couplings[k], now.couplings[k], blocks)
+    factorise(pattern, blocks)
+
+
+@kernel
+def _fill_blocks(coupling: Record, state: Record, blocks: FloatArray) -> None:
+    """Fill the blocks of the rows of a coupling, or add those of a later leg of an element."""
+    if coupling.n_rows == 0:
+        if has_law(coupling):
+            for m in range(6):
+                blocks[coupling.node, m, m] = 1.0
+        _add_leg(coupling, state, blocks)
+        return
+    for m in range(6):
+        blocks[coupling.node, m, m] = state.compliance[m] if m < coupling.n_rows else 1.0
+    for side in range(2):
+        block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
+        if block == NONE:
+            continue
+        for m in range(coupling.n_rows):
+            for j in range(6):
+                blocks[block, j, m] = state.G[m, 6 * side + j]
+                blocks[transposed, m, j] = -state.G[m, 6 * side + j]
+
+
+@kernel
+def _add_leg(coupling: Record, state: Record, blocks: FloatArray) -> None:
+    """Add the only row of a leg to the blocks that it shares with the first leg of its element.
+
+    The row of a force law holds no motion.
+    """
+    for side in range(2):
+        block, transposed = coupling.rows_block[side, 0], coupling.rows_block[side, 1]
+        if block == NONE:
+            continue
+        for j in range(6):
+            if coupling.law == 0:
+                blocks[block, j, 0] += state.G[0, 6 * side + j]
+            blocks[transposed, 0, j] -= state.G[0, 6 * side + j]
+
+
+@kernel
+def solve_rows(
+    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, near: float
+) -> bool:
+    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers; tell whether it holds.
+
+    Force laws act where ``forced`` is 1, and not where it is 0. The factors are those of the position, or of
+    one close by where ``near`` is 1: then the last round is for what is really left and tells if they do.
+    """
+    x, left = now.x, now.left
+    for k in range(x.shape[0]):
+        for i in range(6):
+            x[k, i] = 0.0
+    _fill_left(parts, now, forced)
+    last = ROUNDS - 1 if parts.constants.n_rows > 0 else 0
+    for repeat in range(last + 1):
+        if repeat == last and near == 1.0:
+            _leave(parts, now)
+        elif repeat > 0:
+            _comply(parts, now)
+        solve(pattern, blocks, left)
+        for k in range(x.shape[0]):
+            for i in range(6):
+                x[k, i] += left[k, i]
+    return near == 0.0 or _energy(parts, now, left) <= NEGLIGIBLE * _energy(parts, now, x)
+
+
+@kernel
+def _comply(parts: Parts, now: Now) -> None:
+    """Fill ``now.left`` with what the compliance of the rows has left of the last round."""
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.left[b, i] = 0.0
+    for k in range(parts.couplings.size):
+        node = parts.couplings[k].node
+        if node != NONE and parts.couplings[k].first_leg == NONE:
+            for m in range(6):
+                held = m < parts.couplings[k].n_rows
+                now.left[node, m] = now.couplings[k].compliance[m] * now.left[node, m] if held else 0.0
+
+
+@kernel
+def _fill_left(parts: Parts, now: Now, forced: float) -> None:
+    """Fill ``now.left`` with ``now.rest``, and forces of laws; unknowns without a row are zero."""
+    for b in range(parts.bodies.size):
+        for i in range(6):
+            now.left[b, i] = now.rest[b, i]
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        for m in range(6 if coupling.n_rows > 0 else 0):
+            now.left[coupling.node, m] = now.rest[coupling.node, m] if m < coupling.n_rows else 0.0
+        if has_law(coupling):
+            for m in range(6):
+                law = now.couplings[k].law
+                now.left[coupling.node, m] = law.force if forced == 1.0 and m == 0 else 0.0
+
+
+@kernel
+def _leave(parts: Parts, now: Now) -> None:
+    """Fill ``now.left`` with what ``now.x`` leaves of ``now.rest``: without compliance, at this position."""
+    x, left, n_bodies = now.x, now.left, parts.bodies.size
+    for b in range(n_bodies):
+        body = parts.bodies[b]
+        for i in range(3):
+            left[b, i] = now.rest[b, i] - body.mass * x[b, i]
+            turned = 0.0
+            for j in range(3):
+                turned += body.inertia[i, j] * x[b, 3 + j]
+            left[b, 3 + i] = now.rest[b, 3 + i] - turned
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        if coupling.node == NONE:
+            continue
+        if coupling.first_leg == NONE:
+            for m in range(6):
+                left[coupling.node, m] = now.rest[coupling.node, m] if m < coupling.n_rows else 0.0
+        for side in range(2):
+            body = coupling.socket if side == 0 else coupling.shaft
+            if body < n_bodies:
+                _leave_rows(coupling, now.couplings[k].G, 6 * side, x, left, body)
+
+
+@kernel
+def _leave_rows(
+    coupling: Record, matrix: FloatArray, first: int, x: FloatArray, left: FloatArray, body: int
+) -> None:
+    """Take what rows and a body have to do with each other from what is left of both."""
+    held = 1.0 if coupling.law == 0 else 0.0
+    for m in range(coupling.n_terms):
+        size, total = x[coupling.node, m], 0.0
+        for j in range(6):
+            left[body, j] += matrix[m, first + j] * size
+            total += matrix[m, first + j] * x[body, j]
+        left[coupling.node, m] -= held * total
+
+
+@kernel
+def _energy(parts: Parts, now: Now, x: FloatArray) -> float:
+    """Return twice the energy of velocities, and of impulses of rows on the masses that these move."""
+    total = 0.0
+    for b in range(parts.bodies.size):
+        body = parts.bodies[b]
+        for i in range(3):
+            turned = 0.0
+            for j in range(3):
+                turned += body.inertia[i, j] * x[b, 3 + j]
+            total += body.mass * x[b, i] * x[b, i] + turned * x[b, 3 + i]
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        for m in range(coupling.n_rows):
+            size = x[coupling.node, m]
+            total += now.couplings[k].scale[m] * size * size
+    return total
