@@ -179,7 +179,7 @@ class ExudynModel:
         pull = mbs.GetObjectOutput(self.collar, exu.OutputVariableType.ForceLocal)[2]
         moment = d.collar_radius * max(0.0, -pull)
         tilt = math.hypot(phi_x, phi_y, 1e-6)
-        twist = -direction * (d.air_moment + d.joint.friction_coefficient * moment)
+        twist = -direction * (d.air_moment + self.vsv.joint.friction.coefficient * moment)
         torque = [-moment * phi_x / tilt, moment * phi_y / tilt, twist]
         mbs.SetLoadParameter(self.air, "loadVector", [air_x, d.air_force_y, 0.0])
         mbs.SetLoadParameter(self.moment, "loadVector", torque)
