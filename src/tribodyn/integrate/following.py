@@ -18,6 +18,9 @@ _UNTHINNED: Final = 4
 ROOM: Final = 64_000_000
 """Size of its rows from which it is thinned at twice these rows already [B]."""
 
+BLOCK: Final = 8_000_000
+"""Least size of a block of rows [B]: NumPy asks for large pages from 4 MB on; each costs when first used."""
+
 Rows = tuple[FloatArray, FloatArray]
 """Times [s], shape (n,), and rows, shape (n, n_observed)."""
 
@@ -112,32 +115,34 @@ class _Stretch:
     def __init__(self, n_kept: int) -> None:
         self.n, self.times = 0, np.empty(0)
         self._blocks: list[FloatArray] = []
-        self._shape = CHUNK, n_kept
+        self._size = max(CHUNK, BLOCK // (8 * max(n_kept, 1)))
+        self._shape = self._size, n_kept
 
     def add(self, times: FloatArray, rows: FloatArray) -> None:
         """Add rows with their times."""
         self.times = np.append(self.times, times)
         first = 0
         while first < len(rows):
-            used = self.n % CHUNK
+            used = self.n % self._size
             if used == 0:
                 self._blocks.append(np.empty(self._shape))
-            part = rows[first : first + CHUNK - used]
+            part = rows[first : first + self._size - used]
             self._blocks[-1][used : used + len(part)] = part
             self.n += len(part)
             first += len(part)
 
     def blocks(self) -> list[FloatArray]:
         """Return the rows, block by block."""
-        return [block[: self.n - k * CHUNK] for k, block in enumerate(self._blocks)]
+        return [block[: self.n - k * self._size] for k, block in enumerate(self._blocks)]
 
     def keep(self, chosen: NDArray[np.intp]) -> None:
         """Give up all rows but some, whose numbers rise."""
         for new, old in enumerate(chosen.tolist()):
             if new != old:
-                self._blocks[new // CHUNK][new % CHUNK] = self._blocks[old // CHUNK][old % CHUNK]
+                row = self._blocks[old // self._size][old % self._size]
+                self._blocks[new // self._size][new % self._size] = row
         self.n, self.times = chosen.size, self.times[chosen]
-        del self._blocks[-(-self.n // CHUNK) :]
+        del self._blocks[-(-self.n // self._size) :]
 
 
 def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
