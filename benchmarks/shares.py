@@ -8,9 +8,9 @@ its arguments apart, which costs more than an evaluation. ``advance`` is called 
 end of a step: where they hold already it has nothing to correct and costs two thirds. A share is mean time of
 a call times number of calls over the processor time of the integration; Newton's iterations solve once for
 each evaluation at most. What Python does around the compiled loop, most of all with rows, is measured in the
-run. What is left is the solver itself, and what a call costs more in a run than when it is repeated on one
-state, with its data at hand and its branches foreseen. Start and result are those of the whole simulation.
-Rings of vanes have a benchmark of their own, ``ring``.
+run; half of it is the first use of their memory. What is left is the solver itself, and what a call costs
+more in a run than when it is repeated on one state, with its data at hand and its branches foreseen. Start
+and result are those of the whole simulation. Rings of vanes have a benchmark of their own, ``ring``.
 """
 
 from __future__ import annotations
