@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -105,3 +106,26 @@ def test_without_feedback_jumps_follow_temperatures_as_well() -> None:
     run = td.simulate(journal(**table, **{"wear.cycles": 150, "wear.feedback": False}))
     assert run.sizes["jump"] > 20
     assert run["radial_clearance"].values[0, 0] > 20e-6 + 0.9 * GAIN * 40.0
+
+
+@pytest.mark.parametrize("kind", ["journal", "vane"])
+def test_a_warm_campaign_that_was_stopped_goes_on_to_the_same_bits(kind: str, tmp_path: Path) -> None:
+    if kind == "journal":
+        case, path, period = journal(), "joints.main.clearance.temperature.", TURN
+    else:
+        case, path, period = td.load_case("vsv").replace(VANE), "temperature.", 2.0 * np.pi
+    case = case.replace(
+        warming(path, 400.0 * period, 40.0, 50.0 * period) | {"wear.cycles": 60, "run.cycles": 2}
+    )
+    whole, reached = td.simulate(case), []
+
+    def stop() -> bool:
+        return bool(reached) and reached[-1] > 20.0
+
+    parts = {"checkpoint": tmp_path / "kept.npz"}
+    stopped = td.simulate(case, progress=reached.append, stop=stop, **parts)
+    assert stopped.attrs["failure"] == "interrupted"
+    assert 0 < stopped.attrs["wear_cycles_reached"] < 60
+    resumed = td.simulate(case, **parts)
+    assert resumed.attrs["rows_sha256"] == whole.attrs["rows_sha256"]
+    np.testing.assert_array_equal(resumed["wear_depth"], whole["wear_depth"])

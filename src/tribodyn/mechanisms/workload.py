@@ -81,7 +81,7 @@ class Workload:
     keys: Keys = field(default_factory=Keys)
 
 
-def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float) -> float:
+def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float, rows: int) -> float:
     """Return how many cycles a wear campaign simulates.
 
     Depth per cycle is that of a typical pressure over a slip of one radius, so this is an order of magnitude.
@@ -96,15 +96,17 @@ def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float)
         Combined rms roughness σ [m].
     radius
         Of the shaft [m].
+    rows
+        Of temperatures that follow time: a jump ends at each.
     """
-    if not wear.feedback:
+    if not (wear.feedback or rows):
         return settling + 2.0
     rate = wear.specific_wear_rate + wear.partner_wear_rate
     depth = wear.cycles * rate * _PRESSURE * radius
     if wear.depth_limit is not None:
         depth = min(depth, wear.depth_limit)
     jumps = _FIRST_JUMPS + depth / (_SHARE_OF_JUMP * wear.jump_depth * roughness)
-    return settling + 1.0 + min(float(wear.cycles), jumps)
+    return settling + 1.0 + min(float(wear.cycles), jumps + rows)
 
 
 _PRESSURE = 5.0e5

@@ -67,6 +67,8 @@ from tribodyn.results.attributes import CARRIED, NOT_KEPT
 
 _STATES: Final = 13
 """Of a body."""
+_AS_DRAWN: Final = ("assembly", "maps", "outputs", "_starts")
+"""What is computed once and does not depend on temperatures over time."""
 
 
 @dataclass(frozen=True)
@@ -77,8 +79,13 @@ class MechanismSystem:
     begin: float = 0.0
 
     def beginning(self, time: float) -> Self:
-        """Return the mechanism whose temperatures are those from a time on [s]."""
-        return replace(self, begin=time) if self.case.temperature_times else self
+        """Return the mechanism whose temperatures are those from a time on [s]; as drawn it is the same."""
+        if not self.case.temperature_times:
+            return self
+        found = replace(self, begin=time)
+        # A caller that wants to stop would not wait for these once more.
+        vars(found).update({name: getattr(self, name) for name in _AS_DRAWN})
+        return found
 
     @cached_property
     def model(self) -> Model:

@@ -92,7 +92,8 @@ def _runs(case: MechanismCase, real: list[ClearanceKeys]) -> float:
         return 1.0
     roughness = min(case.of_pair(clearance).surface_pair.roughness_rms for clearance in real)
     radius = max((clearance.radius or 0.0 for clearance in real), default=0.0)
-    return simulated_cycles(case.wear, case.settling_cycles, roughness, radius)
+    rows = len(case.temperature_times)
+    return simulated_cycles(case.wear, case.settling_cycles, roughness, radius, rows)
 
 
 WORKLOAD: Final = workload

@@ -51,9 +51,8 @@ def workload(case: VsvCase) -> Workload:
 def _runs(case: VsvCase) -> float:
     if not case.campaign_cycles:
         return 1.0
-    return simulated_cycles(
-        case.wear, case.settling_cycles, case.surface_pair.roughness_rms, case.joint.radius
-    )
+    roughness, rows = case.surface_pair.roughness_rms, len(case.temperature_times)
+    return simulated_cycles(case.wear, case.settling_cycles, roughness, case.joint.radius, rows)
 
 
 WORKLOAD: Final = workload
