@@ -328,11 +328,7 @@ class Wear(Group):
         le=1,
     )
     jump_depth: float = number(
-        0.25,
-        "largest gain of depth in one jump, over the combined roughness",
-        ASSUMED,
-        gt=0,
-        le=1,
+        0.25, "largest gain of depth in one jump, over the combined roughness", ASSUMED, gt=0, le=1
     )
     depth_limit: float | None = quantity(
         None,
