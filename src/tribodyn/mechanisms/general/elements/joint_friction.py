@@ -38,7 +38,7 @@ def regularised(joint: Any, law: Any) -> None:
     reactions, plain rounds are more reliable.
     """
     v, slip = law.rate, joint.slip_velocity
-    followed = law.normal
+    followed, gain = law.normal, 0.0
     if joint.extrapolates > 0.0:
         change, apart = law.table[0] - law.table[1], law.normal - law.table[0]
         if law.normal == 0.0 and law.table[0] == 0.0:
@@ -51,6 +51,7 @@ def regularised(joint: Any, law: Any) -> None:
         elif change != 0.0:
             followed = max(law.table[0] + apart / (1.0 - law.held), 0.0)
         law.table[1], law.table_slope, law.table[0] = law.table[0], law.normal, followed
+        gain = law.held
     square = v * v + slip * slip
     direction = v / math.sqrt(square)
     share = exp(-((v / joint.stribeck_velocity) ** 2))
@@ -60,7 +61,7 @@ def regularised(joint: Any, law: Any) -> None:
     fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * sticking * share
     law.force = -limit * direction - joint.viscous * v
     steep = fall * direction + limit * slip * slip / (square * math.sqrt(square))
-    law.in_rate = -steep / (1.0 - law.held) - joint.viscous
+    law.in_rate = -steep / (1.0 - gain) - joint.viscous
     law.friction = limit * direction * v
     law.damping = joint.viscous * v * v
 
