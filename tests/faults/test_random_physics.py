@@ -228,8 +228,8 @@ def advised(case: Any, warnings: str, times: int) -> Changes:
     """Return what the warnings of a run ask for, done so many times."""
     changes = tightened(case, 0.1**times)
     if "raise solver.grid" in warnings:
-        for key in ("solver.grid.theta", "solver.grid.z"):
-            changes[key] = 2**times * case.at(key)
+        for key, fine in (("solver.grid.theta", 128), ("solver.grid.z", 32)):
+            changes[key] = 2**times * (case.at(key) or fine)
     return changes
 
 
@@ -294,10 +294,10 @@ def test_mechanisms(seeds: range) -> None:
 def test_what_a_run_advises_that_misses_energy_helps() -> None:
     # Hardly any slip: the work of friction hangs on velocities as small as their absolute tolerance. Rounding
     # decides what a run misses, within a factor of two up or down; so runs at tolerances near by are asked.
-    # Loosened sixty- to ninetyfold they miss 0.013 to 0.052, and 0.0003 to 0.0008 with what they advise.
+    # Loosened eighty- to a hundredfold they miss 0.013 to 0.085, and 0.0004 to 0.001 with what they advise.
     case = load_case("vsv").replace({"joint.slip_velocity": "1e-4 um/s", "run.cycles": 0.6})
     missed = []
-    for near in (60.0, 72.0, 86.0):
+    for near in (80.0, 90.0, 100.0):
         loose = case.replace(tightened(case, near))
         first = run(loose)
         assert (TIGHTEN in first.attrs["warnings"]) == (max(residuals(first)) > ENERGY_LIMIT)
