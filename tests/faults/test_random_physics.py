@@ -9,6 +9,7 @@ its impacts in about a second of computing. All contacts are damped, as real one
 from __future__ import annotations
 
 import math
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -29,6 +30,7 @@ from tribodyn.simulation import simulate
 ENERGY_LIMIT = 0.01
 """Largest energy residual of a sound run: above it a run warns."""
 ATOL = {"position": "m", "tilt": "rad", "velocity": "m/s", "tilt_rate": "rad/s"}
+COARSE = r"raise solver\.grid\.theta and solver\.grid\.z from (\d+) and (\d+)"
 DEEPEST = -4.0
 ENDINGS = tuple(f"_{part}" for part in PARTS)
 """Separation over σ at which a run stops, because contact laws reach no further."""
@@ -227,9 +229,8 @@ def tightened(case: Any, factor: float) -> Changes:
 def advised(case: Any, warnings: str, times: int) -> Changes:
     """Return what the warnings of a run ask for, done so many times."""
     changes = tightened(case, 0.1**times)
-    if "raise solver.grid" in warnings:
-        for key, fine in (("solver.grid.theta", 128), ("solver.grid.z", 32)):
-            changes[key] = 2**times * (case.at(key) or fine)
+    if coarse := re.search(COARSE, warnings):
+        changes |= {"solver.grid.theta": 2 * int(coarse[1]), "solver.grid.z": 2 * int(coarse[2])}
     return changes
 
 

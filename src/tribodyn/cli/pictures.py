@@ -100,6 +100,7 @@ def draw_points(directory: Path, note: Callable[[str], None]) -> None:
     found = sorted((directory / POINTS).glob(f"*/{RESULT}"))
     # A link could lead out of the folder of the sweep.
     results = [result for result in found if not result.parent.is_symlink()]
-    note(f"writing the reports of {len(results)} points")
+    if results:
+        note(f"writing the reports of {len(results)} points")
     for result in results:
         report.write(read(result), result.parent / REPORT)

@@ -175,7 +175,15 @@ def of_lift_off(share: float) -> str:
     return f"The thrust collar carried nothing for {100 * share:.2g} % of the run: lift-off is not modelled."
 
 
-def of_contact(touch: Touch, *, separation: float, clipped: float, grid_error: float) -> list[str]:
+def of_contact(
+    touch: Touch,
+    *,
+    separation: float,
+    clipped: float,
+    grid_error: float,
+    grid: tuple[int, int],
+    keys: str = "solver.grid.theta and solver.grid.z",
+) -> list[str]:
     """Return what is to be said of a contact, whatever is joined by it; empty texts where nothing is.
 
     Parameters
@@ -188,12 +196,17 @@ def of_contact(touch: Touch, *, separation: float, clipped: float, grid_error: f
         Share of the contact area where the tensile clip acts, mean over time.
     grid_error
         Largest error of the contact force on the run's grid, as a fraction; NaN where it is not known.
+    grid
+        Nodes around and along.
+    keys
+        Which keys of the case set them.
     """
     surface = touch.over_surface
     depth = touch.asperity_separation(separation) if surface else math.inf
     return [
         of_clearance(touch),
-        f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: raise solver.grid."
+        f"On the chosen grid the contact force is off by up to {100 * grid_error:.2g} %: "
+        f"raise {keys} from {grid[0]} and {grid[1]}."
         if grid_error > GRID_LIMIT
         else "",
         f"The mean planes of the surfaces came within {depth:.2g} sigma of each other: below 0 the "

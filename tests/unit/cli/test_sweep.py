@@ -15,6 +15,7 @@ import xarray as xr
 import tribodyn.figures
 import tribodyn.report
 from tribodyn.cli.main import main
+from tribodyn.cli.pictures import draw_points
 
 SWEEP = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,25 um"]
 ON_TLS = ["--vary", "joint.clearance=20 um", "--scheduler", "tls://127.0.0.1:1"]
@@ -243,3 +244,9 @@ def test_the_table_shows_what_varies_or_what_is_asked_for() -> None:
 def test_a_number_that_nobody_knows_cannot_be_shown(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*SWEEP, "-o", "out", "--show", "tilt_max_rad"]) == 2
     assert ": tilt_max_mrad, " in capsys.readouterr().err
+
+
+def test_reports_of_points_are_announced_only_where_points_have_whole_results(tmp_path: Path) -> None:
+    said: list[str] = []
+    draw_points(tmp_path, said.append)
+    assert said == []

@@ -108,6 +108,8 @@ class Contacts:
                 separation=float(peaks["separation_least"][s]),
                 clipped=float(peaks["tensile_clip_time"][s]) / t_end if t_end > 0.0 else 0.0,
                 grid_error=float(found["grid_force_error"][s]),
+                grid=self.clearances[self.places[s].joint].grid,
+                keys=f"joints.{name.partition(':')[0]}.clearance.nodes_around and nodes_along",
             )
             when = instant(float(peaks["pressure_peak_time"][s]))
             said += named(name, [*of_surface, *of_load(load, when)])

@@ -49,6 +49,7 @@ def warnings(
             separation=extremes["separation_least"],
             clipped=extremes["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
             grid_error=grid_error,
+            grid=(joint.grid.theta, joint.grid.z),
         ),
         *of_load(load, when),
         *of_steps(statistics),

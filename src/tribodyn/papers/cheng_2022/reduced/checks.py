@@ -64,6 +64,7 @@ def warnings(
             separation=found["separation_least"],
             clipped=found["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
             grid_error=found["grid_force_error"],
+            grid=(vsv.joint.grid.theta, vsv.joint.grid.z),
         ),
         *of_load(found, when),
         of_lift_off(share) if share > LIFT_OFF_LIMIT else "",
