@@ -110,7 +110,6 @@ def test_a_key_that_is_given_goes_before_the_table() -> None:
             "temperature.over_time.casing",
             "bonded",
         ),
-        (EXPANSIONS | WARMING | {"wear.cycles": 10}, "vsv", "temperature.over_time", "one by one"),
         (WARMING, "journal-dry", "temperature.over_time.bushing.times", "unknown key"),
     ],
 )

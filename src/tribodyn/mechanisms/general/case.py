@@ -300,8 +300,7 @@ class MechanismCase(_WithElements):
     @property
     def settling_cycles(self) -> int:
         """Cycles simulated before the first one whose wear counts."""
-        assert self.run.cycles is not None
-        return int(self.run.cycles) - 1
+        return int(self.run.cycles or 1.0) - 1
 
     def model_post_init(self, context: object, /) -> None:
         """Check what involves several tables."""

@@ -22,6 +22,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, number, quantity
 from tribodyn.core.arrays import FloatArray
@@ -69,7 +70,11 @@ torque = "0.2 N m"
         required=True,
     )
     friction_coefficient: float = number(
-        0.0, "of the thread, mu; over the cosine of the flank angle where flanks are inclined", "", ge=0, le=2
+        0.0,
+        "of the thread, mu; over the cosine of the flank angle where flanks are inclined",
+        "assumed",
+        ge=0,
+        le=2,
     )
     radius: float | None = quantity(
         None, "mean radius of the thread, at which it slides; needed with friction", "", gt=0, example="8 mm"
@@ -90,7 +95,7 @@ torque = "0.2 N m"
             demand(False, "radius", "friction in a thread needs the mean radius at which it slides")
             raise AssertionError
         pitch = self.lead / (2.0 * math.pi)
-        slope = math.hypot(self.radius, pitch)
+        slope = float(portable.hypot(self.radius, pitch))
         cosine, sine = self.radius / slope, pitch / slope
         sliding = replace(
             thread, along=sine * thread.along, about=self.radius * cosine, reported=thread.along

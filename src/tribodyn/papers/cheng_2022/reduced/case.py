@@ -233,8 +233,7 @@ class VsvCase(BushingCase):
     @property
     def settling_cycles(self) -> int:
         """Cycles simulated before the first one whose wear counts."""
-        assert self.run.cycles is not None
-        return int(self.run.cycles) - 1
+        return int(self.run.cycles or 1.0) - 1
 
     @property
     def lengths(self) -> Lengths:
