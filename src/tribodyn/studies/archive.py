@@ -46,13 +46,19 @@ class Archive:
         if self.folder.exists() and not self.folder.is_dir():
             raise InputError(f"{brief(self.folder)} is a file; choose another directory", key="--output")
 
-    def find(self, point: Point) -> Summary | None:
-        """Return the summary of a point that is done, None where there is none that can be read."""
+    def find(self, point: Point, *, whole: bool) -> Summary | None:
+        """Return the summary of a point that is done, with its whole result if asked, else None.
+
+        A point that failed may have no result.
+        """
         try:
             content = json.loads(read_regular(self.folder / point.name / SUMMARY, _LARGEST_SUMMARY))
         except (OSError, ValueError, RecursionError):
             return None
-        return content if is_summary(content) else None
+        if not is_summary(content):
+            return None
+        missing = whole and not content.get("failure") and not (self.folder / point.name / RESULT).is_file()
+        return None if missing else content
 
     @contextmanager
     def open(self) -> Iterator[None]:

@@ -217,7 +217,7 @@ def _kept(plan: SweepPlan, archive: Archive | None, means: Means) -> dict[str, S
     """Return the summaries of the points that need not be computed again."""
     if archive is None or means.fresh:
         return {}
-    found = {point.name: archive.find(point) for point in plan.points}
+    found = {point.name: archive.find(point, whole=means.keep_results) for point in plan.points}
     return {
         name: summary
         for name, summary in found.items()

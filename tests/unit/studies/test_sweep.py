@@ -134,6 +134,12 @@ def test_key_results_alone_may_be_kept(simulated: list[Any], tmp_path: Path) -> 
     run(make_plan(load_case("vsv"), GRID), tmp_path, Means(0, keep_results=False))
     assert len(list(tmp_path.glob("points/*/summary.json"))) == 4
     assert not list(tmp_path.glob("points/*/result.nc"))
+    # Who asks for whole results later gets them.
+    run(make_plan(load_case("vsv"), GRID), tmp_path, Means(0))
+    assert len(list(tmp_path.glob("points/*/result.nc"))) == 4
+    before = len(simulated)
+    run(make_plan(load_case("vsv"), GRID), tmp_path, Means(0))
+    assert len(simulated) == before
 
 
 def test_statistics_of_samples_leave_failures_out(simulated: list[Any], tmp_path: Path) -> None:
