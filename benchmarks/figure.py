@@ -13,7 +13,7 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from tribodyn.figures.style import BLUE, GREY, INK, PALE, VERMILION
 
-DEFAULTS: Final = {"grid": "96 × 16", "clearance": "20 µm", "cycles": "1"}
+DEFAULTS: Final = {"grid": "64 × 16", "clearance": "20 µm", "cycles": "1"}
 LOOKS: Final = {
     "grid": ("nodes of the grid", INK, "o", "-"),
     "clearance": ("clearance", BLUE, "s", "--"),

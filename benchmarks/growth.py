@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks.vsv_case import RTOL, one
 
-GRIDS = ((48, 8), (96, 16), (192, 16), (192, 32), (384, 32))
+GRIDS = ((48, 8), (64, 16), (96, 16), (192, 16), (192, 32), (384, 32))
 CLEARANCES = (10, 15, 20, 30, 40)
 CYCLES = (1.0, 2.0, 4.0, 8.0)
 ROUNDS = 5
