@@ -3,6 +3,9 @@
 The parser calls itself for every bracket, and keeps all beginnings of a dotted key. One pass over the text
 finds how deep both go, strings and comments left out; the first string that does not end is where the parser
 will stop, too, so nothing behind it counts.
+
+Groups are repeated in atomic groups: Python before 3.11.5 matches them wrongly where they are repeated
+possessively.
 """
 
 from __future__ import annotations
@@ -20,9 +23,9 @@ _MOST_MARKS: Final = 100_000
 
 _MARKS: Final = re.compile(
     r'''
-    """(?:[^"\\]++|\\.|"{1,2}(?!"))*+"{3,5}
-    | \'\'\'(?:[^']++|'{1,2}(?!'))*+'{3,5}
-    | "(?!"")(?:[^"\\\n]++|\\.)*+"
+    """(?>[^"\\]*+(?:(?:\\.|"{1,2}(?!"))[^"\\]*+)*)"{3,5}
+    | \'\'\'(?>[^']*+(?:'{1,2}(?!')[^']*+)*)'{3,5}
+    | "(?!"")(?>[^"\\\n]*+(?:\\.[^"\\\n]*+)*)"
     | '(?!'')[^'\n]*+'
     | \#[^\n]*+
     | (?P<open>[\[{]) | (?P<close>[\]}]) | (?P<dot>\.) | (?P<next>[,=\n]) | (?P<broken>["'])

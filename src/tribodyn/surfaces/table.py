@@ -20,7 +20,7 @@ from tribodyn.surfaces.scan import MOST_POINTS
 _MISSING: Final = ("", "nan")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _DECIMAL_COMMA: Final = re.compile(r"[+-]?\d+,\d+", re.ASCII)
-_PLAIN: Final = re.compile(r"(?:[\d\s.,;eE+-]++|(?<![+-])nan)*+", re.ASCII | re.IGNORECASE)
+_PLAIN: Final = re.compile(r"[\d\s.,;eE+-]*+(?:(?<![+-])nan[\d\s.,;eE+-]*+)*", re.ASCII | re.IGNORECASE)
 """In such a text Python takes for a number what is one here."""
 
 
