@@ -80,10 +80,10 @@ def test_both_fall_with_the_tolerance(vsv_run, solver):
 
 
 def _fractions(vsv_run, solver, rtol):
-    """Return geometric means of what both balances miss, over three tolerances."""
+    """Return geometric means of what both balances miss, over five tolerances."""
     runs = [
         vsv_run("exact", duration=HALF_CYCLE, solver=solver, rtol=near, atol_scale=1e4 * near)
-        for near in rtol * np.array([0.5, 1.0, 2.0])
+        for near in rtol * np.array([0.5, 0.7, 1.0, 1.4, 2.0])
     ]
     return [
         math.exp(np.mean([math.log(fraction(balance, run)) for run in runs]))

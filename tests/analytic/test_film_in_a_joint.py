@@ -142,7 +142,7 @@ def test_a_journal_in_oil_moves_as_film_and_contact_by_themselves(speed: float, 
     own = solve_ivp(rates, (0.0, 5e-3), np.zeros(5), "LSODA", times, rtol=1e-9, atol=atol)
     made = bearing("0.253 kg", BEARING, {"viscosity": "0.01 Pa s"}, force, RUN, f"{speed} rad/s", 1e-10)
     # Heats are integrals of parabolas over steps, which are long at this tolerance, or from row to row.
-    joint = td.simulate(made.replace({"run.output_interval": "0.01 ms"})).isel(time=slice(None, None, 25))
+    joint = td.simulate(made.replace({"run.output_interval": "0.005 ms"})).isel(time=slice(None, None, 50))
     states = [np.concatenate([y[:2], zero, y[2:4], zero]) for y in own.y.T]
     wrenches = np.array([_film_at(film, oil, state, speed) for state in states])
     pushes = np.array([joint_wrench(contact, state, omega=speed) for state in states])
