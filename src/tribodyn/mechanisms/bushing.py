@@ -92,8 +92,12 @@ def bearings(case: HasBushing) -> dict[str, Bearing]:
 
 def grid_of(case: HasBushing) -> tuple[int, int]:
     """Return how many nodes the joint has around and along at the temperatures of the run, edges apart."""
-    clearance = case.temperature.dimensions(case.joint, case.surfaces).clearance
-    return case.solver.grid.resolved(clearance, case.surface_pair.roughness_rms)
+    (bearing,) = bearings(case).values()
+    return _grid(case, bearing)
+
+
+def _grid(case: HasBushing, bearing: Bearing) -> tuple[int, int]:
+    return case.solver.grid.resolved(bearing.geometry.clearance, bearing.pair.roughness_rms)
 
 
 def bushing_of(case: HasBushing) -> BushingJoint:
@@ -104,7 +108,7 @@ def bushing_of(case: HasBushing) -> BushingJoint:
         geometry=bearing.geometry,
         friction=bearing.friction,
         entry=EntryMemory(contact.onset_separation, contact.least_entry_velocity, contact.tensile_clip),
-        grid=Grid(*grid_of(case)),
+        grid=Grid(*_grid(case, bearing)),
         roughness=bearing.pair.roughness_rms,
         table=contact_table(
             case.joint.contact,

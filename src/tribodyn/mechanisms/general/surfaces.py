@@ -101,7 +101,7 @@ def _clearance(
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
     return Clearance(
         shape=shape,
-        grid=grid_of(case, name, keys),
+        grid=_grid(case, keys, shape.clearance),
         roughness=surfaces.roughness_rms,
         law=law,
         table=table_of(
@@ -127,7 +127,10 @@ def _clearance(
 
 def grid_of(case: MechanismCase, name: str, keys: ClearanceKeys) -> tuple[int, int]:
     """Return the nodes of a surface of a joint around and along; wear does not change them."""
-    clearance = _shape(case, name, case.joints[name], keys).clearance
+    return _grid(case, keys, _shape(case, name, case.joints[name], keys).clearance)
+
+
+def _grid(case: MechanismCase, keys: ClearanceKeys, clearance: float) -> tuple[int, int]:
     around, along = case.solver.grid.resolved(clearance, case.of_pair(keys).surface_pair.roughness_rms)
     return keys.nodes_around or around, keys.nodes_along or along
 
