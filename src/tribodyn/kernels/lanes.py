@@ -293,7 +293,7 @@ above: Final = _either(_above, lambda a, b, x, y: np.where(a > b, x, y))
 store_places: Final = _either(_store_places, _put)
 """Write whole numbers in lanes, none of them negative, into an array from ``place`` on, for what follows.
 
-Read from there they are at hand sooner than from lanes; the array tells nothing else about them.
+Read from there they are at hand sooner than from lanes; the array says nothing else about them.
 """
 entries_at: Final = _either(_entries_at, lambda array, places, place: array[_named(places, place)])
 """Return the entries of an array that the numbers name that ``store_places`` wrote into ``places``."""

@@ -21,7 +21,7 @@ those of another position: one more would change less than the square of it."""
 
 @kernel
 def has_law(coupling: Record) -> bool:
-    """Tell whether a coupling is the first leg of an element with a force law."""
+    """Return whether a coupling is the first leg of an element with a force law."""
     found: bool = coupling.law != 0 and coupling.first_leg == NONE
     return found
 
@@ -86,10 +86,10 @@ def _add_leg(coupling: Record, state: Record, blocks: FloatArray) -> None:
 def solve_rows(
     parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, near: float
 ) -> bool:
-    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers; tell whether it holds.
+    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers; return if it holds.
 
     Force laws act where ``forced`` is 1, and not where it is 0. The factors are those of the position, or of
-    one close by where ``near`` is 1: then the last round is for what is really left and tells if they do.
+    one close by where ``near`` is 1: then the last round is for what is really left and shows if they do.
     """
     x, left = now.x, now.left
     for k in range(x.shape[0]):
