@@ -21,6 +21,7 @@ NAMES: Final = (
     "joint_kernel",
     "vsv",
     "mechanism",
+    "equal_errors",
     "film",
     "growth",
     "costs",

@@ -187,6 +187,14 @@ def mechanism(found: Found) -> Lines:
             yield row("tribodyn" if name == "ours" else "Exudyn", run["setting"], time, error)
 
 
+def equal_errors(found: Found) -> Lines:
+    """Give times at equal errors over those of the general engine."""
+    yield from head("beside `vsv-free`", "error of the vane angle", "time over ours")
+    for name, ratios in found["equal_errors"]["ratios"].items():
+        for value in ratios:
+            yield row(name, f"{value['angle']:.0e} rad", f"{value['ratio']:.2g}")
+
+
 def film(found: Found) -> Lines:
     """Give the film solver beside a general sparse one."""
     yield from head("journal", "structured", "SuperLU", "ratio", "difference of forces")
@@ -249,6 +257,7 @@ TABLES: Final[dict[str, tuple[Path, Callable[[Found], Lines]]]] = {
     "peers": (SOURCE, peers),
     "tolerances": (SOURCE, tolerances),
     "mechanism": (SOURCE, mechanism),
+    "equal_errors": (SOURCE, equal_errors),
     "film": (SOURCE, film),
     "growth": (SOURCE, growth),
     "command": (SOURCE, command),
