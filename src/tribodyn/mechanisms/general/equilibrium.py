@@ -12,6 +12,7 @@ or, at rest, of the last one or of the one that is about to begin.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -36,8 +37,9 @@ from tribodyn.kernels.mechanism.data import (
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.decompositions import row_space, shortest
-from tribodyn.mechanisms.general.nodes import JointNodes, nodes_of
+from tribodyn.mechanisms.general.nodes import JointNodes, alike, nodes_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
+from tribodyn.mechanisms.general.shaft_motions import ShaftMotions, forces, of_bodies, products, ways
 from tribodyn.mechanisms.general.speeds import Speeds, start
 
 _MOVING: Final = 1.0e-6
@@ -103,8 +105,14 @@ class JointLoads:
         couplings = self.data.parts.couplings
         self.couplings = self.memory.now.couplings
         self.contacts = nodes_of(self.data.contact, np.flatnonzero(couplings.force == CONTACT))
-        self.ends = [(int(coupling.socket), int(coupling.shaft)) for coupling in couplings]
-        self.by_slip = np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE))
+        self.touching = np.array([contact.coupling for contact in self.contacts], np.intp)
+        self.alike = alike(self.contacts)
+        self.ends = np.stack([couplings.socket, couplings.shaft])
+        self.acting = np.flatnonzero(couplings.force != NOTHING)
+        self.roots = np.zeros((couplings.size, 6, 6))
+        for contact in self.contacts:
+            self.roots[contact.coupling] = contact.root
+        self.by_slip = np.flatnonzero(np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE)))
         parts = newton.N_PLACES + newton.N_BODY
         self.laws = np.flatnonzero(couplings.law)
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
@@ -139,8 +147,7 @@ class JointLoads:
         motions = np.hstack([allowed, carried])
         self.motions = dense.product(self.root, motions)
         self.asked = dense.product(motions.T, self.held.part_of(self.wanted))
-        moves = np.any(self.motions.reshape(self.n, 6, -1) != 0.0, axis=1)
-        self.moves = np.vstack([moves, np.zeros_like(moves[:1])])
+        self.moving = ShaftMotions(self.motions, self.ends[:, self.acting])
         if np.any(self._slips() > _MOVING):
             self.ahead = self.velocity
         else:
@@ -161,7 +168,9 @@ class JointLoads:
         if not (self.freedoms and free.size):
             return free[:, :0], free
         self._evaluate(self.velocity)
-        values, vectors = dense.eigh(self._held_by(dense.product(self.root, free), self.springs))
+        moving = dense.product(self.root, free)
+        held_by = ShaftMotions(moving, self.ends[:, self.springs])
+        values, vectors = dense.eigh(self._held_by(moving, held_by, self.springs)[0])
         held = values > _FLOOR * np.max(values, initial=_TINY)
         return dense.product(free, vectors[:, held]), dense.product(free, vectors[:, ~held])
 
@@ -204,17 +213,12 @@ class JointLoads:
 
     def _of_slip(self) -> FloatArray:
         """Return the part of that force that slip decides."""
-        return self._pushes("wrench", np.flatnonzero(self.by_slip))
+        return self._pushes("wrench", self.by_slip)
 
     def _pushes(self, wrench: str, couplings: IntArray) -> FloatArray:
         """Return what a wrench of some couplings does to the bodies, shape (6 n,)."""
-        force, wrenches, arms = np.zeros((self.n + 1, 6)), self.couplings[wrench], self.couplings["H"]
-        for k in couplings.tolist():
-            push = dense.product(wrenches[k], arms[k])
-            socket, shaft = self.ends[k]
-            force[socket] += push[:6]
-            force[shaft] += push[6:]
-        return force[: self.n].ravel()
+        pushes = products(self.couplings[wrench][couplings, None], self.couplings["H"][couplings])
+        return forces(pushes, self.ends[:, couplings], self.n)
 
     def _evaluated(self) -> FloatArray:
         """Return the force on all bodies, slip as it is looked at, all else as bodies move."""
@@ -244,43 +248,36 @@ class JointLoads:
 
     def stiffness(self) -> tuple[FloatArray, FloatArray]:
         """Return the stiffness of what was evaluated last, and of springs under all nodes, (m, m) each."""
-        m = self.motions.shape[1]
-        even = np.zeros((m, m))
-        for contact in self.contacts:
-            moving = np.flatnonzero(self.moves[list(self.ends[contact.coupling])].any(axis=0))
-            way = dense.product(contact.root, self._way(contact.coupling, self.motions[:, moving]))
-            even[np.ix_(moving, moving)] += dense.product(way.T, way)
-        acting = np.flatnonzero(self.data.parts.couplings.force != NOTHING)
-        return self._held_by(self.motions, acting), even
+        return self._held_by(self.motions, self.moving, self.acting)
 
-    def _held_by(self, motions: FloatArray, couplings: IntArray) -> FloatArray:
-        """Return the stiffness of some couplings and of all force laws over motions (6 n, m), (m, m)."""
-        total = np.zeros((motions.shape[1], motions.shape[1]))
-        for k in couplings.tolist():
-            way = self._way(k, motions)
-            moving = np.flatnonzero(way.any(axis=0))
-            way = way[:, moving]
-            slope = dense.product(dense.product(way.T, self.couplings["slope"][k, :, :6]), way)
-            total[np.ix_(moving, moving)] -= slope
-        for first in self.laws[self.data.parts.couplings.first_leg[self.laws] == NONE].tolist():
-            row = self._row(first, motions)
+    def _held_by(
+        self, motions: FloatArray, moving: ShaftMotions, couplings: IntArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the stiffness of some couplings and of all force laws over motions, and of such springs.
+
+        ``motions`` have shape (6 n, m); ``moving`` are the same for these couplings.
+        """
+        arms, slopes = (self.couplings[name][couplings] for name in ("H", "slope"))
+        found, even = moving.stiffness(arms, slopes[..., :6], self.roots[couplings])
+        total = -found
+        for first, row in self._rows(motions):
             total -= self.couplings[first].law.in_position * np.outer(row, row)
-        return total
+        return total, even
 
-    def _row(self, leg: int, motions: FloatArray) -> FloatArray:
-        """Return what motions do to the coordinate of an element from a leg on, shape (m,)."""
-        row = np.asarray(dense.product(self.couplings[leg].N[0], self._way(leg, motions)))
-        following = int(self.data.parts.couplings[leg].next_leg)
-        return row if following == NONE else np.asarray(row + self._row(following, motions))
-
-    def _way(self, coupling: int, motions: FloatArray) -> FloatArray:
-        """Return what motions of all bodies (6 n, ...) do to the shaft of a coupling, shape (6, ...)."""
-        arms, ways = self.couplings["H"][coupling], np.zeros((6, *motions.shape[1:]))
-        for side, body in enumerate(self.ends[coupling]):
-            if body < self.n:
-                own = motions[6 * body : 6 * body + 6]
-                ways += dense.product(arms[:, 6 * side : 6 * side + 6], own)
-        return ways
+    def _rows(self, motions: FloatArray) -> Iterator[tuple[int, FloatArray]]:
+        """Yield the first legs of all force laws, and what motions do to their coordinates, shape (m,)."""
+        arms, directions = self.couplings["H"][self.laws], self.couplings["N"][self.laws, :1]
+        rows = products(directions, ways(arms, of_bodies(motions, self.ends[:, self.laws])))[:, 0]
+        of_leg = dict(zip(self.laws.tolist(), rows, strict=True))
+        following = self.data.parts.couplings.next_leg
+        for first in self.laws[self.data.parts.couplings.first_leg[self.laws] == NONE].tolist():
+            legs = [first]
+            while following[legs[-1]] != NONE:
+                legs.append(int(following[legs[-1]]))
+            row = of_leg[legs[-1]]
+            for leg in reversed(legs[:-1]):
+                row = of_leg[leg] + row
+            yield first, row
 
     def _place(self, contact: JointNodes) -> FloatArray:
         """Return displacement and tilt of a shaft where it was evaluated last, shape (6,)."""
@@ -294,11 +291,15 @@ class JointLoads:
         """Return by how much a step (m,) changes gaps at most, over the roughness and over gaps as drawn."""
         ask()
         moved = dense.product(self.motions, step)
+        bodies = of_bodies(moved[:, None], self.ends[:, self.touching])
+        way = ways(self.couplings["H"][self.touching], bodies)[..., 0]
         over_roughness = over_gap = 0.0
-        for contact in self.contacts:
-            change = np.abs(dense.product(contact.gradient, self._way(contact.coupling, moved)))
-            over_roughness = max(over_roughness, float(np.max(change / contact.roughness)))
-            over_gap = max(over_gap, float(np.max(change) / np.max(contact.drawn)))
+        for numbers in self.alike:
+            contact = self.contacts[numbers[0]]
+            change = np.abs(dense.product(contact.gradient, way[numbers].T))
+            over_roughness = max(over_roughness, float(np.max(change / contact.roughness[:, None])))
+            drawn = [np.max(self.contacts[number].drawn) for number in numbers]
+            over_gap = max(over_gap, float(np.max(np.max(change, axis=0) / drawn)))
         return over_roughness, over_gap
 
     def move(self, step: FloatArray) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -88,3 +89,11 @@ def nodes_of(joints: SurfaceData, couplings: IntArray) -> list[JointNodes]:
             )
         )
     return found
+
+
+def alike(contacts: Sequence[JointNodes]) -> list[list[int]]:
+    """Return the numbers of joints in groups whose nodes have the same places, normals and roughness."""
+    groups: dict[tuple[bytes, bytes], list[int]] = {}
+    for number, contact in enumerate(contacts):
+        groups.setdefault((contact.gradient.tobytes(), contact.roughness.tobytes()), []).append(number)
+    return list(groups.values())

@@ -1,0 +1,110 @@
+"""What motions of the bodies do to the shafts of many couplings at once.
+
+Sums run in the order of :func:`tribodyn.kernels.dense.product`, coupling by coupling: the same bits on every
+processor, whatever is taken together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray, IntArray
+
+_ROOM: Final = 2**16
+"""Entries of the stiffness of couplings that are taken together."""
+
+
+def products(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the matrix products of stacks (..., r, s) and (..., s, c), shape (..., r, c)."""
+    found = first[..., :, :1] * second[..., :1, :]
+    for k in range(1, first.shape[-1]):
+        found += first[..., :, k : k + 1] * second[..., k : k + 1, :]
+    return found
+
+
+def ways(arms: FloatArray, bodies: FloatArray) -> FloatArray:
+    """Return what motions of socket and shaft (2, k, 6, m) do to the shafts of k couplings, (k, 6, m).
+
+    ``arms`` are those of the couplings, shape (k, 6, 12).
+    """
+    return products(arms[..., :6], bodies[0]) + products(arms[..., 6:], bodies[1])
+
+
+def of_bodies(motions: FloatArray, ends: IntArray) -> FloatArray:
+    """Return motions (6 n, m) of sockets and shafts, shape (2, k, 6, m); the ground, body n, has none.
+
+    ``ends`` are the numbers of these bodies, shape (2, k).
+    """
+    bodies = motions.reshape(-1, 6, motions.shape[1])
+    return np.concatenate([bodies, np.zeros_like(bodies[:1])])[ends]
+
+
+def forces(pushes: FloatArray, ends: IntArray, n: int) -> FloatArray:
+    """Return forces and moments on n bodies, shape (6 n,), from those on sockets and shafts (k, 12)."""
+    places = 6 * ends.T[:, :, None] + np.arange(6)
+    return np.bincount(places.ravel(), pushes.ravel(), 6 * (n + 1))[: 6 * n]
+
+
+class ShaftMotions:
+    """Motions of bodies, each of which moves few of them, as the couplings between these take part in them.
+
+    Parameters
+    ----------
+    motions
+        Columns over displacements and rotations of all bodies, shape (6 n, m).
+    ends
+        Numbers of socket and shaft of some couplings, shape (2, k).
+    """
+
+    def __init__(self, motions: FloatArray, ends: IntArray) -> None:
+        self._m = motions.shape[1]
+        moved = np.any(motions.reshape(-1, 6, self._m) != 0.0, axis=1)
+        moved = np.concatenate([moved, np.zeros_like(moved[:1])])
+        takes_part = moved[ends[0]] | moved[ends[1]]
+        # What is left of a row is filled with a motion of nothing.
+        spread = np.concatenate([motions, np.zeros_like(motions[:, :1])], axis=1)
+        self._runs = []
+        for run in _runs(np.count_nonzero(takes_part, axis=1)):
+            width = int(np.max(np.count_nonzero(takes_part[run], axis=1), initial=0))
+            columns = np.argsort(~takes_part[run], axis=1, kind="stable")[:, :width]
+            columns[~np.take_along_axis(takes_part[run], columns, axis=1)] = self._m
+            bodies = np.concatenate([spread, np.zeros_like(spread[:6])]).reshape(-1, 6, self._m + 1)
+            own = bodies[ends[:, run, None], :, columns].swapaxes(-1, -2)
+            self._runs.append((run, columns, np.ascontiguousarray(own)))
+
+    def stiffness(self, arms: FloatArray, slopes: FloatArray, roots: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the sums of Wᵀ S W and of (R W)ᵀ R W over all couplings, shape (m, m) each.
+
+        W is the motion of the shaft of a coupling; S and R have shape (k, 6, 6), ``arms`` (k, 6, 12).
+        """
+        size = (self._m + 1) ** 2
+        sums = np.zeros((2, size))
+        for run, columns, own in self._runs:
+            way = ways(arms[run], own)
+            across = way.swapaxes(-1, -2)
+            lifted = products(roots[run], way)
+            places = ((self._m + 1) * columns[:, :, None] + columns[:, None, :]).ravel()
+            for found, entries in zip(
+                sums,
+                (products(products(across, slopes[run]), way), products(lifted.swapaxes(-1, -2), lifted)),
+                strict=True,
+            ):
+                np.add.at(found, places, entries.ravel())
+        first, second = sums.reshape(2, self._m + 1, self._m + 1)[:, :-1, :-1]
+        return first, second
+
+
+def _runs(widths: NDArray[np.intp]) -> Iterator[slice]:
+    """Yield runs of couplings whose stiffness, that many columns wide, fits the room, or of one coupling."""
+    first = widest = 0
+    for k, width in enumerate(widths.tolist()):
+        if k > first and (k + 1 - first) * max(widest, width) ** 2 > _ROOM:
+            yield slice(first, k)
+            first, widest = k, 0
+        widest = max(widest, width)
+    if first < widths.size:
+        yield slice(first, widths.size)
