@@ -7,11 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from tribodyn.cases.case import Case
 from tribodyn.cases.columns import KNOTS, VALUES
-from tribodyn.cases.keys import Key
+from tribodyn.cases.keys import Key, keys_of
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.tables import keys_in
 from tribodyn.cases.units import from_si, number_in
 
 _TURN: Final = 2.0 * math.pi
@@ -107,7 +105,6 @@ class FollowedTable:
 
 
 def followed(
-    case: Case,
     tables: Mapping[str, Any],
     duration: float,
     *,
@@ -118,8 +115,6 @@ def followed(
 
     Parameters
     ----------
-    case
-        The case.
     tables
         Members of :mod:`tribodyn.cases.signals`, with and without values, by their paths.
     duration
@@ -129,11 +124,11 @@ def followed(
     follows
         Names of the coordinates that tables over angles or positions follow, by the paths of the tables.
     """
-    keys, names = keys_in(case), follows or {}
+    names = follows or {}
     for path, table in tables.items():
         given = {over: tuple(getattr(table, over, None) or ()) for over in KNOTS}
         axes = {over: knots for over, knots in given.items() if knots}
-        ends = _ends(keys[f"{path}.{VALUES}"], table.values) if len(axes) == 1 else ()
+        ends = _ends(keys_of(type(table))[VALUES], table.values) if len(axes) == 1 else ()
         for over, knots in axes.items():
             along = "" if over == "times" else names.get(path, "")
             again = knots[-1] if over == "times" and getattr(table, "cyclic", False) else cycle

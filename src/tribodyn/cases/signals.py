@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 from tribodyn.cases.beyond import whole_turns
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _FORMULA: Final = ("value", "amplitude", "swing")
 _PULSE: Final = "pulse"
 _FEWEST_SMOOTH: Final = 5
+_KEPT: Final = 8
+"""Curves through tables that are kept."""
 _ROUNDING: Final = 1.0e-14
 _TINY: Final = 1.0e-300
 _TURN: Final = 2.0 * math.pi * (1.0 - 1.0e-9)
@@ -147,12 +150,7 @@ class _TableRows(NamedGroup):
 
     def curve(self, *, closed: bool = False) -> Signal:
         """Return the curve through the rows; ``closed`` as for :func:`tribodyn.core.signals.spline`."""
-        # Imported here: reading a case needs no NumPy.
-        from tribodyn.core.signals import smoothed, spline
-
-        if self.interpolation == "smooth":
-            return smoothed(self.knots, self.values or ())
-        return spline(*self._rows(), closed=closed)
+        return _curve(*self._rows(), self.interpolation == "smooth", closed)
 
     def _rows(self) -> tuple[Numbers, Numbers]:
         """Return knots and values; of straight lines each stands there twice but for the ends."""
@@ -162,6 +160,15 @@ class _TableRows(NamedGroup):
         rows = sorted(set(zip(self.knots, values, strict=True)))
         doubled = [rows[0], *(row for row in rows[1:-1] for _ in range(2)), rows[-1]]
         return tuple(row[0] for row in doubled), tuple(row[1] for row in doubled)
+
+
+@lru_cache(_KEPT)
+def _curve(knots: Numbers, values: Numbers, smooth: bool, closed: bool) -> Signal:
+    """Return the curve through rows; many loads of a mechanism, and all cases of a sweep, have the same."""
+    # Imported here: reading a case needs no NumPy.
+    from tribodyn.core.signals import smoothed, spline
+
+    return smoothed(knots, values) if smooth else spline(knots, values, closed=closed)
 
 
 class _Timed(_TableRows):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
@@ -52,7 +53,8 @@ def record_type(*fields: Any) -> RecordType:
     return np.dtype((np.record, list(fields)))
 
 
-def slices(table: Table) -> dict[str, slice]:
+@cache
+def slices(table: Table) -> Mapping[str, slice]:
     """Return where each quantity is among the numbers of a record that :func:`of_table` makes."""
     ends = itertools.accumulate(quantity.size for quantity in table)
     return {quantity.name: slice(end - quantity.size, end) for quantity, end in zip(table, ends, strict=True)}

@@ -82,7 +82,9 @@ def negated(pieces: Pieces) -> Pieces:
 
 def _padded(polynomial: FloatArray) -> FloatArray:
     """Return polynomials with five coefficients."""
-    return np.pad(polynomial, ((0, 0), (0, 5 - polynomial.shape[1])))
+    found = np.zeros((len(polynomial), 5))
+    found[:, : polynomial.shape[1]] = polynomial
+    return found
 
 
 def _value(polynomial: FloatArray, x: float) -> float:

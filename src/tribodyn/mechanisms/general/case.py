@@ -179,9 +179,9 @@ class MechanismCase(_WithElements):
             if joint.real is not None
             for part, table in joint.real.temperature.tables.items()
         }
-        yield from followed(self, drives, self.span)
-        yield from followed(self, warm, self.span if self.wear.cycles == 0 else time_followed(self))
-        yield from followed(self, loads, self.span, cycle=self.period, follows=along)
+        yield from followed(drives, self.span)
+        yield from followed(warm, self.span if self.wear.cycles == 0 else time_followed(self))
+        yield from followed(loads, self.span, cycle=self.period, follows=along)
 
     def idle(self) -> tuple[str, ...]:
         """Return the keys that follow from the shapes of bodies."""

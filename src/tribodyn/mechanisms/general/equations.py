@@ -30,7 +30,7 @@ from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanisms.general.body import BodyKeys
 from tribodyn.mechanisms.general.elements.base import ForceLaw, Leg
-from tribodyn.mechanisms.general.frames import GROUND, frame
+from tribodyn.mechanisms.general.frames import GROUND, cross, frame
 from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.loads import fill_load
 from tribodyn.mechanisms.general.model import Model
@@ -159,7 +159,7 @@ def _bodies(model: Model) -> Any:
 def _inertia(body: BodyKeys) -> FloatArray:
     """Return the inertia about the mass centre, along the axes of the drawing [kg m²], shape (3, 3)."""
     first, second = unit(body.first_axis, "first_axis"), unit(body.second_axis, "second_axis")
-    axes = np.column_stack([first, second, np.cross(first, second)])
+    axes = np.column_stack([first, second, cross(first, second)])
     inertia = dense.product(dense.product(axes, np.diag(body.inertia)), axes.T)
     return np.asarray(0.5 * (inertia + inertia.T))
 

@@ -11,7 +11,7 @@ from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.frames import GROUND
+from tribodyn.mechanisms.general.frames import GROUND, cross
 from tribodyn.mechanisms.general.parts import JointKeys
 
 _PARALLEL: Final = 1e-3
@@ -51,12 +51,12 @@ def _race_axes(case: MechanismCase, joint: JointKeys) -> FloatArray:
         if first is None:
             first = way / length
             continue
-        normal = np.cross(first, way / length)
+        normal = cross(first, way / length)
         if dense.norm(normal) > _PARALLEL:
             return np.array([normal / dense.norm(normal), first])
     if first is None:
         return np.eye(3)[[2, 0]]
-    across = np.cross(first, np.eye(3)[int(np.argmin(np.abs(first)))])
+    across = cross(first, np.eye(3)[int(np.argmin(np.abs(first)))])
     return np.array([across / dense.norm(across), first])
 
 

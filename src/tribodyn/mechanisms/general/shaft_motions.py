@@ -76,7 +76,9 @@ class ShaftMotions:
             own = bodies[ends[:, run, None], :, columns].swapaxes(-1, -2)
             self._runs.append((run, columns, np.ascontiguousarray(own)))
 
-    def stiffness(self, arms: FloatArray, slopes: FloatArray, roots: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def stiffness(
+        self, arms: FloatArray, slopes: FloatArray, roots: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Return the sums of Wᵀ S W and of (R W)ᵀ R W over all couplings, shape (m, m) each.
 
         W is the motion of the shaft of a coupling; S and R have shape (k, 6, 6), ``arms`` (k, 6, 12).

@@ -177,7 +177,7 @@ class JournalCase(BushingCase):
         }
         drives = {} if self.drive.speed is None else {"drive.speed": self.drive.speed}
         follows = dict.fromkeys(loads, "the journal")
-        return followed(self, drives | loads, self.duration, follows=follows)
+        return followed(drives | loads, self.duration, follows=follows)
 
     def idle(self) -> tuple[str, ...]:
         """Return the speed where a table takes its place."""

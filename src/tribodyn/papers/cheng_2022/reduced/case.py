@@ -269,8 +269,8 @@ class VsvCase(BushingCase):
         }
         along = {path: f"the {self.loads.more[path.split('.')[2]].along}" for path in loads}
         warm = {f"{OVER_TIME}.{part}": table for part, table in self.temperature.tables.items()}
-        yield from followed(self, loads, self.duration, cycle=self.period, follows=along)
-        yield from followed(self, warm, time_followed(self))
+        yield from followed(loads, self.duration, cycle=self.period, follows=along)
+        yield from followed(warm, time_followed(self))
 
     def idle(self) -> tuple[str, ...]:
         """Return the keys of the sinusoid that a table takes the place of."""
