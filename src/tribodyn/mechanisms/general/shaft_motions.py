@@ -39,7 +39,7 @@ def of_bodies(motions: FloatArray, ends: IntArray) -> FloatArray:
 
     ``ends`` are the numbers of these bodies, shape (2, k).
     """
-    bodies = motions.reshape(-1, 6, motions.shape[1])
+    bodies = motions.reshape(len(motions) // 6, 6, motions.shape[1])
     return np.concatenate([bodies, np.zeros_like(bodies[:1])])[ends]
 
 
@@ -62,7 +62,7 @@ class ShaftMotions:
 
     def __init__(self, motions: FloatArray, ends: IntArray) -> None:
         self._m = motions.shape[1]
-        moved = np.any(motions.reshape(-1, 6, self._m) != 0.0, axis=1)
+        moved = np.any(motions.reshape(len(motions) // 6, 6, self._m) != 0.0, axis=1)
         moved = np.concatenate([moved, np.zeros_like(moved[:1])])
         takes_part = moved[ends[0]] | moved[ends[1]]
         # What is left of a row is filled with a motion of nothing.
