@@ -7,8 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
+from pydantic import BaseModel
+
 from tribodyn.cases.columns import KNOTS, VALUES
-from tribodyn.cases.keys import Key, keys_of
+from tribodyn.cases.keys import keys_of
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.units import from_si, number_in
 
@@ -128,7 +130,7 @@ def followed(
     for path, table in tables.items():
         given = {over: tuple(getattr(table, over, None) or ()) for over in KNOTS}
         axes = {over: knots for over, knots in given.items() if knots}
-        ends = _ends(keys_of(type(table))[VALUES], table.values) if len(axes) == 1 else ()
+        ends = _ends(table) if len(axes) == 1 else ()
         for over, knots in axes.items():
             along = "" if over == "times" else names.get(path, "")
             again = knots[-1] if over == "times" and getattr(table, "cyclic", False) else cycle
@@ -142,8 +144,10 @@ def _period(over: str, knots: tuple[float, ...], cycle: float | None) -> float:
     return _TURN * whole_turns(knots) if over == "angles" else 0.0
 
 
-def _ends(key: Key, values: tuple[float, ...]) -> tuple[str, str]:
-    first, last = (from_si(float(f"{value:.{_DIGITS}g}"), key.unit) for value in (values[0], values[-1]))
+def _ends(table: Any) -> tuple[str, str]:
+    model: type[BaseModel] = type(table)
+    unit, ends = keys_of(model)[VALUES].unit, (table.values[0], table.values[-1])
+    first, last = (from_si(float(f"{value:.{_DIGITS}g}"), unit) for value in ends)
     return first, last
 
 

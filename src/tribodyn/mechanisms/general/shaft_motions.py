@@ -46,7 +46,9 @@ def of_bodies(motions: FloatArray, ends: IntArray) -> FloatArray:
 def forces(pushes: FloatArray, ends: IntArray, n: int) -> FloatArray:
     """Return forces and moments on n bodies, shape (6 n,), from those on sockets and shafts (k, 12)."""
     places = 6 * ends.T[:, :, None] + np.arange(6)
-    return np.bincount(places.ravel(), pushes.ravel(), 6 * (n + 1))[: 6 * n]
+    found = np.zeros(6 * (n + 1))
+    np.add.at(found, places.ravel(), pushes.ravel())
+    return found[: 6 * n]
 
 
 class ShaftMotions:
