@@ -7,6 +7,7 @@ piston. The shaft's flanges stand outside the ends of the bore and rest on them.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -19,6 +20,8 @@ from tribodyn.joints.shapes.rings import Rings, with_edges
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 ENDS = {"upper": 1.0, "lower": -1.0}
+FEWEST_ACROSS = 4
+"""Rows of a face, however narrow it is, unless the barrel has fewer."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +103,10 @@ class Cylinder:
         return (
             barrel,
             *(
-                replace(self._face(end, gap).surface(f"{end} face", grid), opens=(0.0, self._share(gap)))
+                replace(
+                    self._face(end, gap).surface(f"{end} face", (n_theta, self._rows_of_face(n_z))),
+                    opens=(0.0, self._share(gap)),
+                )
                 for end, gap in self.faces.items()
             ),
         )
@@ -108,6 +114,17 @@ class Cylinder:
     def _share(self, gap: float) -> float:
         """Return the share of a face in a change of the play; none of one alone, which the shaft rests on."""
         return gap / sum(self.faces.values()) if len(self.faces) == 2 else 0.0
+
+    def _rows_of_face(self, n_z: int) -> int:
+        """Return how many rows resolve a face as ``n_z`` resolve the barrel.
+
+        The shaft tilts no further than the barrel lets it. So the gap changes across a face and along the
+        barrel as their widths do, and the numbers of rows that resolve it go with the roots of these, see
+        ``joints/resolution.py``.
+        """
+        assert self.flange is not None
+        width = self.flange - self.radius - self.clearance
+        return min(max(math.ceil(n_z * math.sqrt(width / self.length)), FEWEST_ACROSS), n_z)
 
     def _face(self, end: str, gap: float) -> Annulus:
         assert self.flange is not None
