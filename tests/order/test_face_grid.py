@@ -48,7 +48,7 @@ def test_face_on_the_default_grid(trunnion, share):
     assert compared > 0
 
 
-@pytest.mark.parametrize("flange, rows", [(7.02e-3, FEWEST_ACROSS), (11.02e-3, 8), (46.02e-3, 16)])
+@pytest.mark.parametrize(("flange", "rows"), [(7.02e-3, FEWEST_ACROSS), (11.02e-3, 8), (46.02e-3, 16)])
 def test_number_of_rows(flange, rows):
     shape = Cylinder(radius=6e-3, clearance=20e-6, length=20e-3, axial=50e-6, flange=flange)
     rho = shape.surfaces((64, 16))[1].axes["rho"]

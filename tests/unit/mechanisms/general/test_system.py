@@ -216,7 +216,7 @@ def test_the_default_tolerance_resolves_bronze_on_steel() -> None:
     told = [results.summarise(run) for run in runs]
     # Over these tolerances about 1e-4 peak pressures lie between 62 and 89 MPa and 0.7 % of the energy is
     # missed, about 1e-5 between 60.9 and 64 MPa and 0.2 %, about 1e-6 between 60.8 and 61.3 MPa. One run in
-    # eighty has a single step of 0.3 us with 81 MPa: its approach speed is off by some mm/s, as rounding has it.
+    # eighty has a single step of 0.3 µs with 81 MPa: its approach speed is off by some mm/s.
     peaks = sorted(summary["peak_pressure_MPa"] for summary in told)
     assert peaks[-2] < 1.05 * peaks[0]
     assert max(summary["energy_residual_percent"] for summary in told) < 0.5
