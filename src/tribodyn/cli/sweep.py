@@ -113,6 +113,9 @@ def execute(args: Namespace) -> int:
     with directory.reserved():
         with Interruption(_STOPPING) as interruption:
             last_words(f"aborted; points that had finished are kept in {os.fspath(directory.path)}")
+            if args.figures or args.page:
+                # It draws in the end, and is imported here, while the fork server still gets ready.
+                from tribodyn import report  # noqa: F401
             dataset = _computed(plan, directory.path, means, console, interruption)
         # That of an earlier sweep would contradict this one.
         (directory.path / REPORT).unlink(missing_ok=True)
@@ -201,8 +204,6 @@ def _variations(texts: list[str]) -> dict[str, str]:
 
 
 def _computed(plan: SweepPlan, path: Path, means: Means, console: Console, stop: Interruption) -> xr.Dataset:
-    # What draws in the end is imported here, while the fork server still gets ready.
-    from tribodyn import report  # noqa: F401
     from tribodyn.studies import Watcher, run
 
     with ExitStack() as stack:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.quantities import Record
 from tribodyn.kernels.joints.surface.data import (
     AREA,
     ARM,
@@ -26,7 +25,6 @@ from tribodyn.kernels.joints.surface.data import (
     N_RADIAL,
     N_RING,
     NODE_AREA,
-    NORMAL,
     POSITION,
     RADIUS,
     Row,
@@ -59,25 +57,25 @@ def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
         rows[at : at + own.size] = own
         rows["first"][at : at + own.size] += first
         at += own.size
-    for row in rows:
-        here = nodes[:, row["first"] : row["first"] + row["count"]]
-        row["least"] = here[GAP].min()
-        if row["whole"] == 0.0:
-            _check_ring(row, here)
+    ends = np.stack([rows["first"], rows["first"] + rows["count"]], axis=1)
+    gaps = np.append(nodes[GAP], np.inf)  # an end may lie behind the last node
+    rows["least"] = np.minimum.reduceat(gaps, ends.ravel())[::2]
+    ring = rows["whole"] == 0.0
+    for count in np.unique(rows["count"][ring]).tolist():
+        _check_rings(rows[ring & (rows["count"] == count)], count, nodes)
     return rows
 
 
-def _check_ring(row: Record, nodes: FloatArray) -> None:
-    """Refuse a row of nodes (``N_NODE``, n) that kernels would take for a ring."""
-    cos, sin, _ = _ring(int(row["count"]))
-    radius, _, height = nodes[POSITION : POSITION + 3, 0]
-    radial, _, axial = row["normal"]
-    expected = np.stack(
-        [radius * cos, radius * sin, height + 0.0 * cos, radial * cos, radial * sin, axial + 0.0 * cos]
-    )
-    if np.abs(nodes[POSITION : NORMAL + 3] - expected).max() > CLOSE:
+def _check_rings(rows: Rows, count: int, nodes: FloatArray) -> None:
+    """Refuse rows of ``count`` of the nodes that kernels would take for rings."""
+    cos, sin, _ = _ring(count)
+    here = nodes[:, rows["first"][:, None] + np.arange(count)]
+    radius, _, height = here[POSITION : POSITION + 3, :, :1]
+    radial, _, axial = rows["normal"].T[:, :, None]
+    expected = (radius * cos, radius * sin, height, radial * cos, radial * sin, axial)
+    if max(np.abs(found - at).max() for found, at in zip(here[:AREA], expected, strict=True)) > CLOSE:
         raise InputError("nodes of a row must lie at equal angles around the axis", key="shape")
-    if np.ptp(nodes[AREA]) > CLOSE * nodes[AREA, 0]:
+    if np.any(np.ptp(here[AREA], axis=1) > CLOSE * here[AREA, :, 0]):
         raise InputError("nodes of a row around the axis must have equal areas", key="shape")
 
 

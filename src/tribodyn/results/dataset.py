@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from xarray.indexes import PandasIndex
 
 from tribodyn.results.variables import VARIABLES, Variable
@@ -48,18 +48,29 @@ def build(
     """
     data = {**columns, **(fields or {})}
     known = {**VARIABLES, **variables}
-    return xr.Dataset(
-        data_vars={name: _variable(name, values, known) for name, values in data.items()},
-        coords=_coordinates({name: _variable(name, values, known) for name, values in coordinates.items()}),
-        attrs={name: plain_attribute(value) for name, value in (attributes or {}).items()},
+    return assembled(
+        {name: _variable(name, values, known) for name, values in data.items()},
+        {name: _variable(name, values, known) for name, values in coordinates.items()},
+        {name: plain_attribute(value) for name, value in (attributes or {}).items()},
     )
 
 
-def _coordinates(given: Mapping[str, xr.Variable]) -> xr.Coordinates:
-    """Return the coordinates with an index of each dimension.
+def variable(dims: tuple[str, ...], values: NDArray[Any], about: dict[str, Any]) -> xr.Variable:
+    """Return an array with its dimensions and attributes, by the short way of xarray for plain arrays.
 
-    xarray would make the same, but import pint and dask to see that the arrays are none of theirs.
+    The other way imports pint and dask to see that the array is none of theirs, which takes half a second.
     """
+    return xr.Variable(dims, values, about, fastpath=True)
+
+
+def assembled(
+    data: Mapping[str, xr.Variable], coordinates: Mapping[str, xr.Variable], attributes: Mapping[str, Any]
+) -> xr.Dataset:
+    """Return variables of :func:`variable` and coordinates as a dataset, with an index of each dimension."""
+    return xr.Dataset(data_vars=data, coords=_indexed(coordinates), attrs=attributes)
+
+
+def _indexed(given: Mapping[str, xr.Variable]) -> xr.Coordinates:
     indexes = {
         name: PandasIndex(pd.Index(values.values), name, values.dtype)
         for name, values in given.items()
@@ -79,9 +90,7 @@ def _variable(name: str, values: ArrayLike, known: Mapping[str, Variable]) -> xr
     array = np.asarray(values)
     if array.ndim != len(about.dims):
         raise ValueError(f"{name} has shape {array.shape} but its line says it runs over {about.dims}")
-    described = {"units": about.units, "long_name": about.long_name}
-    # Plain arrays by the short way, which does not import dask to see that they are none of its own.
-    return xr.Variable(about.dims, array, described, fastpath=True)
+    return variable(about.dims, array, {"units": about.units, "long_name": about.long_name})
 
 
 def plain_attribute(value: object) -> str | int | float:

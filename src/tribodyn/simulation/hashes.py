@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tribodyn.core.problem import Problem, Solution
 
@@ -51,18 +52,27 @@ def _add(digest: Any, name: str, value: Any) -> None:
     elif isinstance(value, np.ndarray | np.generic | float | int):
         array = np.asarray(value)
         digest.update(f"{name} {array.dtype.str} {array.shape} ".encode())
-        for block in np.array_split(np.atleast_1d(array), array.nbytes // _BLOCK + 1):
-            copy = np.array(block, order="C")
-            if copy.dtype.kind == "f":
-                copy[np.isnan(copy)] = np.nan  # one of all bit patterns
-            digest.update(copy.tobytes())
+        for block in _blocks(array):
+            digest.update(block)
     else:
         digest.update(f"{name} ".encode())
 
 
-def _parts(value: Any) -> Iterator[tuple[object, Any]] | None:
+def _parts(value: Any) -> Iterable[tuple[object, Any]] | None:
     """Return the parts of a tuple, a record or an array of records with their names, else None."""
     if isinstance(value, tuple):
         return zip(getattr(value, "_fields", range(len(value))), value, strict=True)
-    names = getattr(getattr(value, "dtype", None), "names", None)
-    return None if names is None else ((part, value[part]) for part in names)
+    if not isinstance(value, np.ndarray | np.void) or value.dtype.names is None:
+        return None
+    fields = np.asarray(value).view(np.ndarray)  # of records NumPy finds entries by slower ways
+    return [(part, fields[part]) for part in value.dtype.names]
+
+
+def _blocks(array: NDArray[Any]) -> Iterator[NDArray[Any]]:
+    """Yield an array in contiguous parts, every NaN with the same bits."""
+    cut = array.nbytes >= _BLOCK
+    for part in np.array_split(array, array.nbytes // _BLOCK + 1) if cut else (array,):
+        block = np.ascontiguousarray(part)
+        if block.dtype.kind == "f" and (unknown := np.isnan(block)).any():
+            block = np.where(unknown, np.nan, block)
+        yield block

@@ -15,6 +15,7 @@ from tribodyn.cases.units import si_unit, to_si
 from tribodyn.core.versions import version
 from tribodyn.mechanisms.results import known
 from tribodyn.results.attributes import SWEEP
+from tribodyn.results.dataset import assembled, variable
 from tribodyn.results.summary import Summary
 from tribodyn.results.variables import POINT_TEXTS
 from tribodyn.studies.plan import POINT, SweepPlan
@@ -46,19 +47,16 @@ def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:
     dims = tuple(axis.name for axis in plan.axes)
 
     def laid_out(values: Sequence[Any], dtype: Any, about: dict[str, str]) -> xr.Variable:
-        return xr.Variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
+        return variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
 
     kind = plan.case.kind()
     texts = {name: [_text(row.get(name, "")) for row in rows] for name in ("failure", "warnings", "doubtful")}
     texts["points"] = [point.name for point in plan.points]
-    return xr.Dataset(
-        data_vars={name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
-        | {
-            name: laid_out(values, object, {"long_name": POINT_TEXTS[name]}) for name, values in texts.items()
-        },
-        coords=_coordinates(plan),
-        attrs=_attributes(plan, rows),
-    )
+    numbers = {name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
+    words = {
+        name: laid_out(values, object, {"long_name": POINT_TEXTS[name]}) for name, values in texts.items()
+    }
+    return assembled(numbers | words, _coordinates(plan), _attributes(plan, rows))
 
 
 def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
@@ -97,9 +95,9 @@ def _coordinates(plan: SweepPlan) -> dict[str, xr.Variable]:
     for axis in plan.axes:
         if axis.name == POINT:
             numbers = np.arange(axis.size)
-            coordinates[POINT] = xr.Variable((POINT,), numbers, {"long_name": "number of the sample"})
+            coordinates[POINT] = variable((POINT,), numbers, {"long_name": "number of the sample"})
         for key, values in axis.columns.items():
-            coordinates[key.path] = xr.Variable((axis.name,), np.asarray(values), _about(key))
+            coordinates[key.path] = variable((axis.name,), np.asarray(values), _about(key))
     return coordinates
 
 

@@ -19,7 +19,7 @@ UNNEEDED = (
     *("pint", "dask", "matplotlib", "jinja2", "numpy.f2py", "scipy.integrate", "scipy.interpolate"),
     *("scipy.linalg", "scipy.optimize", "scipy.sparse", "scipy.special", "numba.np.arrayobj"),
 )
-"""Libraries that no run of ``vsv`` without figures needs."""
+"""Libraries that no run and no sweep of ``vsv`` without figures needs."""
 
 
 def test_help_imports_nothing_heavy() -> None:
@@ -111,13 +111,16 @@ def test_the_package_itself_is_light() -> None:
     assert output == "good\n"
 
 
-def test_a_run_imports_no_library_that_only_some_need() -> None:
+@pytest.mark.parametrize(
+    "command", [["run", "vsv"], ["sweep", "vsv", "--vary", "joint.clearance=20 um, 21 um", "--workers", "0"]]
+)
+def test_a_run_imports_no_library_that_only_some_need(command: list[str]) -> None:
     """Those here took a third of a short run's time; counted in modules, not in seconds."""
     program = (
         "import sys, tempfile\n"
         "from tribodyn.cli.main import main\n"
         "arguments = ['--set', 'run.cycles=0.02', '--no-figures', '--no-report', '--quiet']\n"
-        "assert main(['run', 'vsv', *arguments, '-o', tempfile.mkdtemp()]) == 0\n"
+        f"assert main([*{command!r}, *arguments, '-o', tempfile.mkdtemp()]) == 0\n"
         f"print([name for name in {UNNEEDED!r} if name in sys.modules], len(sys.modules) < 1500)"
     )
     for _ in range(2):  # the first one may compile

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.core.errors import InputError
 from tribodyn.joints.rows import angles_of, rows_of
 from tribodyn.joints.shapes import Cylinder
-from tribodyn.kernels.joints.surface.data import AREA, COS, LIFT, N_ANGLE, N_NODE, NORMAL, POSITION, SIN
+from tribodyn.kernels.joints.surface.data import AREA, COS, GAP, LIFT, N_ANGLE, N_NODE, NORMAL, POSITION, SIN
 
 
 def nodes_and_rows(n_theta=12):
@@ -52,3 +52,12 @@ def test_a_mechanism_of_ideal_joints_has_no_rows():
     rows = rows_of([], np.zeros((N_NODE, 0)))
     assert rows.size == 0
     assert angles_of(rows).shape == (N_ANGLE, 0)
+
+
+def test_rows_that_end_where_others_begin_have_gaps_of_their_own():
+    nodes, own = nodes_and_rows()
+    nodes[GAP] = np.arange(nodes.shape[1])[::-1]
+    rows = rows_of([(own, 0), (own[:2], 0)], nodes)
+    np.testing.assert_array_equal(
+        rows["least"], [nodes[GAP, first + count - 1] for first, count in rows[["first", "count"]].tolist()]
+    )
