@@ -24,6 +24,30 @@ FEWEST_ACROSS = 4
 """Rows of a face, however narrow it is, unless the barrel has fewer."""
 
 
+def rows_of_face(n_z: int, width: float, length: float) -> int:
+    """Return how many rows resolve an end face as ``n_z`` resolve the barrel.
+
+    The shaft tilts no further than the barrel lets it. So the gap changes across a face and along the barrel
+    as their widths do, and the numbers of rows that resolve it go with the roots of these, see
+    ``joints/resolution.py``.
+
+    Parameters
+    ----------
+    n_z
+        Rows of the barrel.
+    width
+        Outer radius of the face less the inner one [m].
+    length
+        Of the barrel [m].
+
+    Examples
+    --------
+    >>> rows_of_face(16, 6e-3, 20e-3)
+    9
+    """
+    return min(max(math.ceil(n_z * math.sqrt(width / length)), FEWEST_ACROSS), n_z)
+
+
 @dataclass(frozen=True)
 class Cylinder:
     """Sizes of a shaft in a bore [m].
@@ -104,7 +128,7 @@ class Cylinder:
             barrel,
             *(
                 replace(
-                    self._face(end, gap).surface(f"{end} face", (n_theta, self._rows_of_face(n_z))),
+                    self._face(end, gap).surface(f"{end} face", (n_theta, self._rows_across(n_z))),
                     opens=(0.0, self._share(gap)),
                 )
                 for end, gap in self.faces.items()
@@ -115,16 +139,9 @@ class Cylinder:
         """Return the share of a face in a change of the play; none of one alone, which the shaft rests on."""
         return gap / sum(self.faces.values()) if len(self.faces) == 2 else 0.0
 
-    def _rows_of_face(self, n_z: int) -> int:
-        """Return how many rows resolve a face as ``n_z`` resolve the barrel.
-
-        The shaft tilts no further than the barrel lets it. So the gap changes across a face and along the
-        barrel as their widths do, and the numbers of rows that resolve it go with the roots of these, see
-        ``joints/resolution.py``.
-        """
+    def _rows_across(self, n_z: int) -> int:
         assert self.flange is not None
-        width = self.flange - self.radius - self.clearance
-        return min(max(math.ceil(n_z * math.sqrt(width / self.length)), FEWEST_ACROSS), n_z)
+        return rows_of_face(n_z, self.flange - self.radius - self.clearance, self.length)
 
     def _face(self, end: str, gap: float) -> Annulus:
         assert self.flange is not None

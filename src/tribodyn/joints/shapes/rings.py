@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quadrature import gauss_legendre_between
 from tribodyn.joints.shapes.base import Surface
 from tribodyn.kernels.joints.surface.data import Row
+
+EDGES: Final = 2
+"""Rows on the edges of a surface, which weigh nothing."""
 
 
 def across(first: float, last: float, n: int) -> tuple[FloatArray, FloatArray]:

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.kernels.mechanism.data import N_STATES
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.kept import frames, layout_of
@@ -22,8 +23,6 @@ _STEPS: Final = (300.0, 500.0, 1500.0)
 Measured with built-in cases, rings of 5 to 80 vanes and chains of 10 and 30 bodies at ``rtol`` 1e-5.
 """
 _TOLERANCE_POWER: Final = -0.1
-_EDGES: Final = 2.0
-"""Rows of nodes at the edges of a surface."""
 
 
 def workload(case: MechanismCase) -> Workload:
@@ -71,7 +70,7 @@ def _nodes(case: MechanismCase) -> Iterator[float]:
         if clearance is None:
             continue
         around, along = grid_of(case, name, clearance)
-        yield SHAPES[joint.shape].nodes(clearance, around, along + _EDGES)
+        yield SHAPES[joint.shape].nodes(clearance, around, along + EDGES)
 
 
 def _typical_time(case: MechanismCase) -> float:

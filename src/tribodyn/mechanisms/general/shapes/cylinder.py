@@ -6,7 +6,8 @@ from typing import Any, ClassVar, Final
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.fields import quantity
-from tribodyn.joints.shapes import Cylinder
+from tribodyn.joints.shapes.cylinder import Cylinder, rows_of_face
+from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.mechanisms.general.joints.base import JointType
 from tribodyn.mechanisms.general.shapes.base import ClearanceShape, Local
 
@@ -90,7 +91,7 @@ class ShaftInBore(ClearanceShape):
             axial=keys.axial,
             axial_upper=keys.axial_upper,
             axial_lower=keys.axial_lower,
-            flange=keys.flange or (FLANGE * keys.radius if keys.has_faces else None),
+            flange=_flange(keys) if keys.has_faces else keys.flange,
             form=keys.form.form(),
         )
 
@@ -101,4 +102,11 @@ class ShaftInBore(ClearanceShape):
     def nodes(self, keys: Any, around: int, along: float) -> float:
         """Return the nodes of the barrel and of its end faces."""
         ends = (keys.axial_upper or keys.axial, keys.axial_lower or keys.axial)
-        return around * along * (1.0 + sum(gap is not None for gap in ends))
+        width = _flange(keys) - keys.radius - keys.radial
+        across = rows_of_face(round(along) - EDGES, width, keys.length) + EDGES
+        return around * (along + across * sum(gap is not None for gap in ends))
+
+
+def _flange(keys: Any) -> float:
+    """Return the outer radius of end faces [m]."""
+    return float(keys.flange or FLANGE * keys.radius)
