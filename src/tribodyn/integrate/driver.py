@@ -245,7 +245,7 @@ class Walk:
         """Return what was reached."""
         self.collect()
         n_rows, n_pictures = self.kept.numbers
-        times, rows = self.followed.merged(self.schedule.output_times[:n_rows], self.kept.rows[:n_rows])
+        times, rows = self.followed.merged(self.schedule.output_times[:n_rows], self.kept.rows)
         return Solution(
             t=times,
             rows=rows,

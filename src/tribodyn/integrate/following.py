@@ -53,7 +53,7 @@ class Followed:
         size = CHUNK if following else 1
         self.times, self.rows = np.empty(size), np.empty((size, n_observed))
         places = np.arange(n_observed) if kept is None else kept
-        self._kept, self._n_kept = slice(None) if kept is None else kept, places.size
+        self._kept, self._n_kept = kept, places.size
         most = self.following.most
         self._full = min(max(ROOM // (8 * max(self._n_kept, 1)), 2 * most), _UNTHINNED * most)
         self._watched = [np.searchsorted(places, watched) for watched in self.following.watched]
@@ -70,13 +70,21 @@ class Followed:
         """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
         while first < last:
             end = min(last, first + self._full - stretch.n)
-            stretch.add(self.times[first:end], self.rows[first:end][:, self._kept])
+            stretch.add(self.times[first:end], self.rows[first:end], self._kept)
             if stretch.n == self._full:
                 stretch.keep(self._chosen(stretch))
             first = end
 
     def merged(self, times: FloatArray, rows: FloatArray) -> Rows:
-        """Return other rows and those kept, in the order of time; those kept are given away."""
+        """Return other rows and those kept, in the order of time; both are given away.
+
+        Parameters
+        ----------
+        times
+            Of the other rows, shape (n,).
+        rows
+            An array of its own that begins with them, shape (n or more, n_kept); those kept are added in place.
+        """
         stretches = list(self._stretches.values())
         self._stretches.clear()
         for stretch in stretches:
@@ -85,14 +93,14 @@ class Followed:
         order = np.argsort(every, kind="stable")
         place = np.empty_like(order)
         place[order] = np.arange(order.size)
-        found = np.empty((every.size, rows.shape[1]))
-        found[place[: times.size]] = rows
+        rows.resize((every.size, rows.shape[1]), refcheck=False)
+        _spread(rows, place[: times.size])
         first = times.size
         while stretches:
             for block in stretches.pop(0).blocks():
-                found[place[first : first + len(block)]] = block
+                rows[place[first : first + len(block)]] = block
                 first += len(block)
-        return every[order], found
+        return every[order], rows
 
     def _chosen(self, stretch: _Stretch) -> NDArray[np.intp]:
         """Return which rows of a stretch are kept."""
@@ -118,8 +126,8 @@ class _Stretch:
         self._size = max(CHUNK, BLOCK // (8 * max(n_kept, 1)))
         self._shape = self._size, n_kept
 
-    def add(self, times: FloatArray, rows: FloatArray) -> None:
-        """Add rows with their times."""
+    def add(self, times: FloatArray, rows: FloatArray, places: NDArray[np.intp] | None) -> None:
+        """Add some places of rows, None for all, with their times."""
         self.times = np.append(self.times, times)
         first = 0
         while first < len(rows):
@@ -127,7 +135,7 @@ class _Stretch:
             if used == 0:
                 self._blocks.append(np.empty(self._shape))
             part = rows[first : first + self._size - used]
-            self._blocks[-1][used : used + len(part)] = part
+            take_places(part, places, self._blocks[-1][used : used + len(part)])
             self.n += len(part)
             first += len(part)
 
@@ -143,6 +151,24 @@ class _Stretch:
                 self._blocks[new // self._size][new % self._size] = row
         self.n, self.times = chosen.size, self.times[chosen]
         del self._blocks[-(-self.n // self._size) :]
+
+
+def take_places(rows: FloatArray, places: NDArray[np.intp] | None, out: FloatArray) -> None:
+    """Copy some places of rows (n, n_observed), None for all, to ``out`` (n, n_kept)."""
+    if places is None:
+        out[:] = rows
+    else:
+        np.take(rows, places, axis=1, out=out, mode="clip")  # another mode would fill a copy first
+
+
+def _spread(rows: FloatArray, places: NDArray[np.intp]) -> None:
+    """Move the first rows of an array to places further down that rise, in place."""
+    moves, end = places - np.arange(places.size), places.size
+    while end > 0 and moves[end - 1] > 0:
+        move = int(moves[end - 1])
+        begin = max(int(np.searchsorted(moves, move)), end - CHUNK)
+        rows[begin + move : end + move] = rows[begin:end]
+        end = begin
 
 
 def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:

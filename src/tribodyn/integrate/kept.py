@@ -6,6 +6,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Floats, Problem
+from tribodyn.integrate.following import take_places
 
 
 class Kept:
@@ -37,7 +38,7 @@ class Kept:
     def add_rows(self, rows: FloatArray) -> None:
         """Take over rows in the order of time, shape (n, n_observed)."""
         first, n_pictures = self.numbers
-        self.rows[first : first + len(rows)] = rows if self._places is None else rows[:, self._places]
+        take_places(rows, self._places, self.rows[first : first + len(rows)])
         self.numbers = first + len(rows), n_pictures
 
     def add_pictures(self, pictures: FloatArray) -> None:

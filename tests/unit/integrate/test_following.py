@@ -157,3 +157,22 @@ def test_what_is_kept_does_not_hang_on_the_clock():
         others = walked(chance.integers(0, longest, 20_000))
         np.testing.assert_array_equal(others[0], t)
         np.testing.assert_array_equal(others[1], rows)
+
+
+@pytest.mark.parametrize("places", [None, np.array([1, 3])])
+@pytest.mark.parametrize("share", [0.0, 0.02, 0.5, 1.0])
+def test_rows_are_merged_in_place(places, share):
+    # As many output times and steps as fill several blocks of moves.
+    chance = np.random.default_rng(9)
+    t = np.linspace(0.0, 0.3, 4 * CHUNK)
+    every = chance.normal(size=(t.size, 4))
+    at_step = chance.random(t.size) < share
+    followed = Followed(Following(np.array([[0.0, 1.0]]), t.size, ((0,),)), 4, places)
+    for steps in np.split(np.flatnonzero(at_step), range(CHUNK, np.count_nonzero(at_step), CHUNK)):
+        followed.times[: steps.size], followed.rows[: steps.size] = t[steps], every[steps]
+        followed.collect(steps.size)
+    kept = every if places is None else every[:, places]
+    outputs = np.concatenate([kept[~at_step], np.zeros((3, kept.shape[1]))])  # as after an early end
+    times, rows = followed.merged(t[~at_step], outputs)
+    assert times.tolist() == t.tolist()
+    assert np.array_equal(rows, kept)
