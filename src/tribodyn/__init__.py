@@ -55,7 +55,7 @@ def __getattr__(name: str) -> Any:
         module, _, attribute = _HOME[name].partition(":")
         value = getattr(importlib.import_module(module), attribute)
         if name in _GIVING_RESULTS:
-            importlib.import_module("tribodyn.report.accessor")
+            importlib.import_module("tribodyn.accessor")
         globals()[name] = value
         return value
     if name in __all__:

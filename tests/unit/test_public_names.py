@@ -19,6 +19,12 @@ def test_importing_what_stands_behind_a_public_function_does_not_shadow_it() -> 
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+def test_simulating_in_a_script_imports_nothing_that_draws() -> None:
+    code = "import sys, tribodyn as td; td.simulate, td.read; print('matplotlib' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+
+
 def test_a_contact_law_is_a_pressure_over_a_gap_in_metres() -> None:
     pressure = td.contact.law("rsdc", td.load_case("vsv")).pressure(
         np.array([[0.0, 1.634e-6], [3.268e-6, 1.0]])

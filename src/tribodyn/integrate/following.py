@@ -83,7 +83,7 @@ class Followed:
         times
             Of the other rows, shape (n,).
         rows
-            An array of its own that begins with them, shape (n or more, n_kept); those kept are added in place.
+            Begin with them and own their memory, shape (n or more, n_kept); those kept are added in place.
         """
         stretches = list(self._stretches.values())
         self._stretches.clear()

@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
+from tribodyn.accessor import Accessor
 from tribodyn.cli.main import main
 from tribodyn.cli.tables import in_words, sweep_in_words
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise, write_run
 from tribodyn.report import ComparedRun, write, write_comparison
-from tribodyn.report.accessor import Accessor
 from tribodyn.report.page import render
 from tribodyn.results.summary import DOUBTFUL
 from tribodyn.studies import Sampling, make_plan
