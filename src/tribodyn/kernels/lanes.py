@@ -263,7 +263,7 @@ def _rows_at(typing: Any, array: Any, places: Any, place: Any) -> Any:
 
 
 def _put(array: Any, place: int, lanes: Any) -> None:
-    array[place : place + WIDTH] = lanes
+    array.reshape(-1)[place : place + WIDTH] = lanes
 
 
 def _named(places: Any, place: int) -> Any:
@@ -274,7 +274,7 @@ def _table_rows(array: Any, numbers: Any) -> Any:
     return tuple(array.reshape(-1, _ROW)[numbers].T)
 
 
-load: Final = _either(_load, lambda array, place: array[place : place + WIDTH].copy())
+load: Final = _either(_load, lambda array, place: array.reshape(-1)[place : place + WIDTH].copy())
 """Return the four numbers of an array from ``place`` on."""
 store: Final = _either(_store, _put)
 """Write lanes into an array, from ``place`` on."""

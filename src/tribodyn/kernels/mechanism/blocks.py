@@ -1,10 +1,11 @@
 """Sparse elimination by blocks of six by six, in an order that was chosen at assembly.
 
 The blocks of a matrix stand in one array, each column by column: ``blocks[n, j, i]`` is the entry of row i
-and column j, and a column is two overlapping fours of numbers. The operations on them stand in lists, so that
-every mechanism is served by the same few loops, whose cost is the number of blocks that fill the factors:
-linear in bodies for chains and stars. There is pivoting inside the blocks on the diagonal and none between
-them; ``mechanisms/general/ordering.py`` says why none is needed.
+and column j, and a column is two fours of numbers, of which the last two are zero. So are right-hand sides
+and solutions. The operations stand in lists, so that every mechanism is served by the same few loops, whose
+cost is the number of blocks that fill the factors: linear in bodies for chains and stars. There is pivoting
+inside the blocks on the diagonal, where these are not positive definite, and none between them;
+``mechanisms/general/ordering.py`` says why none is needed.
 """
 
 from __future__ import annotations
@@ -14,69 +15,65 @@ from typing import Final
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.lanes import WIDTH, load, spread, store
-from tribodyn.kernels.mechanism.data import Pattern
+from tribodyn.kernels.mechanism.data import COLUMN, N, Pattern
 
-N: Final = 6
-BLOCK: Final = N * N
-SECOND: Final = N - WIDTH
-"""Where the second four of a column begins."""
+BLOCK: Final = N * COLUMN
 INVERT: Final = 0
 DIVIDE: Final = 1
 SUBTRACT: Final = 2
-"""Operations: replace a block by its inverse; multiply one from the right by another; subtract a product."""
+INVERT_DEFINITE: Final = 3
+"""Operations: replace a block by its inverse; multiply one from the right by another; subtract a product;
+replace a symmetric, positive definite block by its inverse."""
 
 
 @kernel
-def invert(flat: FloatArray, first: int, size: int, place: IntArray) -> int:
+def invert(blocks: FloatArray, number: int, size: int, place: IntArray) -> int:
     """Replace a block by its inverse; return the sign of its determinant, 0 where it has none.
 
     Gauss-Jordan elimination with pivoting; beyond its first ``size`` rows and columns the block is a unit
-    matrix, ``first`` is where it begins, and ``place`` (6,) is work space for exchanges.
+    matrix, and ``place`` (6,) is work space for exchanges.
     """
-    sign = 1
+    sign, block = 1, blocks[number]
     for k in range(size):
         pivot = k
         for i in range(k + 1, size):
-            if abs(flat[first + N * i + k]) > abs(flat[first + N * pivot + k]):
+            if abs(block[i, k]) > abs(block[pivot, k]):
                 pivot = i
         place[k] = pivot
-        entry = flat[first + N * pivot + k]
+        entry = block[pivot, k]
         if not abs(entry) > 0.0:
             return 0
         if entry < 0.0:
             sign = -sign
         if pivot != k:
             sign = -sign
-            _exchange(flat, first + N * k, first + N * pivot)
-        inverse = 1.0 / entry
-        at = first + N * k
-        scale = spread(inverse)
-        low, high = scale * load(flat, at), scale * load(flat, at + SECOND)
-        store(flat, at, low)
-        store(flat, at + SECOND, high)
-        flat[at + k] = inverse
-        for i in range(size):
-            to = first + N * i
-            factor = flat[to + k]
-            if i != k and factor != 0.0:
-                share = spread(factor)
-                upper = load(flat, to + SECOND) - share * high
-                store(flat, to, load(flat, to) - share * low)
-                store(flat, to + SECOND, upper)
-                flat[to + k] = -factor * inverse
+            for i in range(N):
+                block[k, i], block[pivot, i] = block[pivot, i], block[k, i]
+        _eliminate(blocks, number, k, size)
     for k in range(size - 1, -1, -1):
         if place[k] != k:
             for i in range(size):
-                a, b = first + N * i + k, first + N * i + place[k]
-                flat[a], flat[b] = flat[b], flat[a]
+                block[i, k], block[i, place[k]] = block[i, place[k]], block[i, k]
     return sign
 
 
 @kernel
-def _exchange(flat: FloatArray, a: int, b: int) -> None:
-    """Exchange six numbers from ``a`` on with six from ``b`` on."""
-    for i in range(N):
-        flat[a + i], flat[b + i] = flat[b + i], flat[a + i]
+def _eliminate(blocks: FloatArray, number: int, k: int, size: int) -> None:
+    """Eliminate an unknown of a block by its entry on the diagonal, where its part of the inverse goes."""
+    first = BLOCK * number
+    at, inverse = first + COLUMN * k, 1.0 / blocks[number, k, k]
+    scale = spread(inverse)
+    low, high = scale * load(blocks, at), scale * load(blocks, at + WIDTH)
+    store(blocks, at, low)
+    store(blocks, at + WIDTH, high)
+    blocks[number, k, k] = inverse
+    for i in range(size):
+        factor = blocks[number, i, k]
+        if i != k and factor != 0.0:
+            to, share = first + COLUMN * i, spread(factor)
+            store(blocks, to, load(blocks, to) - share * low)
+            store(blocks, to + WIDTH, load(blocks, to + WIDTH) - share * high)
+            blocks[number, i, k] = -factor * inverse
 
 
 @kernel
@@ -85,77 +82,93 @@ def factorise(pattern: Pattern, blocks: FloatArray) -> int:
 
     Diagonal blocks become inverses, those below the diagonal those of L.
     """
-    flat, steps, place, sign = blocks.reshape((-1,)), pattern.factor, pattern.exchanges, 1
+    steps, sign = pattern.factor, 1
     for s in range(steps.shape[0]):
-        target, size, inner = BLOCK * steps[s, 1], steps[s, 4], steps[s, 5]
-        if steps[s, 0] == SUBTRACT:
-            _subtract(flat, target, BLOCK * steps[s, 2], BLOCK * steps[s, 3], size, inner)
-        elif steps[s, 0] == DIVIDE:
-            _divide(flat, target, BLOCK * steps[s, 2], inner)
+        kind, target, size, inner = steps[s, 0], steps[s, 1], steps[s, 4], steps[s, 5]
+        if kind == SUBTRACT:
+            _subtract(blocks, target, steps[s, 2], steps[s, 3], size, inner)
+        elif kind == DIVIDE:
+            _divide(blocks, target, steps[s, 2], inner)
+        elif kind == INVERT_DEFINITE:
+            for k in range(size):
+                _eliminate(blocks, target, k, size)
         else:
-            sign *= invert(flat, target, size, place)
+            sign *= invert(blocks, target, size, pattern.exchanges)
             if sign == 0:
                 return 0
     return sign
 
 
 @kernel
-def _subtract(flat: FloatArray, target: int, left: int, right: int, columns: int, inner: int) -> None:
+def _subtract(blocks: FloatArray, target: int, left: int, right: int, columns: int, inner: int) -> None:
     """Subtract the product of two blocks, of which ``right`` is zero beyond (inner, columns)."""
     for j in range(columns):
-        to = target + N * j
-        low, high = load(flat, to), load(flat, to + SECOND)
+        to, column = BLOCK * target + COLUMN * j, BLOCK * left
+        low, high = load(blocks, to), load(blocks, to + WIDTH)
         for k in range(inner):
-            factor, column = spread(flat[right + N * j + k]), left + N * k
-            low -= factor * load(flat, column)
-            high -= factor * load(flat, column + SECOND)
-        store(flat, to, low)
-        store(flat, to + SECOND, high)
+            factor = spread(blocks[right, j, k])
+            low -= factor * load(blocks, column)
+            high -= factor * load(blocks, column + WIDTH)
+            column += COLUMN
+        store(blocks, to, low)
+        store(blocks, to + WIDTH, high)
 
 
 @kernel
-def _divide(flat: FloatArray, target: int, inverse: int, columns: int) -> None:
+def _divide(blocks: FloatArray, target: int, inverse: int, columns: int) -> None:
     """Multiply a block that is zero beyond so many columns by an inverse from the right."""
-    a, b, c = load(flat, target), load(flat, target + N), load(flat, target + 2 * N)
-    d, e, f = load(flat, target + 3 * N), load(flat, target + 4 * N), load(flat, target + 5 * N)
-    second = target + SECOND
-    p, q, r = load(flat, second), load(flat, second + N), load(flat, second + 2 * N)
-    s, t, u = load(flat, second + 3 * N), load(flat, second + 4 * N), load(flat, second + 5 * N)
+    at = BLOCK * target
+    a, b, c = load(blocks, at), load(blocks, at + COLUMN), load(blocks, at + 2 * COLUMN)
+    d, e, f = (
+        load(blocks, at + 3 * COLUMN),
+        load(blocks, at + 4 * COLUMN),
+        load(blocks, at + 5 * COLUMN),
+    )
+    second = at + WIDTH
+    p, q, r = load(blocks, second), load(blocks, second + COLUMN), load(blocks, second + 2 * COLUMN)
+    s, t, u = (
+        load(blocks, second + 3 * COLUMN),
+        load(blocks, second + 4 * COLUMN),
+        load(blocks, second + 5 * COLUMN),
+    )
     for j in range(columns):
-        at, to = inverse + N * j, target + N * j
-        x, y, z = spread(flat[at]), spread(flat[at + 1]), spread(flat[at + 2])
+        to, column = at + COLUMN * j, blocks[inverse, j]
+        x, y, z = spread(column[0]), spread(column[1]), spread(column[2])
         low, high = x * a + y * b + z * c, x * p + y * q + z * r
-        x, y, z = spread(flat[at + 3]), spread(flat[at + 4]), spread(flat[at + 5])
-        store(flat, to, low + x * d + y * e + z * f)
-        store(flat, to + SECOND, high + x * s + y * t + z * u)
+        x, y, z = spread(column[3]), spread(column[4]), spread(column[5])
+        store(blocks, to, low + x * d + y * e + z * f)
+        store(blocks, to + WIDTH, high + x * s + y * t + z * u)
 
 
 @kernel
 def solve(pattern: Pattern, blocks: FloatArray, x: FloatArray) -> None:
-    """Replace right-hand sides ``x`` (n_nodes, 6) by the solution."""
-    flat, numbers = blocks.reshape((-1,)), x.reshape((-1,))
-    _substitute(pattern.forward, flat, numbers)
-    _substitute(pattern.backward, flat, numbers)
+    """Replace right-hand sides ``x`` (n_nodes, 8) by the solution."""
+    _substitute(pattern.forward, blocks, x)
+    _substitute(pattern.backward, blocks, x)
 
 
 @kernel
-def _substitute(steps: IntArray, flat: FloatArray, x: FloatArray) -> None:
+def _substitute(steps: IntArray, blocks: FloatArray, x: FloatArray) -> None:
     """Subtract products of blocks with nodes; a node with itself is multiplied by its inverse."""
     for s in range(steps.shape[0]):
-        block, to, at = BLOCK * steps[s, 0], N * steps[s, 1], N * steps[s, 2]
-        a, b, c = spread(x[at]), spread(x[at + 1]), spread(x[at + 2])
-        low = a * load(flat, block) + b * load(flat, block + N) + c * load(flat, block + 2 * N)
-        second = block + SECOND
-        high = a * load(flat, second) + b * load(flat, second + N) + c * load(flat, second + 2 * N)
-        a, b, c = spread(x[at + 3]), spread(x[at + 4]), spread(x[at + 5])
-        block, second = block + 3 * N, second + 3 * N
-        low += a * load(flat, block)
-        low += b * load(flat, block + N)
-        low += c * load(flat, block + 2 * N)
-        high += a * load(flat, second)
-        high += b * load(flat, second + N)
-        high += c * load(flat, second + 2 * N)
-        if to != at:
-            low, high = load(x, to) - low, load(x, to + SECOND) - high
-        store(x, to, low)
-        store(x, to + SECOND, high)
+        block, to, node = BLOCK * steps[s, 0], steps[s, 1], x[steps[s, 2]]
+        a, b, c = spread(node[0]), spread(node[1]), spread(node[2])
+        low = a * load(blocks, block) + b * load(blocks, block + COLUMN)
+        low += c * load(blocks, block + 2 * COLUMN)
+        second = block + WIDTH
+        high = a * load(blocks, second) + b * load(blocks, second + COLUMN)
+        high += c * load(blocks, second + 2 * COLUMN)
+        if steps[s, 3] > 3:
+            a, b, c = spread(node[3]), spread(node[4]), spread(node[5])
+            block, second = block + 3 * COLUMN, second + 3 * COLUMN
+            low += a * load(blocks, block)
+            low += b * load(blocks, block + COLUMN)
+            low += c * load(blocks, block + 2 * COLUMN)
+            high += a * load(blocks, second)
+            high += b * load(blocks, second + COLUMN)
+            high += c * load(blocks, second + 2 * COLUMN)
+        first = COLUMN * to
+        if to != steps[s, 2]:
+            low, high = load(x, first) - low, load(x, first + WIDTH) - high
+        store(x, first, low)
+        store(x, first + WIDTH, high)

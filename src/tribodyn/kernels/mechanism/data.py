@@ -24,6 +24,10 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import Pose
 from tribodyn.kernels.signals import Signals
 
+N: Final = 6
+COLUMN: Final = 8
+"""Unknowns of a node of the linear systems, and the numbers that a column of them takes up."""
+
 N_STATES: Final = 13
 """Of a body: mass centre (3) [m], unit quaternion (4), velocity (3) [m/s], angular velocity (3) [rad/s]."""
 ORIENTATION: Final = 3
@@ -92,10 +96,15 @@ of nodes, of the blocks that hold the work space of solutions, and of couplings 
 reactions."""
 
 Body: Final = record_type(
-    ("mass", "f8"), ("inertia", "f8", (3, 3)), ("inverse", "f8", (3, 3)), ("centre", "f8", (3,))
+    ("mass", "f8"),
+    ("inertia", "f8", (3, 3)),
+    ("inverse", "f8", (3, 3)),
+    ("centre", "f8", (3,)),
+    ("inverted", "i8"),
 )
 """Mass [kg]; mass centre as drawn [m]; inertia about the mass centre in the axes of the body, which are those
-of the drawing at first; its inverse."""
+of the drawing at first; its inverse; 1 where its block of the equations of motion is its inverse already when
+they are factorised, because nothing is subtracted from it before."""
 
 N_PARAMETERS: Final = 16
 Parameters: Final = record_type(("values", "f8", (N_PARAMETERS,)))
@@ -362,7 +371,7 @@ class Pattern(NamedTuple):
         Operation, up to three blocks, how many columns of the first are touched, and how many unknowns the
         node has that is eliminated, shape (n, 6).
     forward, backward
-        Block, row and column, shape (n, 3).
+        Block, row, column, and how many unknowns the node of the column has, shape (n, 4).
     exchanges
         Work space, shape (6,).
     """
@@ -395,7 +404,7 @@ class Now(NamedTuple):
     course, bodies, couplings
         Records named above; of ``bodies`` the last is the ground.
     x, rest, left
-        Unknowns and right-hand sides of the nodes, and what a solution leaves of them, shape (n_nodes, 6).
+        Unknowns and right-hand sides of the nodes, and what a solution leaves of them, shape (n_nodes, 8).
     """
 
     course: Record
@@ -442,7 +451,7 @@ class MechanismMemory(NamedTuple):
     now
         See :class:`Now`.
     blocks
-        Matrix by blocks, each column by column, shape (n_blocks, 6, 6).
+        Matrix by blocks, each column by column, shape (n_blocks, 6, 8).
     independence
         Products of all rows, shape (n_rows, n_rows); of no size without redundant rows.
     settled

@@ -10,6 +10,7 @@ from typing import Final
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.lanes import WIDTH, store, zeros
 from tribodyn.kernels.mechanism.blocks import factorise, solve
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts, Pattern
 
@@ -29,16 +30,18 @@ def has_law(coupling: Record) -> bool:
 @kernel
 def assemble(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
     """Fill the blocks of the equations of motion and factorise them."""
-    for k in range(blocks.shape[0]):
-        for i in range(6):
-            for j in range(6):
-                blocks[k, i, j] = 0.0
+    nothing = zeros()
+    for at in range(0, blocks.size, WIDTH):
+        store(blocks, at, nothing)
     for b in range(parts.bodies.size):
         body = parts.bodies[b]
+        mass, inertia = body.mass, body.inertia
+        if body.inverted == 1:
+            mass, inertia = 1.0 / body.mass, body.inverse
         for i in range(3):
-            blocks[b, i, i] = body.mass
+            blocks[b, i, i] = mass
             for j in range(3):
-                blocks[b, 3 + i, 3 + j] = body.inertia[i, j]
+                blocks[b, 3 + i, 3 + j] = inertia[i, j]
     for k in range(parts.couplings.size):
         if parts.couplings[k].node != NONE:
             _fill_blocks(parts.couplings[k], now.couplings[k], blocks)

@@ -28,12 +28,14 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism import blocks as algebra
 from tribodyn.kernels.mechanism.data import (
+    COLUMN,
     N_STATES,
     NONE,
     ORIENTATION,
     TURNING,
     VELOCITY,
     MechanismData,
+    N,
     Now,
     Parts,
 )
@@ -157,10 +159,11 @@ def factorise(
 
 @kernel
 def _split(factors: FloatArray, n_entries: int, n_bodies: int) -> tuple[FloatArray, FloatArray]:
-    """Return E of all bodies, shape (n_bodies, 3, 3), and the blocks by columns, shape (n_blocks, 6, 6)."""
+    """Return E of all bodies, shape (n_bodies, 3, 3), and the blocks by columns, shape (n_blocks, 6, 8)."""
     first = 1 + n_entries
     last = first + 9 * n_bodies
-    return factors[first:last].reshape((n_bodies, 3, 3)), factors[last:].reshape((-1, 6, 6))
+    blocks = factors[last:].reshape((-1, N, COLUMN))
+    return factors[first:last].reshape((n_bodies, 3, 3)), blocks
 
 
 @kernel
@@ -237,7 +240,7 @@ def solve(data: MechanismData, factors: FloatArray, pivots: IntArray, x: FloatAr
     gamma, entries = factors[0], factors[1 : 1 + n_entries]
     _, blocks = _split(factors, n_entries, n_bodies)
     n_nodes = parts.constants.n_nodes
-    work = blocks[blocks.shape[0] - parts.constants.n_work :].reshape((-1, 6))
+    work = blocks[blocks.shape[0] - parts.constants.n_work :].reshape((-1, COLUMN))
     nodes, still = work[:n_nodes], work[n_nodes : n_nodes + n_bodies]
     for k in range(n_nodes):
         for i in range(6):

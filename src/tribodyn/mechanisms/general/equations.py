@@ -21,6 +21,7 @@ from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
 from tribodyn.kernels.mechanism import data as kinds
+from tribodyn.kernels.mechanism.blocks import INVERT_DEFINITE
 from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory, Now, Parts
 from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.film import by_address
@@ -72,6 +73,8 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     oiled = any(clearance.film is not None for clearance in clearances)
     films, film_force = _with_force(_films(clearances, worn)) if oiled else _dry()
     parts = Parts(constants, _bodies(model), couplings)
+    inverts = (mass.factor[:, 0] == INVERT_DEFINITE, 1)
+    parts.bodies.inverted[:] = ~np.isin(np.arange(parts.bodies.size), mass.factor[inverts])
     of_loads = term_records(signals, terms)
     return MechanismData(parts, signals.records(), of_loads, mass, newton, contact, films, film_force)
 
@@ -121,8 +124,8 @@ def new_memory(data: MechanismData) -> MechanismMemory:
     course.until = np.inf
     n_nodes = max(constants.n_nodes, 2)
     return MechanismMemory(
-        now=Now(course, bodies, couplings, *np.zeros((3, n_nodes, 6))),
-        blocks=np.zeros((n_blocks(data.mass), 6, 6)),
+        now=Now(course, bodies, couplings, *np.zeros((3, n_nodes, kinds.COLUMN))),
+        blocks=np.zeros((n_blocks(data.mass), kinds.N, kinds.COLUMN)),
         independence=np.zeros((redundant, redundant)),
         settled=np.zeros(kinds.N_STATES * n_bodies),
         books=books,
@@ -134,7 +137,7 @@ def new_memory(data: MechanismData) -> MechanismMemory:
 
 def n_blocks(pattern: kinds.Pattern) -> int:
     """Return the number of blocks that a pattern works on."""
-    return 1 + int(np.max(pattern.factor[:, 1:4]))
+    return 1 + int(np.max(np.append(pattern.forward[:, 0], pattern.backward[:, 0])))
 
 
 def _size(model: Model) -> float:
@@ -375,7 +378,7 @@ def _patterns_of(n_bodies: int, structure: bytes) -> tuple[kinds.Pattern, kinds.
         if node not in laws
     ]
     order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
-    mass = make_pattern(order, dict(block_of), sizes)
+    mass = make_pattern(order, dict(block_of), sizes, n_bodies)
     for k, (_, socket, shaft, *_) in enumerate(couplings):
         if socket < n_bodies and shaft < n_bodies:
             bodies_block[k] = block(socket, shaft), block(shaft, socket)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.core.arrays import IntArray
-from tribodyn.kernels.mechanism.blocks import DIVIDE, INVERT, SUBTRACT
+from tribodyn.kernels.mechanism.blocks import DIVIDE, INVERT, INVERT_DEFINITE, SUBTRACT
 from tribodyn.kernels.mechanism.data import Pattern
 
 
@@ -116,7 +116,9 @@ def elimination_order(
     return order
 
 
-def make_pattern(order: list[int], block_of: dict[tuple[int, int], int], sizes: Sequence[int]) -> Pattern:
+def make_pattern(
+    order: list[int], block_of: dict[tuple[int, int], int], sizes: Sequence[int], inverted: int | None = None
+) -> Pattern:
     """Return the operations that factorise and solve; blocks that fill in are added to ``block_of``.
 
     Parameters
@@ -127,30 +129,38 @@ def make_pattern(order: list[int], block_of: dict[tuple[int, int], int], sizes: 
         Numbers of the blocks by row and column, both of each pair.
     sizes
         Unknowns of each node, at most six; beyond them blocks on the diagonal are unit matrices, others zero.
+    inverted
+        Number of bodies where blocks on the diagonal are symmetric and positive definite, and those of bodies
+        from which nothing is subtracted are their inverses to begin with.
     """
     place = {node: i for i, node in enumerate(order)}
     later: dict[int, set[int]] = {node: set() for node in order}
     for a, b in block_of:
         if place[a] < place[b]:
             later[a].add(b)
+    changed: set[int] = set()
     factor: list[tuple[int, ...]] = []
     forward: list[tuple[int, ...]] = []
     backward: list[tuple[int, ...]] = []
     for node in order:
         below = sorted(later[node], key=place.__getitem__)
         diagonal, size = block_of[node, node], sizes[node]
-        factor.append((INVERT, diagonal, 0, 0, size, size))
+        if inverted is None:
+            factor.append((INVERT, diagonal, 0, 0, size, size))
+        elif node >= inverted or diagonal in changed:
+            factor.append((INVERT_DEFINITE, diagonal, 0, 0, size, size))
         factor.extend((DIVIDE, block_of[i, node], diagonal, 0, size, size) for i in below)
         for i in below:
             for j in below:
                 target = block_of.setdefault((i, j), len(block_of))
+                changed.add(target)
                 factor.append((SUBTRACT, target, block_of[i, node], block_of[node, j], sizes[j], size))
             later[i] |= {j for j in below if place[j] > place[i]}
-        forward.extend((block_of[i, node], i, node) for i in below)
+        forward.extend((block_of[i, node], i, node, size) for i in below)
     for node in reversed(order):
-        backward.extend((block_of[node, j], node, j) for j in later[node])
-        backward.append((block_of[node, node], node, node))
-    return Pattern(_array(factor, 6), _array(forward, 3), _array(backward, 3), np.zeros(6, dtype=np.int64))
+        backward.extend((block_of[node, j], node, j, sizes[j]) for j in later[node])
+        backward.append((block_of[node, node], node, node, sizes[node]))
+    return Pattern(_array(factor, 6), _array(forward, 4), _array(backward, 4), np.zeros(6, dtype=np.int64))
 
 
 def _array(operations: Sequence[tuple[int, ...]], width: int) -> IntArray:

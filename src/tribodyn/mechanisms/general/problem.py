@@ -12,6 +12,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism import functions, newton
+from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.actions import WAVE_STEPS
@@ -138,7 +139,7 @@ def _algebra(data: MechanismData) -> LinearSolver:
         ),
         factorise=newton.factorise,
         solve=newton.solve,
-        n_factors=1 + private + 9 * n + 36 * n_numbers,
+        n_factors=1 + private + 9 * n + BLOCK * n_numbers,
         n_entries=newton.N_PLACES * n + private,
     )
 

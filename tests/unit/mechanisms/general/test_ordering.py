@@ -7,7 +7,7 @@ import pytest
 from tests.unit.mechanisms.general.drawings import chain, joint, mechanism, rod, with_springs
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.mechanism.blocks import factorise, solve
+from tribodyn.kernels.mechanism.blocks import INVERT_DEFINITE, factorise, solve
 from tribodyn.mechanisms.general.equations import mechanism_data, n_blocks
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
@@ -64,17 +64,25 @@ def _loop() -> tuple[FloatArray, list[Rows], dict[tuple[int, int], int]]:
     return matrix, rows, block_of
 
 
-def test_elimination_without_pivoting_between_blocks_is_accurate() -> None:
+@pytest.mark.parametrize("inverted", [None, 3], ids=["pivoting in blocks", "definite blocks"])
+def test_elimination_without_pivoting_between_blocks_is_accurate(inverted: int | None) -> None:
     matrix, rows, block_of = _loop()
     order = elimination_order(7, 3, rows, [pair for pair in block_of if pair[0] < pair[1]])
     given = dict(block_of)
-    pattern = make_pattern(order, block_of, [6, 6, 6, 5, 4, 5, 3])
-    blocks = np.zeros((n_blocks(pattern), 6, 6))
+    sizes = [6, 6, 6, 5, 4, 5, 3]
+    pattern = make_pattern(order, block_of, sizes, inverted)
+    blocks = np.zeros((n_blocks(pattern), 6, 8))
     for (i, j), number in given.items():
-        blocks[number] = matrix[6 * i : 6 * i + 6, 6 * j : 6 * j + 6].T
-    wanted = np.random.default_rng(5).normal(size=42)
-    x = (matrix @ wanted).reshape(7, 6)
+        blocks[number, :, :6] = matrix[6 * i : 6 * i + 6, 6 * j : 6 * j + 6].T
+    if inverted is not None:
+        for b in set(range(inverted)) - set(pattern.factor[pattern.factor[:, 0] == INVERT_DEFINITE, 1]):
+            blocks[b, :, :6] = np.linalg.inv(blocks[b, :, :6])
+    wanted = np.random.default_rng(5).normal(size=(7, 6))
+    for node, size in enumerate(sizes):
+        wanted[node, size:] = 0.0
+    x = np.zeros((7, 8))
+    x[:, :6] = (matrix @ wanted.ravel()).reshape(7, 6)
     assert factorise(pattern, blocks)
     solve(pattern, blocks, x)
     # Condition 1e3 to 1e4.
-    assert x.ravel() == pytest.approx(wanted, abs=1e-10)
+    assert x[:, :6] == pytest.approx(wanted, abs=1e-10)
