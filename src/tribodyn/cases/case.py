@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
 from pydantic import (
@@ -34,8 +35,8 @@ from tribodyn.cases.tables import (
     FROZEN,
     Tables,
     alternatives,
-    expanded,
     is_empty_table,
+    keys_at,
     keys_in,
     nested,
     of_components,
@@ -287,7 +288,7 @@ def build(
         What is known to be wrong; raised with the rest.
     """
     declared = keys_of(model)
-    keys = expanded(declared, list(entries))
+    keys = keys_at(model, entries)
     entries = plain_entries(entries, keys)
     given = {path: entry for path, entry in entries.items() if not is_empty_table(path, entry, declared)}
     entries = {path: entry for path, entry in given.items() if not is_empty_table(path, entry, keys)}
@@ -357,15 +358,15 @@ def _defaults(model: type[Case], values: Mapping[str, Value], asked: Asked) -> d
 def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCase:
     """Return a copy of `case` with `changes` made; see :meth:`Case.replace`."""
     keys = keys_in(case)
-    known = with_components(keys)
     new: dict[str, Entry] = {}
     faults = Faults()
     for path, value in changes.items():
         plain = plain_path(path, keys)
         with faults.noted():
-            if plain not in known:
-                raise unknown(path, keys, keys_of(type(case)), source, len(faults.found))
             if plain not in keys:
+                known = with_components(keys)
+                if plain not in known:
+                    raise unknown(path, keys, keys_of(type(case)), source, len(faults.found))
                 plain, value = _vector(case, plain, value, known, new, source)
             new[plain] = Entry(value, source, text=True)
     return _rebuilt(case, new, source, faults.found)
@@ -427,7 +428,7 @@ def _vector(
 
 def beside(model: type[Case], kept: Mapping[str, Entry], new: Mapping[str, Entry]) -> dict[str, Entry]:
     """Return entries with new ones, which take the place of their alternatives too."""
-    keys = expanded(keys_of(model), [*kept, *new])
+    keys = keys_at(model, [*kept, *new])
     kept, new = plain_entries(kept, keys), plain_entries(new, keys)
     pairs = _alternatives(model, keys)
     taken = {path for pair in pairs if any(path in new for path in pair) for path in pair}
@@ -442,7 +443,13 @@ def _one_of_each(model: type[Case], entries: Mapping[str, Entry], keys: Mapping[
             )
 
 
-def _alternatives(model: type[Case], keys: Mapping[str, Key]) -> tuple[tuple[str, str], ...]:
+def _alternatives(model: type[Case], keys: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    return _alternatives_of(model, tuple(keys))
+
+
+# Cases of a sweep have the same keys.
+@lru_cache(maxsize=8)
+def _alternatives_of(model: type[Case], keys: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
     of_scans = (
         (f"{table}{first}", f"{table}{second}")
         for table in scans.tables_of_surfaces(keys)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
 from itertools import groupby
+from types import MappingProxyType
 from typing import Any, Final, NoReturn
 
 from pydantic import BaseModel
@@ -71,14 +72,19 @@ def keys_in(case: BaseModel) -> dict[str, Key]:
     declared = keys_of(type(case))
     if not any(ANY_NAME in path for path in declared):
         return declared
-    there = _expanded(type(case), tuple(_paths(case.model_dump())))
+    there = keys_at(type(case), _paths(case.model_dump()))
     return keys_with_units(there, getattr(case, "_units", None) or {})
 
 
+def keys_at(model: type[BaseModel], paths: Iterable[str]) -> Mapping[str, Key]:
+    """Return the keys of a case of a kind with values or tables at some dotted paths."""
+    return _keys_at(model, tuple(paths))
+
+
+# Large cases are asked for them many times, and those of a sweep have the same paths.
 @lru_cache(maxsize=8)
-def _expanded(model: type[BaseModel], paths: tuple[str, ...]) -> dict[str, Key]:
-    """Return the keys of a case with these values: large cases are asked for them many times."""
-    return expanded(keys_of(model), paths)
+def _keys_at(model: type[BaseModel], paths: tuple[str, ...]) -> Mapping[str, Key]:
+    return MappingProxyType(expanded(keys_of(model), paths))
 
 
 def value_at(case: BaseModel, path: str) -> Any:
@@ -154,14 +160,9 @@ def impossible_name(path: str, declared: Mapping[str, Key]) -> str | None:
     return None
 
 
-def alternatives(model: type[BaseModel], keys: Mapping[str, Key]) -> tuple[tuple[str, str], ...]:
-    """Return the pairs of keys of which only one may be given, as the groups of a case declare them."""
-    return _alternatives(model, frozenset(key.table for key in keys.values()))
-
-
-# Cases of a sweep have the same tables.
-@lru_cache(maxsize=8)
-def _alternatives(model: type[BaseModel], tables: frozenset[str]) -> tuple[tuple[str, str], ...]:
+def alternatives(model: type[BaseModel], keys: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    """Return the pairs of some keys of which only one may be given, as the groups of a case declare them."""
+    tables = dict.fromkeys(path.rpartition(".")[0] for path in keys)
     return tuple(
         (f"{prefix}{first}", f"{prefix}{second}")
         for pattern, pairs in _declared_pairs(model)

@@ -36,7 +36,6 @@ def to_toml(
     force; ``origins`` are the sources of values that are neither. Values that are ``linked`` to expressions
     are written as these, with what they are in a comment.
     """
-    keys = {path: key for path, key in keys_in(case).items() if _is_there(case, key.table)}
     lines = list(_head(kind)) if comments else []
     tables = {
         table: [
@@ -44,7 +43,8 @@ def to_toml(
             for key in inside
             for line in _lines(_in_force(case, key, idle), key, linked.get(key.path), own, origins, comments)
         ]
-        for table, inside in groupby(keys.values(), key=lambda key: key.table)
+        for table, inside in groupby(keys_in(case).values(), key=lambda key: key.table)
+        if _is_there(case, table)
     }
     for table, inside in (tables if comments else _shortened(tables)).items():
         if not inside and _is_always_there(case, table):
@@ -52,7 +52,7 @@ def to_toml(
         lines += ["", f"[{table}]", *inside] if table else inside
     if comments:
         declared = keys_of(type(case))
-        lines += _not_there(declared, {as_declared(key.table, declared) for key in keys.values()})
+        lines += _not_there(declared, {as_declared(table, declared) for table in tables})
     return "\n".join(lines) + "\n"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import isfinite
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 import numpy as np
 
@@ -18,37 +18,68 @@ def is_compiled(function: Callable[..., None]) -> bool:
     return hasattr(function, "compile")
 
 
-_types: Final[dict[tuple[object, ...], Any]] = {}
-"""Numba's types of arrays and records, by all that they depend on."""
+_Made = TypeVar("_Made")
+_MOST: Final = 32
+"""Kinds of problems that a process remembers."""
+_types: Final[dict[object, Any]] = {}
+"""Numba's types of data and of memories, by all that they depend on."""
+_codes: Final[dict[object, tuple[object, CompiledFunctions]]] = {}
+"""Types and compiled functions, by functions and identities of types, which live as long as they are here."""
+
+
+def remembered(known: dict[object, _Made], key: object, make: Callable[[], _Made]) -> _Made:
+    """Return what belongs to a key, made when it is first asked for; the oldest of many is forgotten."""
+    if key not in known:
+        if len(known) >= _MOST:
+            del known[next(iter(known))]
+        known[key] = make()
+    return known[key]
 
 
 def kernel_types(problem: Problem) -> tuple[Any, Any]:
-    """Return numba's types of data and memory.
+    """Return numba's types of data and memory, the same objects for all problems of a kind.
 
     ``None`` and ``None`` where no function of the problem is compiled.
     """
     if not any(map(is_compiled, vars(problem.functions).values())):
         return None, None
-    return _type_of(problem.data), _type_of(problem.memory)
+    return type_of(problem.data), type_of(problem.memory)
+
+
+def type_of(value: Any) -> Any:
+    """Return numba's type of a number, an array, a record, or nested tuples of such.
+
+    Numba takes milliseconds, most of them for types of records and for hashes of nested types.
+    """
+    return remembered(_types, _structure(value), lambda: _type_of(value))
+
+
+def _structure(value: Any) -> object:
+    """Return all that the type of a value depends on."""
+    if isinstance(value, tuple):
+        return type(value), *map(_structure, value)
+    if isinstance(value, np.ndarray | np.void):
+        flags = value.flags
+        order = flags.c_contiguous, flags.f_contiguous, flags.aligned, flags.writeable
+        return type(value), value.dtype, value.ndim, order
+    return _type_of(value)
 
 
 def _type_of(value: Any) -> Any:
-    """Return numba's type of nested tuples; numba takes milliseconds, most of them for types of records."""
     import numba
     from numba.core.types import BaseTuple
 
-    typeof: Callable[[Any], Any] = numba.typeof
-    of_tuple: Callable[..., Any] = BaseTuple.from_types
     if isinstance(value, tuple):
-        return of_tuple([_type_of(member) for member in value], type(value))
-    if not isinstance(value, np.ndarray | np.void):
-        return typeof(value)
-    flags = value.flags
-    order = flags.c_contiguous, flags.f_contiguous, flags.aligned, flags.writeable
-    key = (type(value), value.dtype, value.ndim, *order)
-    if key not in _types:
-        _types[key] = typeof(value)
-    return _types[key]
+        of_tuple: Callable[..., Any] = BaseTuple.from_types
+        return of_tuple([type_of(member) for member in value], type(value))
+    typeof: Callable[[Any], Any] = numba.typeof
+    return typeof(value)
+
+
+def call(kernel: Callable[..., None], *arguments: Any) -> None:
+    """Call a ``kernel`` of :mod:`tribodyn.kernels.jit`; numba takes milliseconds to find nested types."""
+    for_python = getattr(kernel, "for_python", None)
+    (kernel if for_python is None else for_python().compile(tuple(map(type_of, arguments))))(*arguments)
 
 
 def argument_types(problem: Problem, types: tuple[Any, Any]) -> dict[str, tuple[Any, ...]]:
@@ -92,14 +123,25 @@ def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
     types
         From :func:`kernel_types`.
     """
-    arguments = argument_types(problem, types)
-    functions = {name: getattr(problem.functions, name) for name in arguments}
-    return CompiledFunctions(
-        **{
-            name: function.compile(arguments[name]) if is_compiled(function) else function
-            for name, function in functions.items()
-        }
-    )
+
+    def compiled() -> tuple[object, CompiledFunctions]:
+        arguments = argument_types(problem, types)
+        functions = {name: getattr(problem.functions, name) for name in arguments}
+        return types, CompiledFunctions(
+            **{
+                name: function.compile(arguments[name]) if is_compiled(function) else function
+                for name, function in functions.items()
+            }
+        )
+
+    return remembered(_codes, code_key(problem, types), compiled)[1]
+
+
+def code_key(problem: Problem, types: tuple[Any, Any]) -> tuple[object, ...]:
+    """Return what the compiled functions of a problem depend on; the types have to be kept with it."""
+    algebra = problem.algebra
+    solvers = None if algebra is None else (algebra.factorise, algebra.solve)
+    return problem.functions, solvers, len(problem.field_shape), *map(id, types)
 
 
 def all_finite(values: FloatArray) -> bool:

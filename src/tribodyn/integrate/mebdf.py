@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Problem, Solution
-from tribodyn.integrate.binding import argument_types, is_compiled, kernel_types
+from tribodyn.integrate.binding import argument_types, code_key, is_compiled, kernel_types, remembered
 from tribodyn.integrate.driver import IntegrationTask, Walk
 from tribodyn.integrate.schedule import make_schedule
 
@@ -32,6 +32,10 @@ HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
 """Functions of a problem that the compiled loop is handed, in the order of its arguments."""
 BETWEEN_LOOKS: Final = 0.1
 """Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first."""
+
+_Linked = tuple[object, Callable[..., int], tuple[Callable[..., Any] | None, ...]]
+_linked: Final[dict[object, _Linked]] = {}
+"""Types, compiled loops and the functions that these are handed, by :func:`~.binding.code_key`."""
 
 
 class CompiledMebdf:
@@ -77,12 +81,20 @@ class _CompiledWalk(Walk):
         if self._in_machine_code:
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
             arrays = (self._jacobian(state), self._own, self._marks, self._pause)
-            signatures = _signatures(self.problem, self.types, self._own)
-            resume.compile(signatures[0].args)  # else numba would, and keep it apart from what others call
-            self._loop = _compiled(run, signatures, self.types, *arrays)
-            self._functions = _by_address(self._functions, signatures)
+            key = code_key(self.problem, self.types)
+            _, self._loop, self._functions = remembered(_linked, key, lambda: self._link(arrays))
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
+
+    def _link(self, arrays: tuple[Any, ...]) -> _Linked:
+        """Return the loop compiled for the functions of the problem, and these as it takes them."""
+        from mebdf.kernels.core import resume
+        from tribodyn.kernels.mebdf.drive import run
+
+        signatures = _signatures(self.problem, self.types, self._own)
+        resume.compile(signatures[0].args)  # else numba would, and keep it apart from what others call
+        loop = _compiled(run, signatures, self.types, *arrays)
+        return self.types, loop, _by_address(self._functions, signatures)
 
     def pauses(self) -> AbstractContextManager[None]:
         """Have compiled code pause by the clock, whatever a step costs; Python does after every step."""

@@ -280,8 +280,9 @@ def joint_wrench(
         From :func:`new_memory`, with entry velocities of its own; for many wrenches of one joint.
     """
     memory, out = memory or new_memory(data, entry_velocity), np.empty(5)
-    wrench(data, memory, pose_at(y, omega=omega, sign=sign), memory.scratch.wrench)
-    from_wrench(memory.scratch.wrench, out)
+    found = memory.scratch.wrench
+    wrench(data, memory, pose_at(y, omega=omega, sign=sign), found)
+    from_wrench(found, out)
     return out
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from tribodyn.cases.case import Case, with_entries
 from tribodyn.cases.keys import ANY_NAME, VALUE, Key, keys_of
-from tribodyn.cases.tables import expanded, plain_path
+from tribodyn.cases.tables import keys_at, plain_path
 from tribodyn.core.errors import Faults, InputError
 from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS, parse_case, template
@@ -64,7 +64,7 @@ def _check_removed(case: Case, removed: tuple[str, ...]) -> None:
 
 def _check_added(case: Case, added: Values) -> None:
     """Refuse keys that name files; all others are checked with the case."""
-    keys = expanded(keys_of(type(case)), list(added))
+    keys = keys_at(type(case), added)
     faults = Faults()
     for path in added:
         key = keys.get(plain_path(path, keys))

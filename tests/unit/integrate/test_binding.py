@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
-from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
+from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code, remembered
 
 
 def nothing(*_):
@@ -126,3 +126,25 @@ def test_types_of_data_are_those_that_numba_finds():
         data, memory = Nested(record[0], pair, 1.0), (record, pair)
         found = kernel_types(make_problem(rhs=compiled_rhs, data=data, memory=memory))
         assert numba.config.DISABLE_JIT or found == (numba.typeof(data), numba.typeof(memory))
+
+
+def test_problems_of_one_kind_share_types_and_code_whatever_was_between():
+    def kind(n):
+        data = Data(Springs(np.array([6.0]), 2.0)) if n == 0 else (np.zeros((1,) * n),)
+        return make_problem(compiled_rhs, data=data, memory=Memory(np.array([1.0])))
+
+    first = kernel_types(kind(0))
+    assert kernel_types(kind(0))[0] is first[0]
+    for n in range(1, 20):
+        kernel_types(kind(n))
+    again = kernel_types(kind(0))
+    assert again == first
+    binding, _ = bind(kind(0))
+    np.testing.assert_array_equal(binding.rhs(0.0, np.array([1.0, 2.0])), [2.0, -3.0])
+
+
+def test_what_is_remembered_is_bounded():
+    known = {}
+    assert [remembered(known, k % 50, lambda k=k: k) for k in range(52)] == list(range(52))
+    assert remembered(known, 51 % 50, lambda: -1) == 51
+    assert len(known) == 32

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
+from tribodyn.integrate.binding import call
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.blocks import BLOCK
@@ -80,7 +81,7 @@ def mechanism_problem(
     if carried is not None:
         memory.contact.entry_velocity[:] = carried.entry_velocity
     # Of what is carried on, points that wear has taken out of contact forget.
-    functions.touch(data, memory, 1.0 if carried is None else 0.0)
+    call(functions.touch, data, memory, 1.0 if carried is None else 0.0)
     tolerances = rtol * _scales(assembly, duration) if atol is None else np.asarray(atol)
     return Problem(
         functions=replace(FUNCTIONS, jac=functions.jac) if dense else FUNCTIONS,
