@@ -13,7 +13,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import ByPart, plain
 from tribodyn.results.outputs import ERROR_UNITS
-from tribodyn.results.reading import column, peak, settled, sustained
+from tribodyn.results.reading import column, entries, peak, settled, sustained
 from tribodyn.results.summary import KeyResult
 
 _AT_REST: Final = 1.0e-9
@@ -73,7 +73,7 @@ MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
 
 def number_of(dataset: xr.Dataset, output: str) -> int:
     """Return the number of an output, whose name may be that of a key result; an unknown one raises."""
-    return [plain(str(name)) for name in dataset.variables["output"].values].index(plain(output))
+    return [plain(str(name)) for name in entries(dataset, "output")].index(plain(output))
 
 
 def _made(measure: str, unit: str, output: str) -> KeyResult:
@@ -84,7 +84,7 @@ def _made(measure: str, unit: str, output: str) -> KeyResult:
     def compute(dataset: xr.Dataset) -> float:
         k = number_of(dataset, output)
         error = column(dataset, "output_error")[:, k]
-        if str(dataset.variables["output_unit"].values[k]) != unit or not np.isfinite(error).all():
+        if str(entries(dataset, "output_unit")[k]) != unit or not np.isfinite(error).all():
             return math.nan
         return scale * read(dataset, k)
 
@@ -153,9 +153,9 @@ def _at(variable: str, unit: str, instant: str) -> KeyResult:
     _, shown, scale = ERROR_UNITS[unit]
 
     def compute(dataset: xr.Dataset) -> float:
-        k = dataset.variables["instant"].values.tolist().index(instant)
-        output = number_of(dataset, str(dataset.variables["instant_output"].values[k]))
-        of_unit = str(dataset.variables["output_unit"].values[output]) == unit
+        k = entries(dataset, "instant").tolist().index(instant)
+        output = number_of(dataset, str(entries(dataset, "instant_output")[k]))
+        of_unit = str(entries(dataset, "output_unit")[output]) == unit
         return scale * float(column(dataset, variable)[k]) if of_unit else math.nan
 
     return KeyResult(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)

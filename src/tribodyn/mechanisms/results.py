@@ -16,6 +16,7 @@ from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import json_attribute, store, summary
 from tribodyn.results.attributes import NOT_KEPT
+from tribodyn.results.reading import entries
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import VARIABLES
 
@@ -83,7 +84,7 @@ def summarise(dataset: xr.Dataset) -> summary.Summary:
     """Return the key results of a result, see :func:`tribodyn.results.summary.summarise`."""
     mechanism = mechanism_of(dataset)
     parts = {
-        str(known.parts or known.names): dataset[name].values.tolist()
+        str(known.parts or known.names): entries(dataset, name).tolist()
         for name, known in mechanism.variables.items()
         if (known.parts or known.names) in mechanism.by_part and name in dataset.coords
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -19,10 +19,17 @@ SHORT: Final = 0.01
 _ROUNDING: Final = 1e-9
 
 
+def entries(dataset: xr.Dataset, name: str) -> NDArray[Any]:
+    """Return the values of a variable, numbers or names."""
+    # As dataset[name] it would be put together with its coordinates first, which takes longer than all else.
+    variable = dataset.variables[name]
+    # Of a dimension they are kept in its index, which returns them four times as fast.
+    return np.asarray(variable.to_index() if isinstance(variable, xr.IndexVariable) else variable.values)
+
+
 def column(dataset: xr.Dataset, name: str) -> FloatArray:
     """Return a variable as an array."""
-    # As dataset[name] it would be put together with its coordinates first, which takes longer than all else.
-    return np.asarray(dataset.variables[name].values, dtype=np.float64)
+    return np.asarray(entries(dataset, name), dtype=np.float64)
 
 
 def norm(dataset: xr.Dataset, *names: str) -> FloatArray:

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.results.reading import column
+from tribodyn.results.reading import column, entries
 
 
 def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> FloatArray:
@@ -19,7 +19,7 @@ def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> Fl
 
 def of_joint(dataset: xr.Dataset, joint: str) -> int:
     """Return the number of a joint, whose name may be that of a number; an unknown one raises."""
-    names = [str(name).replace("-", "_") for name in dataset.variables["joint"].values]
+    names = [str(name).replace("-", "_") for name in entries(dataset, "joint")]
     return names.index(joint.replace("-", "_"))
 
 
@@ -42,6 +42,6 @@ def above_zero(value: float) -> float:
 
 def of_surfaces(dataset: xr.Dataset, joint: int) -> NDArray[np.intp]:
     """Return the numbers of the surfaces of a joint, none where it is ideal."""
-    name = str(dataset.variables["joint"].values[joint])
-    surfaces = dataset.variables["surface"].values.tolist() if "surface" in dataset.coords else []
+    name = str(entries(dataset, "joint")[joint])
+    surfaces = entries(dataset, "surface").tolist() if "surface" in dataset.coords else []
     return np.flatnonzero([text.rpartition(":")[0] == name for text in surfaces])
