@@ -14,6 +14,7 @@ from typing import Final
 
 import numpy as np
 
+from tribodyn.core.digests import digest
 from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import CLOSES, System
@@ -32,6 +33,10 @@ _CORRECTIONS: Final = 20
 """Steps of Newton's method in which bodies that are near must close."""
 _WAYS: Final = 4
 """How many ways are tried where freedoms are left."""
+
+_REMEMBERED: Final = 32
+_passed: Final[dict[str, None]] = {}
+"""Digests of the last mechanisms that could follow their drives, with their start and duration."""
 
 Close = Callable[[], bool]
 """Moves the bodies to where the joints close at the system's time; returns whether they do."""
@@ -73,7 +78,7 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
         (0.0, assembly.findings_if_ideal[0]) if assembly.findings_if_ideal else None
     )
     if stuck is None:
-        stuck = _stuck(placed(System(ideal), assembly), assembly.ideal_rank, duration)
+        stuck = _stuck_anew(placed(System(ideal), assembly), assembly.ideal_rank, duration)
     if stuck is None:
         return Passage()
     time, finding = stuck
@@ -89,6 +94,23 @@ def placed(system: System, assembly: Assembly) -> System:
     """Put the bodies of a system where they are at the start."""
     system.adopt(assembly.state)
     return system
+
+
+def _stuck_anew(system: System, rank: int, duration: float) -> tuple[float, ModelError] | None:
+    """Return the same as :func:`_stuck`; mechanisms that were not stuck are not led through again.
+
+    Cases that differ in clearances, surfaces or loads have the same ideal joints and drives.
+    """
+    bodies, angles = system.position()
+    here = digest(system.data, bodies.r, bodies.p, angles, rank, duration)
+    if here in _passed:
+        return None
+    found = _stuck(system, rank, duration)
+    if found is None:
+        if len(_passed) >= _REMEMBERED:
+            del _passed[next(iter(_passed))]
+        _passed[here] = None
+    return found
 
 
 def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelError] | None:
