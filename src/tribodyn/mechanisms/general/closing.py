@@ -63,15 +63,20 @@ Position: TypeAlias = tuple[Any, Any]
 class System:
     """A mechanism while it is put together, its rows as full matrices.
 
+    Parameters
+    ----------
+    model, worn, contacts
+        As for :func:`~tribodyn.mechanisms.general.equations.mechanism_data`.
+
     Attributes
     ----------
     known_rank
         Number of independent constraints, where it is not to be found anew at each position.
     """
 
-    def __init__(self, model: Model, worn: FloatArray | None = None) -> None:
+    def __init__(self, model: Model, worn: FloatArray | None = None, *, contacts: bool = True) -> None:
         self.model = model
-        self.data = mechanism_data(model, worn)
+        self.data = mechanism_data(model, worn, contacts=contacts)
         memory = new_memory(self.data)
         self.parts, self.now, self._blocks = self.data.parts, memory.now, memory.blocks
         self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]

@@ -47,7 +47,7 @@ _KEPT: Final = 8
 """Structures of mechanisms whose patterns are kept."""
 
 
-def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismData:
+def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bool = True) -> MechanismData:
     """Return what the kernels read of a mechanism.
 
     Parameters
@@ -56,6 +56,8 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
         The mechanism as drawn.
     worn
         Wear depth at the nodes of all joints [m], shape (n_nodes,); none by default.
+    contacts
+        Whether forces of joints with clearance are to be evaluated: their nodes take most of the room.
     """
     signals = SignalList()
     terms: list[Term] = []
@@ -68,7 +70,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None) -> MechanismDat
     constants.n_nodes = max(len(model.bodies), 1 + int(np.max(couplings.node, initial=NONE)))
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
     constants.size = _size(model)
-    clearances = tuple(model.clearances.values())
+    clearances = tuple(model.clearances.values()) if contacts else ()
     contact = surfaces(clearances, worn)
     oiled = any(clearance.film is not None for clearance in clearances)
     films, film_force = _with_force(_films(clearances, worn)) if oiled else _dry()

@@ -116,7 +116,7 @@ class JointLoads:
         parts = newton.N_PLACES + newton.N_BODY
         self.laws = np.flatnonzero(couplings.law)
         self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
-        self.ideal, self.real = ideal, System(assembly.model.without_films)
+        self.ideal, self.real = ideal, System(assembly.model.without_films, contacts=False)
         self.real.adopt(self.state)
         self.springs = np.flatnonzero(np.isin(couplings.force, (SPRINGS, SPRING)))
         self.speeds, self.freedoms, self.largest = speeds, freedoms, 0.0
