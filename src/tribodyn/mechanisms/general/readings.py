@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+from typing import Final
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.base import plain
 from tribodyn.results.reading import column, entries
+
+_KEPT: Final = 8
+"""Results of which the numbers of joints and surfaces are kept."""
 
 
 def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> FloatArray:
@@ -18,9 +24,14 @@ def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> Fl
 
 
 def of_joint(dataset: xr.Dataset, joint: str) -> int:
-    """Return the number of a joint, whose name may be that of a number; an unknown one raises."""
-    names = [str(name).replace("-", "_") for name in entries(dataset, "joint")]
-    return names.index(joint.replace("-", "_"))
+    """Return the number of a joint, whose name may be that of a number; others raise ``KeyError``."""
+    return _numbers(tuple(entries(dataset, "joint").tolist()))[plain(joint)]
+
+
+@lru_cache(_KEPT)
+def _numbers(joints: tuple[str, ...]) -> dict[str, int]:
+    """Return the numbers of joints by their names in numbers: large results are asked for them many times."""
+    return {plain(name): number for number, name in reversed([*enumerate(joints)])}
 
 
 def offset(dataset: xr.Dataset, joint: int | slice = slice(None)) -> FloatArray:
@@ -42,6 +53,14 @@ def above_zero(value: float) -> float:
 
 def of_surfaces(dataset: xr.Dataset, joint: int) -> NDArray[np.intp]:
     """Return the numbers of the surfaces of a joint, none where it is ideal."""
-    name = str(entries(dataset, "joint")[joint])
     surfaces = entries(dataset, "surface").tolist() if "surface" in dataset.coords else []
-    return np.flatnonzero([text.rpartition(":")[0] == name for text in surfaces])
+    return np.array(_surfaces(tuple(surfaces)).get(str(entries(dataset, "joint")[joint]), ()), dtype=np.intp)
+
+
+@lru_cache(_KEPT)
+def _surfaces(names: tuple[str, ...]) -> dict[str, list[int]]:
+    """Return the numbers of surfaces by the names of their joints."""
+    found: dict[str, list[int]] = {}
+    for number, name in enumerate(names):
+        found.setdefault(name.rpartition(":")[0], []).append(number)
+    return found
