@@ -66,6 +66,8 @@ class Assembly:
     findings_if_ideal
         What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
         when it is led through its cycle.
+    ideal_data
+        What kernels read of the mechanism with ideal joints in the place of clearances; of one with clearances.
     strain
         Which clearances take what ideal joints do not allow, in words; empty for none.
     """
@@ -80,6 +82,7 @@ class Assembly:
     data: MechanismData
     ideal_rank: int
     findings_if_ideal: tuple[ModelError, ...] = ()
+    ideal_data: MechanismData | None = None
     strain: str = ""
 
     @property
@@ -170,6 +173,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
         system.data,
         ideal_rank,
         tuple(findings_if_ideal),
+        None if ideal is None else ideal.system.data,
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import move, place
-from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, Parts
+from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, MechanismData, Parts
 from tribodyn.kernels.mechanism.equations import ROUNDS
 from tribodyn.kernels.mechanism.follow import follow
 from tribodyn.kernels.mechanism.functions import SMALL
@@ -67,6 +67,8 @@ class System:
     ----------
     model, worn, contacts
         As for :func:`~tribodyn.mechanisms.general.equations.mechanism_data`.
+    data
+        That of an earlier system of the same model, which is not used any more.
 
     Attributes
     ----------
@@ -74,9 +76,17 @@ class System:
         Number of independent constraints, where it is not to be found anew at each position.
     """
 
-    def __init__(self, model: Model, worn: FloatArray | None = None, *, contacts: bool = True) -> None:
+    def __init__(
+        self,
+        model: Model,
+        worn: FloatArray | None = None,
+        *,
+        contacts: bool = True,
+        data: MechanismData | None = None,
+    ) -> None:
         self.model = model
-        self.data = mechanism_data(model, worn, contacts=contacts)
+        self.data = mechanism_data(model, worn, contacts=contacts) if data is None else data
+        self.data.parts.constants.rank = self.data.parts.constants.n_rows
         memory = new_memory(self.data)
         self.parts, self.now, self._blocks = self.data.parts, memory.now, memory.blocks
         self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]

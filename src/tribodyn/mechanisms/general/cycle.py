@@ -78,7 +78,8 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
         (0.0, assembly.findings_if_ideal[0]) if assembly.findings_if_ideal else None
     )
     if stuck is None:
-        stuck = _stuck_anew(placed(System(ideal), assembly), assembly.ideal_rank, duration)
+        system = placed(System(ideal, data=assembly.ideal_data), assembly)
+        stuck = _stuck_anew(system, assembly.ideal_rank, duration)
     if stuck is None:
         return Passage()
     time, finding = stuck

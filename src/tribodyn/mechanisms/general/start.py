@@ -27,7 +27,7 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     """
     if not assembly.model.without_films.clearances:
         return assembly.state
-    ideal = System(assembly.model.counterpart)
+    ideal = System(assembly.model.counterpart, data=assembly.ideal_data)
     ideal.adopt(assembly.state)
     ideal.close()
     return settled(JointLoads(assembly, ideal, speeds_of(assembly.model)))
