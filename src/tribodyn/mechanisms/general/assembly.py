@@ -67,7 +67,7 @@ class Assembly:
         What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
         when it is led through its cycle.
     ideal_data
-        What kernels read of the mechanism with ideal joints in the place of clearances; of one with clearances.
+        What kernels read of the mechanism with ideal joints in the place of clearances; None without any.
     strain
         Which clearances take what ideal joints do not allow, in words; empty for none.
     """
@@ -134,7 +134,8 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     findings = list(model.loose())
     closed, open_joints, findings_if_ideal = _closed(model)
     findings += open_joints
-    system = System(model, worn)
+    as_drawn = not (model.clearances or model.held)
+    system = System(model, worn, data=closed.data if as_drawn else None)
     system.take_positions(closed)
     if findings_if_ideal:
         system.close()
