@@ -12,10 +12,11 @@ from tribodyn.kernels.mechanism.equations import assemble, solve_rows
 from tribodyn.kernels.mechanism.functions import touch
 from tribodyn.kernels.mechanism.ledger import fill_totals
 from tribodyn.kernels.mechanism.solution import (
+    EXACT,
     correct_velocities,
+    fill_velocities,
     forces,
     kinematics,
-    refresh_velocities,
     take_accelerations,
 )
 
@@ -54,7 +55,7 @@ def repeat(
         elif part == 1:
             kinematics(parts, now, data.signals, t)
         elif part == 2:
-            refresh_velocities(parts, now)
+            fill_velocities(parts, now)
         elif part == 3:
             forces(data, memory, t, PLAIN)
         elif part == 4:
@@ -64,7 +65,7 @@ def repeat(
         elif part == 6:
             take_accelerations(parts, now, data.mass, blocks, 0.0)
         elif part == 7:
-            solve_rows(parts, now, data.mass, blocks, 0.0, 0.0)
+            solve_rows(parts, now, data.mass, blocks, 0.0, EXACT)
         elif part == 8:
             correct_velocities(parts, now, data.mass, blocks, 0.0)
         elif part == 9:

@@ -90,14 +90,18 @@ def move(body: Record, change: FloatArray, step: FloatArray) -> None:
     for i in range(3):
         body.r[i] += change[i]
     turn_quaternion(body.p, change[3:6], 0.5, step)
-    square = 0.0
     for i in range(4):
         body.p[i] += step[i]
-        square += body.p[i] * body.p[i]
-    inverse = 1.0 / math.sqrt(square)
-    for i in range(4):
-        body.p[i] *= inverse
+    make_unit(body.p)
     attitude(body.p, body.A)
+
+
+@kernel
+def make_unit(p: FloatArray) -> None:
+    """Make a quaternion one of length 1."""
+    inverse = 1.0 / math.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
+    for i in range(4):
+        p[i] *= inverse
 
 
 @kernel

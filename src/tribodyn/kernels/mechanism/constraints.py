@@ -78,88 +78,115 @@ def _direction(
 
 @kernel
 def fill_rows(coupling: Record, now: Record) -> None:
-    """Fill residual, rate and wanted acceleration of all rows, N and G; of a leg, its terms of them.
+    """Fill residual, N and G of all rows but paths, and their rates at rest; of a leg, its terms of them.
 
     Entries of N that are zero for a kind of row are never written.
     """
-    work, twist = now.work, now.twist
-    w, w_rate, w_second = work[0, :3], work[1, :3], work[2, :3]
-    f, swing, twice, arm = work[3, :3], work[4, :3], work[5, :3], work[0, 3:6]
+    work = now.work
+    w, w_rate, w_second, f, arm = work[0, :3], work[1, :3], work[2, :3], work[3, :3], work[0, 3:6]
     for m in range(coupling.n_terms):
         kind, i = coupling.row_kind[m], coupling.row_axis[m]
+        now.at_rest[m] = 0.0
         if kind in (POINT, POSITION):
             now.N[m, i] = 1.0
             now.residual[m] = now.pose.d[i] - now.prescribed[m, 0]
-            now.rate[m] = twist[i] - now.prescribed[m, 1]
-            now.gamma[m] = now.prescribed[m, 2] - now.bias[i]
+            now.at_rest[m] = -now.prescribed[m, 1]
             for j in range(12):
                 now.G[m, j] = 0.0 + now.H[i, j]
             continue
         if kind in (COORDINATE, DISTANCE, PATH):
             _fill_term(coupling, now)
-            multiply(now.N[:1], now.H, now.G[:1])
             continue
         _direction(coupling, now, m, w, w_rate, w_second)
         for k in range(3):
             f[k] = now.pose.rotation[k, coupling.row_other[m]]
         cross(f, w, arm)
-        cross(now.pose.w, f, swing)
-        cross(now.pose.w, swing, twice)
-        residual = rate = acceleration = 0.0
+        now.residual[m] = w[0] * f[0] + w[1] * f[1] + w[2] * f[2]
+        now.at_rest[m] = w_rate[0] * f[0] + w_rate[1] * f[1] + w_rate[2] * f[2]
         for k in range(3):
             now.N[m, 3 + k] = arm[k]
-            residual += w[k] * f[k]
-            rate += arm[k] * now.pose.w[k] + w_rate[k] * f[k]
-            acceleration += arm[k] * now.bias[3 + k] + w[k] * twice[k]
-            acceleration += 2.0 * w_rate[k] * swing[k] + w_second[k] * f[k]
-        now.residual[m], now.rate[m], now.gamma[m] = residual, rate, -acceleration
         for j in range(12):
             now.G[m, j] = 0.0 + arm[0] * now.H[3, j] + arm[1] * now.H[4, j] + arm[2] * now.H[5, j]
 
 
 @kernel
 def _fill_term(coupling: Record, now: Record) -> None:
-    """Fill what a leg adds to the equation of its element."""
-    q, w, row = now.pose.rotation[:, 0], now.pose.w, now.N[0]
-    if coupling.row_kind[0] != COORDINATE:
-        _fill_distance(coupling, now)
+    """Fill residual, N and G of the term of a leg; a path has none without a velocity."""
+    kind, row = coupling.row_kind[0], now.N[0]
+    if kind == PATH:
+        now.residual[0] = 0.0
         return
-    angle_gradient(q, row[3:6])
-    residual, rate = coupling.about * whole_angle(now) - now.offset, 0.0
-    acceleration = coupling.about * angle_rate(q, w)
+    if kind == DISTANCE:
+        now.residual[0] = _fill_along(now.pose.d, row) - coupling.length
+    else:
+        angle_gradient(now.pose.rotation[:, 0], row[3:6])
+        now.residual[0] = coupling.about * whole_angle(now) - now.offset
+        for i in range(3):
+            row[i] = coupling.along[i]
+            row[3 + i] *= coupling.about
+            now.residual[0] += row[i] * now.pose.d[i]
+    multiply(now.N[:1], now.H, now.G[:1])
+
+
+@kernel
+def _fill_along(vector: FloatArray, row: FloatArray) -> float:
+    """Fill three entries with the direction of a vector; return its length. A point at rest has none."""
+    size = _length(vector)
     for i in range(3):
-        row[i] = coupling.along[i]
-        row[3 + i] *= coupling.about
-        residual += row[i] * now.pose.d[i]
+        row[i] = vector[i] / size if size > 0.0 else 0.0
+    return size
+
+
+@kernel
+def fill_rates(coupling: Record, now: Record) -> None:
+    """Fill rate and wanted acceleration of all rows where positions are filled, and all of a path."""
+    work, w_now = now.work, now.pose.w
+    w, w_rate, w_second = work[0, :3], work[1, :3], work[2, :3]
+    f, swing, twice = work[3, :3], work[4, :3], work[5, :3]
+    for m in range(coupling.n_terms):
+        kind, i = coupling.row_kind[m], coupling.row_axis[m]
+        if kind in (POINT, POSITION):
+            now.rate[m] = now.twist[i] + now.at_rest[m]
+            now.gamma[m] = now.prescribed[m, 2] - now.bias[i]
+            continue
+        if kind in (COORDINATE, DISTANCE, PATH):
+            _fill_term_rate(coupling, now)
+            continue
+        _direction(coupling, now, m, w, w_rate, w_second)
+        for k in range(3):
+            f[k] = now.pose.rotation[k, coupling.row_other[m]]
+        cross(w_now, f, swing)
+        cross(w_now, swing, twice)
+        rate, acceleration = now.at_rest[m], 0.0
+        for k in range(3):
+            rate += now.N[m, 3 + k] * w_now[k]
+            acceleration += now.N[m, 3 + k] * now.bias[3 + k] + w[k] * twice[k]
+            acceleration += 2.0 * w_rate[k] * swing[k] + w_second[k] * f[k]
+        now.rate[m], now.gamma[m] = rate, -acceleration
+
+
+@kernel
+def _fill_term_rate(coupling: Record, now: Record) -> None:
+    """Fill rate and wanted acceleration of the term of a leg."""
+    kind, row, v = coupling.row_kind[0], now.N[0], now.pose.v
+    if kind == PATH:
+        _fill_along(v, row)
+        multiply(now.N[:1], now.H, now.G[:1])
+    rate = acceleration = 0.0
     for i in range(6):
         rate += row[i] * now.twist[i]
         acceleration += row[i] * now.bias[i]
-    now.residual[0], now.rate[0], now.gamma[0] = residual, rate, -acceleration
+    if kind == COORDINATE:
+        acceleration += coupling.about * angle_rate(now.pose.rotation[:, 0], now.pose.w)
+    elif kind == DISTANCE:
+        square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+        acceleration += (square - rate * rate) / _length(now.pose.d)
+    now.rate[0], now.gamma[0] = rate, -acceleration if kind != PATH else 0.0
 
 
 @kernel
 def _length(vector: FloatArray) -> float:
     return math.sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
-
-
-@kernel
-def _fill_distance(coupling: Record, now: Record) -> None:
-    """Fill the term of a distance or a path."""
-    v = now.pose.v
-    along = now.pose.d if coupling.row_kind[0] == DISTANCE else v
-    size, square = _length(along), 0.0
-    rate = acceleration = 0.0
-    for i in range(3):
-        # A point at rest has no direction.
-        now.N[0, i] = along[i] / size if size > 0.0 else 0.0
-        rate += now.N[0, i] * v[i]
-        square += v[i] * v[i]
-        acceleration += now.N[0, i] * now.bias[i]
-    now.rate[0] = rate
-    now.residual[0] = now.gamma[0] = 0.0
-    if coupling.row_kind[0] == DISTANCE:
-        now.residual[0] = size - coupling.length
-        now.gamma[0] = -acceleration - (square - rate * rate) / size
 
 
 @kernel

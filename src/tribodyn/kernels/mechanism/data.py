@@ -267,6 +267,7 @@ CouplingNow: Final = record_type(
     ("Av", "f8", (6, 12)),
     ("offset", "f8"),
     ("residual", "f8", (6,)),
+    ("at_rest", "f8", (6,)),
     ("rate", "f8", (6,)),
     ("gamma", "f8", (6,)),
     ("N", "f8", (6, 6)),
@@ -308,8 +309,9 @@ H
 Vq, Aq, Av
     Derivatives of the twist in the position, and of its rate in position and velocity; positions are turned
     about the axes of the body.
-residual, rate, gamma
-    Of each row: what is not closed, its rate, and the acceleration that keeps it closed.
+residual, at_rest, rate, gamma
+    Of each row: what is not closed; its rate where bodies are at rest; its rate; what acceleration keeps it
+    closed.
 offset
     Of the first leg of an element: constant of its equation [m].
 N, G

@@ -9,14 +9,14 @@ from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.lanes import WIDTH, store, zeros
 from tribodyn.kernels.mechanism.blocks import factorise, solve
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts, Pattern
 
 ROUNDS: Final = 3
-NEGLIGIBLE: Final = 1.0e-14
-"""Solutions for the multipliers; part of the whole energy that the last one may change where the factors are
+NEGLIGIBLE: Final = 1.0e-12
+"""Most solutions for the multipliers; part of the energy that the last one may change where the factors are
 those of another position: one more would change less than the square of it."""
 
 
@@ -87,43 +87,71 @@ def _add_leg(coupling: Record, state: Record, blocks: FloatArray) -> None:
 
 @kernel
 def solve_rows(
-    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, near: float
-) -> bool:
-    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers; return if it holds.
+    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, exact: float
+) -> None:
+    """Fill ``now.x`` with the solution for ``now.rest``, iterated for the multipliers.
 
-    Force laws act where ``forced`` is 1, and not where it is 0. The factors are those of the position, or of
-    one close by where ``near`` is 1: then the last round is for what is really left and shows if they do.
+    Force laws act where ``forced`` is 1, and not where it is 0. After a round rows miss their compliance
+    times what the round has added to the multipliers; ``exact`` is the part of what they carry that they may.
     """
-    x, left = now.x, now.left
-    for k in range(x.shape[0]):
-        for i in range(6):
-            x[k, i] = 0.0
     _fill_left(parts, now, forced)
-    last = ROUNDS - 1 if parts.constants.n_rows > 0 else 0
-    for repeat in range(last + 1):
-        if repeat == last and near == 1.0:
-            _leave(parts, now)
-        elif repeat > 0:
-            _comply(parts, now)
-        solve(pattern, blocks, left)
-        for k in range(x.shape[0]):
-            for i in range(6):
-                x[k, i] += left[k, i]
-    return near == 0.0 or _energy(parts, now, left) <= NEGLIGIBLE * _energy(parts, now, x)
+    for repeat in range(ROUNDS):
+        _add_solution(pattern, blocks, now, repeat == 0)
+        if parts.constants.n_rows == 0 or _comply(parts, now, exact):
+            break
 
 
 @kernel
-def _comply(parts: Parts, now: Now) -> None:
-    """Fill ``now.left`` with what the compliance of the rows has left of the last round."""
+def solve_near(
+    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, known: float
+) -> bool:
+    """Do the same with the factors of a position close by; return whether these do.
+
+    Each round is for what is really left, so that the last one shows if they do. ``known`` is twice an energy
+    to which corrections are added, or 0: beside a large one the first round is the last.
+    """
+    _fill_left(parts, now, forced)
+    for repeat in range(ROUNDS):
+        if repeat > 0:
+            _leave(parts, now)
+        _add_solution(pattern, blocks, now, repeat == 0)
+        if repeat > 0 or known > 0.0:
+            added = _energy(parts, now, now.left)
+            if added <= NEGLIGIBLE * max(known, _energy(parts, now, now.x)):
+                return True
+    return False
+
+
+@inlined
+def _add_solution(pattern: Pattern, blocks: FloatArray, now: Now, is_first: bool) -> None:
+    """Solve for what is left and add it to ``now.x``."""
+    x, left = now.x, now.left
+    solve(pattern, blocks, left)
+    for k in range(x.shape[0]):
+        for i in range(6):
+            x[k, i] = left[k, i] if is_first else x[k, i] + left[k, i]
+
+
+@kernel
+def _comply(parts: Parts, now: Now, exact: float) -> bool:
+    """Fill ``now.left`` with what rows miss after a round; return whether it is too little to go on."""
+    missed = carried = 0.0
     for b in range(parts.bodies.size):
         for i in range(6):
             now.left[b, i] = 0.0
     for k in range(parts.couplings.size):
-        node = parts.couplings[k].node
-        if node != NONE and parts.couplings[k].first_leg == NONE:
-            for m in range(6):
-                held = m < parts.couplings[k].n_rows
-                now.left[node, m] = now.couplings[k].compliance[m] * now.left[node, m] if held else 0.0
+        coupling, state = parts.couplings[k], now.couplings[k]
+        if coupling.node == NONE or coupling.first_leg != NONE:
+            continue
+        left, x = now.left[coupling.node], now.x[coupling.node]
+        for m in range(6):
+            if m < coupling.n_rows:
+                left[m] *= state.compliance[m]
+                missed += left[m] * left[m] / state.scale[m]
+                carried += state.scale[m] * x[m] * x[m]
+            else:
+                left[m] = 0.0
+    return missed <= exact * exact * carried
 
 
 @kernel
@@ -186,15 +214,29 @@ def _energy(parts: Parts, now: Now, x: FloatArray) -> float:
     """Return twice the energy of velocities, and of impulses of rows on the masses that these move."""
     total = 0.0
     for b in range(parts.bodies.size):
-        body = parts.bodies[b]
-        for i in range(3):
-            turned = 0.0
-            for j in range(3):
-                turned += body.inertia[i, j] * x[b, 3 + j]
-            total += body.mass * x[b, i] * x[b, i] + turned * x[b, 3 + i]
+        total += _of_body(parts.bodies[b], x[b, :3], x[b, 3:6])
     for k in range(parts.couplings.size):
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
             size = x[coupling.node, m]
             total += now.couplings[k].scale[m] * size * size
+    return total
+
+
+@kernel
+def energy_of_motion(parts: Parts, now: Now) -> float:
+    """Return twice the kinetic energy of the bodies."""
+    total = 0.0
+    for b in range(parts.bodies.size):
+        total += _of_body(parts.bodies[b], now.bodies[b].v, now.bodies[b].w)
+    return total
+
+
+@kernel
+def _of_body(body: Record, v: FloatArray, w: FloatArray) -> float:
+    """Return twice the energy of a body."""
+    total = body.mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    for i in range(3):
+        turned = body.inertia[i, 0] * w[0] + body.inertia[i, 1] * w[1] + body.inertia[i, 2] * w[2]
+        total += turned * w[i]
     return total

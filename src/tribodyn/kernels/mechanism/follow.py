@@ -21,7 +21,6 @@ from tribodyn.kernels.mechanism.solution import (
     kinematics,
     largest_residual,
     mark_angles,
-    refresh_velocities,
 )
 from tribodyn.kernels.mechanism.vectors import turn
 from tribodyn.kernels.signals import Signals
@@ -73,7 +72,6 @@ def follow(
         if not largest_residual(parts, now, parts.constants.size) <= closed:
             return k
         _stop(now.bodies)
-        refresh_velocities(parts, now)
         correct_velocities(parts, now, pattern, blocks, 0.0)
         collect(now.bodies, motion[k])
         for b in range(now.bodies.size - 1):

@@ -24,92 +24,72 @@ from tribodyn.kernels.mechanism.vectors import (
     cross,
     cross_put,
     cross_rows,
-    put,
+    crossed,
     put_cross,
     turn,
     turn_axes,
     turn_axes_back,
+    turned,
 )
 
 
 @kernel
-def relative_motion(coupling: Record, now: Record, bodies: Any) -> None:
-    """Fill pose, twist, its rate without accelerations, and H."""
-    _relative_position(coupling, now, bodies)
-    relative_velocity(coupling, now, bodies)
-
-
-@kernel
-def _relative_position(coupling: Record, now: Record, bodies: Any) -> None:
+def relative_position(coupling: Record, now: Record, bodies: Any) -> None:
     """Fill what velocities do not change: displacement, rotation and H."""
-    socket, shaft = bodies[coupling.socket], bodies[coupling.shaft]
-    pose, x, arm, point = now.pose, now.x, now.work[0, :3], now.work[1, :3]
+    socket, shaft, rho = bodies[coupling.socket], bodies[coupling.shaft], coupling.shaft_point
     turn_axes_back(coupling.to_socket, socket.A, now.RT)
     turn_axes(now.RT, shaft.A, now.B)
-    turn_axes(now.B, coupling.shaft_axes, pose.rotation)
+    turn_axes(now.B, coupling.shaft_axes, now.pose.rotation)
+    a, b = socket.r, shaft.r
+    way = turned(now.RT, b[0] - a[0], b[1] - a[1], b[2] - a[2])
+    arm = turned(now.B, rho[0], rho[1], rho[2])
+    origin = coupling.socket_point
+    point = turned(coupling.to_socket, origin[0], origin[1], origin[2])
     for i in range(3):
-        point[i] = shaft.r[i] - socket.r[i]
-    turn(now.RT, point, x)
-    turn(now.B, coupling.shaft_point, arm)
-    for i in range(3):
-        x[i] += arm[i]
-    turn(coupling.to_socket, coupling.socket_point, point)
-    for i in range(3):
-        pose.d[i] = x[i] - point[i]
+        now.x[i] = way[i] + arm[i]
+        now.pose.d[i] = now.x[i] - point[i]
     _fill_map(coupling, now)
 
 
 @kernel
 def relative_velocity(coupling: Record, now: Record, bodies: Any) -> None:
-    """Fill twist and its rate without accelerations, where positions are filled."""
-    socket, shaft = bodies[coupling.socket], bodies[coupling.shaft]
-    pose, x, u, w_s, arm, point = now.pose, now.x, now.u, now.w_s, now.work[0, :3], now.work[1, :3]
-    turn(coupling.to_socket, socket.w, w_s)
-    cross(shaft.w, coupling.shaft_point, point)
-    turn(now.B, point, arm)
+    """Fill twist and, of rows, its rate without accelerations, where positions are filled."""
+    socket, shaft, rho, x = bodies[coupling.socket], bodies[coupling.shaft], coupling.shaft_point, now.x
+    w, v, v_s, pose = shaft.w, shaft.v, socket.v, now.pose
+    w_x, w_y, w_z = turned(coupling.to_socket, socket.w[0], socket.w[1], socket.w[2])
+    c_x, c_y, c_z = crossed(w[0], w[1], w[2], rho[0], rho[1], rho[2])
+    arm = turned(now.B, c_x, c_y, c_z)
+    u = turned(now.RT, v[0] - v_s[0], v[1] - v_s[1], v[2] - v_s[2])
+    swing = crossed(w_x, w_y, w_z, x[0], x[1], x[2])
+    spin = turned(now.B, w[0], w[1], w[2])
+    now.w_s[0], now.w_s[1], now.w_s[2] = w_x, w_y, w_z
     for i in range(3):
-        point[i] = shaft.v[i] - socket.v[i]
-    turn(now.RT, point, u)
-    for i in range(3):
-        u[i] += arm[i]
-    cross(w_s, x, point)
-    turn(now.B, shaft.w, pose.w)
-    for i in range(3):
-        pose.v[i] = u[i] - point[i]
-        pose.w[i] -= w_s[i]
-        now.twist[i], now.twist[3 + i] = pose.v[i], pose.w[i]
-    _fill_bias(coupling, now, shaft)
-
-
-@kernel
-def _fill_bias(coupling: Record, now: Record, shaft: Record) -> None:
-    """Fill the rate of the twist while no body accelerates."""
-    a, b, c = now.work[0, :3], now.work[1, :3], now.work[2, :3]
-    cross(shaft.w, coupling.shaft_point, a)
-    cross(shaft.w, a, b)
-    turn(now.B, b, a)
-    cross(now.w_s, now.pose.v, b)
-    for i in range(3):
-        now.bias[i] = a[i] - 2.0 * b[i]
-    cross(now.w_s, now.x, a)
-    cross(now.w_s, a, b)
-    cross(now.w_s, now.pose.w, c)
-    for i in range(3):
-        now.bias[i] -= b[i]
-        now.bias[3 + i] = -c[i]
+        now.u[i] = u[i] + arm[i]
+        pose.v[i] = now.twist[i] = now.u[i] - swing[i]
+        pose.w[i] = now.twist[3 + i] = spin[i] - now.w_s[i]
+    if coupling.n_terms > 0:
+        # Rate of the twist while no body accelerates.
+        d_x, d_y, d_z = crossed(w[0], w[1], w[2], c_x, c_y, c_z)
+        outward = turned(now.B, d_x, d_y, d_z)
+        coriolis = crossed(w_x, w_y, w_z, pose.v[0], pose.v[1], pose.v[2])
+        inward = crossed(w_x, w_y, w_z, swing[0], swing[1], swing[2])
+        turning = crossed(w_x, w_y, w_z, pose.w[0], pose.w[1], pose.w[2])
+        for i in range(3):
+            now.bias[i] = outward[i] - 2.0 * coriolis[i] - inward[i]
+            now.bias[3 + i] = -turning[i]
 
 
 @kernel
 def _fill_map(coupling: Record, now: Record) -> None:
-    """Fill H: the twist over the velocities of both bodies."""
-    matrix, to_socket = now.H, coupling.to_socket
-    clear(matrix)
-    put(matrix, 0, 0, now.RT, -1.0)
-    cross_put(matrix, 0, 3, now.x, to_socket, 1.0)
-    put(matrix, 3, 3, to_socket, -1.0)
-    put(matrix, 0, 6, now.RT, 1.0)
-    put_cross(matrix, 0, 9, now.B, coupling.shaft_point, -1.0)
-    put(matrix, 3, 9, now.B, 1.0)
+    """Fill H, the twist over the velocities of both bodies, but for what is always zero."""
+    matrix, to_socket, rotation, x, rho = now.H, coupling.to_socket, now.B, now.x, coupling.shaft_point
+    for i in range(3):
+        way = crossed(x[0], x[1], x[2], to_socket[0, i], to_socket[1, i], to_socket[2, i])
+        arm = crossed(rho[0], rho[1], rho[2], rotation[i, 0], rotation[i, 1], rotation[i, 2])
+        for j in range(3):
+            matrix[i, j], matrix[i, 6 + j] = -now.RT[i, j], now.RT[i, j]
+            matrix[j, 3 + i], matrix[3 + i, 3 + j] = way[j], -to_socket[i, j]
+            matrix[i, 9 + j], matrix[3 + i, 9 + j] = arm[j], rotation[i, j]
 
 
 @kernel

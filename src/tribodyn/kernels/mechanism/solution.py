@@ -4,8 +4,10 @@ With accelerations a, multipliers λ and the compliances ε of the rows,
 
     M a − Gᵀ λ = Q,   G a + ε λ = γ + ε λ₀   (of an element with a force law: λ = F),
 
-first from λ₀ = 0, then from the λ found: the method of multipliers, which after three rounds leaves an error
-(ε/(ε + σ²))³ where the rows resist with σ². Independent rows have a small compliance, which where a mechanism
+first from λ₀ = 0, then from the λ found: the method of multipliers, which after n rounds leaves an error
+(ε/(ε + σ²))ⁿ where the rows resist with σ². What rows miss is then ε times the last change of λ, which tells
+when to end: seldom after three. Positions need one round, as their residuals are small and looked at again;
+so do velocities, beside which their corrections are small. Independent rows have a small compliance, which where a mechanism
 passes a position in which they depend on each other lets go of them for a moment. Rows that depend on others
 everywhere have as much as the bodies they hold: then they carry nothing and, because they follow from the
 others, are kept all the same. For the reactions that are told all rows get the same small compliance, which
@@ -31,8 +33,8 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.mechanism.angle import whole_angle
-from tribodyn.kernels.mechanism.bodies import collect, move, own_force, place
-from tribodyn.kernels.mechanism.constraints import fill_rows, prescribe
+from tribodyn.kernels.mechanism.bodies import collect, make_unit, move, own_force, place
+from tribodyn.kernels.mechanism.constraints import fill_rates, fill_rows, prescribe
 from tribodyn.kernels.mechanism.data import (
     ANGLE,
     COORDINATE,
@@ -47,10 +49,10 @@ from tribodyn.kernels.mechanism.data import (
     Parts,
     Pattern,
 )
-from tribodyn.kernels.mechanism.equations import assemble, has_law, solve_rows
+from tribodyn.kernels.mechanism.equations import assemble, energy_of_motion, has_law, solve_near, solve_rows
 from tribodyn.kernels.mechanism.forces import force
 from tribodyn.kernels.mechanism.law import call_law, fill_law
-from tribodyn.kernels.mechanism.relative import relative_motion, relative_velocity
+from tribodyn.kernels.mechanism.relative import relative_position, relative_velocity
 from tribodyn.kernels.signals import Signals
 
 HARD: Final = 1.0e-8
@@ -60,42 +62,47 @@ MOST_CORRECTIONS: Final = 6
 MOST_ROUNDS: Final = 60
 SETTLED: Final = 1.0e-13
 """Rounds in which forces that follow reactions must settle, and the relative change from which they have."""
-CLOSED: Final = 1.0e-14
+CLOSED: Final = 1.0e-12
 """Residual of constraints, relative to the size of the mechanism, that is none."""
+FAR: Final = 1.0e-3
+"""Residual, relative to the size, whose correction may turn shafts so far that whole turns count anew."""
+EXACT: Final = 1.0e-14
+"""Part of what the rows carry that their accelerations may miss."""
 
 
 @kernel
 def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
     """Fill relative motion and rows of all couplings where the bodies are."""
+    fill_positions(parts, now, signals, t)
+    fill_velocities(parts, now)
+
+
+@kernel
+def fill_positions(parts: Parts, now: Now, signals: Signals, t: float) -> None:
+    """Fill what velocities do not change: displacements, rotations, and the rows but for their rates."""
     within = min(max(t, now.course.begin), now.course.until)
     for k in range(parts.couplings.size):
         coupling, state = parts.couplings[k], now.couplings[k]
-        relative_motion(coupling, state, now.bodies)
+        relative_position(coupling, state, now.bodies)
         if coupling.n_terms > 0:
             prescribe(coupling, state, signals, t, within)
             fill_rows(coupling, state)
         if coupling.first_leg != NONE:
-            _add_term(state, now.couplings[coupling.first_leg])
+            now.couplings[coupling.first_leg].residual[0] += state.residual[0]
 
 
 @kernel
-def refresh_velocities(parts: Parts, now: Now) -> None:
-    """Fill the kinematics anew after a change of velocities alone."""
+def fill_velocities(parts: Parts, now: Now) -> None:
+    """Fill the rest of the kinematics where positions are filled."""
     for k in range(parts.couplings.size):
         coupling, state = parts.couplings[k], now.couplings[k]
         relative_velocity(coupling, state, now.bodies)
         if coupling.n_terms > 0:
-            fill_rows(coupling, state)
+            fill_rates(coupling, state)
         if coupling.first_leg != NONE:
-            _add_term(state, now.couplings[coupling.first_leg])
-
-
-@kernel
-def _add_term(leg: Record, first: Record) -> None:
-    """Add the term of a leg to the equation that the first leg of the element counts."""
-    first.residual[0] += leg.residual[0]
-    first.rate[0] += leg.rate[0]
-    first.gamma[0] += leg.gamma[0]
+            first = now.couplings[coupling.first_leg]
+            first.rate[0] += state.rate[0]
+            first.gamma[0] += state.gamma[0]
 
 
 @kernel
@@ -125,13 +132,15 @@ def _apply(state: Record, socket: Record, shaft: Record) -> None:
 
 
 @kernel
-def _solve_near(
-    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, near: float
+def _solve(
+    parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, forced: float, near: float, known: float
 ) -> None:
-    """Solve; with the factors of a position close by only where these do."""
-    if not solve_rows(parts, now, pattern, blocks, forced, near):
+    """Solve; with the factors of a position close by, where ``near`` is 1, only if these do."""
+    if (near == 1.0 or known > 0.0) and solve_near(parts, now, pattern, blocks, forced, known):
+        return
+    if near == 1.0:
         assemble(parts, now, pattern, blocks)
-        solve_rows(parts, now, pattern, blocks, forced, 0.0)
+    solve_rows(parts, now, pattern, blocks, forced, EXACT)
 
 
 @kernel
@@ -147,18 +156,18 @@ def take_accelerations(parts: Parts, now: Now, pattern: Pattern, blocks: FloatAr
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
             now.rest[coupling.node, m] = now.couplings[k].gamma[m]
-    _solve_near(parts, now, pattern, blocks, 1.0, near)
+    _solve(parts, now, pattern, blocks, 1.0, near, 0.0)
     for k in range(parts.couplings.size):
         _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
     if parts.constants.n_reactive > 0:
-        _settle_reactive(parts, now, pattern, blocks)
+        _settle_reactive(parts, now, pattern, blocks, near)
     for b in range(parts.bodies.size):
         for i in range(6):
             now.bodies[b].acceleration[i] = now.x[b, i]
 
 
 @kernel
-def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray) -> None:
+def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, near: float) -> None:
     """Solve again until forces that follow reactions no longer change; NaN where they never settle."""
     for k in range(parts.couplings.size):
         now.couplings[k].pushing = 0.0
@@ -168,7 +177,7 @@ def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArra
         if rounds > MOST_ROUNDS:
             now.x[0, 0] = math.nan
             break
-        solve_rows(parts, now, pattern, blocks, 1.0, 0.0)
+        _solve(parts, now, pattern, blocks, 1.0, near, 0.0)
         for k in range(parts.couplings.size):
             _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
     for k in range(parts.couplings.size):
@@ -240,11 +249,17 @@ def largest_residual(parts: Parts, now: Now, unit: float) -> float:
 
 
 @kernel
-def _gap(parts: Parts, now: Now) -> float:
-    """Fill the right-hand side of a correction of positions; return the largest residual."""
+def _at_rest(parts: Parts, now: Now) -> None:
+    """Clear the right-hand side of the bodies."""
     for b in range(parts.bodies.size):
         for i in range(6):
             now.rest[b, i] = 0.0
+
+
+@kernel
+def _gap(parts: Parts, now: Now) -> float:
+    """Fill the right-hand side of a correction of positions; return the largest residual."""
+    _at_rest(parts, now)
     for k in range(parts.couplings.size):
         coupling = parts.couplings[k]
         for m in range(coupling.n_rows):
@@ -261,20 +276,22 @@ def mark_angles(couplings: Any) -> None:
 
 @kernel
 def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float) -> int:
-    """Move the bodies onto the constraints, the shortest way by mass, and fill the kinematics there.
+    """Move the bodies onto the constraints, the shortest way by mass, and fill the positions there.
 
     Those of where the bodies are must have been filled. Return how many corrections it took; the factors are
     those of where the bodies were before the last one.
     """
-    gap, corrections = _gap(parts, now), 0
-    while corrections < MOST_CORRECTIONS and not gap <= CLOSED * parts.constants.size:
+    closed, corrections = CLOSED * parts.constants.size, 0
+    gap = _gap(parts, now)
+    while corrections < MOST_CORRECTIONS and not gap <= closed:
         corrections += 1
         assemble(parts, now, pattern, blocks)
-        solve_rows(parts, now, pattern, blocks, 0.0, 0.0)
+        solve_rows(parts, now, pattern, blocks, 0.0, min(0.1 * closed / gap, 0.1))
         for b in range(parts.bodies.size):
             move(now.bodies[b], now.x[b], now.rest[b, :4])
-        kinematics(parts, now, signals, t)
-        mark_angles(now.couplings)
+        fill_positions(parts, now, signals, t)
+        if gap > FAR * parts.constants.size:
+            mark_angles(now.couplings)
         before = gap
         gap = _gap(parts, now)
         if not gap < 0.5 * before:
@@ -286,25 +303,36 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
 def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, near: float) -> None:
     """Make velocities those that the constraints allow, by impulses, and fill the kinematics with them.
 
-    Those of the positions must have been filled. With ``near`` 1 the factors at hand are those of a position
-    close by; with 0 the position is factorised.
+    The positions must have been filled. With ``near`` 1 the factors at hand are those of a position close by;
+    with 0 the position is factorised.
     """
     if near == 0.0:
         assemble(parts, now, pattern, blocks)
-    for b in range(parts.bodies.size):
-        for i in range(6):
-            now.rest[b, i] = 0.0
+    _at_rest(parts, now)
     for k in range(parts.couplings.size):
-        coupling = parts.couplings[k]
-        for m in range(coupling.n_rows):
-            now.rest[coupling.node, m] = -now.couplings[k].rate[m]
-    _solve_near(parts, now, pattern, blocks, 0.0, near)
+        if parts.couplings[k].node != NONE:
+            _load_rates(parts, now, k)
+    _solve(parts, now, pattern, blocks, 0.0, near, energy_of_motion(parts, now))
     for b in range(parts.bodies.size):
         body = now.bodies[b]
         for i in range(3):
             body.v[i] += now.x[b, i]
             body.w[i] += now.x[b, 3 + i]
-    refresh_velocities(parts, now)
+    fill_velocities(parts, now)
+
+
+@kernel
+def _load_rates(parts: Parts, now: Now, number: int) -> None:
+    """Fill the right-hand side with rates of rows that are to vanish; a later leg of an element adds its."""
+    coupling, state = parts.couplings[number], now.couplings[number]
+    rest = now.rest[coupling.node]
+    for m in range(coupling.n_terms if coupling.law == 0 else 0):
+        rate = state.at_rest[m]
+        for side in range(2):
+            body = now.bodies[coupling.socket if side == 0 else coupling.shaft]
+            for i in range(3):
+                rate += state.G[m, 6 * side + i] * body.v[i] + state.G[m, 6 * side + 3 + i] * body.w[i]
+        rest[m] = -rate if coupling.first_leg == NONE else rest[m] - rate
 
 
 @kernel
@@ -325,12 +353,12 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
     parts, now, blocks, n_rows = data.parts, memory.now, memory.blocks, data.parts.constants.n_rows
     place(y, now.bodies)
     for b in range(parts.bodies.size):
-        for i in range(6):
-            now.x[b, i] = 0.0
-        move(now.bodies[b], now.x[b], now.rest[b, :4])  # makes the quaternion one of length 1
-    kinematics(parts, now, data.signals, t)
+        make_unit(now.bodies[b].p)
+    fill_positions(parts, now, data.signals, t)
     near = 0.0
-    if n_rows > 0:
+    if n_rows == 0:
+        fill_velocities(parts, now)
+    else:
         near = 1.0 if close(parts, now, data.signals, data.mass, blocks, t) == 1 else 0.0
         correct_velocities(parts, now, data.mass, blocks, near)
     collect(now.bodies, memory.settled)

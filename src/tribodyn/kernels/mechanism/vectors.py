@@ -15,6 +15,24 @@ def cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
 
 
 @kernel
+def crossed(
+    a_x: float, a_y: float, a_z: float, b_x: float, b_y: float, b_z: float
+) -> tuple[float, float, float]:
+    """Return a × b, which needs no place in memory."""
+    return a_y * b_z - a_z * b_y, a_z * b_x - a_x * b_z, a_x * b_y - a_y * b_x
+
+
+@kernel
+def turned(matrix: FloatArray, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return ``matrix`` (3, 3) times a vector, which needs no place in memory."""
+    return (
+        matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z,
+        matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z,
+        matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z,
+    )
+
+
+@kernel
 def turn(matrix: FloatArray, vector: FloatArray, out: FloatArray) -> None:
     """Fill ``out`` (3,) with ``matrix`` (3, 3) times ``vector``."""
     for i in range(3):
