@@ -89,11 +89,11 @@ N_POWERS: Final = 5
 Constants: Final = record_type(
     ("gravity", "f8", (3,)),
     ("size", "f8"),
-    *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work", "n_reactive")),
+    *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work", "n_reactive", "n_entries")),
 )
 """Gravity [m/s²], size of the mechanism [m], number of all constraint rows and of those that are independent,
-of nodes, of the blocks that hold the work space of solutions, and of couplings whose forces follow
-reactions."""
+of nodes, of the blocks that hold the work space of solutions, of couplings whose forces follow
+reactions, and of entries of the iteration matrix that solutions need."""
 
 Body: Final = record_type(
     ("mass", "f8"),
@@ -181,6 +181,7 @@ Coupling: Final = record_type(
     ("opening", "i8", (2,)),
     ("load_of", "i8"),
     ("push", "f8", (3,)),
+    ("first_entry", "i8"),
     ("rows_block", "i8", (2, 2)),
     ("bodies_block", "i8", (2,)),
 )
@@ -232,6 +233,8 @@ load_of
     Of the first leg of an element whose force law follows the reaction of a joint: that joint.
 push
     Of a leg: force on its shaft in the axes of the socket, over the size of the multiplier that it follows.
+first_entry
+    Where its entries of the iteration matrix begin, see ``kernels/mechanism/newton.py``.
 rows_block
     Blocks (rows, body) and (body, rows) for socket and shaft.
 bodies_block

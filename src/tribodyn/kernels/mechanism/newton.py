@@ -14,9 +14,10 @@ multipliers:
 Of an element with a force law, λ = F, both G of the second line are left out, ε is 1, and Γ are the
 derivatives of −F.
 
-The ``entries`` that ``jac`` leaves are all that is in it but γ: ``N_BODY`` numbers of each body,
-``N_COUPLING`` of each coupling. ``factorise`` puts γ and the entries before the blocks, so that ``solve``
-finds them.
+The ``entries`` that ``jac`` leaves are all that is in it but γ: ``N_BODY`` numbers of each body, then those
+of each coupling from its ``first_entry`` on. These are K_q and K_v, (6, 6), of each pair of its moving sides,
+rows before columns and socket before shaft; and where it has rows, Γ_q, Γ_v and G of each side, (n_terms, 6),
+and six compliances. ``factorise`` puts γ and the entries before the blocks, so that ``solve`` finds them.
 """
 
 from __future__ import annotations
@@ -46,14 +47,24 @@ acceleration."""
 N_BODY: Final = 16
 """Of each body: quaternion (4), angular velocity (3), derivative of the gyroscopic moment (9)."""
 GYROSCOPIC: Final = 7
-KQ: Final = 0
-KV: Final = 144
-GQ: Final = 288
-GV: Final = 360
-G: Final = 432
-COMPLIANCE: Final = 504
-N_COUPLING: Final = 510
-"""Of each coupling: K_q, K_v (12, 12), Γ_q, Γ_v, G (6, 12), compliance (6)."""
+N_PAIR: Final = 72
+"""Of a pair of sides: K_q, K_v (6, 6)."""
+KV: Final = 36
+N_ROW: Final = 18
+"""Of a row and a side: rows of Γ_q, Γ_v, G."""
+N_COMPLIANCE: Final = 6
+
+
+@kernel
+def _n_sides(coupling: Record, n_bodies: int) -> int:
+    """Return how many of the two bodies of a coupling move."""
+    return (1 if coupling.socket < n_bodies else 0) + (1 if coupling.shaft < n_bodies else 0)
+
+
+@kernel
+def _body_of(coupling: Record, side: int, n_bodies: int) -> int:
+    """Return the body of a side among those that move: 0 is the first of them."""
+    return int(coupling.socket if side == 0 and coupling.socket < n_bodies else coupling.shaft)
 
 
 @kernel
@@ -71,16 +82,34 @@ def fill_entries(data: Parts, memory: Now, entries: FloatArray) -> None:
             for j in range(3):
                 entries[first + GYROSCOPIC + 3 * i + j] = memory.bodies[b].gyroscopic[i, j]
     for k in range(data.couplings.size):
-        first, now = N_BODY * n_bodies + N_COUPLING * k, memory.couplings[k]
-        _flatten(now.Kq, entries, first + KQ)
-        _flatten(now.Kv, entries, first + KV)
-        if data.couplings[k].node == NONE:
-            continue
-        _flatten(now.Gq, entries, first + GQ)
-        _flatten(now.Gv, entries, first + GV)
-        _flatten(now.G, entries, first + G)
-        for m in range(6):
-            entries[first + COMPLIANCE + m] = now.compliance[m]
+        coupling = data.couplings[k]
+        _fill_coupling(coupling, memory.couplings[k], n_bodies, entries[coupling.first_entry :])
+
+
+@kernel
+def _fill_coupling(coupling: Record, now: Record, n_bodies: int, entries: FloatArray) -> None:
+    """Fill the entries of a coupling, which ``entries`` begin with."""
+    sides, at = _n_sides(coupling, n_bodies), 0
+    first = 0 if coupling.socket < n_bodies else 6
+    for rows in range(sides):
+        for side in range(sides):
+            for i in range(6):
+                for j in range(6):
+                    entries[at + 6 * i + j] = now.Kq[first + 6 * rows + i, first + 6 * side + j]
+                    entries[at + KV + 6 * i + j] = now.Kv[first + 6 * rows + i, first + 6 * side + j]
+            at += N_PAIR
+    if coupling.node == NONE:
+        return
+    n = coupling.n_terms
+    for side in range(sides):
+        for m in range(n):
+            for j in range(6):
+                column, to = first + 6 * side + j, at + 6 * m + j
+                entries[to], entries[to + 6 * n] = now.Gq[m, column], now.Gv[m, column]
+                entries[to + 12 * n] = now.G[m, column]
+        at += N_ROW * n
+    for m in range(6):
+        entries[at + m] = now.compliance[m]
 
 
 @kernel
@@ -103,14 +132,6 @@ def _fill_bound(data: Parts, memory: Now, entries: FloatArray) -> None:
                     if coupling.law != 0:
                         stiffness += now.G[0, 6 * side + i] * now.Gq[0, 6 * side + j]
                     entries[N_PLACES * b + 3 * i + j] += inverse * abs(stiffness)
-
-
-@kernel
-def _flatten(matrix: FloatArray, entries: FloatArray, first: int) -> None:
-    """Put a matrix into the entries, row by row."""
-    for i in range(matrix.shape[0]):
-        for j in range(matrix.shape[1]):
-            entries[first + i * matrix.shape[1] + j] = matrix[i, j]
 
 
 @kernel
@@ -151,9 +172,8 @@ def factorise(
         _turning(entries, b, gamma, turns[b])
         _body_block(parts.bodies[b], entries[N_BODY * b + GYROSCOPIC :], gamma, blocks[b])
     for k in range(parts.couplings.size):
-        _coupling_blocks(
-            parts.couplings[k], n_bodies, entries[N_BODY * n_bodies + N_COUPLING * k :], gamma, turns, blocks
-        )
+        coupling = parts.couplings[k]
+        _coupling_blocks(coupling, n_bodies, entries[coupling.first_entry :], gamma, turns, blocks)
     return algebra.factorise(data.newton, blocks)
 
 
@@ -185,9 +205,9 @@ def _add(
     block: FloatArray,
     n_rows: int,
 ) -> None:
-    """Add γ (K_v + K_q S) to a block, with six columns in rows of twelve from ``at`` and ``velocity`` on."""
+    """Add γ (K_v + K_q S) to a block, with rows of six from ``at`` and ``velocity`` on."""
     for i in range(n_rows):
-        q, v = at + 12 * i, velocity + 12 * i
+        q, v = at + 6 * i, velocity + 6 * i
         for j in range(3):
             block[j, i] += gamma * (entries[v + j] + gamma * entries[q + j])
             turned = entries[q + 3] * turn[0, j] + entries[q + 4] * turn[1, j] + entries[q + 5] * turn[2, j]
@@ -204,39 +224,39 @@ def _coupling_blocks(
     blocks: FloatArray,
 ) -> None:
     """Add what a coupling has to the blocks; ``entries`` begin with its own."""
-    for side in range(2):
-        body = coupling.socket if side == 0 else coupling.shaft
-        if body == n_bodies:
-            continue
+    sides, n = _n_sides(coupling, n_bodies), coupling.n_terms
+    first = 0 if coupling.socket < n_bodies else 1
+    for side in range(sides):
+        body = _body_of(coupling, side, n_bodies)
         turn = turns[body]
-        _add(entries, KQ + 78 * side, KV + 78 * side, gamma, turn, blocks[body], 6)
-        if coupling.bodies_block[0] != NONE:
-            # Rows of the other body, columns of this one.
-            rows = 72 - 72 * side
-            block = blocks[coupling.bodies_block[1 - side]]
-            _add(entries, KQ + rows + 6 * side, KV + rows + 6 * side, gamma, turn, block, 6)
+        for rows in range(sides):
+            # Rows of one body, columns of another: below or above the diagonal.
+            number = body if rows == side else coupling.bodies_block[rows]
+            at = N_PAIR * (sides * rows + side)
+            _add(entries, at, at + KV, gamma, turn, blocks[number], 6)
         if coupling.node == NONE:
             continue
-        below, beside = blocks[coupling.rows_block[side, 0]], blocks[coupling.rows_block[side, 1]]
-        for m in range(coupling.n_terms):
+        numbers, at = coupling.rows_block[first + side], N_PAIR * sides * sides + N_ROW * n * side
+        below, beside = blocks[numbers[0]], blocks[numbers[1]]
+        for m in range(n):
             for j in range(6):
-                value = entries[G + 12 * m + 6 * side + j]
+                value = entries[at + 12 * n + 6 * m + j]
                 if coupling.law == 0:
                     below[j, m] += value
                 beside[m, j] -= value
-        _add(entries, GQ + 6 * side, GV + 6 * side, gamma, turn, below, coupling.n_terms)
+        _add(entries, at, at + 6 * n, gamma, turn, below, n)
     if coupling.node != NONE and coupling.first_leg == NONE:
-        diagonal = blocks[coupling.node]
+        diagonal, at = blocks[coupling.node], N_PAIR * sides * sides + N_ROW * n * sides
         for m in range(6):
-            diagonal[m, m] += entries[COMPLIANCE + m] if m < coupling.n_rows else 1.0
+            diagonal[m, m] += entries[at + m] if m < coupling.n_rows else 1.0
 
 
 @entry
 def solve(data: MechanismData, factors: FloatArray, pivots: IntArray, x: FloatArray) -> None:
     """Replace ``x`` (n,) by the solution."""
     parts = data.parts
-    n_bodies, n_couplings = parts.bodies.size, parts.couplings.size
-    n_entries = N_BODY * n_bodies + N_COUPLING * n_couplings
+    n_bodies = parts.bodies.size
+    n_entries = parts.constants.n_entries
     gamma, entries = factors[0], factors[1 : 1 + n_entries]
     _, blocks = _split(factors, n_entries, n_bodies)
     n_nodes = parts.constants.n_nodes
@@ -247,16 +267,9 @@ def solve(data: MechanismData, factors: FloatArray, pivots: IntArray, x: FloatAr
             nodes[k, i] = 0.0
     for b in range(n_bodies):
         _load_body(parts.bodies[b], entries, b, gamma, x, nodes[b], still[b])
-    for k in range(n_couplings):
-        _load_coupling(
-            parts.couplings[k],
-            n_bodies,
-            entries[N_BODY * n_bodies + N_COUPLING * k :],
-            gamma,
-            x,
-            nodes,
-            still,
-        )
+    for k in range(parts.couplings.size):
+        coupling = parts.couplings[k]
+        _load_coupling(coupling, n_bodies, entries[coupling.first_entry :], gamma, x, nodes, still)
     algebra.solve(data.newton, blocks, nodes)
     for b in range(n_bodies):
         _unload_body(entries, b, gamma, nodes[b], x)
@@ -324,33 +337,32 @@ def _load_coupling(
     nodes: FloatArray,
     still: FloatArray,
 ) -> None:
-    """Add −γ K_q s, and G r_V − γ Γ_q s, of a coupling."""
+    """Add −γ K_q s, and G r_V − γ Γ_q s, of a coupling; ``entries`` begin with its own."""
     held = 1.0 if coupling.law == 0 else 0.0
-    for side in range(2):
-        body = coupling.socket if side == 0 else coupling.shaft
-        if body == n_bodies:
-            continue
+    sides, n = _n_sides(coupling, n_bodies), coupling.n_terms
+    for side in range(sides):
+        body = _body_of(coupling, side, n_bodies)
         way, r = still[body], x[N_STATES * body + VELOCITY :]
-        for rows in range(2):
-            other = coupling.socket if rows == 0 else coupling.shaft
-            if other < n_bodies:
-                _load_rows(entries[KQ + 72 * rows + 6 * side :], gamma, way, nodes[other])
+        for rows in range(sides):
+            other = _body_of(coupling, rows, n_bodies)
+            _load_rows(entries[N_PAIR * (sides * rows + side) :], gamma, way, nodes[other])
         if coupling.node == NONE:
             continue
-        for m in range(coupling.n_terms):
-            at = 12 * m + 6 * side
+        at = N_PAIR * sides * sides + N_ROW * n * side
+        for m in range(n):
             total = 0.0
             for j in range(6):
-                total += held * entries[G + at + j] * r[j] - gamma * entries[GQ + at + j] * way[j]
+                total += held * entries[at + 12 * n + j] * r[j] - gamma * entries[at + j] * way[j]
             nodes[coupling.node, m] += total
+            at += 6
 
 
 @kernel
 def _load_rows(entries: FloatArray, gamma: float, way: FloatArray, node: FloatArray) -> None:
-    """Add −γ times six of twelve columns of K_q, from ``entries`` on, times a change of position."""
+    """Add −γ K_q, which ``entries`` begin with, times a change of position."""
     a, b, c, d, e, f = way[0], way[1], way[2], way[3], way[4], way[5]
     for i in range(6):
-        row = entries[12 * i :]
+        row = entries[6 * i :]
         total = row[0] * a + row[1] * b + row[2] * c + row[3] * d + row[4] * e + row[5] * f
         node[i] -= gamma * total
 

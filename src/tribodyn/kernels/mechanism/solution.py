@@ -7,11 +7,11 @@ With accelerations a, multipliers λ and the compliances ε of the rows,
 first from λ₀ = 0, then from the λ found: the method of multipliers, which after n rounds leaves an error
 (ε/(ε + σ²))ⁿ where the rows resist with σ². What rows miss is then ε times the last change of λ, which tells
 when to end: seldom after three. Positions need one round, as their residuals are small and looked at again;
-so do velocities, beside which their corrections are small. Independent rows have a small compliance, which where a mechanism
-passes a position in which they depend on each other lets go of them for a moment. Rows that depend on others
-everywhere have as much as the bodies they hold: then they carry nothing and, because they follow from the
-others, are kept all the same. For the reactions that are told all rows get the same small compliance, which
-shares them among dependent rows by least norm.
+so do velocities, beside which their corrections are small. Independent rows have a small compliance, which
+where a mechanism passes a position in which they depend on each other lets go of them for a moment. Rows that
+depend on others everywhere have as much as the bodies they hold: then they carry nothing and, because they
+follow from the others, are kept all the same. For the reactions that are told all rows get the same small
+compliance, which shares them among dependent rows by least norm.
 
 On the constraints a state is put the shortest way by mass, as impulses of the joints would: near a position
 in which rows become dependent corrections are large, and any other metric would change the motion that is

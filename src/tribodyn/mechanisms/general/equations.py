@@ -26,6 +26,7 @@ from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.kernels.mechanism.law import address_of
+from tribodyn.kernels.mechanism.newton import N_BODY, N_COMPLIANCE, N_PAIR, N_ROW
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
@@ -75,6 +76,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bo
     oiled = any(clearance.film is not None for clearance in clearances)
     films, film_force = _with_force(_films(clearances, worn)) if oiled else _dry()
     parts = Parts(constants, _bodies(model), couplings)
+    constants.n_entries = _number_entries(len(model.bodies), couplings)
     inverts = (mass.factor[:, 0] == INVERT_DEFINITE, 1)
     parts.bodies.inverted[:] = ~np.isin(np.arange(parts.bodies.size), mass.factor[inverts])
     of_loads = term_records(signals, terms)
@@ -342,6 +344,16 @@ def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Patte
     mass, newton, rows_block, bodies_block = _patterns_of(n_bodies, structure.tobytes())
     couplings.rows_block[:], couplings.bodies_block[:] = rows_block, bodies_block
     return _copy(mass), _copy(newton)
+
+
+def _number_entries(n_bodies: int, couplings: Any) -> int:
+    """Fill where the entries of couplings in the iteration matrix begin; return how many there are."""
+    sides = (couplings.socket < n_bodies).astype(int) + (couplings.shaft < n_bodies)
+    of_rows = N_ROW * sides * couplings.n_terms + N_COMPLIANCE
+    numbers = N_PAIR * sides**2 + np.where(couplings.node != NONE, of_rows, 0)
+    ends = N_BODY * n_bodies + np.cumsum(numbers)
+    couplings.first_entry[:] = ends - numbers
+    return int(ends[-1]) if ends.size else N_BODY * n_bodies
 
 
 def _copy(pattern: kinds.Pattern) -> kinds.Pattern:

@@ -21,7 +21,6 @@ from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.stopping import ask
 from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.kernels import dense
-from tribodyn.kernels.mechanism import newton
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
@@ -34,6 +33,7 @@ from tribodyn.kernels.mechanism.data import (
     SPRINGS,
     VELOCITY,
 )
+from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.decompositions import row_space, shortest
@@ -113,9 +113,8 @@ class JointLoads:
         for contact in self.contacts:
             self.roots[contact.coupling] = contact.root
         self.by_slip = np.flatnonzero(np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE)))
-        parts = newton.N_PLACES + newton.N_BODY
         self.laws = np.flatnonzero(couplings.law)
-        self.entries = np.zeros(parts * self.n + newton.N_COUPLING * couplings.size)
+        self.entries = np.zeros(N_PLACES * self.n + int(self.data.parts.constants.n_entries))
         self.ideal, self.real = ideal, System(assembly.model.without_films, contacts=False)
         self.real.adopt(self.state)
         self.springs = np.flatnonzero(np.isin(couplings.force, (SPRINGS, SPRING)))

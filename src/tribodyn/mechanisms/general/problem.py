@@ -129,10 +129,9 @@ def _shortest_wave(case: MechanismCase) -> float:
 
 def _algebra(data: MechanismData) -> LinearSolver:
     """Return how the problem solves with its iteration matrix."""
-    n, n_couplings = data.parts.bodies.size, data.parts.couplings.size
+    n, private = data.parts.bodies.size, int(data.parts.constants.n_entries)
     state = N_STATES * np.arange(n)[:, None]
     rows = np.array([VELOCITY, VELOCITY + 1, VELOCITY + 2, TURNING, TURNING + 1, TURNING + 2])
-    private = newton.N_BODY * n + newton.N_COUPLING * n_couplings
     n_numbers = n_blocks(data.newton) + int(data.parts.constants.n_work)
     return LinearSolver(
         places=np.ascontiguousarray(
