@@ -12,7 +12,7 @@ import xarray as xr
 
 from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
 from tribodyn.results.dataset import json_attribute
-from tribodyn.results.reading import column, statistic
+from tribodyn.results.reading import column, reading_once, statistic
 
 
 @dataclass(frozen=True)
@@ -171,10 +171,11 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
         "notes": json_attribute(dataset, "notes", []),
         **{name: str(dataset.attrs[name]) for name in (DATA_HASH, ROWS_HASH) if name in dataset.attrs},
     }
-    for name, key_result in {**key_results, **EFFORT}.items():
-        value = _number(key_result, dataset)
-        if math.isfinite(value):
-            summary[name] = int(value) if key_result.count else value
+    with reading_once():
+        for name, key_result in {**key_results, **EFFORT}.items():
+            value = _number(key_result, dataset)
+            if math.isfinite(value):
+                summary[name] = int(value) if key_result.count else value
     return summary
 
 

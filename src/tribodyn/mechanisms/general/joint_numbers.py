@@ -14,12 +14,12 @@ from tribodyn.mechanisms.base import ByPart
 from tribodyn.mechanisms.general.readings import (
     above_zero,
     least,
+    lengths,
     of_joint,
     of_surfaces,
     offset,
-    sizes,
 )
-from tribodyn.results.reading import column, peak, settled, sustained, time_mean
+from tribodyn.results.reading import column, of_part, peak, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_life import wear_life, wear_rate
 
@@ -141,14 +141,14 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Force",
         "N",
         "Largest force in this joint",
-        lambda d, j: sizes(d, "reaction_force", j),
+        lambda d, j: of_part(d, "reaction_force", j, lengths),
     ),
     "force_mean_N": _named(
         "Force, mean",
         "N",
         "Joints",
         "Mean force in this joint; wear is proportional to it.",
-        lambda d, j: time_mean(d, sizes(d, "reaction_force", j)),
+        lambda d, j: time_mean(d, of_part(d, "reaction_force", j, lengths)),
     ),
     "offset_max_um": _named(
         "Offset, largest",
@@ -162,7 +162,7 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Contact pressure",
         "MPa",
         "Highest pressure in this joint",
-        lambda d, j: column(d, "pressure_max")[:, j],
+        lambda d, j: of_part(d, "pressure_max", j),
         scale=1e-6,
     ),
     "friction_heat_J": _named(
@@ -184,14 +184,14 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "MPa",
         "Joints",
         "Largest pressure in the oil film of this joint.",
-        lambda d, j: peak(settled(d, column(d, "film_pressure_max")[:, j])) * 1e-6,
+        lambda d, j: peak(settled(d, of_part(d, "film_pressure_max", j))) * 1e-6,
     ),
     "film_thickness_min_um": _named(
         "Film thickness, smallest",
         "µm",
         "Joints",
         "Smallest gap of the oil film of this joint.",
-        lambda d, j: least(settled(d, column(d, "film_thickness_min")[:, j])) * 1e6,
+        lambda d, j: least(settled(d, of_part(d, "film_thickness_min", j))) * 1e6,
     ),
     "wear_depth_nm": _named(
         "Wear depth",

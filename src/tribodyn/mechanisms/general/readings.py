@@ -12,15 +12,20 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.base import plain
-from tribodyn.results.reading import column, entries
+from tribodyn.results.reading import column, entries, of_part
 
 _KEPT: Final = 8
 """Results of which the numbers of joints and surfaces are kept."""
 
 
-def sizes(dataset: xr.Dataset, name: str, part: int | slice = slice(None)) -> FloatArray:
-    """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n); (n_t,) of one."""
-    return np.asarray(np.linalg.norm(column(dataset, name)[:, part], axis=-1))
+def lengths(vectors: FloatArray) -> FloatArray:
+    """Return the lengths of vectors (..., 3)."""
+    return np.asarray(np.linalg.norm(vectors, axis=-1))
+
+
+def sizes(dataset: xr.Dataset, name: str) -> FloatArray:
+    """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n)."""
+    return lengths(column(dataset, name))
 
 
 def of_joint(dataset: xr.Dataset, joint: str) -> int:
@@ -36,8 +41,15 @@ def _numbers(joints: tuple[str, ...]) -> dict[str, int]:
 
 def offset(dataset: xr.Dataset, joint: int | slice = slice(None)) -> FloatArray:
     """Return how far shafts are from the middle of their bores [m], shape (n_t, n_joints); (n_t,) of one."""
-    across = np.linalg.norm(column(dataset, "displacement")[:, joint, :2], axis=-1)
+    if isinstance(joint, int):
+        across = of_part(dataset, "displacement", joint, _across)
+    else:
+        across = _across(column(dataset, "displacement")[:, joint])
     return np.asarray(np.where(np.isfinite(column(dataset, "clearance")[joint]), across, np.nan))
+
+
+def _across(displacement: FloatArray) -> FloatArray:
+    return lengths(displacement[..., :2])
 
 
 def least(values: FloatArray) -> float:
