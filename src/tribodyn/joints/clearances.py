@@ -147,7 +147,9 @@ def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
     return tuple(found)
 
 
-def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) -> SurfaceData:
+def assemble(
+    clearances: Sequence[Clearance], wear: FloatArray | None = None, where: Sequence[Place] | None = None
+) -> SurfaceData:
     """Return what the kernels of ``kernels/joints/surface`` read.
 
     Parameters
@@ -156,13 +158,15 @@ def assemble(clearances: Sequence[Clearance], wear: FloatArray | None = None) ->
         One for each clearance joint, in their order.
     wear
         Wear depth at all nodes [m], shape (n_nodes,); none by default.
+    where
+        From :func:`places`, where the caller has it.
 
     Raises
     ------
     Stopped
         If the caller wants to stop.
     """
-    where = places(clearances)
+    where = places(clearances) if where is None else where
     data = join(where, clearances, wear)
     for record, place in zip(data.surfaces, where, strict=True):
         clearance = clearances[place.joint]

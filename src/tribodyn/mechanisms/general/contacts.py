@@ -198,8 +198,9 @@ class _Finer:
             self._last = None
             finer = [replace(clearance, grid=(_FINER * clearance.grid[0], _FINER * clearance.grid[1]))]
             own = [place for place in self._places if place.joint == j]
-            pairs = zip(self._depths(j), own, places(finer), strict=True)
-            fine = assemble(finer, np.concatenate([_resampled(*pair) for pair in pairs]))
+            there = places(finer)
+            pairs = zip(self._depths(j), own, there, strict=True)
+            fine = assemble(finer, np.concatenate([_resampled(*pair) for pair in pairs]), there)
             self._last = key, (fine, new_memory(fine))
         return self._last[1]
 
