@@ -30,13 +30,14 @@ METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= 
 """How processes are started, as :mod:`multiprocessing` calls it."""
 # The threads of a worker would only take time from the other workers. Without the safe path these processes
 # would import modules from the working directory, where a file may have the name of any module.
+# What a case frees, the next one needs again: returned to the system it costs a page fault for every 4 kB.
 ENVIRONMENT: Final = {
     name: "1"
     for name in (
         *("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"),
         "PYTHONSAFEPATH",
     )
-}
+} | {"MALLOC_MMAP_THRESHOLD_": str(32 << 20), "MALLOC_TRIM_THRESHOLD_": str(64 << 20)}
 """Environment variables that the processes need from their beginning."""
 _MODULE: Final = "tribodyn.studies.template"
 """What the server imports: a name, for the module is of a higher layer."""
