@@ -184,6 +184,15 @@ def _total(typing: Any, lanes: Any) -> Any:
     return types.float64(lanes), generate
 
 
+@intrinsic
+def _totals(typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
+    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
+        columns = _transposed(builder, list(arguments))
+        return builder.fadd(builder.fadd(*columns[:2]), builder.fadd(*columns[2:]))
+
+    return _lanes(_lanes, _lanes, _lanes, _lanes), generate
+
+
 def _shuffled(builder: Any, order: tuple[int, ...], a: Any, b: Any) -> Any:
     return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), list(order)))
 
@@ -303,5 +312,7 @@ parts: Final = _either(_parts, tuple)
 """Return the four numbers."""
 total: Final = _either(_total, lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 """Return the sum of the lanes."""
+totals: Final = _either(_totals, lambda a, b, c, d: np.array([total(lanes) for lanes in (a, b, c, d)]))
+"""Return the sums of the lanes of four."""
 rows: Final = _either(_rows, lambda array, numbers: _table_rows(array, numbers.astype(int)))
 """Return eight lanes: the columns of those four rows of a table of eight columns that ``numbers`` name."""

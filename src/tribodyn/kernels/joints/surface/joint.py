@@ -11,7 +11,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.pose import V, W
-from tribodyn.kernels.joints.surface import entry, point, ring_entry, ring_wrench
+from tribodyn.kernels.joints.surface import entry, point, ring_entry, ring_jacobian, ring_wrench
 from tribodyn.kernels.joints.surface import report as over_surface
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring
 from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
@@ -66,6 +66,8 @@ def fill_wrench_and_derivatives(data: SurfaceData, s: int, memory: SurfaceMemory
     """Fill these with their derivatives."""
     if data.surfaces[s].points > 0.0:
         point.add_points(data, s, memory, memory.scratch.station, 1.0, 0.0)
+    elif is_ring(data, data.surfaces[s]):
+        ring_jacobian.wrench_and_derivatives(data, data.surfaces[s], memory, memory.scratch.station)
     else:
         wrench_and_derivatives(data, data.surfaces[s], memory, memory.scratch.station)
 

@@ -15,7 +15,7 @@ from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.listed import Listed
 from tribodyn.kernels.joints.surface.pose import Pose
 from tribodyn.kernels.joints.surface.quantities import Peaks, Report
-from tribodyn.kernels.joints.surface.station import Maps, Station
+from tribodyn.kernels.joints.surface.station import Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
 from tribodyn.kernels.lanes import WIDTH
 
@@ -23,12 +23,13 @@ BLOCK_GROUPS: Final = 16 * WIDTH
 """Where the groups of the block begin."""
 COLUMNS: Final = 14
 """Lanes of a group."""
+N_SUMS: Final = 90
+"""Sums over the nodes of a ring for derivatives, see ``ring_slopes``."""
 
 Scratch: Final = record_type(
     ("pose", Pose),
     ("tilt", Tilt),
     ("station", Station),
-    ("maps", Maps),
     ("normal", "f8", (6,)),
     ("rigid", "f8", (6,)),
     ("friction", "f8", (6,)),
@@ -37,6 +38,8 @@ Scratch: Final = record_type(
     ("rigid_load", "f8"),
     ("moment", "f8", (3,)),
     ("rigid_moment", "f8", (3,)),
+    ("ring_sums", "f8", (WIDTH * WIDTH * N_SUMS,)),
+    ("ring_slopes", "f8", (WIDTH * 5 * 36,)),
     ("listed", Listed),
     ("blank", Report),
 )

@@ -75,8 +75,17 @@ RIGID: Final = 12 * WIDTH
 ENERGY: Final = 13 * WIDTH
 """Of reports: place in the whole table, approach speed [m/s], s² [m²/s²], s²/√(s² + u_s²) [m/s], P_k [Pa] and
 the stored energy over σ [Pa]."""
+FOLLOWING: Final = 8 * WIDTH
+PER_SPEED: Final = 9 * WIDTH
+STIFFNESS: Final = 10 * WIDTH
+RESISTANCE: Final = 11 * WIDTH
+"""Of derivatives: ∂/∂δ̇ of ``RATIO`` [s/m], 1/√(s² + u_s²) [s/m], ∂P_c/∂h [Pa/m] and ∂P_c/∂δ̇ [Pa s/m]."""
 STRIDE: Final = COLUMNS * WIDTH
 """Numbers of a group."""
+WRENCH: Final = 0.0
+REPORT: Final = 1.0
+DERIVATIVES: Final = 2.0
+"""What the groups are filled for."""
 
 
 class RingMotion(NamedTuple):
@@ -148,7 +157,7 @@ def place_of(row: Record, group: int) -> tuple[int, int]:
 
 
 @kernel
-def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int, reports: float) -> int:
+def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int, purpose: float) -> int:
     """Fill what the motion is to the nodes of a block, whose rings are filled; return where groups end.
 
     Parameters
@@ -157,8 +166,8 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
         As for ``ring_wrench.wrench``.
     r
         Row of the first ring of the block.
-    reports
-        1 if the columns of reports are filled, too.
+    purpose
+        ``WRENCH``, ``REPORT`` or ``DERIVATIVES``, which have columns of their own.
     """
     entry_velocity, block, at = memory.entry_velocity, memory.block, BLOCK_GROUPS
     cos, sin, lift, drawn = data.angles[COS], data.angles[SIN], data.angles[LIFT], data.nodes[GAP]
@@ -191,7 +200,15 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
             store(block, at + RATIO, approach * (root * inverse))
             store(block, at + AROUND_UNIT, per_speed * around)
             store(block, at + ALONG_UNIT, per_speed * along)
-            if reports > 0.0:
+            if purpose == DERIVATIVES:
+                # Without memory and faster than the least velocity, the ratio is ±1 whatever the speed.
+                known, slow = (
+                    above(load(entry_velocity, node), zero, one, zero),
+                    above(v_min, absolute(approach), one, zero),
+                )
+                store(block, at + FOLLOWING, above(known + slow, zero, root * inverse, zero))
+                store(block, at + PER_SPEED, per_speed)
+            if purpose == REPORT:
                 store(block, at + POSITION, position)
                 store(block, at + APPROACH, approach)
                 store(block, at + SQUARE, square)
@@ -202,20 +219,27 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
 
 @kernel
 def fill_pressures(
-    data: SurfaceData, surface: Record, memory: SurfaceMemory, end: int, reports: float
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, end: int, purpose: float
 ) -> None:
-    """Fill the pressures of the groups up to ``end``; if ``reports`` is 1 rigid parts and energies, too."""
+    """Fill the pressures of the groups up to ``end``, and what else the ``purpose`` needs."""
     first, last, block = surface.first_interval, surface.last_interval, memory.block
     cubics, energy, step = data.cubics[8 * first : 8 * last], data.energy[first:last], surface.inverse_step
     least, width = spread(0.0 if surface.tensile_clip > 0.0 else -1.0e300), spread(1.0 / step)
     half, third, quarter = spread(0.5), spread(1.0 / 3.0), spread(0.25)
+    two, three, slope, zero = spread(2.0), spread(3.0), spread(step / surface.roughness), zeros()
     for at in range(BLOCK_GROUPS, end, STRIDE):
         x = load(block, at + FRACTION)
         k_0, k_1, k_2, k_3, c_0, c_1, c_2, c_3 = rows_at(cubics, block, at + NUMBER)
         rigid, damping = k_0 + x * (k_1 + x * (k_2 + x * k_3)), c_0 + x * (c_1 + x * (c_2 + x * c_3))
         whole = rigid + damping * load(block, at + RATIO)
         store(block, at + PRESSURE, above(least, whole, least, whole))  # this way round for NaN
-        if reports > 0.0:  # the energy as ``lookup.stored_energy`` has it
+        if purpose == DERIVATIVES:
+            stiffness = k_1 + x * (two * k_2 + x * (three * k_3))
+            stiffness += load(block, at + RATIO) * (c_1 + x * (two * c_2 + x * (three * c_3)))
+            resistance = damping * load(block, at + FOLLOWING)
+            store(block, at + STIFFNESS, above(least, whole, zero, slope * stiffness))
+            store(block, at + RESISTANCE, above(least, whole, zero, resistance))
+        if purpose == REPORT:  # the energy as ``lookup.stored_energy`` has it
             k_1, k_2, k_3 = half * k_1, third * k_2, quarter * k_3
             left = k_0 + (k_1 + (k_2 + k_3)) - x * (k_0 + x * (k_1 + x * (k_2 + x * k_3)))
             store(block, at + RIGID, rigid)

@@ -14,6 +14,7 @@ from tribodyn.kernels.joints.surface.nodes import forget
 from tribodyn.kernels.joints.surface.ring import (
     PRESSURE,
     STRIDE,
+    WRENCH,
     fill_groups,
     fill_pressures,
     gap_and_approach,
@@ -75,8 +76,8 @@ def pressure_field(
     for r in range(surface.first_row, surface.last_row, WIDTH):
         fill_windows(data, surface, memory, station, r, math.inf, 1.0)
         fill_motion(data, surface, memory, station, r)
-        end = fill_groups(data, surface, memory, r, 0.0)
-        fill_pressures(data, surface, memory, end, 0.0)
+        end = fill_groups(data, surface, memory, r, WRENCH)
+        fill_pressures(data, surface, memory, end, WRENCH)
         at = BLOCK_GROUPS
         for k in range(rings_from(surface, r)):
             number = number_of_groups(data.rows[r + k])

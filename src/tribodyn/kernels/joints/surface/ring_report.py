@@ -10,7 +10,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels import extremes
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
-from tribodyn.kernels.joints.surface.data import NODE_AREA, RADIUS, SurfaceData
+from tribodyn.kernels.joints.surface.data import RADIUS, SurfaceData
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
     APPROACH,
@@ -19,6 +19,7 @@ from tribodyn.kernels.joints.surface.ring import (
     ENERGY,
     POSITION,
     PRESSURE,
+    REPORT,
     RIGID,
     SINE,
     SQUARE,
@@ -30,6 +31,7 @@ from tribodyn.kernels.joints.surface.ring import (
 from tribodyn.kernels.joints.surface.ring_sums import (
     Pressures,
     no_pressure,
+    one_ring,
     put_pressures,
     with_pressure,
     with_pressures_of,
@@ -69,8 +71,8 @@ def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) 
             memory.reached[r + k, 0], memory.reached[r + k, 1] = groups_of(memory.block, k)
         if found > 0:
             fill_motion(data, surface, memory, station, r)
-            end = fill_groups(data, surface, memory, r, 1.0)
-            fill_pressures(data, surface, memory, end, 1.0)
+            end = fill_groups(data, surface, memory, r, REPORT)
+            fill_pressures(data, surface, memory, end, REPORT)
             forces = with_forces_of(forces, data.rings, surface, memory, r)
             rest = _with_rest_of(rest, data.rings, surface, memory, station, r, kept)
             kept += WIDTH * found
@@ -121,8 +123,9 @@ def _with_rest_of(
             speed = square_root(load(block, group + SQUARE)) if surface.along > 0.0 else spin
             store(memory.sliding, kept, p * speed)
             kept += WIDTH
-        area = spread(rings[NODE_AREA, r + k])
-        normal = with_pressures_of(normal, rings, r + k, surface.lean, memory.scratch.tilt.phi, sums)
+        ring = one_ring(rings, r + k)
+        area = ring.area
+        normal = with_pressures_of(normal, ring, surface.lean, memory.scratch.tilt.phi, sums)
         pushed = pushed + area * sums[0]
         terms = (
             terms[0] + area * energy,

@@ -2,13 +2,51 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined
 from tribodyn.kernels.joints.surface.data import ARM, HEIGHT, N_AXIAL, N_RADIAL, NODE_AREA, RADIUS
-from tribodyn.kernels.lanes import spread, total, zeros
+from tribodyn.kernels.lanes import load, spread, total, zeros
+
+
+class Ring(NamedTuple):
+    """What the nodes of a ring share: area of a node [m²], n_r, n_z, radius, height and arm [m]."""
+
+    area: Any
+    n_r: Any
+    n_z: Any
+    radius: Any
+    z: Any
+    arm: Any
+
+
+@inlined
+def one_ring(rings: FloatArray, r: int) -> Ring:
+    """Return the numbers of ring ``r``, each in all lanes."""
+    return Ring(
+        spread(rings[NODE_AREA, r]),
+        spread(rings[N_RADIAL, r]),
+        spread(rings[N_AXIAL, r]),
+        spread(rings[RADIUS, r]),
+        spread(rings[HEIGHT, r]),
+        spread(rings[ARM, r]),
+    )
+
+
+@inlined
+def four_rings(rings: FloatArray, r: int, area: Any) -> Ring:
+    """Return the numbers of the four rings from ``r`` on, one in each lane, for sums times ``area``."""
+    return Ring(
+        area,
+        load(rings[N_RADIAL], r),
+        load(rings[N_AXIAL], r),
+        load(rings[RADIUS], r),
+        load(rings[HEIGHT], r),
+        load(rings[ARM], r),
+    )
+
 
 Pressures = tuple[Any, Any, Any, Any, Any]
 Tractions = tuple[Any, Any, Any, Any, Any, Any]
@@ -28,18 +66,16 @@ def with_pressure(sums: Pressures, p: Any, c: Any, s: Any) -> Pressures:
 
 
 @inlined
-def with_pressures_of(
-    sums: Pressures, rings: FloatArray, r: int, lean: float, phi: FloatArray, ring: Pressures
-) -> Pressures:
-    """Return −F and (M_x, −M_y) of the pressures of rings with those of ring ``r``, from its own sums."""
-    p, p_c, p_s, p_cc, p_cs = ring
-    area, n_r, lever = spread(rings[NODE_AREA, r]), spread(rings[N_RADIAL, r]), spread(rings[ARM, r])
+def with_pressures_of(sums: Pressures, ring: Ring, lean: float, phi: FloatArray, own: Pressures) -> Pressures:
+    """Return −F and (M_x, −M_y) of the pressures of rings with those of one, or four, from their ``own``."""
+    p, p_c, p_s, p_cc, p_cs = own
+    area, n_r, lever = ring.area, ring.n_r, ring.arm
     radial, bent = area * n_r, spread(lean) * n_r * n_r
     x, y = bent * spread(phi[0]), bent * spread(phi[1])
     return (
         sums[0] + radial * p_c,
         sums[1] + radial * p_s,
-        sums[2] + area * (spread(rings[N_AXIAL, r]) * p),
+        sums[2] + area * (ring.n_z * p),
         sums[3] + area * (lever * p_s + (y * p_cs - x * (p - p_cc))),
         sums[4] + area * (lever * p_c + (y * p_cc - x * p_cs)),
     )
@@ -66,11 +102,10 @@ def with_traction(sums: Tractions, t: Any, b: Any, c: Any, s: Any) -> Tractions:
 
 
 @inlined
-def with_tractions_of(sums: Tractions, rings: FloatArray, r: int, ring: Tractions) -> Tractions:
-    """Return (−F_x, F_y, F_z, M_x, −M_y, M_z) of tractions with those of ring ``r``, from its sums."""
-    t, t_c, t_s, b, b_c, b_s = ring
-    area, n_r, n_z = spread(rings[NODE_AREA, r]), spread(rings[N_RADIAL, r]), spread(rings[N_AXIAL, r])
-    radius, z = spread(rings[RADIUS, r]), spread(rings[HEIGHT, r])
+def with_tractions_of(sums: Tractions, ring: Ring, own: Tractions) -> Tractions:
+    """Return (−F_x, F_y, F_z, M_x, −M_y, M_z) of tractions with those of a ring, or four, from their own."""
+    t, t_c, t_s, b, b_c, b_s = own
+    area, n_r, n_z, radius, z = ring.area, ring.n_r, ring.n_z, ring.radius, ring.z
     lever = radius * n_r + z * n_z
     return (
         sums[0] + area * (t_s + n_z * b_c),

@@ -8,7 +8,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
-from tribodyn.kernels.joints.surface.data import NODE_AREA, SurfaceData
+from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
     ALONG_UNIT,
@@ -17,6 +17,7 @@ from tribodyn.kernels.joints.surface.ring import (
     PRESSURE,
     SINE,
     STRIDE,
+    WRENCH,
     fill_groups,
     fill_pressures,
 )
@@ -25,6 +26,7 @@ from tribodyn.kernels.joints.surface.ring_sums import (
     Tractions,
     no_pressure,
     no_traction,
+    one_ring,
     put_pressures,
     put_tractions,
     with_pressure,
@@ -32,7 +34,7 @@ from tribodyn.kernels.joints.surface.ring_sums import (
     with_traction,
     with_tractions_of,
 )
-from tribodyn.kernels.lanes import WIDTH, load, spread, zeros
+from tribodyn.kernels.lanes import WIDTH, load, zeros
 
 Forces = tuple[Pressures, Tractions, Any]
 """Sums of pressures and of tractions, and ∫P_c dA."""
@@ -45,8 +47,8 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
     for r in range(surface.first_row, surface.last_row, WIDTH):
         if fill_windows(data, surface, memory, station, r, limit, 0.0) > 0:
             fill_motion(data, surface, memory, station, r)
-            end = fill_groups(data, surface, memory, r, 0.0)
-            fill_pressures(data, surface, memory, end, 0.0)
+            end = fill_groups(data, surface, memory, r, WRENCH)
+            fill_pressures(data, surface, memory, end, WRENCH)
             forces = with_forces_of(forces, data.rings, surface, memory, r)
     put_forces(surface, station, forces, memory.scratch)
 
@@ -71,9 +73,10 @@ def with_forces_of(
             c, s, p = load(block, group + COSINE), load(block, group + SINE), load(block, group + PRESSURE)
             t, b = p * load(block, group + AROUND_UNIT), p * load(block, group + ALONG_UNIT)
             pressures, tractions = with_pressure(pressures, p, c, s), with_traction(tractions, t, b, c, s)
-        normal = with_pressures_of(normal, rings, r + k, surface.lean, phi, pressures)
-        friction = with_tractions_of(friction, rings, r + k, tractions)
-        pushed = pushed + spread(rings[NODE_AREA, r + k]) * pressures[0]
+        ring = one_ring(rings, r + k)
+        normal = with_pressures_of(normal, ring, surface.lean, phi, pressures)
+        friction = with_tractions_of(friction, ring, tractions)
+        pushed = pushed + ring.area * pressures[0]
     return normal, friction, pushed
 
 

@@ -18,7 +18,6 @@ from typing import Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 
 Station: Final = record_type(
@@ -28,11 +27,6 @@ Station: Final = record_type(
 """d_Q [m], its rate, v_Q [m/s], ω [rad/s], u, z [m]; without sliding those of P, and nothing. ``opening`` is
 what gaps and clearances have more than as drawn [m], where a bore follows its temperature, then its rate;
 ``direction`` is that of the rotation which a friction torque opposes."""
-
-Maps: Final = record_type(
-    *((name, "f8", (6, 6)) for name in ("place", "slip", "rate_place", "slip_place", "product"))
-)
-"""T, U, ∂(T (v, φ̇))/∂(d, φ), ∂(U (v, ω))/∂(d, φ), and a place for products."""
 
 
 @kernel
@@ -71,71 +65,69 @@ def friction_at_origin(station: Record, friction: FloatArray) -> None:
 
 
 @kernel
-def _fill_maps(station: Record, pose: Record, tilt: Record, maps: Record) -> None:
-    """Fill the maps of a surface that slides."""
-    u, z, w, rate, v_z = station.axis, station.height, station.w, tilt.rate, pose.v[2]
-    clear(maps.place)
-    clear(maps.slip)
-    clear(maps.rate_place)
-    clear(maps.slip_place)
+def _by_place(station: Record, matrix: FloatArray) -> None:
+    """Multiply a matrix (6, 6) by T."""
+    u, z = station.axis, station.height
     for i in range(6):
-        maps.place[i, i] = maps.slip[i, i] = 1.0
-    for i in range(3):
-        a, b = (i + 1) % 3, (i + 2) % 3
-        maps.place[i, 2] -= u[i]
-        maps.slip[i, 3 + a], maps.slip[i, 3 + b] = -z * u[b], z * u[a]
-        maps.slip_place[i, 2] = -(w[a] * u[b] - w[b] * u[a])
-    # δu = δφ × ẑ = (δφ_y, −δφ_x, 0)
-    maps.place[0, 4], maps.place[1, 3] = -z, z
-    maps.rate_place[0, 2], maps.rate_place[1, 2] = -rate[1], rate[0]
-    maps.rate_place[0, 4], maps.rate_place[1, 3] = -v_z, v_z
-    # ω × (δφ × ẑ) = δφ ω_z − ẑ (ω·δφ)
-    maps.slip_place[0, 3], maps.slip_place[1, 4] = -z * w[2], -z * w[2]
-    maps.slip_place[2, 3], maps.slip_place[2, 4] = z * w[0], z * w[1]
+        x, y = matrix[i, 0], matrix[i, 1]
+        matrix[i, 2] -= u[0] * x + u[1] * y + u[2] * matrix[i, 2]
+        matrix[i, 3] += z * y
+        matrix[i, 4] -= z * x
 
 
 @kernel
-def _add_product(left: FloatArray, right: FloatArray, out: FloatArray) -> None:
-    """Add the product of two matrices (6, 6) to ``out``."""
+def _by_slip(station: Record, matrix: FloatArray) -> None:
+    """Multiply a matrix (6, 6) by U."""
+    u, z = station.axis, station.height
     for i in range(6):
-        for m in range(6):
-            entry = left[i, m]
-            if entry != 0.0:
-                for k in range(6):
-                    out[i, k] += entry * right[m, k]
+        x, y, along = matrix[i, 0], matrix[i, 1], matrix[i, 2]
+        matrix[i, 3] += z * (u[2] * y - u[1] * along)
+        matrix[i, 4] += z * (u[0] * along - u[2] * x)
+        matrix[i, 5] += z * (u[1] * x - u[0] * y)
 
 
 @kernel
-def _put_back(into: FloatArray, product: FloatArray, out: FloatArray) -> None:
-    """Fill ``out`` with ``into``ᵀ ``product`` and clear ``product``, all (6, 6)."""
+def _add_moved(rate: FloatArray, v_z: float, tilt_rate: FloatArray, out: FloatArray) -> None:
+    """Add the product of derivatives in (v, φ̇) and ∂(T (v, φ̇))/∂(d, φ), all (6, 6)."""
     for i in range(6):
-        for k in range(6):
-            total = 0.0
-            for m in range(6):
-                total += into[m, i] * product[m, k]
-            out[i, k] = total
-    clear(product)
+        x, y = rate[i, 0], rate[i, 1]
+        out[i, 2] += tilt_rate[0] * y - tilt_rate[1] * x
+        out[i, 3] += v_z * y
+        out[i, 4] -= v_z * x
+
+
+@kernel
+def _add_slipped(slip: FloatArray, station: Record, out: FloatArray) -> None:
+    """Add the product of derivatives in (v, ω) and ∂(U (v, ω))/∂(d, φ), all (6, 6)."""
+    u, z, w = station.axis, station.height, station.w
+    for i in range(6):
+        x, y, along = slip[i, 0], slip[i, 1], slip[i, 2]
+        out[i, 2] -= x * (w[1] * u[2] - w[2] * u[1])
+        out[i, 2] -= y * (w[2] * u[0] - w[0] * u[2]) + along * (w[0] * u[1] - w[1] * u[0])
+        # ω × (δφ × ẑ) = δφ ω_z − ẑ (ω·δφ)
+        out[i, 3] += z * (w[0] * along - w[2] * x)
+        out[i, 4] += z * (w[1] * along - w[2] * y)
 
 
 @kernel
 def derivatives_at_origin(scratch: Record, pose: Record) -> None:
     """Turn derivatives of a surface that slides into those at P; wrenches of the scratch are still at Q."""
-    maps, product = scratch.maps, scratch.maps.product
-    _fill_maps(scratch.station, pose, scratch.tilt, maps)
-    clear(product)
-    _add_product(scratch.normal_place, maps.place, product)
-    _add_product(scratch.normal_rate, maps.rate_place, product)
-    _put_back(maps.place, product, scratch.normal_place)
-    _add_product(scratch.normal_rate, maps.place, product)
-    _put_back(maps.place, product, scratch.normal_rate)
-    _add_product(scratch.friction_place, maps.place, product)
-    _add_product(scratch.friction_rate, maps.rate_place, product)
-    _add_product(scratch.friction_slip, maps.slip_place, product)
-    _put_back(maps.slip, product, scratch.friction_place)
-    _add_product(scratch.friction_rate, maps.place, product)
-    _put_back(maps.slip, product, scratch.friction_rate)
-    _add_product(scratch.friction_slip, maps.slip, product)
-    _put_back(maps.slip, product, scratch.friction_slip)
+    station, rate, v_z = scratch.station, scratch.tilt.rate, pose.v[2]
+    place, slip = scratch.normal_place, scratch.friction_slip
+    _by_place(station, place)
+    _add_moved(scratch.normal_rate, v_z, rate, place)
+    _by_place(station, place.T)
+    _by_place(station, scratch.normal_rate)
+    _by_place(station, scratch.normal_rate.T)
+    place = scratch.friction_place
+    _by_place(station, place)
+    _add_moved(scratch.friction_rate, v_z, rate, place)
+    _add_slipped(slip, station, place)
+    _by_slip(station, place.T)
+    _by_place(station, scratch.friction_rate)
+    _by_slip(station, scratch.friction_rate.T)
+    _by_slip(station, slip)
+    _by_slip(station, slip.T)
     _add_turning_back(scratch)
 
 

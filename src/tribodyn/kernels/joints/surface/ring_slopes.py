@@ -1,0 +1,150 @@
+"""Sums over the nodes of four rings that the derivatives of their wrench are made of.
+
+Each is five sums Σ w (1, cos θ, sin θ, cos² θ, cos θ sin θ) of a weight w. The second-order term of the tilt,
+see ``tilt``, needs the same five of w cos² θ. Sums of a ring in four lanes become sums of four rings, one in
+each lane.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.surface.block import groups_of, rings_from
+from tribodyn.kernels.joints.surface.data import NODE_AREA, SurfaceData
+from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, N_SUMS, SurfaceMemory
+from tribodyn.kernels.joints.surface.ring import (
+    ALONG_UNIT,
+    AROUND_UNIT,
+    COSINE,
+    PER_SPEED,
+    PRESSURE,
+    RESISTANCE,
+    SINE,
+    STIFFNESS,
+    STRIDE,
+)
+from tribodyn.kernels.joints.surface.ring_sums import Pressures, no_pressure, with_pressure
+from tribodyn.kernels.joints.surface.wrench import slip_square
+from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals
+
+FIVE: Final = 5 * WIDTH
+PUSHES: Final = 0 * FIVE
+STIFF: Final = 1 * FIVE
+RESISTING: Final = 4 * FIVE
+"""Of the weights P_c, ∂P_c/∂h, and ∂P_c/∂δ̇."""
+PULLED: Final = FIVE
+"""Distance to the sums of the same weight times slip around over q = √(s² + u_s²); then times slip along."""
+TRACTIONS: Final = 7 * FIVE
+"""Of P_c times these slips."""
+SLIPS: Final = 9 * FIVE
+"""Of P_c/q times 1 − t², t b and 1 − b², where t and b are these slips."""
+SQUARED: Final = 11 * FIVE
+"""Distance to the sums of the same weight times cos² θ, of ∂P_c/∂h and ∂P_c/∂δ̇."""
+
+
+@kernel
+def fill_sums(
+    data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int, rubs: float, bends: float
+) -> None:
+    """Fill the sums of the block of rings that begins at row ``r``, times the area of a node.
+
+    Parameters
+    ----------
+    data, surface, memory
+        As for ``ring_wrench.wrench``; the block is filled.
+    r
+        Row of the first of the rings.
+    rubs
+        1 if there is friction in the directions of slip.
+    bends
+        1 if the tilt has a second-order term.
+    """
+    block, each, at = memory.block, memory.scratch.ring_sums, BLOCK_GROUPS
+    for k in range(WIDTH):
+        begin, to = at, WIDTH * N_SUMS * k
+        if k < rings_from(surface, r):
+            at += STRIDE * groups_of(block, k)[1]
+        _sum_slopes(block, begin, at, 0.0, each, to)
+        if bends > 0.0:
+            _sum_slopes(block, begin, at, 1.0, each, to + SQUARED)
+        if rubs > 0.0:
+            _sum_pulled(block, begin, at, PRESSURE, 0.0, each, to + TRACTIONS)
+            _sum_slips(block, begin, at, slip_square(surface), surface.along, each, to + SLIPS)
+            for column, place in ((STIFFNESS, STIFF), (RESISTANCE, RESISTING)):
+                _sum_pulled(block, begin, at, column, 0.0, each, to + place + PULLED)
+                if bends > 0.0:
+                    _sum_pulled(block, begin, at, column, 1.0, each, to + place + PULLED + SQUARED)
+    area, other = load(data.rings[NODE_AREA], r), WIDTH * N_SUMS
+    for at in range(0, other, WIDTH):
+        a, b, c = load(each, at), load(each, other + at), load(each, 2 * other + at)
+        store(each, at, area * totals(a, b, c, load(each, 3 * other + at)))
+
+
+@inlined
+def _put(sums: Pressures, each: FloatArray, at: int) -> None:
+    store(each, at, sums[0])
+    store(each, at + WIDTH, sums[1])
+    store(each, at + 2 * WIDTH, sums[2])
+    store(each, at + 3 * WIDTH, sums[3])
+    store(each, at + 4 * WIDTH, sums[4])
+
+
+@kernel
+def _sum_slopes(block: FloatArray, begin: int, end: int, squared: float, each: FloatArray, to: int) -> None:
+    """Fill the sums of pressures, stiffnesses and resistances, or of the last two times cos² θ."""
+    pushes, stiff, resisting = no_pressure(), no_pressure(), no_pressure()
+    for group in range(begin, end, STRIDE):
+        c, s = load(block, group + COSINE), load(block, group + SINE)
+        stiffness, resistance = load(block, group + STIFFNESS), load(block, group + RESISTANCE)
+        if squared > 0.0:
+            square = c * c
+            stiffness, resistance = square * stiffness, square * resistance
+        else:
+            pushes = with_pressure(pushes, load(block, group + PRESSURE), c, s)
+        stiff, resisting = with_pressure(stiff, stiffness, c, s), with_pressure(resisting, resistance, c, s)
+    if squared == 0.0:
+        _put(pushes, each, to + PUSHES)
+    _put(stiff, each, to + STIFF)
+    _put(resisting, each, to + RESISTING)
+
+
+@kernel
+def _sum_pulled(
+    block: FloatArray, begin: int, end: int, column: int, squared: float, each: FloatArray, to: int
+) -> None:
+    """Fill the sums of the weights in a column times slips around, and along."""
+    around, along = no_pressure(), no_pressure()
+    for group in range(begin, end, STRIDE):
+        c, s, weight = load(block, group + COSINE), load(block, group + SINE), load(block, group + column)
+        if squared > 0.0:
+            weight = c * c * weight
+        around = with_pressure(around, weight * load(block, group + AROUND_UNIT), c, s)
+        along = with_pressure(along, weight * load(block, group + ALONG_UNIT), c, s)
+    _put(around, each, to)
+    _put(along, each, to + FIVE)
+
+
+@kernel
+def _sum_slips(
+    block: FloatArray, begin: int, end: int, square: float, along: float, each: FloatArray, to: int
+) -> None:
+    """Fill ``SLIPS``; without friction ``along`` there is none in the second direction.
+
+    1 − t² is b² + u_s²/q², so that no digits are lost in fast slip.
+    """
+    first, both, second, ways = no_pressure(), no_pressure(), no_pressure(), spread(along)
+    least = spread(square)
+    for group in range(begin, end, STRIDE):
+        c, s = load(block, group + COSINE), load(block, group + SINE)
+        t, b = load(block, group + AROUND_UNIT), load(block, group + ALONG_UNIT)
+        per_speed = load(block, group + PER_SPEED)
+        weight, rest = load(block, group + PRESSURE) * per_speed, least * per_speed * per_speed
+        first = with_pressure(first, weight * (b * b + rest), c, s)
+        both = with_pressure(both, weight * t * b, c, s)
+        second = with_pressure(second, ways * (weight * (t * t + rest)), c, s)
+    _put(first, each, to)
+    _put(both, each, to + FIVE)
+    _put(second, each, to + 2 * FIVE)
