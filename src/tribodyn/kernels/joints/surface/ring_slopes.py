@@ -71,14 +71,12 @@ def fill_sums(
         if bends > 0.0:
             _sum_slopes(block, begin, at, 1.0, each, to + SQUARED)
         if rubs > 0.0:
-            _sum_pulled(block, begin, at, PRESSURE, 0.0, each, to + TRACTIONS)
-            _sum_slips(block, begin, at, slip_square(surface), surface.along, each, to + SLIPS)
-            for column, place in ((STIFFNESS, STIFF), (RESISTANCE, RESISTING)):
-                _sum_pulled(block, begin, at, column, 0.0, each, to + place + PULLED)
-                if bends > 0.0:
-                    _sum_pulled(block, begin, at, column, 1.0, each, to + place + PULLED + SQUARED)
+            _sum_slips(block, begin, at, slip_square(surface), surface.along, each, to)
+            _sum_pulled(block, begin, at, 0.0, each, to + PULLED)
+            if bends > 0.0:
+                _sum_pulled(block, begin, at, 1.0, each, to + PULLED + SQUARED)
     area, other = load(data.rings[NODE_AREA], r), WIDTH * N_SUMS
-    for at in range(0, other, WIDTH):
+    for at in range(0, other if bends > 0.0 else SQUARED + FIVE, WIDTH):
         a, b, c = load(each, at), load(each, other + at), load(each, 2 * other + at)
         store(each, at, area * totals(a, b, c, load(each, 3 * other + at)))
 
@@ -112,39 +110,52 @@ def _sum_slopes(block: FloatArray, begin: int, end: int, squared: float, each: F
 
 
 @kernel
-def _sum_pulled(
-    block: FloatArray, begin: int, end: int, column: int, squared: float, each: FloatArray, to: int
-) -> None:
-    """Fill the sums of the weights in a column times slips around, and along."""
-    around, along = no_pressure(), no_pressure()
+def _sum_pulled(block: FloatArray, begin: int, end: int, squared: float, each: FloatArray, to: int) -> None:
+    """Fill the sums of stiffnesses and resistances times slips, or of these times cos² θ."""
+    stiff, stiff_along, resisting, resisting_along = (
+        no_pressure(),
+        no_pressure(),
+        no_pressure(),
+        no_pressure(),
+    )
     for group in range(begin, end, STRIDE):
-        c, s, weight = load(block, group + COSINE), load(block, group + SINE), load(block, group + column)
+        c, s = load(block, group + COSINE), load(block, group + SINE)
+        t, b = load(block, group + AROUND_UNIT), load(block, group + ALONG_UNIT)
+        stiffness, resistance = load(block, group + STIFFNESS), load(block, group + RESISTANCE)
         if squared > 0.0:
-            weight = c * c * weight
-        around = with_pressure(around, weight * load(block, group + AROUND_UNIT), c, s)
-        along = with_pressure(along, weight * load(block, group + ALONG_UNIT), c, s)
-    _put(around, each, to)
-    _put(along, each, to + FIVE)
+            square = c * c
+            t, b = square * t, square * b
+        stiff = with_pressure(stiff, stiffness * t, c, s)
+        stiff_along = with_pressure(stiff_along, stiffness * b, c, s)
+        resisting = with_pressure(resisting, resistance * t, c, s)
+        resisting_along = with_pressure(resisting_along, resistance * b, c, s)
+    _put(stiff, each, to + STIFF)
+    _put(stiff_along, each, to + STIFF + FIVE)
+    _put(resisting, each, to + RESISTING)
+    _put(resisting_along, each, to + RESISTING + FIVE)
 
 
 @kernel
 def _sum_slips(
     block: FloatArray, begin: int, end: int, square: float, along: float, each: FloatArray, to: int
 ) -> None:
-    """Fill ``SLIPS``; without friction ``along`` there is none in the second direction.
+    """Fill ``TRACTIONS`` and ``SLIPS``; without friction ``along`` there is none in the second direction.
 
     1 − t² is b² + u_s²/q², so that no digits are lost in fast slip.
     """
     first, both, second, ways = no_pressure(), no_pressure(), no_pressure(), spread(along)
-    least = spread(square)
+    around, across, least = no_pressure(), no_pressure(), spread(square)
     for group in range(begin, end, STRIDE):
         c, s = load(block, group + COSINE), load(block, group + SINE)
         t, b = load(block, group + AROUND_UNIT), load(block, group + ALONG_UNIT)
-        per_speed = load(block, group + PER_SPEED)
-        weight, rest = load(block, group + PRESSURE) * per_speed, least * per_speed * per_speed
+        p, per_speed = load(block, group + PRESSURE), load(block, group + PER_SPEED)
+        weight, rest = p * per_speed, least * per_speed * per_speed
+        around, across = with_pressure(around, p * t, c, s), with_pressure(across, p * b, c, s)
         first = with_pressure(first, weight * (b * b + rest), c, s)
         both = with_pressure(both, weight * t * b, c, s)
         second = with_pressure(second, ways * (weight * (t * t + rest)), c, s)
-    _put(first, each, to)
-    _put(both, each, to + FIVE)
-    _put(second, each, to + 2 * FIVE)
+    _put(around, each, to + TRACTIONS)
+    _put(across, each, to + TRACTIONS + FIVE)
+    _put(first, each, to + SLIPS)
+    _put(both, each, to + SLIPS + FIVE)
+    _put(second, each, to + SLIPS + 2 * FIVE)
