@@ -30,12 +30,11 @@ FIRST: Final = 0 * WIDTH
 NUMBER: Final = 1 * WIDTH
 """First group and number of groups that can be in contact, see ``windows``."""
 NEARING: Final = 2 * WIDTH
-APPROACHING: Final = 5 * WIDTH
-AROUND: Final = 8 * WIDTH
-ALONG: Final = 11 * WIDTH
-"""a, b and c of four waves, see ``ring``: gap as drawn, approach speed, slip around and along."""
-BENT: Final = 14 * WIDTH
-"""ρ n_r² [m]."""
+APPROACHING: Final = 7 * WIDTH
+"""Gap as drawn and approach speed: a, b, c, d and e of a + b cos θ + c sin θ + d cos² θ + e cos θ sin θ."""
+AROUND: Final = 12 * WIDTH
+ALONG: Final = 15 * WIDTH
+"""Slips around and along: a, b and c."""
 
 
 @inlined
@@ -106,19 +105,28 @@ def fill_windows(
 
 @kernel
 def fill_motion(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, r: int) -> None:
-    """Fill approach and slips of four rings from row ``r`` on."""
-    rings, block, rate = data.rings, memory.block, memory.scratch.tilt.rate
+    """Fill approach and slips of four rings from row ``r`` on, and what the tilt adds to their gaps."""
+    rings, block = data.rings, memory.block
+    phi, rate = memory.scratch.tilt.phi, memory.scratch.tilt.rate
     n_r, n_z, arm = load(rings[N_RADIAL], r), load(rings[N_AXIAL], r), load(rings[ARM], r)
     radius, z = load(rings[RADIUS], r), load(rings[HEIGHT], r)
     v, w_x, w_y, both = station.v, spread(station.w[0]), spread(station.w[1]), spread(surface.along)
     slip_x, slip_y = spread(station.slip[0]) + w_y * z, spread(station.slip[1]) - w_x * z
+    x, y, x_rate, y_rate = spread(phi[1]), spread(-phi[0]), spread(rate[1]), spread(-rate[0])
+    bent = spread(surface.lean) * n_r * n_r
+    half = spread(0.5) * bent
+    store(block, NEARING, load(block, NEARING) - half * (y * y))
+    store(block, NEARING + 3 * WIDTH, half * (y * y - x * x))
+    store(block, NEARING + 4 * WIDTH, zeros() - bent * (x * y))
     _put(
         block,
         APPROACHING,
-        n_z * spread(v[2]) - spread(station.v_opening),
+        n_z * spread(v[2]) - spread(station.v_opening) + bent * (y * y_rate),
         n_r * spread(v[0]) + arm * spread(rate[1]),
         n_r * spread(v[1]) - arm * spread(rate[0]),
     )
+    store(block, APPROACHING + 3 * WIDTH, bent * (x * x_rate - y * y_rate))
+    store(block, APPROACHING + 4 * WIDTH, bent * (x * y_rate + y * x_rate))
     _put(block, AROUND, spread(station.w[2]) * radius, slip_y, zeros() - slip_x)
     turning = n_r * radius
     _put(
@@ -128,4 +136,3 @@ def fill_motion(data: SurfaceData, surface: Record, memory: SurfaceMemory, stati
         zeros() - both * (turning * w_y + n_z * slip_x),
         both * (turning * w_x - n_z * slip_y),
     )
-    store(block, BENT, spread(surface.lean) * n_r * n_r)

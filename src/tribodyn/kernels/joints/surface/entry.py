@@ -10,7 +10,7 @@ from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.joints.surface.data import NORMAL, POSITION, SurfaceData, table_of
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.joints.surface.nodes import forget, node_gap, window
+from tribodyn.kernels.joints.surface.nodes import forget, is_near, node_gap
 
 
 @inlined
@@ -43,8 +43,8 @@ def update_entry_velocity(
     onset, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0
     for r in range(surface.first_row, surface.last_row):
         row = data.rows[r]
-        _, count = window(row, 0.0, station, tilt.phi, onset)
-        if count > 0:
+        near = is_near(row, station, tilt.phi, onset)
+        if near:
             for i in range(np.uint64(row.first), np.uint64(row.first + row.count)):
                 approach = heed * node_approach(data.nodes, i, station.v, tilt.rate)
                 known = reference_velocity(entry_velocity[i], approach, surface.minimum_entry_velocity)
@@ -52,7 +52,7 @@ def update_entry_velocity(
                 entry_velocity[i] = known if gap < onset else 0.0
         elif memory.remembering[r] > 0.0:
             forget(row.first, row.first + row.count, entry_velocity)
-        memory.remembering[r] = 1.0 if count > 0 else 0.0
+        memory.remembering[r] = 1.0 if near else 0.0
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""Wrench of a surface with its derivatives in the same pass.
+"""Wrench of a surface of patches with its derivatives in the same pass.
 
 With N = (n, x × n), Ŝ = (ŝ, x × ŝ), ŝ = s/q, q = √(s² + u_s²), and X = (1, −[x]×), so that x moves with X (v,
 ω):
@@ -22,12 +22,20 @@ import math
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.columns import AREA, PITCH, RESISTANCE, STIFFNESS, whole
 from tribodyn.kernels.joints.pressures import fill_pressures, fill_slopes
-from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring, table_of
+from tribodyn.kernels.joints.surface.data import SurfaceData, table_of
 from tribodyn.kernels.joints.surface.lean import add_lean
-from tribodyn.kernels.joints.surface.listed import FORCE, NORMAL, POSITION, SLIP, SLIP_SQUARE, TRACTION
+from tribodyn.kernels.joints.surface.listed import (
+    FORCE,
+    NORMAL,
+    POSITION,
+    PRODUCT,
+    SLIP,
+    SLIP_SQUARE,
+    TRACTION,
+)
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import gather, rewind
 from tribodyn.kernels.joints.surface.wrench import add_columns, fill_forces, slip_square
@@ -43,31 +51,27 @@ def wrench_and_derivatives(
     work, cubics, mu = scratch.listed.work, table_of(data, surface).cubics, surface.friction_coefficient
     v_min, clip = surface.minimum_entry_velocity, surface.tensile_clip
     scale = surface.inverse_step / surface.roughness
-    twists = 0.0 if is_ring(data, surface) else 1.0  # x × n has no part along Z on a ring
     clear_sums(scratch)
     rewind(surface, memory)
-    n = gather(data, surface, memory, station, 0.0)
+    n = gather(data, surface, memory, station)
     while n > 0:
         fill_pressures(cubics, v_min, clip, work, n)
         fill_slopes(cubics, scale, v_min, clip, work, n)
         fill_forces(surface, work, station, n)
-        turns = surface.torque_radius > 0.0
-        if turns:
-            _fill_torque(surface.torque_radius * station.direction, work, n)
-        _fill_weights(0.0 if turns else mu, slip_square(surface), work, n)
+        _fill_weights(mu, slip_square(surface), work, n)
         add_columns(work, FORCE, NORMAL, n, -1.0, scratch.normal)
-        _add_square(work, STIFFNESS, NORMAL, n, 1.0, twists, scratch.normal_place)
-        _add_square(work, RESISTANCE, NORMAL, n, -1.0, twists, scratch.normal_rate)
+        _add_outer(work, STIFFNESS, NORMAL, NORMAL, n, 1.0, scratch.normal_place)
+        _add_outer(work, RESISTANCE, NORMAL, NORMAL, n, -1.0, scratch.normal_rate)
         if surface.lean != 0.0:
             add_lean(surface, scratch, n)
         if mu > 0.0:
             add_columns(work, FORCE, SLIP, n, -mu, scratch.friction)
-            _add_outer(work, STIFFNESS, SLIP, NORMAL, n, mu, twists, scratch.friction_place)
-            _add_outer(work, RESISTANCE, SLIP, NORMAL, n, -mu, twists, scratch.friction_rate)
-            _add_square(work, TRACTION, NORMAL, n, 1.0, twists, scratch.friction_slip)
-            _add_square(work, TRACTION, SLIP, n, 1.0, 1.0, scratch.friction_slip)
-            _add_motion(work, n, surface.along, scratch.friction_slip)
-        n = gather(data, surface, memory, station, 0.0)
+            _add_outer(work, STIFFNESS, SLIP, NORMAL, n, mu, scratch.friction_place)
+            _add_outer(work, RESISTANCE, SLIP, NORMAL, n, -mu, scratch.friction_rate)
+            _add_outer(work, TRACTION, NORMAL, NORMAL, n, 1.0, scratch.friction_slip)
+            _add_outer(work, TRACTION, SLIP, SLIP, n, 1.0, scratch.friction_slip)
+            _add_motion(work, n, scratch.friction_slip)
+        n = gather(data, surface, memory, station)
 
 
 @kernel
@@ -93,126 +97,19 @@ def _fill_weights(mu: float, square: float, work: FloatArray, n: int) -> None:
 
 
 @kernel
-def _fill_torque(arm: float, work: FloatArray, n: int) -> None:
-    """Replace Ŝ of the ``n`` nodes in the list by a torque about the axis of a given arm [m]."""
-    for k in range(whole(n)):
-        for column in range(5):
-            work[SLIP + column * PITCH + k] = 0.0
-        work[SLIP + 5 * PITCH + k] = arm
-
-
-@kernel
 def _add_outer(
-    work: FloatArray,
-    weight: int,
-    left: int,
-    right: int,
-    n: int,
-    factor: float,
-    twists: float,
-    out: FloatArray,
+    work: FloatArray, weight: int, left: int, right: int, n: int, factor: float, out: FloatArray
 ) -> None:
-    """Add ``factor`` Σ w l rᵀ over six columns each from ``left`` and ``right`` on to ``out`` (6, 6).
-
-    The last column from ``right`` on is left out where ``twists`` is 0.
-    """
+    """Add ``factor`` Σ w l rᵀ over six columns each from ``left`` and ``right`` on to ``out`` (6, 6)."""
     for i in range(6):
-        a, b, c, d, e = zeros(), zeros(), zeros(), zeros(), zeros()
-        for k in range(0, n, WIDTH):
-            w = load(work, weight + k) * load(work, left + i * PITCH + k)
-            a += w * load(work, right + k)
-            b += w * load(work, right + PITCH + k)
-            c += w * load(work, right + 2 * PITCH + k)
-            d += w * load(work, right + 3 * PITCH + k)
-            e += w * load(work, right + 4 * PITCH + k)
-        sums = (total(a), total(b), total(c), total(d), total(e))
-        for k in range(5):
-            out[i, k] += factor * sums[k]
-    if twists > 0.0:
-        last = _last_column(work, weight, left, right, n)
-        for i in range(6):
-            out[i, 5] += factor * last[i]
+        for k in range(whole(n)):
+            work[PRODUCT + k] = work[weight + k] * work[left + i * PITCH + k]
+        add_columns(work, PRODUCT, right, n, factor, out[i])
 
 
 @kernel
-def _add_square(
-    work: FloatArray, weight: int, column: int, n: int, factor: float, twists: float, out: FloatArray
-) -> None:
-    """Add ``factor`` Σ w l lᵀ over six columns from ``column`` on, or five, as ``_add_outer`` does."""
-    second, third, fourth, fifth = column + PITCH, column + 2 * PITCH, column + 3 * PITCH, column + 4 * PITCH
-    a, b, c, d, e = zeros(), zeros(), zeros(), zeros(), zeros()
-    for k in range(0, n, WIDTH):
-        x = load(work, column + k)
-        w = load(work, weight + k) * x
-        a += w * x
-        b += w * load(work, second + k)
-        c += w * load(work, third + k)
-        d += w * load(work, fourth + k)
-        e += w * load(work, fifth + k)
-    f, g, h, i, j = zeros(), zeros(), zeros(), zeros(), zeros()
-    for k in range(0, n, WIDTH):
-        w, x, last = load(work, weight + k), load(work, second + k), load(work, fifth + k)
-        w_x = w * x
-        f += w_x * x
-        g += w_x * load(work, third + k)
-        h += w_x * load(work, fourth + k)
-        i += w_x * last
-        j += (w * last) * last
-    p, q, r, s, t = zeros(), zeros(), zeros(), zeros(), zeros()
-    for k in range(0, n, WIDTH):
-        w, x, y = load(work, weight + k), load(work, third + k), load(work, fourth + k)
-        last = load(work, fifth + k)
-        w_x, w_y = w * x, w * y
-        p += w_x * x
-        q += w_x * y
-        r += w_x * last
-        s += w_y * y
-        t += w_y * last
-    _add_row(factor, 0, (total(a), total(b), total(c), total(d), total(e)), out)
-    _add_row(factor, 1, (total(f), total(g), total(h), total(i)), out)
-    _add_row(factor, 2, (total(p), total(q), total(r)), out)
-    _add_row(factor, 3, (total(s), total(t)), out)
-    out[4, 4] += factor * total(j)
-    if twists > 0.0:
-        sums = _last_column(work, weight, column, column, n)
-        for m in range(5):
-            out[m, 5] += factor * sums[m]
-            out[5, m] += factor * sums[m]
-        out[5, 5] += factor * sums[5]
-
-
-@inlined
-def _add_row(factor: float, i: int, sums: tuple[float, ...], out: FloatArray) -> None:
-    """Add the entries of row ``i`` from the diagonal on, and those of the column."""
-    out[i, i] += factor * sums[0]
-    for k in range(1, len(sums)):
-        out[i, i + k] += factor * sums[k]
-        out[i + k, i] += factor * sums[k]
-
-
-@kernel
-def _last_column(
-    work: FloatArray, weight: int, left: int, right: int, n: int
-) -> tuple[float, float, float, float, float, float]:
-    """Return Σ w l r of six columns from ``left`` on and the sixth from ``right`` on."""
-    a, b, c, d, e, f = zeros(), zeros(), zeros(), zeros(), zeros(), zeros()
-    for k in range(0, n, WIDTH):
-        w = load(work, weight + k) * load(work, right + 5 * PITCH + k)
-        a += w * load(work, left + k)
-        b += w * load(work, left + PITCH + k)
-        c += w * load(work, left + 2 * PITCH + k)
-        d += w * load(work, left + 3 * PITCH + k)
-        e += w * load(work, left + 4 * PITCH + k)
-        f += w * load(work, left + 5 * PITCH + k)
-    return total(a), total(b), total(c), total(d), total(e), total(f)
-
-
-@kernel
-def _add_motion(work: FloatArray, n: int, along: float, out: FloatArray) -> None:
-    """Subtract Σ w Xᵀ X = Σ w (1, −[x]×; [x]×, x² 1 − x xᵀ) with the weights ``TRACTION``.
-
-    Without friction ``along`` a cylinder, the motion along its axis, (ẑ, x × ẑ)·(v, ω), is left out.
-    """
+def _add_motion(work: FloatArray, n: int, out: FloatArray) -> None:
+    """Subtract Σ w Xᵀ X = Σ w (1, −[x]×; [x]×, x² 1 − x xᵀ) with the weights ``TRACTION``."""
     sum_w, sum_x, sum_y, sum_z = zeros(), zeros(), zeros(), zeros()
     sum_xx, sum_yy, sum_zz, sum_xy, sum_xz, sum_yz = zeros(), zeros(), zeros(), zeros(), zeros(), zeros()
     for k in range(0, n, WIDTH):
@@ -240,8 +137,3 @@ def _add_motion(work: FloatArray, n: int, along: float, out: FloatArray) -> None
             out[3 + i, k] -= arm[i][k]
             out[i, 3 + k] += arm[i][k]
             out[3 + i, 3 + k] -= inertia[i][k]
-    if along == 0.0:
-        left_out = ((w, w_y, -w_x), (w_y, yy, -xy), (-w_x, -xy, xx))
-        for i in range(3):
-            for k in range(3):
-                out[2 + i, 2 + k] += left_out[i][k]

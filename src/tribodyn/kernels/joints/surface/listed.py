@@ -19,6 +19,8 @@ FORCE: Final = OTHERS + 16 * PITCH
 """A P_c [N]."""
 TRACTION: Final = OTHERS + 17 * PITCH
 """A μ P_c/q [N s/m]."""
+PRODUCT: Final = OTHERS + 18 * PITCH
+"""A weight times a column."""
 SLIDING: Final = TRACTION
 HEAT: Final = OTHERS + 18 * PITCH
 POWER: Final = OTHERS + 19 * PITCH

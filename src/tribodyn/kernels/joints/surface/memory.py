@@ -19,9 +19,9 @@ from tribodyn.kernels.joints.surface.station import Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
 from tribodyn.kernels.lanes import WIDTH
 
-BLOCK_GROUPS: Final = 16 * WIDTH
+BLOCK_GROUPS: Final = 18 * WIDTH
 """Where the groups of the block begin."""
-COLUMNS: Final = 14
+COLUMNS: Final = 12
 """Lanes of a group."""
 N_SUMS: Final = 90
 """Sums over the nodes of a ring for derivatives, see ``ring_slopes``."""

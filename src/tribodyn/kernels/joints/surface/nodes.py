@@ -1,4 +1,4 @@
-"""Nodes within reach of contact, gathered from all rows of a surface into one list.
+"""Nodes within reach of contact, gathered from all patches of a surface into one list.
 
 Sums over nodes are loops over this list, filled and summed a part at a time: long enough for the processor to
 take four nodes at once, however few are in reach in a row.
@@ -29,36 +29,18 @@ from tribodyn.kernels.joints.surface.data import NORMAL as NODE_NORMAL
 from tribodyn.kernels.joints.surface.data import POSITION as NODE_POSITION
 from tribodyn.kernels.joints.surface.listed import MOMENT, NORMAL, POSITION
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.joints.surface.window import contact_window
 from tribodyn.kernels.lookup import interval
 
 
-@inlined
-def ring_window(row: Record, lean: float, station: Record, phi: FloatArray, limit: float) -> tuple[int, int]:
-    """Return the first node and the number of nodes of a ring that hold every gap below ``limit`` [m].
-
-    They count from the first node of the row; the window may go on at node 0. Of the second-order term of the
-    tilt its lower bound is used.
-    """
-    d = station.d
-    a = -(row.normal[0] * d[0] + row.arm * phi[1])
-    b = -(row.normal[0] * d[1] - row.arm * phi[0])
-    least = row.least + station.opening - row.normal[2] * d[2]
-    least -= 0.5 * max(lean, 0.0) * (phi[0] * phi[0] + phi[1] * phi[1])
-    return contact_window(least, a, b, limit, row.count)
-
-
 @kernel
-def window(row: Record, lean: float, station: Record, phi: FloatArray, limit: float) -> tuple[int, int]:
-    """Return the same of any row; a patch is within reach as a whole or not at all."""
-    if row.whole == 0.0:
-        return ring_window(row, lean, station, phi, limit)
+def is_near(row: Record, station: Record, phi: FloatArray, limit: float) -> bool:
+    """Return whether gaps of a patch can be below ``limit`` [m]; it is looked at as a whole."""
     d = station.d
     near = row.normal[0] * d[0] + row.normal[1] * d[1] + row.normal[2] * d[2]
     near += row.moment[0] * phi[0] + row.moment[1] * phi[1] + row.moment[2] * phi[2]
     near += row.spread[0] * math.sqrt(d[0] ** 2 + d[1] ** 2 + d[2] ** 2)
     near += row.spread[1] * math.sqrt(phi[0] ** 2 + phi[1] ** 2 + phi[2] ** 2)
-    return 0, 0 if row.least - near >= limit else row.count  # this way round for NaN
+    return not row.least - near >= limit  # this way round for NaN
 
 
 @inlined
@@ -138,17 +120,13 @@ def rewind(surface: Record, memory: SurfaceMemory) -> None:
 
 
 @kernel
-def gather(
-    data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, with_edges: float
-) -> int:
+def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> int:
     """Fill the next part of the list and return the number of its nodes, 0 after the last one.
 
     Parameters
     ----------
     data, surface, memory, station
         As for ``wrench``; the tilt in ``memory.scratch`` is that of the shaft.
-    with_edges
-        1 if rows that stand for no area are wanted too, 0 otherwise.
     """
     nodes, entry_velocity, scratch = data.nodes, memory.entry_velocity, memory.scratch
     cursor, phi = scratch.listed.cursor, scratch.tilt.phi
@@ -159,27 +137,24 @@ def gather(
     r, taken, n = cursor[0], cursor[1], 0
     while r < surface.last_row and n < PART:
         row, left = data.rows[r], 0
-        if with_edges > 0.0 or row.area > 0.0:
-            first, count = window(row, surface.lean, station, phi, limit)
-            left = count - taken
-            while left > 0 and n < PART:
-                start = first + taken if first + taken < row.count else first + taken - row.count
-                size = min(left, row.count - start, PART - n)
-                _load(
-                    nodes,
-                    entry_velocity,
-                    scratch,
-                    scale,
-                    shift,
-                    last,
-                    surface.lean,
-                    station,
-                    row.first + start,
-                    size,
-                    n,
-                )
-                n, left, taken = n + size, left - size, taken + size
-        if left <= 0:
+        if is_near(row, station, phi, limit):
+            size = min(row.count - taken, PART - n)
+            _load(
+                nodes,
+                entry_velocity,
+                scratch,
+                scale,
+                shift,
+                last,
+                surface.lean,
+                station,
+                row.first + taken,
+                size,
+                n,
+            )
+            n, taken = n + size, taken + size
+            left = row.count - taken
+        if left == 0:
             r, taken = r + 1, 0
     cursor[0], cursor[1] = r, taken
     end_list(scratch.listed.work, n)

@@ -71,7 +71,7 @@ def _add_patches(data: SurfaceData, s: int, memory: SurfaceMemory, station: Reco
     v_min, clip = surface.minimum_entry_velocity, surface.tensile_clip
     nearest, out.p_max = math.inf, 0.0
     rewind(surface, memory)
-    n = gather(data, surface, memory, station, 1.0)
+    n = gather(data, surface, memory, station)
     while n > 0:
         fill_pressures(table.cubics, v_min, clip, work, n)
         fill_forces(surface, work, station, n)
@@ -80,7 +80,7 @@ def _add_patches(data: SurfaceData, s: int, memory: SurfaceMemory, station: Reco
         _add_sums(surface, scratch, n, out)
         _keep(memory, surface.first_node + kept, n)
         kept += n
-        n = gather(data, surface, memory, station, 1.0)
+        n = gather(data, surface, memory, station)
     memory.n_touched[s] = kept
     return nearest
 

@@ -6,8 +6,8 @@ the normal n = (n_r cos θ, n_r sin θ, n_z) at the radius R and the height z, a
 
     e = (−sin θ, cos θ, 0),    n × e = (−n_z cos θ, −n_z sin θ, n_r)
 
-of the two slips, x × n = (z n_r − R n_z) e. The second-order term of the tilt has the slope of the axis
-w = φ_y cos θ − φ_x sin θ, see ``tilt``.
+of the two slips, x × n = (z n_r − R n_z) e. The second-order term of the tilt, see ``tilt``, adds
+−½ ρ n_r² w² with w = φ_y cos θ − φ_x sin θ to the gap, and its rate to the approach speed.
 
 Loops are short, so that a processor has many groups in hand at once: first what the motion is to the nodes,
 then pressures, then sums. Between the first two and the last the groups of four rings are kept in columns.
@@ -28,7 +28,6 @@ from tribodyn.kernels.joints.surface.block import (
     ALONG,
     APPROACHING,
     AROUND,
-    BENT,
     NEARING,
     groups_of,
     rings_from,
@@ -53,6 +52,8 @@ from tribodyn.kernels.lanes import (
 
 Wave = tuple[Any, Any, Any]
 """a, b and c of a + b cos θ + c sin θ, each in all lanes."""
+BentWave = tuple[Any, Any, Any, Any, Any]
+"""And d and e of d cos² θ + e cos θ sin θ."""
 
 COSINE: Final = 0 * WIDTH
 SINE: Final = 1 * WIDTH
@@ -68,13 +69,10 @@ ALONG_UNIT: Final = 6 * WIDTH
 PRESSURE: Final = 7 * WIDTH
 """P_c [Pa]."""
 POSITION: Final = 8 * WIDTH
-APPROACH: Final = 9 * WIDTH
-SQUARE: Final = 10 * WIDTH
-DRAG_SPEED: Final = 11 * WIDTH
-RIGID: Final = 12 * WIDTH
-ENERGY: Final = 13 * WIDTH
-"""Of reports: place in the whole table, approach speed [m/s], s² [m²/s²], s²/√(s² + u_s²) [m/s], P_k [Pa] and
-the stored energy over σ [Pa]."""
+SPEED: Final = 9 * WIDTH
+RIGID: Final = 10 * WIDTH
+ENERGY: Final = 11 * WIDTH
+"""Of reports: place in the whole table, |s| [m/s], P_k [Pa] and the stored energy over σ [Pa]."""
 FOLLOWING: Final = 8 * WIDTH
 PER_SPEED: Final = 9 * WIDTH
 STIFFNESS: Final = 10 * WIDTH
@@ -89,15 +87,12 @@ DERIVATIVES: Final = 2.0
 
 
 class RingMotion(NamedTuple):
-    """What the nodes of a row share: see above; ``lean`` is ρ n_r² [m], ``slope`` that of the axis."""
+    """What the nodes of a row share, see above."""
 
-    gap: Wave
-    approach: Wave
+    gap: BentWave
+    approach: BentWave
     around: Wave
     along: Wave
-    lean: Any
-    slope: tuple[Any, Any]
-    slope_rate: tuple[Any, Any]
 
 
 @inlined
@@ -106,17 +101,19 @@ def _wave_of(block: FloatArray, at: int) -> Wave:
 
 
 @inlined
-def motion_of(memory: SurfaceMemory, k: int) -> RingMotion:
+def _bent_wave_of(block: FloatArray, at: int) -> BentWave:
+    a, b, c = _wave_of(block, at)
+    return a, b, c, spread(block[at + 3 * WIDTH]), spread(block[at + 4 * WIDTH])
+
+
+@inlined
+def motion_of(block: FloatArray, k: int) -> RingMotion:
     """Return what the motion of the shaft is to the nodes of ring ``k`` of the block."""
-    block, phi, rate = memory.block, memory.scratch.tilt.phi, memory.scratch.tilt.rate
     return RingMotion(
-        _wave_of(block, NEARING + k),
-        _wave_of(block, APPROACHING + k),
+        _bent_wave_of(block, NEARING + k),
+        _bent_wave_of(block, APPROACHING + k),
         _wave_of(block, AROUND + k),
         _wave_of(block, ALONG + k),
-        spread(block[BENT + k]),
-        (spread(phi[1]), spread(-phi[0])),
-        (spread(rate[1]), spread(-rate[0])),
     )
 
 
@@ -127,12 +124,17 @@ def _wave(numbers: Wave, c: Any, s: Any) -> Any:
 
 
 @inlined
-def gap_and_approach(motion: RingMotion, gap: Any, c: Any, s: Any) -> tuple[Any, Any]:
-    """Return the gap [m] and the approach speed [m/s] from the gap as drawn, with wear."""
-    w = motion.slope[0] * c + motion.slope[1] * s
-    rate = motion.slope_rate[0] * c + motion.slope_rate[1] * s
-    bent = motion.lean * w
-    return gap + _wave(motion.gap, c, s) - spread(0.5) * bent * w, _wave(motion.approach, c, s) + bent * rate
+def wave(numbers: BentWave, bends: float, c: Any, s: Any) -> Any:
+    """Return the sum of a bent wave, of which d and e are left out where ``bends`` is 0."""
+    if bends > 0.0:
+        return numbers[0] + (numbers[1] + numbers[3] * c + numbers[4] * s) * c + numbers[2] * s
+    return _wave(numbers[:3], c, s)
+
+
+@inlined
+def does_bend(surface: Record) -> float:
+    """Return whether the tilt has a second-order term, 1 or 0."""
+    return 1.0 if surface.lean != 0.0 else 0.0
 
 
 @inlined
@@ -174,16 +176,18 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
     zero, one, v_min = zeros(), spread(1.0), spread(surface.minimum_entry_velocity)
     scale, shift = surface.inverse_step / surface.roughness, 1.0 - surface.h_first * surface.inverse_step
     last, least = float(surface.last_interval - surface.first_interval - 1), slip_square(surface)
+    bends = does_bend(surface)
     scales, shifts, last_one, least_square = spread(scale), spread(shift), spread(last), spread(least)
     for k in range(rings_from(surface, r)):
-        row, motion = data.rows[r + k], motion_of(memory, k)
+        row, motion = data.rows[r + k], motion_of(block, k)
         whole, angles, nodes, last_node = number_of_groups(row), row.angle, row.first, row.count - WIDTH
         first, number = groups_of(block, k)
         for group in range(first, first + number):
             on = WIDTH * (group if group < whole else group - whole)
             angle, node = angles + on, nodes + min(on, last_node)
             c, s = load(cos, angle), load(sin, angle)
-            gap, approach = gap_and_approach(motion, load(drawn, node) + load(lift, angle), c, s)
+            gap = load(drawn, node) + load(lift, angle) + wave(motion.gap, bends, c, s)
+            approach = wave(motion.approach, bends, c, s)
             reference = reference_of(v_min, approach, load(entry_velocity, node))
             position = shifts + scales * gap
             inside = above(position, zero, position, zero)
@@ -210,9 +214,7 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
                 store(block, at + PER_SPEED, per_speed)
             if purpose == REPORT:
                 store(block, at + POSITION, position)
-                store(block, at + APPROACH, approach)
-                store(block, at + SQUARE, square)
-                store(block, at + DRAG_SPEED, per_speed * square)
+                store(block, at + SPEED, square_root(square))
             at += STRIDE
     return at
 

@@ -15,13 +15,14 @@ from tribodyn.kernels.joints.surface.ring import (
     PRESSURE,
     STRIDE,
     WRENCH,
+    does_bend,
     fill_groups,
     fill_pressures,
-    gap_and_approach,
     motion_of,
     number_of_groups,
     place_of,
     reference_of,
+    wave,
 )
 from tribodyn.kernels.lanes import WIDTH, above, load, spread, store, zeros
 
@@ -49,12 +50,13 @@ def _remember(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int,
     """Fill the entry velocities of ring ``k`` of the block that begins at row ``r``, within its window."""
     cos, sin, drawn, known = data.angles[COS], data.angles[SIN], data.nodes[GAP], memory.entry_velocity
     onset, v_min = spread(surface.onset * surface.roughness), spread(surface.minimum_entry_velocity)
-    motion, heeded = motion_of(memory, k), spread(heed)
+    motion, heeded, bends = motion_of(memory.block, k), spread(heed), does_bend(surface)
     first, number = groups_of(memory.block, k)
     for group in range(first, first + number):
         angle, at = place_of(data.rows[r + k], group)
-        gap, approach = gap_and_approach(motion, load(drawn, at), load(cos, angle), load(sin, angle))
-        entry = reference_of(v_min, heeded * approach, load(known, at))
+        c, s = load(cos, angle), load(sin, angle)
+        gap = load(drawn, at) + wave(motion.gap, bends, c, s)
+        entry = reference_of(v_min, heeded * wave(motion.approach, bends, c, s), load(known, at))
         store(known, at, above(onset, gap, entry, zeros()))
 
 

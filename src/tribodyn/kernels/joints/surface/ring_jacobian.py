@@ -25,7 +25,7 @@ from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.joints.surface.ring import DERIVATIVES, fill_groups, fill_pressures
+from tribodyn.kernels.joints.surface.ring import DERIVATIVES, does_bend, fill_groups, fill_pressures
 from tribodyn.kernels.joints.surface.ring_slopes import (
     FIVE,
     PULLED,
@@ -37,8 +37,8 @@ from tribodyn.kernels.joints.surface.ring_slopes import (
     TRACTIONS,
     fill_sums,
 )
-from tribodyn.kernels.joints.surface.ring_sums import Ring, four_rings, with_pressures_of, with_tractions_of
-from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces
+from tribodyn.kernels.joints.surface.ring_sums import Ring, Tractions, four_rings, no_traction
+from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces, with_ring
 from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals, zeros
 
 Three = tuple[Any, Any, Any]
@@ -71,7 +71,7 @@ def wrench_and_derivatives(
 ) -> None:
     """Fill ``normal``, ``friction`` and their derivatives in the scratch; arguments as for ``wrench``."""
     scratch, limit, forces = memory.scratch, surface.h_last * surface.roughness, no_forces()
-    turns, bends = surface.torque_radius > 0.0, 1.0 if surface.lean != 0.0 else 0.0
+    turns, bends = surface.torque_radius > 0.0, does_bend(surface)
     rubs = 1.0 if surface.friction_coefficient > 0.0 and not turns else 0.0
     for k in range(0, 5 * MATRIX, WIDTH):
         store(scratch.ring_slopes, k, zeros())
@@ -98,13 +98,15 @@ def wrench_and_derivatives(
 @inlined
 def _with_forces_of(forces: Forces, scratch: Record, ring: Ring, lean: float, rubs: float) -> Forces:
     """Return the sums with those of the four rings."""
-    sums, (normal, friction, pushed) = scratch.ring_sums, forces
-    pushes = _five(sums, PUSHES)
-    normal = with_pressures_of(normal, ring, lean, scratch.tilt.phi, pushes)
-    if rubs > 0.0:
-        around, along = _five(sums, TRACTIONS), _five(sums, TRACTIONS + FIVE)
-        friction = with_tractions_of(friction, ring, (*around[:3], *along[:3]))
-    return normal, friction, pushed + pushes[0]
+    sums, phi = scratch.ring_sums, scratch.tilt.phi
+    tractions = _tractions(sums) if rubs > 0.0 else no_traction()
+    return with_ring(forces, ring, lean, phi, _five(sums, PUSHES), tractions)
+
+
+@inlined
+def _tractions(sums: FloatArray) -> Tractions:
+    t, b = _five(sums, TRACTIONS), _five(sums, TRACTIONS + FIVE)
+    return t[0], t[1], t[2], b[0], b[1], b[2]
 
 
 @kernel

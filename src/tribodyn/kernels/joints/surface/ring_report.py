@@ -13,30 +13,36 @@ from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, gro
 from tribodyn.kernels.joints.surface.data import RADIUS, SurfaceData
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
-    APPROACH,
+    ALONG_UNIT,
+    AROUND_UNIT,
     COSINE,
-    DRAG_SPEED,
     ENERGY,
     POSITION,
     PRESSURE,
     REPORT,
     RIGID,
     SINE,
-    SQUARE,
+    SPEED,
     STRIDE,
+    BentWave,
+    Wave,
+    does_bend,
     fill_groups,
     fill_pressures,
+    motion_of,
     place_of,
 )
 from tribodyn.kernels.joints.surface.ring_sums import (
     Pressures,
     no_pressure,
+    no_traction,
     one_ring,
     put_pressures,
     with_pressure,
     with_pressures_of,
+    with_traction,
 )
-from tribodyn.kernels.joints.surface.ring_wrench import no_forces, put_forces, with_forces_of
+from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces, with_ring
 from tribodyn.kernels.lanes import (
     WIDTH,
     above,
@@ -46,7 +52,6 @@ from tribodyn.kernels.lanes import (
     parts,
     smaller,
     spread,
-    square_root,
     store,
     total,
     zeros,
@@ -73,8 +78,7 @@ def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) 
             fill_motion(data, surface, memory, station, r)
             end = fill_groups(data, surface, memory, r, REPORT)
             fill_pressures(data, surface, memory, end, REPORT)
-            forces = with_forces_of(forces, data.rings, surface, memory, r)
-            rest = _with_rest_of(rest, data.rings, surface, memory, station, r, kept)
+            forces, rest = _with_rings(forces, rest, data.rings, surface, memory, station, r, kept)
             kept += WIDTH * found
     put_forces(surface, station, forces, scratch)
     put_pressures(rest[0], scratch.rigid)
@@ -87,7 +91,8 @@ def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) 
 
 
 @inlined
-def _with_rest_of(
+def _with_rings(
+    forces: Forces,
     rest: Rest,
     rings: FloatArray,
     surface: Record,
@@ -95,46 +100,56 @@ def _with_rest_of(
     station: Record,
     r: int,
     kept: int,
-) -> Rest:
+) -> tuple[Forces, Rest]:
     """Return the sums with those of the block of rings that begins at row ``r``; keep what slides."""
-    block, zero, one, at = memory.block, zeros(), spread(1.0), BLOCK_GROUPS
+    block, zero, one, at, bends = memory.block, zeros(), spread(1.0), BLOCK_GROUPS, does_bend(surface)
     normal, pushed, terms, highest, nearest = rest
     onset = spread((surface.onset - surface.h_first) * surface.inverse_step + 1.0)
-    torque = spread(station.direction * surface.torque_radius * station.w[2])
+    torque, spins = station.direction * surface.torque_radius * station.w[2], surface.along == 0.0
     for k in range(rings_from(surface, r)):
-        sums, energy, heat, friction, touched, pulled, begin = no_pressure(), zero, zero, zero, zero, zero, at
+        pressures, tractions, rigids, begin = no_pressure(), no_traction(), no_pressure(), at
+        energy, touched, pulled = zero, zero, zero
         spin = absolute(spread(station.w[2] * rings[RADIUS, r + k]))
         at += STRIDE * groups_of(block, k)[1]
         for group in range(begin, at, STRIDE):
-            rigid, p, position = (
-                load(block, group + RIGID),
-                load(block, group + PRESSURE),
-                load(block, group + POSITION),
-            )
-            sums = with_pressure(sums, rigid, load(block, group + COSINE), load(block, group + SINE))
+            c, s, p = load(block, group + COSINE), load(block, group + SINE), load(block, group + PRESSURE)
+            rigid, position = load(block, group + RIGID), load(block, group + POSITION)
+            t, b = p * load(block, group + AROUND_UNIT), p * load(block, group + ALONG_UNIT)
+            pressures = with_pressure(pressures, p, bends, c, s)
+            tractions = with_traction(tractions, t, b, c, s)
+            rigids = with_pressure(rigids, rigid, bends, c, s)
             energy = energy + load(block, group + ENERGY)
-            heat = heat + (p - rigid) * load(block, group + APPROACH)
-            friction = friction + p * (
-                torque if surface.torque_radius > 0.0 else load(block, group + DRAG_SPEED)
-            )
             touching = above(onset, position, one, zero)
             touched, pulled = touched + touching, pulled + above(p, zero, zero, touching)
             highest, nearest = larger(highest, p), smaller(nearest, position)
-            speed = square_root(load(block, group + SQUARE)) if surface.along > 0.0 else spin
-            store(memory.sliding, kept, p * speed)
+            store(memory.sliding, kept, p * (spin if spins else load(block, group + SPEED)))
             kept += WIDTH
-        ring = one_ring(rings, r + k)
-        area = ring.area
-        normal = with_pressures_of(normal, ring, surface.lean, memory.scratch.tilt.phi, sums)
-        pushed = pushed + area * sums[0]
+        ring, phi, motion = one_ring(rings, r + k), memory.scratch.tilt.phi, motion_of(block, k)
+        forces = with_ring(forces, ring, surface.lean, phi, pressures, tractions)
+        normal = with_pressures_of(normal, ring, surface.lean, phi, rigids)
+        area, power = ring.area, _power(motion.around, tractions[:3]) + _power(motion.along, tractions[3:])
+        damped = _bent_power(motion.approach, pressures) - _bent_power(motion.approach, rigids)
+        pushed = pushed + area * rigids[0]
         terms = (
             terms[0] + area * energy,
-            terms[1] + area * heat,
-            terms[2] + area * friction,
+            terms[1] + area * damped,
+            terms[2] + area * (spread(torque) * pressures[0] if surface.torque_radius > 0.0 else power),
             terms[3] + area * touched,
             terms[4] + area * pulled,
         )
-    return normal, pushed, terms, highest, nearest
+    return forces, (normal, pushed, terms, highest, nearest)
+
+
+@inlined
+def _power(speed: Wave, sums: Any) -> Any:
+    """Return the power per area of what has the sums of 1, c, s, at a speed."""
+    return speed[0] * sums[0] + speed[1] * sums[1] + speed[2] * sums[2]
+
+
+@inlined
+def _bent_power(speed: BentWave, sums: Pressures) -> Any:
+    """Return the same at a bent speed."""
+    return _power(speed[:3], sums[:3]) + (speed[3] * sums[3] + speed[4] * sums[4])
 
 
 @inlined

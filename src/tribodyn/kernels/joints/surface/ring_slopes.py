@@ -101,8 +101,11 @@ def _sum_slopes(block: FloatArray, begin: int, end: int, squared: float, each: F
             square = c * c
             stiffness, resistance = square * stiffness, square * resistance
         else:
-            pushes = with_pressure(pushes, load(block, group + PRESSURE), c, s)
-        stiff, resisting = with_pressure(stiff, stiffness, c, s), with_pressure(resisting, resistance, c, s)
+            pushes = with_pressure(pushes, load(block, group + PRESSURE), 1.0, c, s)
+        stiff, resisting = (
+            with_pressure(stiff, stiffness, 1.0, c, s),
+            with_pressure(resisting, resistance, 1.0, c, s),
+        )
     if squared == 0.0:
         _put(pushes, each, to + PUSHES)
     _put(stiff, each, to + STIFF)
@@ -125,10 +128,10 @@ def _sum_pulled(block: FloatArray, begin: int, end: int, squared: float, each: F
         if squared > 0.0:
             square = c * c
             t, b = square * t, square * b
-        stiff = with_pressure(stiff, stiffness * t, c, s)
-        stiff_along = with_pressure(stiff_along, stiffness * b, c, s)
-        resisting = with_pressure(resisting, resistance * t, c, s)
-        resisting_along = with_pressure(resisting_along, resistance * b, c, s)
+        stiff = with_pressure(stiff, stiffness * t, 1.0, c, s)
+        stiff_along = with_pressure(stiff_along, stiffness * b, 1.0, c, s)
+        resisting = with_pressure(resisting, resistance * t, 1.0, c, s)
+        resisting_along = with_pressure(resisting_along, resistance * b, 1.0, c, s)
     _put(stiff, each, to + STIFF)
     _put(stiff_along, each, to + STIFF + FIVE)
     _put(resisting, each, to + RESISTING)
@@ -150,10 +153,10 @@ def _sum_slips(
         t, b = load(block, group + AROUND_UNIT), load(block, group + ALONG_UNIT)
         p, per_speed = load(block, group + PRESSURE), load(block, group + PER_SPEED)
         weight, rest = p * per_speed, least * per_speed * per_speed
-        around, across = with_pressure(around, p * t, c, s), with_pressure(across, p * b, c, s)
-        first = with_pressure(first, weight * (b * b + rest), c, s)
-        both = with_pressure(both, weight * t * b, c, s)
-        second = with_pressure(second, ways * (weight * (t * t + rest)), c, s)
+        around, across = with_pressure(around, p * t, 1.0, c, s), with_pressure(across, p * b, 1.0, c, s)
+        first = with_pressure(first, weight * (b * b + rest), 1.0, c, s)
+        both = with_pressure(both, weight * t * b, 1.0, c, s)
+        second = with_pressure(second, ways * (weight * (t * t + rest)), 1.0, c, s)
     _put(around, each, to + TRACTIONS)
     _put(across, each, to + TRACTIONS + FIVE)
     _put(first, each, to + SLIPS)

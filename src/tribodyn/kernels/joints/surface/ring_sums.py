@@ -59,10 +59,12 @@ def no_pressure() -> Pressures:
 
 
 @inlined
-def with_pressure(sums: Pressures, p: Any, c: Any, s: Any) -> Pressures:
-    """Return the sums of p (1, c, s, c c, c s) with those of four more nodes."""
+def with_pressure(sums: Pressures, p: Any, bends: float, c: Any, s: Any) -> Pressures:
+    """Return the sums of p (1, c, s) with four more nodes, if ``bends`` those of p (c c, c s), too."""
     p_c = p * c
-    return sums[0] + p, sums[1] + p_c, sums[2] + p * s, sums[3] + p_c * c, sums[4] + p_c * s
+    if bends > 0.0:
+        return sums[0] + p, sums[1] + p_c, sums[2] + p * s, sums[3] + p_c * c, sums[4] + p_c * s
+    return sums[0] + p, sums[1] + p_c, sums[2] + p * s, sums[3], sums[4]
 
 
 @inlined

@@ -18,11 +18,13 @@ from tribodyn.kernels.joints.surface.ring import (
     SINE,
     STRIDE,
     WRENCH,
+    does_bend,
     fill_groups,
     fill_pressures,
 )
 from tribodyn.kernels.joints.surface.ring_sums import (
     Pressures,
+    Ring,
     Tractions,
     no_pressure,
     no_traction,
@@ -64,20 +66,30 @@ def with_forces_of(
     forces: Forces, rings: FloatArray, surface: Record, memory: SurfaceMemory, r: int
 ) -> Forces:
     """Return the sums with those of the block of rings that begins at row ``r``."""
-    block, phi, at = memory.block, memory.scratch.tilt.phi, BLOCK_GROUPS
-    normal, friction, pushed = forces
+    block, at, bends = memory.block, BLOCK_GROUPS, does_bend(surface)
     for k in range(rings_from(surface, r)):
         pressures, tractions, begin = no_pressure(), no_traction(), at
         at += STRIDE * groups_of(block, k)[1]
         for group in range(begin, at, STRIDE):
             c, s, p = load(block, group + COSINE), load(block, group + SINE), load(block, group + PRESSURE)
             t, b = p * load(block, group + AROUND_UNIT), p * load(block, group + ALONG_UNIT)
-            pressures, tractions = with_pressure(pressures, p, c, s), with_traction(tractions, t, b, c, s)
-        ring = one_ring(rings, r + k)
-        normal = with_pressures_of(normal, ring, surface.lean, phi, pressures)
-        friction = with_tractions_of(friction, ring, tractions)
-        pushed = pushed + ring.area * pressures[0]
-    return normal, friction, pushed
+            pressures = with_pressure(pressures, p, bends, c, s)
+            tractions = with_traction(tractions, t, b, c, s)
+        ring, phi = one_ring(rings, r + k), memory.scratch.tilt.phi
+        forces = with_ring(forces, ring, surface.lean, phi, pressures, tractions)
+    return forces
+
+
+@inlined
+def with_ring(
+    forces: Forces, ring: Ring, lean: float, phi: FloatArray, pressures: Pressures, tractions: Tractions
+) -> Forces:
+    """Return the sums with those of a ring, or of four."""
+    return (
+        with_pressures_of(forces[0], ring, lean, phi, pressures),
+        with_tractions_of(forces[1], ring, tractions),
+        forces[2] + ring.area * pressures[0],
+    )
 
 
 @inlined

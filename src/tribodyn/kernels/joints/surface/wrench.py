@@ -47,19 +47,19 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
     work, cubics = memory.scratch.listed.work, table_of(data, surface).cubics
     v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
     rewind(surface, memory)
-    n = gather(data, surface, memory, station, 0.0)
+    n = gather(data, surface, memory, station)
     while n > 0:
         fill_pressures(cubics, v_min, clip, work, n)
         fill_forces(surface, work, station, n)
         add_columns(work, FORCE, NORMAL, n, -1.0, normal)
         add_columns(work, FORCE, SLIP, n, -mu, friction)
-        n = gather(data, surface, memory, station, 0.0)
+        n = gather(data, surface, memory, station)
 
 
 @kernel
 def fill_forces(surface: Record, work: FloatArray, station: Record, n: int) -> None:
     """Fill forces and slips of the ``n`` nodes in the list, whose pressures are filled."""
-    square, both = slip_square(surface), surface.along
+    square = slip_square(surface)
     v_x, v_y, v_z = station.slip[0], station.slip[1], station.slip[2]
     w_x, w_y, w_z = station.w[0], station.w[1], station.w[2]
     for k in range(whole(n)):
@@ -67,7 +67,7 @@ def fill_forces(surface: Record, work: FloatArray, station: Record, n: int) -> N
         n_x, n_y, n_z = work[NORMAL + k], work[NORMAL + PITCH + k], work[NORMAL + 2 * PITCH + k]
         s_x, s_y, s_z = v_x + w_y * z - w_z * y, v_y + w_z * x - w_x * z, v_z + w_x * y - w_y * x
         along = n_x * s_x + n_y * s_y + n_z * s_z
-        s_x, s_y, s_z = s_x - along * n_x, s_y - along * n_y, both * (s_z - along * n_z)
+        s_x, s_y, s_z = s_x - along * n_x, s_y - along * n_y, s_z - along * n_z
         slip_2 = s_x * s_x + s_y * s_y + s_z * s_z
         per_speed = 1.0 / math.sqrt(slip_2 + square)
         s_x, s_y, s_z = per_speed * s_x, per_speed * s_y, per_speed * s_z
