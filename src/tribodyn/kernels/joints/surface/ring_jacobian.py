@@ -32,20 +32,28 @@ from tribodyn.kernels.joints.surface.ring_slopes import (
     PUSHES,
     RESISTING,
     SLIPS,
-    SQUARED,
     STIFF,
     TRACTIONS,
     fill_sums,
 )
 from tribodyn.kernels.joints.surface.ring_sums import Ring, Tractions, four_rings, no_traction
+from tribodyn.kernels.joints.surface.ring_terms import (
+    Five,
+    Three,
+    by_c,
+    by_s,
+    five_at,
+    leaning,
+    leaning_more,
+    nine_at,
+    plus,
+    plus_more,
+    product,
+    sum_of,
+    times,
+)
 from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces, with_ring
 from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals, zeros
-
-Three = tuple[Any, Any, Any]
-Five = tuple[Any, Any, Any, Any, Any]
-Seven = tuple[Any, Any, Any, Any, Any, Any, Any]
-Nine = tuple[Any, Any, Any, Any, Any, Any, Any, Any, Any]
-"""Sums of a weight times 1, c, s; c², c s; c³, c² s; c⁴, c³ s."""
 
 MATRIX: Final = 36 * WIDTH
 NORMAL_PLACE: Final = 0 * MATRIX
@@ -100,12 +108,12 @@ def _with_forces_of(forces: Forces, scratch: Record, ring: Ring, lean: float, ru
     """Return the sums with those of the four rings."""
     sums, phi = scratch.ring_sums, scratch.tilt.phi
     tractions = _tractions(sums) if rubs > 0.0 else no_traction()
-    return with_ring(forces, ring, lean, phi, _five(sums, PUSHES), tractions)
+    return with_ring(forces, ring, lean, phi, five_at(sums, PUSHES), tractions)
 
 
 @inlined
 def _tractions(sums: FloatArray) -> Tractions:
-    t, b = _five(sums, TRACTIONS), _five(sums, TRACTIONS + FIVE)
+    t, b = five_at(sums, TRACTIONS), five_at(sums, TRACTIONS + FIVE)
     return t[0], t[1], t[2], b[0], b[1], b[2]
 
 
@@ -118,87 +126,6 @@ def _put_matrix(slopes: FloatArray, at: int, factor: float, out: FloatArray) -> 
         a, b = load(slopes, first), load(slopes, first + WIDTH)
         c, d = load(slopes, first + 2 * WIDTH), load(slopes, first + 3 * WIDTH)
         store(entries, k, factors * totals(a, b, c, d))
-
-
-@inlined
-def _five(sums: FloatArray, at: int) -> Five:
-    return (
-        load(sums, at),
-        load(sums, at + WIDTH),
-        load(sums, at + 2 * WIDTH),
-        load(sums, at + 3 * WIDTH),
-        load(sums, at + 4 * WIDTH),
-    )
-
-
-@inlined
-def _nine(sums: FloatArray, at: int) -> Nine:
-    """Return the sums of a weight that has those times c², too."""
-    return (*_five(sums, at), *_five(sums, at + SQUARED)[1:])
-
-
-@inlined
-def _leaning(q: Seven, slope: tuple[Any, Any]) -> Five:
-    """Return the sums of a weight times x c + y s."""
-    x, y = slope
-    return (
-        x * q[1] + y * q[2],
-        x * q[3] + y * q[4],
-        x * q[4] + y * (q[0] - q[3]),
-        x * q[5] + y * q[6],
-        x * q[6] + y * (q[1] - q[5]),
-    )
-
-
-@inlined
-def _leaning_more(q: Nine, slope: tuple[Any, Any]) -> Seven:
-    """Return the same with two more sums."""
-    x, y = slope
-    return (*_leaning(q[:7], slope), x * q[7] + y * q[8], x * q[8] + y * (q[3] - q[7]))
-
-
-@inlined
-def _times(a: Any, p: Five) -> Five:
-    return a * p[0], a * p[1], a * p[2], a * p[3], a * p[4]
-
-
-@inlined
-def _plus(a: Any, p: Five, b: Any, q: Five) -> Five:
-    """Return a p + b q."""
-    return (
-        a * p[0] + b * q[0],
-        a * p[1] + b * q[1],
-        a * p[2] + b * q[2],
-        a * p[3] + b * q[3],
-        a * p[4] + b * q[4],
-    )
-
-
-@inlined
-def _plus_more(a: Any, p: Seven, b: Any, q: Seven) -> Seven:
-    """Return a p + b q."""
-    return (*_plus(a, p[:5], b, q[:5]), a * p[5] + b * q[5], a * p[6] + b * q[6])
-
-
-@inlined
-def _by_c(q: Five) -> Three:
-    return q[1], q[3], q[4]
-
-
-@inlined
-def _by_s(q: Five) -> Three:
-    return q[2], q[4], q[0] - q[3]
-
-
-@inlined
-def _sum(a: Any, p: Three, b: Any, q: Three) -> Three:
-    """Return a p + b q."""
-    return a * p[0] + b * q[0], a * p[1] + b * q[1], a * p[2] + b * q[2]
-
-
-@inlined
-def _product(a: Any, p: Three) -> Three:
-    return a * p[0], a * p[1], a * p[2]
 
 
 @inlined
@@ -227,21 +154,21 @@ def _arms(scratch: Record, ring: Ring, lean: float) -> Arms:
 def _add_normal(scratch: Record, ring: Ring, lean: float, bends: float, torque: float) -> None:
     """Add the derivatives of the pressures of four rings; ``torque`` is the arm of a friction torque [m]."""
     sums, slopes, arms = scratch.ring_sums, scratch.ring_slopes, _arms(scratch, ring, lean)
-    stiff, resisting, arm, bent = _five(sums, STIFF), _five(sums, RESISTING), ring.arm, arms.bent
+    stiff, resisting, arm, bent = five_at(sums, STIFF), five_at(sums, RESISTING), ring.arm, arms.bent
     if bends > 0.0:
-        k, d = _nine(sums, STIFF), _nine(sums, RESISTING)
-        k_arm = _plus_more(arm, k[:7], bent, _leaning_more(k, arms.slope))
-        d_arm = _plus_more(arm, d[:7], bent, _leaning_more(d, arms.slope))
-        turning = _plus_more(spread(1.0), k_arm, zeros() - bent, _leaning_more(d, arms.slope_rate))
-        both = _plus(arm, turning[:5], bent, _leaning(turning, arms.slope))
-        both = _plus(spread(1.0), both, zeros() - bent, _five(sums, PUSHES))
-        twice = _plus(arm, d_arm[:5], bent, _leaning(d_arm, arms.slope))
+        k, d = nine_at(sums, STIFF), nine_at(sums, RESISTING)
+        k_arm = plus_more(arm, k[:7], bent, leaning_more(k, arms.slope))
+        d_arm = plus_more(arm, d[:7], bent, leaning_more(d, arms.slope))
+        turning = plus_more(spread(1.0), k_arm, zeros() - bent, leaning_more(d, arms.slope_rate))
+        both = plus(arm, turning[:5], bent, leaning(turning, arms.slope))
+        both = plus(spread(1.0), both, zeros() - bent, five_at(sums, PUSHES))
+        twice = plus(arm, d_arm[:5], bent, leaning(d_arm, arms.slope))
         _add_pushes(slopes, NORMAL_PLACE, ring, (stiff, turning[:5], k_arm[:5], both), torque)
         _add_pushes(slopes, NORMAL_RATE, ring, (resisting, d_arm[:5], d_arm[:5], twice), torque)
     else:
-        once, again = _times(arm, stiff), _times(arm, resisting)
-        _add_pushes(slopes, NORMAL_PLACE, ring, (stiff, once, once, _times(arm, once)), torque)
-        _add_pushes(slopes, NORMAL_RATE, ring, (resisting, again, again, _times(arm, again)), torque)
+        once, again = times(arm, stiff), times(arm, resisting)
+        _add_pushes(slopes, NORMAL_PLACE, ring, (stiff, once, once, times(arm, once)), torque)
+        _add_pushes(slopes, NORMAL_RATE, ring, (resisting, again, again, times(arm, again)), torque)
 
 
 @inlined
@@ -254,13 +181,13 @@ def _add_pushes(
     """
     plain, armed, far, both = weights
     row, n_r, n_z, back = 6 * WIDTH, ring.n_r, ring.n_z, spread(-1.0)
-    _add_row(slopes, at, ring, _product(n_r, _by_c(plain)), _product(n_r, _by_c(armed)))
-    _add_row(slopes, at + row, ring, _product(n_r, _by_s(plain)), _product(n_r, _by_s(armed)))
-    _add_row(slopes, at + 2 * row, ring, _product(n_z, plain[:3]), _product(n_z, armed[:3]))
-    _add_row(slopes, at + 3 * row, ring, _product(back, _by_s(far)), _product(back, _by_s(both)))
-    _add_row(slopes, at + 4 * row, ring, _by_c(far), _by_c(both))
+    _add_row(slopes, at, ring, product(n_r, by_c(plain)), product(n_r, by_c(armed)))
+    _add_row(slopes, at + row, ring, product(n_r, by_s(plain)), product(n_r, by_s(armed)))
+    _add_row(slopes, at + 2 * row, ring, product(n_z, plain[:3]), product(n_z, armed[:3]))
+    _add_row(slopes, at + 3 * row, ring, product(back, by_s(far)), product(back, by_s(both)))
+    _add_row(slopes, at + 4 * row, ring, by_c(far), by_c(both))
     length, last = spread(torque), at + FRICTION_PLACE - NORMAL_PLACE + 5 * row
-    _add_row(slopes, last, ring, _product(length, plain[:3]), _product(length, armed[:3]))
+    _add_row(slopes, last, ring, product(length, plain[:3]), product(length, armed[:3]))
 
 
 @kernel
@@ -269,7 +196,7 @@ def _add_friction(scratch: Record, ring: Ring, lean: float, bends: float) -> Non
     sums, slopes, arms = scratch.ring_sums, scratch.ring_slopes, _arms(scratch, ring, lean)
     for at, out in ((STIFF, FRICTION_PLACE), (RESISTING, FRICTION_RATE)):
         first, second = at + PULLED, at + PULLED + FIVE
-        plain = _pulled(ring, _five(sums, first), _five(sums, second))
+        plain = _pulled(ring, five_at(sums, first), five_at(sums, second))
         steady = 1.0 if at == RESISTING else 0.0
         armed = _pulled(
             ring, _armed(sums, first, arms, steady, bends), _armed(sums, second, arms, steady, bends)
@@ -287,12 +214,12 @@ def _add_friction(scratch: Record, ring: Ring, lean: float, bends: float) -> Non
 @inlined
 def _armed(sums: FloatArray, at: int, arms: Arms, steady: float, bends: float) -> Five:
     """Return the sums of a weight times the arm; those at ``STIFF`` with the term of the rate."""
-    q = _times(arms.arm, _five(sums, at))
+    q = times(arms.arm, five_at(sums, at))
     if bends > 0.0:
-        q = _plus(spread(1.0), q, arms.bent, _leaning(_nine(sums, at)[:7], arms.slope))
+        q = plus(spread(1.0), q, arms.bent, leaning(nine_at(sums, at)[:7], arms.slope))
         if steady == 0.0:
-            rate = _nine(sums, at + RESISTING - STIFF)[:7]
-            q = _plus(spread(1.0), q, zeros() - arms.bent, _leaning(rate, arms.slope_rate))
+            rate = nine_at(sums, at + RESISTING - STIFF)[:7]
+            q = plus(spread(1.0), q, zeros() - arms.bent, leaning(rate, arms.slope_rate))
     return q
 
 
@@ -302,20 +229,20 @@ def _pulled(ring: Ring, t: Five, b: Five) -> tuple[Three, Three, Three, Three, T
     lever, one, z = ring.radius * ring.n_r + ring.z * ring.n_z, spread(1.0), zeros() - ring.z
     back, against = zeros() - one, zeros() - ring.n_z
     return (
-        _sum(back, _by_s(t), against, _by_c(b)),
-        _sum(one, _by_c(t), against, _by_s(b)),
-        _product(ring.n_r, b[:3]),
-        _sum(z, _by_c(t), lever, _by_s(b)),
-        _sum(z, _by_s(t), zeros() - lever, _by_c(b)),
-        _product(ring.radius, t[:3]),
+        sum_of(back, by_s(t), against, by_c(b)),
+        sum_of(one, by_c(t), against, by_s(b)),
+        product(ring.n_r, b[:3]),
+        sum_of(z, by_c(t), lever, by_s(b)),
+        sum_of(z, by_s(t), zeros() - lever, by_c(b)),
+        product(ring.radius, t[:3]),
     )
 
 
 @inlined
 def _add_slips(sums: FloatArray, slopes: FloatArray, ring: Ring) -> None:
     """Add the derivatives in the slip."""
-    mixed, at, row = _times(spread(-1.0), _five(sums, SLIPS + FIVE)), FRICTION_SLIP, 6 * WIDTH
-    t, b = _pulled(ring, _five(sums, SLIPS), mixed), _pulled(ring, mixed, _five(sums, SLIPS + 2 * FIVE))
+    mixed, at, row = times(spread(-1.0), five_at(sums, SLIPS + FIVE)), FRICTION_SLIP, 6 * WIDTH
+    t, b = _pulled(ring, five_at(sums, SLIPS), mixed), _pulled(ring, mixed, five_at(sums, SLIPS + 2 * FIVE))
     _add_pulled(slopes, at, ring, t[0], b[0])
     _add_pulled(slopes, at + row, ring, t[1], b[1])
     _add_pulled(slopes, at + 2 * row, ring, t[2], b[2])
