@@ -18,6 +18,8 @@ _UNTHINNED: Final = 4
 ROOM: Final = 64_000_000
 """Size of its rows from which it is thinned at twice these rows already [B]."""
 
+_MOVED: Final = 64
+"""Rows moved at once, at most: where they overlap, NumPy copies them first."""
 BLOCK: Final = 8_000_000
 """Least size of a block of rows [B]: NumPy asks for large pages from 4 MB on; each costs when first used."""
 
@@ -166,7 +168,7 @@ def _spread(rows: FloatArray, places: NDArray[np.intp]) -> None:
     moves, end = places - np.arange(places.size), places.size
     while end > 0 and moves[end - 1] > 0:
         move = int(moves[end - 1])
-        begin = max(int(np.searchsorted(moves, move)), end - CHUNK)
+        begin = max(int(np.searchsorted(moves, move)), end - _MOVED)
         rows[begin + move : end + move] = rows[begin:end]
         end = begin
 

@@ -30,4 +30,7 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     ideal = System(assembly.model.counterpart, data=assembly.ideal_data)
     ideal.adopt(assembly.state)
     ideal.close()
-    return settled(JointLoads(assembly, ideal, speeds_of(assembly.model)))
+    loads = JointLoads(assembly, ideal, speeds_of(assembly.model))
+    # Displaced within their clearances, bodies stay where as many constraints are independent.
+    loads.ideal.known_rank, loads.real.known_rank = loads.ideal.rank(), loads.real.rank()
+    return settled(loads)
