@@ -6,14 +6,16 @@ import math
 import threading
 import zlib
 from os import PathLike
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
-import netCDF4
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.quoting import brief
+
+if TYPE_CHECKING:
+    import netCDF4
 
 _ONE_AT_A_TIME: Final = threading.Lock()
 _MARK: Final = b"\ntribodyn crc32 "
@@ -48,6 +50,9 @@ def netcdf_parts(dataset: xr.Dataset) -> tuple[bytes | memoryview, ...]:
     dataset
         Numbers and texts over named dimensions; the attributes are numbers and texts.
     """
+    # Imported here: a run whose result is not written needs none of its 11 MB.
+    import netCDF4
+
     # The NetCDF library is for one thread at a time.
     with _ONE_AT_A_TIME:
         file = netCDF4.Dataset("result", mode="w", memory=_FIRST_ROOM)
@@ -123,6 +128,8 @@ def dataset_of(content: bytes) -> xr.Dataset:
 
 def attributes_of(path: str | PathLike[str]) -> dict[str, Any]:
     """Return what a NetCDF-4 file says of the whole; as :func:`dataset_of` where it is damaged."""
+    import netCDF4
+
     with _ONE_AT_A_TIME, netCDF4.Dataset(path) as file:
         return dict(file.__dict__)
 
@@ -133,6 +140,8 @@ def _refuse_bombs(content: bytes) -> None:
     What this program writes is not compressed, so that a file is as large as its numbers; other programs may
     have compressed it since, by any factor, and up to a size that does no harm.
     """
+    import netCDF4
+
     room = MOST_COMPRESSED + len(content)
     with netCDF4.Dataset("result", memory=content) as file:
         for name, variable in file.variables.items():
