@@ -37,7 +37,8 @@ from tribodyn.kernels.mechanism.vectors import (
 def relative_position(coupling: Record, now: Record, bodies: Any) -> None:
     """Fill what velocities do not change: displacement, rotation and H."""
     socket, shaft, rho = bodies[coupling.socket], bodies[coupling.shaft], coupling.shaft_point
-    turn_axes_back(coupling.to_socket, socket.A, now.RT)
+    if coupling.socket < bodies.size - 1:  # the ground does not turn
+        turn_axes_back(coupling.to_socket, socket.A, now.RT)
     turn_axes(now.RT, shaft.A, now.B)
     turn_axes(now.B, coupling.shaft_axes, now.pose.rotation)
     a, b = socket.r, shaft.r
@@ -56,12 +57,17 @@ def relative_velocity(coupling: Record, now: Record, bodies: Any) -> None:
     """Fill twist and, of rows, its rate without accelerations, where positions are filled."""
     socket, shaft, rho, x = bodies[coupling.socket], bodies[coupling.shaft], coupling.shaft_point, now.x
     w, v, v_s, pose = shaft.w, shaft.v, socket.v, now.pose
-    w_x, w_y, w_z = turned(coupling.to_socket, socket.w[0], socket.w[1], socket.w[2])
     c_x, c_y, c_z = crossed(w[0], w[1], w[2], rho[0], rho[1], rho[2])
     arm = turned(now.B, c_x, c_y, c_z)
     u = turned(now.RT, v[0] - v_s[0], v[1] - v_s[1], v[2] - v_s[2])
-    swing = crossed(w_x, w_y, w_z, x[0], x[1], x[2])
     spin = turned(now.B, w[0], w[1], w[2])
+    if coupling.socket == bodies.size - 1 and coupling.n_terms == 0:
+        for i in range(3):
+            now.u[i] = pose.v[i] = now.twist[i] = u[i] + arm[i]
+            pose.w[i] = now.twist[3 + i] = spin[i]
+        return
+    w_x, w_y, w_z = turned(coupling.to_socket, socket.w[0], socket.w[1], socket.w[2])
+    swing = crossed(w_x, w_y, w_z, x[0], x[1], x[2])
     now.w_s[0], now.w_s[1], now.w_s[2] = w_x, w_y, w_z
     for i in range(3):
         now.u[i] = u[i] + arm[i]

@@ -115,20 +115,22 @@ def forces(data: MechanismData, memory: MechanismMemory, t: float, mode: float) 
     for k in range(parts.couplings.size):
         force(data, memory, k, t, within, mode)
         coupling = parts.couplings[k]
-        _apply(now.couplings[k], now.bodies[coupling.socket], now.bodies[coupling.shaft])
+        if coupling.socket < parts.bodies.size:
+            _apply(now.couplings[k], 0, now.bodies[coupling.socket])
+        if coupling.shaft < parts.bodies.size:
+            _apply(now.couplings[k], 6, now.bodies[coupling.shaft])
         if has_law(coupling):
             fill_law(coupling, now.couplings[k], data.signals)
 
 
 @kernel
-def _apply(state: Record, socket: Record, shaft: Record) -> None:
-    """Add Hᵀ times the wrench of a coupling to the forces on its two bodies."""
+def _apply(state: Record, first: int, body: Record) -> None:
+    """Add six columns of H times the wrench of a coupling to the forces on a body."""
     for i in range(6):
         push = state.wrench[i]
         if push != 0.0:
             for j in range(6):
-                socket.force[j] += state.H[i, j] * push
-                shaft.force[j] += state.H[i, 6 + j] * push
+                body.force[j] += state.H[i, first + j] * push
 
 
 @kernel

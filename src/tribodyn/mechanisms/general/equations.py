@@ -119,6 +119,7 @@ def new_memory(data: MechanismData) -> MechanismMemory:
     constants, n_bodies, n_couplings = parts.constants, parts.bodies.size, parts.couplings.size
     bodies = new_records(n_bodies + 1, kinds.BodyNow)
     couplings = new_records(n_couplings, kinds.CouplingNow)
+    couplings.RT[:] = parts.couplings.to_socket  # of the ground it stays so
     books = new_records(n_couplings + 2, kinds.Book)
     bodies.p[:, 0] = 1.0
     bodies.A[:] = np.eye(3)
