@@ -7,12 +7,13 @@ from typing import Final
 
 import xarray as xr
 
+from tribodyn.results.reading import entries
 from tribodyn.results.summary import KeyResult
 
 
 def _one(name: str, scale: float = 1.0) -> Callable[[xr.Dataset], float]:
     """Return a reader of something a run has one of."""
-    return lambda run: float(run[name].values) * scale
+    return lambda run: float(entries(run, name)) * scale
 
 
 KEY_RESULTS: Final[dict[str, KeyResult]] = {
