@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import isfinite
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
+from tribodyn.core.remembered import Remembered
 
 
 def is_compiled(function: Callable[..., None]) -> bool:
@@ -18,22 +19,12 @@ def is_compiled(function: Callable[..., None]) -> bool:
     return hasattr(function, "compile")
 
 
-_Made = TypeVar("_Made")
 _MOST: Final = 32
 """Kinds of problems that a process remembers."""
-_types: Final[dict[object, Any]] = {}
+_types: Final[Remembered[Any]] = Remembered(_MOST)
 """Numba's types of data and of memories, by all that they depend on."""
-_codes: Final[dict[object, tuple[object, CompiledFunctions]]] = {}
+_codes: Final[Remembered[tuple[object, CompiledFunctions]]] = Remembered(_MOST)
 """Types and compiled functions, by functions and identities of types, which live as long as they are here."""
-
-
-def remembered(known: dict[object, _Made], key: object, make: Callable[[], _Made]) -> _Made:
-    """Return what belongs to a key, made when it is first asked for; the oldest of many is forgotten."""
-    if key not in known:
-        if len(known) >= _MOST:
-            del known[next(iter(known))]
-        known[key] = make()
-    return known[key]
 
 
 def kernel_types(problem: Problem) -> tuple[Any, Any]:
@@ -51,10 +42,10 @@ def type_of(value: Any) -> Any:
 
     Numba takes milliseconds, most of them for types of records and for hashes of nested types.
     """
-    return remembered(_types, _structure(value), lambda: _type_of(value))
+    return _types.made(_structure(value), lambda: _type_of(value))
 
 
-def _structure(value: Any) -> object:
+def _structure(value: Any) -> Any:
     """Return all that the type of a value depends on."""
     if isinstance(value, tuple):
         return type(value), *map(_structure, value)
@@ -134,7 +125,7 @@ def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
             }
         )
 
-    return remembered(_codes, code_key(problem, types), compiled)[1]
+    return _codes.made(code_key(problem, types), compiled)[1]
 
 
 def code_key(problem: Problem, types: tuple[Any, Any]) -> tuple[object, ...]:

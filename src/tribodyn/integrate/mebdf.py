@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Problem, Solution
-from tribodyn.integrate.binding import argument_types, code_key, is_compiled, kernel_types, remembered
+from tribodyn.core.remembered import Remembered
+from tribodyn.integrate.binding import argument_types, code_key, is_compiled, kernel_types
 from tribodyn.integrate.driver import IntegrationTask, Walk
 from tribodyn.integrate.schedule import make_schedule
 
@@ -34,7 +35,7 @@ BETWEEN_LOOKS: Final = 0.1
 """Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first."""
 
 _Linked = tuple[object, Callable[..., int], tuple[Callable[..., Any] | None, ...]]
-_linked: Final[dict[object, _Linked]] = {}
+_linked: Final[Remembered[_Linked]] = Remembered(32)
 """Types, compiled loops and the functions that these are handed, by :func:`~.binding.code_key`."""
 
 
@@ -82,7 +83,7 @@ class _CompiledWalk(Walk):
             state = self._new_state(self.t, float(self.schedule.edges[-1]))
             arrays = (self._jacobian(state), self._own, self._marks, self._pause)
             key = code_key(self.problem, self.types)
-            _, self._loop, self._functions = remembered(_linked, key, lambda: self._link(arrays))
+            _, self._loop, self._functions = _linked.made(key, lambda: self._link(arrays))
         else:
             self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
 

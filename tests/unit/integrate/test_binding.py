@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
-from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code, remembered
+from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
 
 
 def nothing(*_):
@@ -141,10 +141,3 @@ def test_problems_of_one_kind_share_types_and_code_whatever_was_between():
     assert again == first
     binding, _ = bind(kind(0))
     np.testing.assert_array_equal(binding.rhs(0.0, np.array([1.0, 2.0])), [2.0, -3.0])
-
-
-def test_what_is_remembered_is_bounded():
-    known = {}
-    assert [remembered(known, k % 50, lambda k=k: k) for k in range(52)] == list(range(52))
-    assert remembered(known, 51 % 50, lambda: -1) == 51
-    assert len(known) == 32

@@ -15,6 +15,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.digests import digest
+from tribodyn.core.remembered import Remembered
 from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import CLOSES, System
@@ -34,8 +35,7 @@ _CORRECTIONS: Final = 20
 _WAYS: Final = 4
 """How many ways are tried where freedoms are left."""
 
-_REMEMBERED: Final = 32
-_passed: Final[dict[str, None]] = {}
+_passed: Final[Remembered[None]] = Remembered(32)
 """Digests of the last mechanisms that could follow their drives, with their start and duration."""
 
 Close = Callable[[], bool]
@@ -108,9 +108,7 @@ def _stuck_anew(system: System, rank: int, duration: float) -> tuple[float, Mode
         return None
     found = _stuck(system, rank, duration)
     if found is None:
-        if len(_passed) >= _REMEMBERED:
-            del _passed[next(iter(_passed))]
-        _passed[here] = None
+        _passed.add(here, None)
     return found
 
 

@@ -10,6 +10,7 @@ from tests.unit.mechanisms.general.four_bar import JOINTS, four_bar
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
+from tribodyn.core.remembered import Remembered
 from tribodyn.mechanisms.general import cycle
 from tribodyn.mechanisms.general.builder import Mechanism
 from tribodyn.mechanisms.general.system import MechanismSystem
@@ -100,7 +101,7 @@ def test_mechanisms_are_led_through_again_where_ideal_joints_or_drives_differ(
         led.append(duration)
         return follow(system, rank, duration)
 
-    monkeypatch.setattr(cycle, "_passed", {})
+    monkeypatch.setattr(cycle, "_passed", Remembered(32))
     monkeypatch.setattr(cycle, "_stuck", counted)
     case = four_bar(real=("top",)).case()
     alike: dict[str, object] = {"joints.top.clearance.radial": "60 um", "surfaces.bushing.hardness": "3 GPa"}
